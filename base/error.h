@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace pelage {
+
+/// Where in an input something stands. Line and column count from 1; 0 means that the input has no lines.
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+/// "file:line:column", without the parts that are not known.
+std::string to_string(const SourcePosition& position);
+
+/// One mistake of a user or one failure of the outside world, in one line without a final full stop.
+struct Problem {
+  SourcePosition position;
+  std::string message;
+};
+
+/// What an error means for the exit code of the command (design.md section 7).
+enum class ErrorKind {
+  kFailed,     ///< render failed or an output could not be written: 1
+  kArguments,  ///< bad arguments: 2
+  kInput,      ///< a scene or an asset is missing, malformed or damaged: 3
+  kMemory,     ///< the memory budget is too small: 4
+};
+
+/// The one exception type for what users and the outside world do wrong. Carries every problem found, in file
+/// order. Bugs are not errors: they stop the program (base/check.h).
+class Error : public std::exception {
+ public:
+  Error(ErrorKind kind, std::vector<Problem> problems);
+  Error(ErrorKind kind, std::string message) : Error(kind, std::vector<Problem>{{{}, std::move(message)}}) {}
+  Error(ErrorKind kind, SourcePosition position, std::string message)
+      : Error(kind, std::vector<Problem>{{std::move(position), std::move(message)}}) {}
+
+  ErrorKind kind() const { return kind_; }
+  const std::vector<Problem>& problems() const { return problems_; }
+  /// One line per problem: "file:line:column: message".
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  ErrorKind kind_;
+  std::vector<Problem> problems_;
+  std::string text_;
+};
+
+/// Collects problems while a file is read, so that all are reported together.
+class Problems {
+ public:
+  void add(SourcePosition position, std::string message) {
+    list_.push_back({std::move(position), std::move(message)});
+  }
+  bool empty() const { return list_.empty(); }
+  const std::vector<Problem>& list() const { return list_; }
+  /// Throws an Error of `kind` with all problems, if there are any.
+  void throw_if_any(ErrorKind kind = ErrorKind::kInput) const;
+
+ private:
+  std::vector<Problem> list_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <string_view>
+
+namespace pelage {
+
+/// Who owns a piece of memory. The names are those of `memory_bytes` in the statistics.
+enum class MemoryTag {
+  kChunks,           ///< grown strands and the trees over them
+  kSkins,            ///< cages, refined control points, tessellations
+  kGrooms,           ///< follicles, guides, clump centres
+  kOperatorCache,
+  kReflectionCache,
+  kFilm,
+  kTextures,         ///< decoded images and environment distributions
+  kLibraries,        ///< what loading a module cost
+  kCount,
+};
+std::string_view memory_tag_name(MemoryTag tag);
+
+/// Bytes in use and their peak, by tag (law 5). Thread safety: all members may be called from any thread.
+class MemoryLedger {
+ public:
+  void charge(MemoryTag tag, int64_t bytes);
+  int64_t current(MemoryTag tag) const;
+  int64_t peak(MemoryTag tag) const;
+
+ private:
+  struct Account {
+    std::atomic<int64_t> current{0};
+    std::atomic<int64_t> peak{0};
+  };
+  std::array<Account, static_cast<size_t>(MemoryTag::kCount)> accounts_;
+};
+
+/// Holds a charge for as long as it lives. A default-constructed one holds nothing.
+class MemoryCharge {
+ public:
+  MemoryCharge() = default;
+  MemoryCharge(MemoryLedger& ledger, MemoryTag tag, int64_t bytes);
+  MemoryCharge(MemoryCharge&& other) noexcept;
+  MemoryCharge& operator=(MemoryCharge&& other) noexcept;
+  ~MemoryCharge();
+
+ private:
+  MemoryLedger* ledger_ = nullptr;
+  MemoryTag tag_ = MemoryTag::kChunks;
+  int64_t bytes_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace pelage {
+
+/// The candidate that `name` most likely meant (optimal string alignment distance, transpositions count one), or
+/// an empty view when none is within a third of its length.
+std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates);
+
+/// "; did you mean 'clump'?" or an empty string.
+std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
+
+}  // namespace pelage

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace pelage {
+
+/// Receives how far a long job is, and says whether to go on. Thread safety: every member may be called from any
+/// thread; `advance` is called often and must be cheap.
+class Progress {
+ public:
+  virtual ~Progress() = default;
+  /// A stage begins: "grow", "build", "render frame 3". Stages do not nest.
+  virtual void begin(std::string_view stage, double total) = 0;
+  virtual void advance(double amount) = 0;
+  virtual void end() = 0;
+  /// True once the user has asked to stop (Ctrl-C): loops finish what they hold and leave.
+  virtual bool cancelled() const = 0;
+};
+
+/// Shows nothing and never stops.
+class NoProgress final : public Progress {
+ public:
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  bool cancelled() const override { return false; }
+};
+
+}  // namespace pelage

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/value.h"
+
+namespace pelage {
+
+// How the scene file is checked. Each type declares a `Params` struct and, beside it, one table of keys:
+//
+//   struct CurlParams {
+//     Field radius{0.05f};
+//     float turns = 2;
+//     static const Schema<CurlParams>& schema();
+//   };
+//
+//   const Schema<CurlParams>& CurlParams::schema() {
+//     static const Schema<CurlParams> table = [] {
+//       Schema<CurlParams> s("curl", "Winds each strand into a helix about itself.");
+//       s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min = 0});
+//       s.key("turns", &CurlParams::turns, {.help = "Turns from root to tip"});
+//       return s;
+//     }();
+//     return table;
+//   }
+//
+// The same table validates documents (unknown keys name the nearest known one), fills the struct and prints the
+// manual. Defaults are those of a default-constructed Params. How a member type is read is its ValueReader
+// (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and maps; rooms add their own).
+
+/// What a key's value must satisfy and how the manual describes it.
+struct KeyOptions {
+  std::string unit;
+  std::string help;
+  bool required = false;
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool above_min = false;    ///< min itself is refused
+  std::string default_text;  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
+};
+
+class SchemaInfo;
+
+/// One row of a table, for the manual.
+struct KeyInfo {
+  std::string name;
+  std::string type;
+  std::string default_text;
+  KeyOptions options;
+  std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that may stand here
+};
+
+/// "0 .. 1", "> 0", or "" when unlimited.
+std::string range_text(const KeyOptions& options);
+
+/// A table of keys without its types: what the manual needs.
+class SchemaInfo {
+ public:
+  SchemaInfo(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
+  const std::string& name() const { return name_; }
+  const std::string& help() const { return help_; }
+  const std::vector<KeyInfo>& keys() const { return keys_; }
+  std::vector<std::string> key_names() const;
+
+ protected:
+  std::string name_;
+  std::string help_;
+  std::vector<KeyInfo> keys_;
+};
+
+/// Reads a T from a Value. Specialisations provide
+///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);  // false: out untouched, problem added
+///   static std::string type_name();
+///   static std::string print(const T&);                                    // as it would stand in a scene
+/// and optionally
+///   static std::vector<const SchemaInfo*> blocks();                        // tables of nested blocks
+template <class T, class Enable = void>
+struct ValueReader;
+
+namespace detail {
+template <class T>
+std::vector<const SchemaInfo*> blocks_of() {
+  if constexpr (requires { ValueReader<T>::blocks(); }) {
+    return ValueReader<T>::blocks();
+  } else {
+    return {};
+  }
+}
+void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems);
+void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key, Problems& problems);
+bool expect_map(const Value& value, const SchemaInfo& schema, Problems& problems);
+}  // namespace detail
+
+/// The table of keys of a params struct P.
+template <class P>
+class Schema : public SchemaInfo {
+ public:
+  using SchemaInfo::SchemaInfo;
+
+  template <class T>
+  Schema& key(std::string name, T P::*member, KeyOptions options) {
+    std::string shown = options.default_text;
+    if (shown.empty() && !options.required) shown = ValueReader<T>::print(P{}.*member);
+    keys_.push_back({name, ValueReader<T>::type_name(), std::move(shown), options, detail::blocks_of<T>()});
+    readers_.push_back([member, options](const Value& value, P& out, Problems& problems) {
+      return ValueReader<T>::read(value, options, out.*member, problems);
+    });
+    return *this;
+  }
+
+  /// Fills `out` from a map; adds a problem for every unknown, missing or malformed key. A key that belongs to the
+  /// enclosing structure (the `type` of a light) is named by `skip`. Returns whether no problem was added.
+  bool read(const Value& value, P& out, Problems& problems, std::string_view skip = {}) const {
+    if (!detail::expect_map(value, *this, problems)) return false;
+    const size_t before = problems.list().size();
+    std::vector<bool> seen(keys_.size(), false);
+    for (const Value::Entry& entry : value.entries()) {
+      if (entry.key == skip) continue;
+      size_t i = 0;
+      while (i < keys_.size() && keys_[i].name != entry.key) ++i;
+      if (i == keys_.size()) {
+        detail::report_unknown_key(entry, *this, problems);
+        continue;
+      }
+      seen[i] = true;
+      readers_[i](entry.value, out, problems);
+    }
+    for (size_t i = 0; i < keys_.size(); ++i) {
+      if (keys_[i].options.required && !seen[i]) {
+        detail::report_missing_key(value, *this, keys_[i].name, problems);
+      }
+    }
+    return problems.list().size() == before;
+  }
+
+ private:
+  std::vector<std::function<bool(const Value&, P&, Problems&)>> readers_;
+};
+
+/// A struct with a table of its own may stand wherever a value may.
+template <class P>
+struct ValueReader<P, std::void_t<decltype(P::schema())>> {
+  static bool read(const Value& value, const KeyOptions&, P& out, Problems& problems) {
+    return P::schema().read(value, out, problems);
+  }
+  static std::string type_name() { return "block " + P::schema().name(); }
+  static std::string print(const P&) { return "{}"; }
+  static std::vector<const SchemaInfo*> blocks() { return {&P::schema()}; }
+};
+
+}  // namespace pelage

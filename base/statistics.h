@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace pelage {
+
+/// Numbers of one run, as `--stats` writes them (design.md section 7). A value: rooms fill their part and hand it
+/// up; nothing registers itself. Counts are of the whole run, over all frames.
+struct Statistics {
+  double wall_s = 0;
+  double cpu_s = 0;
+  int64_t peak_rss_bytes = 0;
+  int64_t baseline_rss_bytes = 0;  ///< resident set when the command line had been parsed
+  int64_t working_set_bytes = 0;   ///< all distinct chunks touched
+  int64_t strands_described = 0;   ///< all in the scene, before LOD
+  int64_t strands_unique = 0;      ///< the same, geometry shared by identical poses counted once
+  int64_t strands_generated = 0;   ///< grown for use, regrowth included
+  int64_t characters_in_frame = 0;
+  int64_t chunks = 0;
+  int64_t expansions = 0;
+  int64_t reexpansions = 0;
+  int64_t false_expansions = 0;
+  int64_t samples_rejected = 0;           ///< camera samples that were not finite; more than zero is a bug
+  int64_t strands_dropped = 0;            ///< degenerate strands of files that could not be repaired
+  int64_t strands_repaired = 0;
+  std::map<std::string, int64_t> rays;          ///< by kind: camera, shadow, indirect
+  std::map<std::string, int64_t> memory_bytes;  ///< peak by ledger tag
+  std::map<std::string, double> stages_s;       ///< wall seconds by stage
+};
+
+/// Resident set of this process, now and at its highest, in bytes; user + system CPU seconds so far.
+int64_t current_rss_bytes();
+int64_t peak_rss_bytes();
+double cpu_seconds();
+
+}  // namespace pelage

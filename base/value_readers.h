@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/schema.h"
+#include "base/vector.h"
+
+// ValueReaders of the types that scene files are made of. See base/schema.h.
+
+namespace pelage {
+
+/// A file that a scene names. Relative paths are relative to the file in which they stand; on the command line,
+/// to the current folder. `position` is where it was named, for errors about the file itself.
+struct AssetPath {
+  std::filesystem::path path;
+  SourcePosition position;
+  bool empty() const { return path.empty(); }
+};
+
+/// Bytes, written as 512M or 4G (powers of 1024).
+struct ByteSize {
+  uint64_t bytes = 0;
+};
+
+/// Entries of a map whose keys are names given by the user, in file order.
+template <class T>
+struct Named {
+  struct Item {
+    std::string name;
+    SourcePosition position;
+    T value;
+  };
+  std::vector<Item> items;
+
+  const Item* find(std::string_view name) const {
+    for (const Item& item : items) {
+      if (item.name == name) return &item;
+    }
+    return nullptr;
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> result;
+    for (const Item& item : items) result.push_back(item.name);
+    return result;
+  }
+};
+
+/// Names of an enumeration in the scene file (kebab-case), in the order of its values from 0. Specialise:
+///   template <> struct EnumNames<Filter> { static constexpr const char* names[] = {"box", "blackman-harris"}; };
+template <class E>
+struct EnumNames;
+
+template <>
+struct ValueReader<double> {
+  static bool read(const Value&, const KeyOptions&, double& out, Problems&);
+  static std::string type_name() { return "number"; }
+  static std::string print(const double& v);
+};
+template <>
+struct ValueReader<float> {
+  static bool read(const Value&, const KeyOptions&, float& out, Problems&);
+  static std::string type_name() { return "number"; }
+  static std::string print(const float& v);
+};
+/// Whole numbers; `1e6` and `1_000` are accepted, `1.5` is not.
+template <>
+struct ValueReader<int64_t> {
+  static bool read(const Value&, const KeyOptions&, int64_t& out, Problems&);
+  static std::string type_name() { return "integer"; }
+  static std::string print(const int64_t& v);
+};
+template <>
+struct ValueReader<int> {
+  static bool read(const Value&, const KeyOptions&, int& out, Problems&);
+  static std::string type_name() { return "integer"; }
+  static std::string print(const int& v);
+};
+template <>
+struct ValueReader<bool> {
+  static bool read(const Value&, const KeyOptions&, bool& out, Problems&);
+  static std::string type_name() { return "true or false"; }
+  static std::string print(const bool& v);
+};
+template <>
+struct ValueReader<std::string> {
+  static bool read(const Value&, const KeyOptions&, std::string& out, Problems&);
+  static std::string type_name() { return "text"; }
+  static std::string print(const std::string& v);
+};
+template <>
+struct ValueReader<AssetPath> {
+  static bool read(const Value&, const KeyOptions&, AssetPath& out, Problems&);
+  static std::string type_name() { return "file"; }
+  static std::string print(const AssetPath& v);
+};
+template <>
+struct ValueReader<ByteSize> {
+  static bool read(const Value&, const KeyOptions&, ByteSize& out, Problems&);
+  static std::string type_name() { return "bytes"; }
+  static std::string print(const ByteSize& v);
+};
+template <>
+struct ValueReader<V2f> {
+  static bool read(const Value&, const KeyOptions&, V2f& out, Problems&);
+  static std::string type_name() { return "2 numbers"; }
+  static std::string print(const V2f& v);
+};
+template <>
+struct ValueReader<V3f> {
+  static bool read(const Value&, const KeyOptions&, V3f& out, Problems&);
+  static std::string type_name() { return "3 numbers"; }
+  static std::string print(const V3f& v);
+};
+/// A single number stands for three equal channels.
+template <>
+struct ValueReader<Rgb> {
+  static bool read(const Value&, const KeyOptions&, Rgb& out, Problems&);
+  static std::string type_name() { return "colour"; }
+  static std::string print(const Rgb& v);
+};
+
+namespace detail {
+bool read_enum(const Value&, std::span<const char* const> names, int& out, Problems&);
+std::string enum_type_name(std::span<const char* const> names);
+/// The value of `key` in a block of several kinds, or nullptr and a problem that lists the kinds.
+const Value* find_type(const Value& block, const char* key, std::span<const std::string> kinds, Problems&);
+}  // namespace detail
+
+template <class E>
+struct ValueReader<E, std::enable_if_t<std::is_enum_v<E>>> {
+  static bool read(const Value& value, const KeyOptions&, E& out, Problems& problems) {
+    int index = 0;
+    if (!detail::read_enum(value, EnumNames<E>::names, index, problems)) return false;
+    out = static_cast<E>(index);
+    return true;
+  }
+  static std::string type_name() { return detail::enum_type_name(EnumNames<E>::names); }
+  static std::string print(const E& v) { return EnumNames<E>::names[static_cast<int>(v)]; }
+};
+
+template <class T>
+struct ValueReader<std::optional<T>> {
+  static bool read(const Value& value, const KeyOptions& options, std::optional<T>& out, Problems& problems) {
+    T inner{};
+    if (!ValueReader<T>::read(value, options, inner, problems)) return false;
+    out = std::move(inner);
+    return true;
+  }
+  static std::string type_name() { return ValueReader<T>::type_name(); }
+  static std::string print(const std::optional<T>& v) { return v ? ValueReader<T>::print(*v) : "none"; }
+  static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+};
+
+template <class T>
+struct ValueReader<std::vector<T>> {
+  static bool read(const Value& value, const KeyOptions& options, std::vector<T>& out, Problems& problems) {
+    if (!value.is_list()) {
+      problems.add(value.position(), "expected " + type_name() + ", got " + value.describe());
+      return false;
+    }
+    std::vector<T> items(value.items().size());
+    bool good = true;
+    for (size_t i = 0; i < items.size(); ++i) {
+      good &= ValueReader<T>::read(value.items()[i], options, items[i], problems);
+    }
+    if (good) out = std::move(items);
+    return good;
+  }
+  static std::string type_name() { return "list of " + ValueReader<T>::type_name(); }
+  static std::string print(const std::vector<T>& v) {
+    std::string text = "[";
+    for (size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + ValueReader<T>::print(v[i]);
+    return text + "]";
+  }
+  static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+};
+
+template <class T>
+struct ValueReader<Named<T>> {
+  static bool read(const Value& value, const KeyOptions& options, Named<T>& out, Problems& problems) {
+    if (!value.is_map()) {
+      problems.add(value.position(), "expected " + type_name() + ", got " + value.describe());
+      return false;
+    }
+    bool good = true;
+    Named<T> result;
+    for (const Value::Entry& entry : value.entries()) {
+      result.items.push_back({entry.key, entry.key_position, T{}});
+      good &= ValueReader<T>::read(entry.value, options, result.items.back().value, problems);
+    }
+    out = std::move(result);
+    return good;
+  }
+  static std::string type_name() { return "map of names to " + ValueReader<T>::type_name(); }
+  static std::string print(const Named<T>&) { return "{}"; }
+  static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+};
+
+/// A block of one of several kinds, told apart by a key: each P has, beside its schema,
+///   static constexpr const char* kTypeKey = "type";   // the same for all
+///   static constexpr const char* kTypeName = "sphere";
+template <class... Ps>
+struct ValueReader<std::variant<Ps...>> {
+  using Variant = std::variant<Ps...>;
+  static bool read(const Value& value, const KeyOptions&, Variant& out, Problems& problems) {
+    const std::vector<std::string> kinds{Ps::kTypeName...};
+    const char* key = std::variant_alternative_t<0, Variant>::kTypeKey;
+    const Value* type = detail::find_type(value, key, kinds, problems);
+    if (!type) return false;
+    bool good = false;
+    ((type->text() == Ps::kTypeName ? void(good = read_as<Ps>(value, key, out, problems)) : void(0)), ...);
+    return good;
+  }
+  static std::string type_name() { return "block"; }
+  static std::string print(const Variant&) { return "{}"; }
+  static std::vector<const SchemaInfo*> blocks() { return {&Ps::schema()...}; }
+
+ private:
+  template <class P>
+  static bool read_as(const Value& value, const char* key, Variant& out, Problems& problems) {
+    P params;
+    if (!P::schema().read(value, params, problems, key)) return false;
+    out = std::move(params);
+    return true;
+  }
+};
+
+}  // namespace pelage

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+include(GNUInstallDirs)
+
+# pelage_library(NAME SOURCES ... DEPS rooms... [PUBLIC_LIBS dep...] [PRIVATE_LIBS dep...])
+# One room as a static library, target pelage_NAME, alias pelage::NAME. DEPS are lower rooms; PUBLIC_LIBS are
+# libraries whose headers our headers show (only Imath, as a rule), PRIVATE_LIBS those that stay inside.
+function(pelage_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PUBLIC_LIBS;PRIVATE_LIBS" ${ARGN})
+  add_library(pelage_${name} STATIC ${ARG_SOURCES})
+  add_library(pelage::${name} ALIAS pelage_${name})
+  set_target_properties(pelage_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(pelage_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/pelage>)
+  target_compile_features(pelage_${name} PUBLIC cxx_std_20)
+  target_link_libraries(pelage_${name} PRIVATE $<BUILD_INTERFACE:pelage_options> $<BUILD_INTERFACE:pelage_warnings>)
+  list(TRANSFORM ARG_DEPS PREPEND pelage_)
+  list(TRANSFORM ARG_PUBLIC_LIBS PREPEND pelage::dep_)
+  list(TRANSFORM ARG_PRIVATE_LIBS PREPEND pelage::dep_)
+  target_link_libraries(pelage_${name} PUBLIC ${ARG_DEPS} ${ARG_PUBLIC_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
+  install(TARGETS pelage_${name} EXPORT pelage ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pelage/${name}
+          FILES_MATCHING PATTERN "*.h")
+endfunction()
+
+# pelage_test(ROOM SOURCES ... [DEPS rooms...] [LIBS dep...] [LABELS ...])
+# One test program per room; every TEST in it becomes a test of CTest's own.
+function(pelage_test room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS;LABELS" ${ARGN})
+  set(target test_${room})
+  add_executable(${target} ${ARG_SOURCES})
+  list(TRANSFORM ARG_DEPS PREPEND pelage_)
+  list(TRANSFORM ARG_LIBS PREPEND pelage::dep_)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE pelage_options pelage_warnings pelage_test_support ${ARG_DEPS} ${ARG_LIBS}
+                        GTest::gtest GTest::gtest_main)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(${target} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
+                       PROPERTIES LABELS "${room};${ARG_LABELS}" TIMEOUT 900)
+endfunction()
+
+# pelage_bench(ROOM SOURCES ... DEPS rooms... [LIBS dep...]): one Google Benchmark program per room.
+function(pelage_bench room)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
+  set(target bench_${room})
+  add_executable(${target} ${ARG_SOURCES})
+  list(TRANSFORM ARG_DEPS PREPEND pelage_)
+  list(TRANSFORM ARG_LIBS PREPEND pelage::dep_)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PRIVATE pelage_options pelage_warnings ${ARG_DEPS} ${ARG_LIBS}
+                        benchmark::benchmark)
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
+endfunction()

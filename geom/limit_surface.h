@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/hash.h"
+#include "base/value_readers.h"
+#include "base/vector.h"
+#include "geom/mesh.h"
+#include "geom/strands.h"
+
+namespace pelage {
+
+enum class SubdivisionScheme { kCatmullClark, kLoop, kBilinear };
+template <>
+struct EnumNames<SubdivisionScheme> {
+  static constexpr const char* names[] = {"catmull-clark", "loop", "bilinear"};
+};
+enum class BoundaryRule { kEdgeAndCorner, kEdgeOnly };
+template <>
+struct EnumNames<BoundaryRule> {
+  static constexpr const char* names[] = {"edge-and-corner", "edge-only"};
+};
+
+/// What is the same for all poses and all characters with one cage: refinement, patches, texture coordinates.
+/// Immutable. Thread safety: const members may be called from any thread.
+class SurfaceTopology {
+ public:
+  /// Throws Error (kInput) with `source` when the cage cannot be subdivided (non-manifold parts that the limit
+  /// surface is not defined on, a Loop scheme with faces that are not triangles, ...).
+  static std::shared_ptr<const SurfaceTopology> create(const ControlMesh& mesh, SubdivisionScheme scheme,
+                                                       BoundaryRule boundary, const std::string& source);
+  ~SurfaceTopology();
+
+  /// Ptex faces: one per quad, n per n-gon (Catmull-Clark); one per triangle (Loop).
+  uint32_t face_count() const;
+  uint32_t control_count() const;
+  bool is_hole(uint32_t face) const;
+  /// Cage face that a ptex face is part of.
+  uint32_t cage_face(uint32_t face) const;
+  /// Texture coordinates at (u, v) of a ptex face: bilinear within the cage's, (u, v) itself when it has none.
+  V2f texture_coordinates(uint32_t face, float u, float v) const;
+  /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0) of `face`, or -1 at a boundary.
+  int neighbour(uint32_t face, int edge) const;
+  /// Of everything that the topology depends on; meshes with equal hashes share one topology.
+  ContentHash hash() const;
+  size_t bytes() const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  explicit SurfaceTopology(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Position and derivatives of a limit surface. For a Loop scheme (u, v) are barycentric with u + v <= 1.
+struct SurfacePoint {
+  V3f position{0};
+  V3f du{0};
+  V3f dv{0};
+};
+
+/// A pose of a subdivision surface: the limit position and frame at any (ptex face, u, v).
+/// Immutable. Thread safety: const members may be called from any thread.
+class LimitSurface {
+ public:
+  /// `positions`: one per control vertex, in the space the surface shall live in.
+  LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions);
+
+  const SurfaceTopology& topology() const { return *topology_; }
+  const std::shared_ptr<const SurfaceTopology>& shared_topology() const { return topology_; }
+
+  SurfacePoint evaluate(uint32_t face, float u, float v) const;
+  /// Orthonormal frame: normal = du x dv, tangent = du made perpendicular. Where du x dv vanishes (poles, collapsed
+  /// faces) it is taken a little towards the middle of the face; frames are always finite and orthonormal.
+  Frame frame(uint32_t face, float u, float v) const;
+  static Frame frame_of(const SurfacePoint& point);
+  Box3f control_bounds() const { return bounds_; }
+  size_t bytes() const;
+
+ private:
+  std::shared_ptr<const SurfaceTopology> topology_;
+  std::vector<float> points_;  // control, refined and local points of the patch table, xyz
+  Box3f bounds_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// How the points of a strand make a curve. Grown strands are uniform cubic B-splines whose first and last points
+/// are met: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are made only where needed, so
+/// n points give n - 1 segments. `kBSpline` (files) has no phantom points: n points give n - 3 segments.
+/// `kCatmullRom` gets phantom ends of the same kind and passes through all its points.
+enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom };
+
+/// Where on a skin a strand grows: ptex face and parameters in [0, 1]^2.
+struct RootAddress {
+  uint32_t face = 0;
+  float u = 0;
+  float v = 0;
+};
+
+/// How often an attribute's value changes.
+enum class AttributeClass {
+  kConstant,   ///< one value for all strands
+  kPerStrand,  ///< one per strand
+  kPerPoint,   ///< one per point, interpolated linearly in the curve parameter between the points of a segment
+};
+
+struct StrandAttribute {
+  std::string name;
+  AttributeClass frequency = AttributeClass::kPerStrand;
+  int components = 1;
+  std::vector<float> values;
+};
+
+/// Plain arrays of a batch of strands while it is being made.
+///
+/// points: motion_keys x point_count x (x, y, z, radius), the whole of key 0 first; key k is at time
+/// k / (motion_keys - 1) of the shutter. World space or file space, scene units; the radius is half the width.
+struct StrandArrays {
+  CurveBasis basis = CurveBasis::kPinnedBSpline;
+  int motion_keys = 1;
+  std::vector<float> points;
+  std::vector<uint32_t> first_point;  ///< strand_count + 1 entries: strand i has points first[i] .. first[i+1]-1
+  std::vector<uint64_t> ids;          ///< one per strand, stable for ever (law 2)
+  std::vector<RootAddress> roots;     ///< one per strand, or empty when the strands grow on no skin
+  std::vector<V2f> root_uv;           ///< texture coordinates of the roots, or empty
+  std::vector<StrandAttribute> attributes;
+};
+
+/// An immutable batch of strands, the one thing that grooms make and renderers take. Curves are ray-facing ribbons
+/// of circular fibres: h across, v along (0 at the root, 1 at the tip).
+class Strands {
+ public:
+  Strands() = default;
+  /// Takes the arrays. Their sizes must fit together (checked; a mismatch is a bug of the caller). Files are
+  /// repaired before they come here (geom/io).
+  explicit Strands(StrandArrays arrays);
+
+  size_t strand_count() const { return a_.first_point.empty() ? 0 : a_.first_point.size() - 1; }
+  size_t point_count() const { return a_.first_point.empty() ? 0 : a_.first_point.back(); }
+  int motion_keys() const { return a_.motion_keys; }
+  CurveBasis basis() const { return a_.basis; }
+
+  uint32_t first_point(size_t strand) const { return a_.first_point[strand]; }
+  uint32_t strand_points(size_t strand) const { return a_.first_point[strand + 1] - a_.first_point[strand]; }
+  uint64_t id(size_t strand) const { return a_.ids[strand]; }
+  /// All points of one motion key, 4 floats each.
+  std::span<const float> points(int key = 0) const {
+    return std::span(a_.points).subspan(static_cast<size_t>(key) * point_count() * 4, point_count() * 4);
+  }
+  V3f point(size_t index, int key = 0) const {
+    const float* p = &a_.points[(static_cast<size_t>(key) * point_count() + index) * 4];
+    return {p[0], p[1], p[2]};
+  }
+  float radius(size_t index, int key = 0) const {
+    return a_.points[(static_cast<size_t>(key) * point_count() + index) * 4 + 3];
+  }
+  bool has_roots() const { return !a_.roots.empty(); }
+  const RootAddress& root(size_t strand) const { return a_.roots[strand]; }
+  V2f root_uv(size_t strand) const { return a_.root_uv.empty() ? V2f(0) : a_.root_uv[strand]; }
+  const std::vector<StrandAttribute>& attributes() const { return a_.attributes; }
+  const StrandAttribute* find_attribute(std::string_view name) const;
+
+  const StrandArrays& arrays() const { return a_; }
+  /// Heap bytes of all arrays.
+  size_t bytes() const;
+
+ private:
+  StrandArrays a_;
+};
+
+/// Segments of a strand of `points` points in `basis`; 0 when there are too few.
+uint32_t segment_count(CurveBasis basis, uint32_t points);
+/// The value of a per-point attribute at segment `segment`, parameter `t` of a strand, into `out`.
+void interpolate_attribute(const Strands& strands, const StrandAttribute& attribute, size_t strand,
+                           uint32_t segment, float t, float* out);
+
+}  // namespace pelage

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "geom/limit_surface.h"
+#include "geom/view.h"
+
+namespace pelage {
+
+class Workers;
+
+/// The triangles of a skin that every consumer of a frame uses: rays, push_out, occlusion. Watertight where the
+/// surface is closed. Vertices lie on the limit surface.
+struct SkinMesh {
+  int motion_keys = 1;
+  std::vector<float> positions;     ///< motion_keys x vertex_count x 3, the whole of key 0 first
+  std::vector<float> normals;       ///< as positions: unit limit normals
+  std::vector<uint32_t> triangles;  ///< 3 vertices each
+  std::vector<uint32_t> faces;      ///< ptex face of each triangle
+  std::vector<V2f> vertex_uv;       ///< parameters of each triangle's 3 corners in its ptex face
+
+  size_t vertex_count() const { return positions.size() / 3 / static_cast<size_t>(motion_keys); }
+  size_t triangle_count() const { return triangles.size() / 3; }
+  V3f position(size_t vertex, int key = 0) const {
+    const float* p = &positions[(static_cast<size_t>(key) * vertex_count() + vertex) * 3];
+    return {p[0], p[1], p[2]};
+  }
+  V3f normal(size_t vertex, int key = 0) const {
+    const float* p = &normals[(static_cast<size_t>(key) * vertex_count() + vertex) * 3];
+    return {p[0], p[1], p[2]};
+  }
+  size_t bytes() const;
+};
+
+struct TessellationOptions {
+  float edge_pixels = 4;     ///< aimed length of the longest edge on screen
+  int max_rate = 32;         ///< most quads along an edge of a ptex face
+};
+
+/// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`.
+SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
+                    const Workers& workers);
+
+}  // namespace pelage

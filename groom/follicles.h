@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "geom/limit_surface.h"
+#include "geom/strands.h"
+#include "image/field.h"
+
+namespace pelage {
+
+class Workers;
+
+/// What kind of hair a groom is; each role has a budget of its own when detail is reduced.
+enum class StrandRole { kGuard, kUnder, kWhisker };
+template <>
+struct EnumNames<StrandRole> {
+  static constexpr const char* names[] = {"guard", "under", "whisker"};
+};
+
+struct FollicleOptions {
+  int64_t count = 0;     ///< strands in all; 0: `per_area` decides
+  double per_area = 0;   ///< strands per square scene unit of the rest limit surface where the field is 1
+  Field density{1.0f};   ///< relative density over the skin, >= 0
+  uint64_t seed = 0;
+  int leaf_strands = 8000;
+};
+
+/// Where the strands of a groom grow: progressive blue noise on the rest limit surface, in a fixed hierarchy.
+///
+/// A follicle's id is its rank in the progressive order: every prefix of the ids is blue noise, so an id is also
+/// the LOD priority (law 3). Ids depend on the rest surface, the density and the seed alone (law 2), not on
+/// leaf_strands or threads. Follicles are stored leaf after leaf, by id within each; leaves are compact in space.
+/// Immutable. Thread safety: const members may be called from any thread.
+class FollicleTree {
+ public:
+  struct Leaf {
+    uint32_t begin = 0, end = 0;  ///< follicles
+    Box3f rest_roots;             ///< box of their rest positions
+  };
+
+  static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Workers& workers);
+
+  size_t size() const { return ids_.size(); }
+  std::span<const Leaf> leaves() const { return leaves_; }
+  uint64_t id(size_t follicle) const { return ids_[follicle]; }
+  const RootAddress& root(size_t follicle) const { return roots_[follicle]; }
+  size_t bytes() const;
+
+ private:
+  std::vector<Leaf> leaves_;
+  std::vector<uint32_t> ids_;
+  std::vector<RootAddress> roots_;
+};
+
+}  // namespace pelage

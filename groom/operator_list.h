@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/schema.h"
+#include "groom/operator.h"
+
+namespace pelage {
+
+/// `operators:` of a groom: a list of maps of one key each, the operator's name. Holds the operators as the scene
+/// describes them, not yet prepared; grooms copy what they need.
+struct OperatorList {
+  struct Item {
+    std::string name;
+    SourcePosition position;
+    std::shared_ptr<const Operator> prototype;
+    std::unique_ptr<Operator> (*clone)(const Operator&) = nullptr;
+  };
+  std::vector<Item> items;
+};
+
+template <>
+struct ValueReader<OperatorList> {
+  static bool read(const Value&, const KeyOptions&, OperatorList& out, Problems&);
+  static std::string type_name() { return "list of operators"; }
+  static std::string print(const OperatorList&) { return "[]"; }
+  static std::vector<const SchemaInfo*> blocks();
+};
+
+}  // namespace pelage

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+enum class ChannelType { kHalf, kFloat, kUint };
+
+/// One channel of a layered image, named as in the file ("R", "key.diffuse.G", "Z", "forward.u").
+struct ExrChannel {
+  std::string name;
+  ChannelType type = ChannelType::kHalf;
+  std::vector<float> pixels;    ///< width * height, rows from the top; unused for kUint
+  std::vector<uint32_t> ids;    ///< the same for kUint
+};
+
+using ExrAttribute = std::variant<int, float, std::string, V2f, V3f, M44f>;
+
+/// The whole of a single-part scan-line EXR: what a film hands to the writer.
+struct ExrImage {
+  int width = 0;
+  int height = 0;
+  std::vector<ExrChannel> channels;
+  std::map<std::string, ExrAttribute> attributes;
+
+  const ExrChannel* find(std::string_view name) const;
+};
+
+/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Throws Error (kFailed)
+/// naming the path.
+void write_exr(const std::filesystem::path& path, const ExrImage& image);
+
+/// Reads every channel of the first part. Throws Error (kInput) naming the file when it is missing or damaged.
+ExrImage read_exr(const std::filesystem::path& path);
+
+}  // namespace pelage

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/value_readers.h"
+#include "base/vector.h"
+
+namespace pelage {
+
+class TextureLibrary;
+
+/// A named per-strand or per-point value that a field may ask for; three equal channels when it has only one.
+struct FieldAttribute {
+  std::string_view name;
+  Rgb value;
+};
+
+/// Where a field is evaluated.
+struct FieldPoint {
+  V3f rest{0};         ///< position on the skin, rest space
+  float u = 0, v = 0;  ///< texture coordinates of the root
+  float along = 0;     ///< 0 at the root, 1 at the tip
+  std::span<const FieldAttribute> attributes;
+};
+
+/// What kind of input a field depends on, so that callers evaluate it no more often than needed.
+struct FieldDependence {
+  bool along = false;       ///< changes along a strand
+  bool surface = false;     ///< changes over the skin
+  bool attributes = false;  ///< reads attributes
+};
+
+/// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an attribute or
+/// a product of those (design.md section 8). An immutable value, cheap to copy.
+///
+///   0.5 | [r, g, b]
+///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}   // without channel: colour
+///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  // piecewise linear; values may be colours
+///   {noise: {frequency, amplitude, offset}}                             // offset + amplitude * noise(rest * frequency)
+///   {attribute: name}
+///   {product: [field, field, ...]}
+class Field {
+ public:
+  struct Node;
+
+  Field(float constant = 0);
+  explicit Field(Rgb constant);
+  explicit Field(std::shared_ptr<const Node> node);
+
+  /// First channel / all three. Maps must have been loaded (see load_textures).
+  float value(const FieldPoint& point) const;
+  Rgb color(const FieldPoint& point) const;
+
+  FieldDependence dependence() const;
+  bool is_constant() const;
+  /// Bounds of the values that the field can take in the first channel (maps: their range).
+  std::pair<float, float> value_range() const;
+  /// Names of the attributes it reads.
+  std::vector<std::string> attribute_names() const;
+
+  /// The same field with its maps read. Throws Error (kInput) at the place in the scene where a map is named.
+  Field with_textures(TextureLibrary& textures) const;
+
+ private:
+  std::shared_ptr<const Node> node_;
+};
+
+/// `min` and `max` of the options are checked against the constants of the field.
+template <>
+struct ValueReader<Field> {
+  static bool read(const Value&, const KeyOptions&, Field& out, Problems&);
+  static std::string type_name() { return "field"; }
+  static std::string print(const Field& field);
+};
+
+/// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives three
+/// decorrelated values. [Perlin02, "Improving noise"]
+float perlin_noise(const V3f& p, uint32_t seed = 0);
+V3f perlin_noise3(const V3f& p, uint32_t seed = 0);
+
+}  // namespace pelage

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// A direction towards a light.
+struct LightSample {
+  V3f direction{0};    ///< unit, from the shaded point to the light
+  float distance = 0;  ///< infinity for an environment
+  Rgb radiance{0};
+  float pdf = 0;       ///< per solid angle, of this light alone (the choice of the light not included)
+};
+
+/// Where a ray meets a light.
+struct LightHit {
+  float distance = std::numeric_limits<float>::infinity();
+  Rgb radiance{0};
+};
+
+/// An emitter with an area. World space. Immutable. Thread safety: const members from any thread.
+class Light {
+ public:
+  virtual ~Light() = default;
+  virtual const std::string& name() const = 0;
+  /// A direction by solid angle importance; nothing when the light cannot reach `from`.
+  virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
+  /// Density with which sample() gives `direction`, by the branch that it would take.
+  virtual float pdf(const V3f& from, const V3f& direction) const = 0;
+  /// The light along a ray (unit direction), for rays that leave the geometry or end beyond the light.
+  virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
+  /// Solid angle x average radiance (luminance) as seen from `from`: the weight for choosing among lights
+  /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres; the
+  /// null vector when the point is not on a fibre.
+  virtual float importance(const V3f& from, const V3f& tangent) const = 0;
+  /// Whether camera rays see it.
+  virtual bool visible() const = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "base/keyed.h"
+#include "base/ledger.h"
+#include "base/value_readers.h"
+#include "render/light/light.h"
+
+namespace pelage {
+
+class TextureLibrary;
+
+struct RectangleLightParams {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "rectangle";
+  Keyed<V3f> position{V3f(0)};      ///< centre
+  Keyed<V3f> look_at{V3f(0, 0, -1)};  ///< the emitting side faces this point
+  V3f up{0, 1, 0};
+  V2f size{1, 1};            ///< width, height
+  Rgb radiance{1};
+  Keyed<float> intensity{1.0f};     ///< factor on radiance
+  bool two_sided = false;
+  bool visible = false;      ///< to the camera
+  static const Schema<RectangleLightParams>& schema();
+};
+struct SphereLightParams {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "sphere";
+  Keyed<V3f> position{V3f(0)};
+  float radius = 1;
+  Rgb radiance{1};
+  Keyed<float> intensity{1.0f};
+  bool visible = false;
+  static const Schema<SphereLightParams>& schema();
+};
+struct EnvironmentLightParams {
+  static constexpr const char* kTypeKey = "type";
+  static constexpr const char* kTypeName = "environment";
+  AssetPath file;            ///< lat-long image, +y up, centre column along -z; without one: constant
+  Rgb radiance{1};           ///< factor on the image, or the constant itself
+  Keyed<float> intensity{1.0f};
+  V3f rotate{0};             ///< degrees about x, y, z, in this order
+  bool visible = true;
+  static const Schema<EnvironmentLightParams>& schema();
+};
+using LightParams = std::variant<RectangleLightParams, SphereLightParams, EnvironmentLightParams>;
+
+/// Makes the light of a frame. Throws Error (kInput) for missing images.
+std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
+                                  TextureLibrary& textures, MemoryLedger& ledger);
+
+}  // namespace pelage

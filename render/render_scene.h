@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geom/tessellation.h"
+#include "procedurals/procedural.h"
+#include "render/camera/camera.h"
+#include "render/film/film_layers.h"
+#include "render/light/light_set.h"
+#include "render/render_params.h"
+#include "render/surface/material.h"
+
+namespace pelage {
+
+/// Fur of one groom on one character: procedurals that share a fibre material.
+struct FurPart {
+  std::string name;  ///< "rat.under"
+  std::vector<std::unique_ptr<Procedural>> procedurals;
+  size_t material = 0;
+};
+
+/// Texture coordinates of skin hits are asked of the topology; rest positions of fields too.
+struct SkinPart {
+  std::string name;
+  std::shared_ptr<const SkinMesh> mesh;
+  std::shared_ptr<const LimitSurface> rest;
+  size_t material = 0;
+};
+
+/// Everything that a renderer needs to know of one frame. World space.
+struct RenderScene {
+  std::vector<FurPart> fur;
+  std::vector<SkinPart> skins;
+  std::vector<MaterialParams> materials;  ///< with their textures loaded
+  LightSet lights;
+  Camera camera;
+  ImageParams image;
+  RenderParams render;
+};
+
+}  // namespace pelage

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace pelage {
+
+/// The folder of real meshes, grooms and images that nobody here wrote (PELAGE_DATA), or an empty path.
+inline std::filesystem::path data_folder() {
+  const char* folder = std::getenv("PELAGE_DATA");
+  return folder ? std::filesystem::path(folder) : std::filesystem::path();
+}
+
+}  // namespace pelage
+
+/// First line of a test that reads real input. Skips it, saying why, where the data is not.
+#define PELAGE_REQUIRE_DATA() \
+  if (::pelage::data_folder().empty()) GTEST_SKIP() << "PELAGE_DATA is not set: real input is absent"
