@@ -8,6 +8,7 @@ namespace pelage {
 
 }  // namespace pelage
 
-/// Stops the program when an invariant of our own is broken. Kept in release builds: it stands outside hot loops.
+/// Stops the program when an invariant of our own is broken. Kept in release builds: it stands outside hot
+/// loops.
 #define PELAGE_CHECK(condition) \
   (static_cast<bool>(condition) ? void(0) : ::pelage::check_failed(#condition, __FILE__, __LINE__))

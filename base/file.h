@@ -9,12 +9,13 @@
 
 namespace pelage {
 
-/// Whole contents of a file. Throws Error (kInput) with the path when it cannot be read, is not a regular file or
-/// is longer than `limit` bytes.
+/// Whole contents of a file. Throws Error (kInput) with the path when it cannot be read, is not a regular
+/// file or is longer than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
 
 /// A file that appears whole or not at all (law 6): written under a temporary name beside `path`, synced and
-/// renamed by commit(). Without commit() the temporary is removed. Creates missing folders. Throws Error (kFailed).
+/// renamed by commit(). Without commit() the temporary is removed. Creates missing folders. Throws Error
+/// (kFailed).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);

@@ -27,8 +27,8 @@ constexpr uint64_t hash64(Words... words) {
   return mix64(h);
 }
 
-/// What a random number is for, as a word of hash64: `random_use("clump")`. Keeps the streams of different uses of
-/// one strand apart. FNV-1a, computed by the compiler.
+/// What a random number is for, as a word of hash64: `random_use("clump")`. Keeps the streams of different
+/// uses of one strand apart. FNV-1a, computed by the compiler.
 consteval uint64_t random_use(std::string_view name) {
   uint64_t h = 0xcbf29ce484222325ull;
   for (char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;

@@ -10,14 +10,14 @@ namespace pelage {
 
 /// Who owns a piece of memory. The names are those of `memory_bytes` in the statistics.
 enum class MemoryTag {
-  kChunks,           ///< grown strands and the trees over them
-  kSkins,            ///< cages, refined control points, tessellations
-  kGrooms,           ///< follicles, guides, clump centres
+  kChunks,  ///< grown strands and the trees over them
+  kSkins,   ///< cages, refined control points, tessellations
+  kGrooms,  ///< follicles, guides, clump centres
   kOperatorCache,
   kReflectionCache,
   kFilm,
-  kTextures,         ///< decoded images and environment distributions
-  kLibraries,        ///< what loading a module cost
+  kTextures,   ///< decoded images and environment distributions
+  kLibraries,  ///< what loading a module cost
   kCount,
 };
 std::string_view memory_tag_name(MemoryTag tag);

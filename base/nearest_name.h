@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// The candidate that `name` most likely meant (optimal string alignment distance, transpositions count one), or
-/// an empty view when none is within a third of its length.
+/// The candidate that `name` most likely meant (optimal string alignment distance, transpositions count one),
+/// or an empty view when none is within a third of its length.
 std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 /// "; did you mean 'clump'?" or an empty string.

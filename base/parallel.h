@@ -16,10 +16,10 @@ struct WorkRange {
 
 /// A team of threads of our own for parallel loops. Thread safety: one loop at a time per team.
 ///
-/// The first exception of a loop stops the handing out of further ranges and is rethrown by for_each once every
-/// worker has stopped. What a loop computes must not depend on `worker` or on the order of ranges (law 1);
-/// `worker` is there for scratch memory only. In the thread-sanitizer build the team is made of std::thread,
-/// because TBB's own threads are not instrumented.
+/// The first exception of a loop stops the handing out of further ranges and is rethrown by for_each once
+/// every worker has stopped. What a loop computes must not depend on `worker` or on the order of ranges (law
+/// 1); `worker` is there for scratch memory only. In the thread-sanitizer build the team is made of
+/// std::thread, because TBB's own threads are not instrumented.
 class Workers {
  public:
   /// `threads` = 0: as many as the process may use (affinity and cgroup limits respected).

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// Receives how far a long job is, and says whether to go on. Thread safety: every member may be called from any
-/// thread; `advance` is called often and must be cheap.
+/// Receives how far a long job is, and says whether to go on. Thread safety: every member may be called from
+/// any thread; `advance` is called often and must be cheap.
 class Progress {
  public:
   virtual ~Progress() = default;

@@ -24,16 +24,16 @@ namespace pelage {
 //   const Schema<CurlParams>& CurlParams::schema() {
 //     static const Schema<CurlParams> table = [] {
 //       Schema<CurlParams> s("curl", "Winds each strand into a helix about itself.");
-//       s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min = 0});
-//       s.key("turns", &CurlParams::turns, {.help = "Turns from root to tip"});
-//       return s;
+//       s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min =
+//       0}); s.key("turns", &CurlParams::turns, {.help = "Turns from root to tip"}); return s;
 //     }();
 //     return table;
 //   }
 //
-// The same table validates documents (unknown keys name the nearest known one), fills the struct and prints the
-// manual. Defaults are those of a default-constructed Params. How a member type is read is its ValueReader
-// (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and maps; rooms add their own).
+// The same table validates documents (unknown keys name the nearest known one), fills the struct and prints
+// the manual. Defaults are those of a default-constructed Params. How a member type is read is its
+// ValueReader (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and maps; rooms
+// add their own).
 
 /// What a key's value must satisfy and how the manual describes it.
 struct KeyOptions {
@@ -76,9 +76,9 @@ class SchemaInfo {
 };
 
 /// Reads a T from a Value. Specialisations provide
-///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);  // false: out untouched, problem added
-///   static std::string type_name();
-///   static std::string print(const T&);                                    // as it would stand in a scene
+///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);  // false: out untouched, problem
+///   added static std::string type_name(); static std::string print(const T&); // as it would stand in a
+///   scene
 /// and optionally
 ///   static std::vector<const SchemaInfo*> blocks();                        // tables of nested blocks
 template <class T, class Enable = void>
@@ -94,7 +94,8 @@ std::vector<const SchemaInfo*> blocks_of() {
   }
 }
 void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems);
-void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key, Problems& problems);
+void report_missing_key(const Value& block, const SchemaInfo& schema, const std::string& key,
+                        Problems& problems);
 bool expect_map(const Value& value, const SchemaInfo& schema, Problems& problems);
 }  // namespace detail
 
@@ -115,8 +116,9 @@ class Schema : public SchemaInfo {
     return *this;
   }
 
-  /// Fills `out` from a map; adds a problem for every unknown, missing or malformed key. A key that belongs to the
-  /// enclosing structure (the `type` of a light) is named by `skip`. Returns whether no problem was added.
+  /// Fills `out` from a map; adds a problem for every unknown, missing or malformed key. A key that belongs
+  /// to the enclosing structure (the `type` of a light) is named by `skip`. Returns whether no problem was
+  /// added.
   bool read(const Value& value, P& out, Problems& problems, std::string_view skip = {}) const {
     if (!detail::expect_map(value, *this, problems)) return false;
     const size_t before = problems.list().size();

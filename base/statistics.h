@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Numbers of one run, as `--stats` writes them (design.md section 7). A value: rooms fill their part and hand it
-/// up; nothing registers itself. Counts are of the whole run, over all frames.
+/// Numbers of one run, as `--stats` writes them (design.md section 7). A value: rooms fill their part and
+/// hand it up; nothing registers itself. Counts are of the whole run, over all frames.
 struct Statistics {
   double wall_s = 0;
   double cpu_s = 0;
@@ -23,8 +23,8 @@ struct Statistics {
   int64_t expansions = 0;
   int64_t reexpansions = 0;
   int64_t false_expansions = 0;
-  int64_t samples_rejected = 0;           ///< camera samples that were not finite; more than zero is a bug
-  int64_t strands_dropped = 0;            ///< degenerate strands of files that could not be repaired
+  int64_t samples_rejected = 0;  ///< camera samples that were not finite; more than zero is a bug
+  int64_t strands_dropped = 0;   ///< degenerate strands of files that could not be repaired
   int64_t strands_repaired = 0;
   std::map<std::string, int64_t> rays;          ///< by kind: camera, shadow, indirect
   std::map<std::string, int64_t> memory_bytes;  ///< peak by ledger tag

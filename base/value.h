@@ -14,8 +14,9 @@ namespace pelage {
 
 /// A node of a scene document, independent of the parser that made it, that remembers where it stood.
 ///
-/// Scalars keep their text: what it means is decided by whoever reads it against a schema, so that `strands: 1e5`
-/// and `name: 007` both mean what the schema says. Maps keep the order of the file; their keys are unique.
+/// Scalars keep their text: what it means is decided by whoever reads it against a schema, so that `strands:
+/// 1e5` and `name: 007` both mean what the schema says. Maps keep the order of the file; their keys are
+/// unique.
 class Value {
  public:
   enum class Kind { kNull, kScalar, kList, kMap };

@@ -16,8 +16,8 @@
 
 namespace pelage {
 
-/// A file that a scene names. Relative paths are relative to the file in which they stand; on the command line,
-/// to the current folder. `position` is where it was named, for errors about the file itself.
+/// A file that a scene names. Relative paths are relative to the file in which they stand; on the command
+/// line, to the current folder. `position` is where it was named, for errors about the file itself.
 struct AssetPath {
   std::filesystem::path path;
   SourcePosition position;
@@ -53,7 +53,8 @@ struct Named {
 };
 
 /// Names of an enumeration in the scene file (kebab-case), in the order of its values from 0. Specialise:
-///   template <> struct EnumNames<Filter> { static constexpr const char* names[] = {"box", "blackman-harris"}; };
+///   template <> struct EnumNames<Filter> { static constexpr const char* names[] = {"box",
+///   "blackman-harris"}; };
 template <class E>
 struct EnumNames;
 

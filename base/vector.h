@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-// Vectors at interfaces and in scalar code. None of them is trivially copyable: point storage and SIMD kernels
-// use plain float arrays instead.
+// Vectors at interfaces and in scalar code. None of them is trivially copyable: point storage and SIMD
+// kernels use plain float arrays instead.
 using Imath::Box3f;
 using Imath::M33f;
 using Imath::M44f;
@@ -31,7 +31,9 @@ struct Frame {
   V3f normal{0, 0, 1};
 
   V3f to_world(const V3f& local) const { return local.x * tangent + local.y * bitangent + local.z * normal; }
-  V3f to_local(const V3f& world) const { return {world.dot(tangent), world.dot(bitangent), world.dot(normal)}; }
+  V3f to_local(const V3f& world) const {
+    return {world.dot(tangent), world.dot(bitangent), world.dot(normal)};
+  }
 };
 
 }  // namespace pelage

@@ -12,9 +12,9 @@ namespace pelage {
 /// The point of a skin nearest to some point of space.
 struct ClosestPoint {
   V3f position{0};
-  V3f normal{0};       ///< interpolated limit normal there, unit
-  float distance = 0;  ///< >= 0
-  bool inside = false; ///< on the inner side of a closed skin (angle-weighted pseudonormal [Baerentzen05])
+  V3f normal{0};        ///< interpolated limit normal there, unit
+  float distance = 0;   ///< >= 0
+  bool inside = false;  ///< on the inner side of a closed skin (angle-weighted pseudonormal [Baerentzen05])
   uint32_t triangle = 0;
 };
 

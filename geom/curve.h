@@ -15,8 +15,8 @@ struct CubicSegment {
   std::array<float, 4> r;
 };
 
-/// Segment `segment` of a strand, phantom ends included, at motion key `key`. Linear segments come out as cubics
-/// with evenly spaced points.
+/// Segment `segment` of a strand, phantom ends included, at motion key `key`. Linear segments come out as
+/// cubics with evenly spaced points.
 CubicSegment bezier_segment(const Strands& strands, size_t strand, uint32_t segment, int key = 0);
 /// The same at shutter time `time` in [0, 1]: points interpolated linearly between keys.
 CubicSegment bezier_segment_at(const Strands& strands, size_t strand, uint32_t segment, float time);

@@ -29,8 +29,8 @@ struct EnumNames<BoundaryRule> {
 /// Immutable. Thread safety: const members may be called from any thread.
 class SurfaceTopology {
  public:
-  /// Throws Error (kInput) with `source` when the cage cannot be subdivided (non-manifold parts that the limit
-  /// surface is not defined on, a Loop scheme with faces that are not triangles, ...).
+  /// Throws Error (kInput) with `source` when the cage cannot be subdivided (non-manifold parts that the
+  /// limit surface is not defined on, a Loop scheme with faces that are not triangles, ...).
   static std::shared_ptr<const SurfaceTopology> create(const ControlMesh& mesh, SubdivisionScheme scheme,
                                                        BoundaryRule boundary, const std::string& source);
   ~SurfaceTopology();
@@ -41,7 +41,8 @@ class SurfaceTopology {
   bool is_hole(uint32_t face) const;
   /// Cage face that a ptex face is part of.
   uint32_t cage_face(uint32_t face) const;
-  /// Texture coordinates at (u, v) of a ptex face: bilinear within the cage's, (u, v) itself when it has none.
+  /// Texture coordinates at (u, v) of a ptex face: bilinear within the cage's, (u, v) itself when it has
+  /// none.
   V2f texture_coordinates(uint32_t face, float u, float v) const;
   /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0) of `face`, or -1 at a boundary.
   int neighbour(uint32_t face, int edge) const;
@@ -75,8 +76,9 @@ class LimitSurface {
   const std::shared_ptr<const SurfaceTopology>& shared_topology() const { return topology_; }
 
   SurfacePoint evaluate(uint32_t face, float u, float v) const;
-  /// Orthonormal frame: normal = du x dv, tangent = du made perpendicular. Where du x dv vanishes (poles, collapsed
-  /// faces) it is taken a little towards the middle of the face; frames are always finite and orthonormal.
+  /// Orthonormal frame: normal = du x dv, tangent = du made perpendicular. Where du x dv vanishes (poles,
+  /// collapsed faces) it is taken a little towards the middle of the face; frames are always finite and
+  /// orthonormal.
   Frame frame(uint32_t face, float u, float v) const;
   static Frame frame_of(const SurfacePoint& point);
   Box3f control_bounds() const { return bounds_; }

@@ -24,11 +24,11 @@ struct ControlMesh {
   std::vector<uint32_t> face_sizes;
   std::vector<uint32_t> face_vertices;  ///< all corners, face after face
   std::vector<V2f> uv;
-  std::vector<uint32_t> face_uv;        ///< as face_vertices, into uv; empty when the file has none
+  std::vector<uint32_t> face_uv;  ///< as face_vertices, into uv; empty when the file has none
   std::vector<Crease> creases;
   std::vector<Corner> corners;
-  std::vector<uint32_t> holes;          ///< faces that leave no surface
-  std::vector<uint16_t> face_groups;    ///< index into groups, one per face
+  std::vector<uint32_t> holes;        ///< faces that leave no surface
+  std::vector<uint16_t> face_groups;  ///< index into groups, one per face
   std::vector<std::string> groups;
 
   size_t face_count() const { return face_sizes.size(); }

@@ -10,10 +10,10 @@
 
 namespace pelage {
 
-/// How the points of a strand make a curve. Grown strands are uniform cubic B-splines whose first and last points
-/// are met: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are made only where needed, so
-/// n points give n - 1 segments. `kBSpline` (files) has no phantom points: n points give n - 3 segments.
-/// `kCatmullRom` gets phantom ends of the same kind and passes through all its points.
+/// How the points of a strand make a curve. Grown strands are uniform cubic B-splines whose first and last
+/// points are met: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are made only where
+/// needed, so n points give n - 1 segments. `kBSpline` (files) has no phantom points: n points give n - 3
+/// segments. `kCatmullRom` gets phantom ends of the same kind and passes through all its points.
 enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom };
 
 /// Where on a skin a strand grows: ptex face and parameters in [0, 1]^2.
@@ -27,7 +27,7 @@ struct RootAddress {
 enum class AttributeClass {
   kConstant,   ///< one value for all strands
   kPerStrand,  ///< one per strand
-  kPerPoint,   ///< one per point, interpolated linearly in the curve parameter between the points of a segment
+  kPerPoint,  ///< one per point, interpolated linearly in the curve parameter between the points of a segment
 };
 
 struct StrandAttribute {
@@ -40,20 +40,22 @@ struct StrandAttribute {
 /// Plain arrays of a batch of strands while it is being made.
 ///
 /// points: motion_keys x point_count x (x, y, z, radius), the whole of key 0 first; key k is at time
-/// k / (motion_keys - 1) of the shutter. World space or file space, scene units; the radius is half the width.
+/// k / (motion_keys - 1) of the shutter. World space or file space, scene units; the radius is half the
+/// width.
 struct StrandArrays {
   CurveBasis basis = CurveBasis::kPinnedBSpline;
   int motion_keys = 1;
   std::vector<float> points;
-  std::vector<uint32_t> first_point;  ///< strand_count + 1 entries: strand i has points first[i] .. first[i+1]-1
-  std::vector<uint64_t> ids;          ///< one per strand, stable for ever (law 2)
-  std::vector<RootAddress> roots;     ///< one per strand, or empty when the strands grow on no skin
-  std::vector<V2f> root_uv;           ///< texture coordinates of the roots, or empty
+  std::vector<uint32_t>
+      first_point;                 ///< strand_count + 1 entries: strand i has points first[i] .. first[i+1]-1
+  std::vector<uint64_t> ids;       ///< one per strand, stable for ever (law 2)
+  std::vector<RootAddress> roots;  ///< one per strand, or empty when the strands grow on no skin
+  std::vector<V2f> root_uv;        ///< texture coordinates of the roots, or empty
   std::vector<StrandAttribute> attributes;
 };
 
-/// An immutable batch of strands, the one thing that grooms make and renderers take. Curves are ray-facing ribbons
-/// of circular fibres: h across, v along (0 at the root, 1 at the tip).
+/// An immutable batch of strands, the one thing that grooms make and renderers take. Curves are ray-facing
+/// ribbons of circular fibres: h across, v along (0 at the root, 1 at the tip).
 class Strands {
  public:
   Strands() = default;

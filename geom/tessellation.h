@@ -14,8 +14,8 @@ namespace pelage {
 
 class Workers;
 
-/// The triangles of a skin that every consumer of a frame uses: rays, push_out, occlusion. Watertight where the
-/// surface is closed. Vertices lie on the limit surface.
+/// The triangles of a skin that every consumer of a frame uses: rays, push_out, occlusion. Watertight where
+/// the surface is closed. Vertices lie on the limit surface.
 struct SkinMesh {
   int motion_keys = 1;
   std::vector<float> positions;     ///< motion_keys x vertex_count x 3, the whole of key 0 first
@@ -38,8 +38,8 @@ struct SkinMesh {
 };
 
 struct TessellationOptions {
-  float edge_pixels = 4;     ///< aimed length of the longest edge on screen
-  int max_rate = 32;         ///< most quads along an edge of a ptex face
+  float edge_pixels = 4;  ///< aimed length of the longest edge on screen
+  int max_rate = 32;      ///< most quads along an edge of a ptex face
 };
 
 /// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`.

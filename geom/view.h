@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// What level of detail, tessellation and bounds need to know of a camera: where it is and how large a length at a
-/// distance appears.
+/// What level of detail, tessellation and bounds need to know of a camera: where it is and how large a length
+/// at a distance appears.
 struct View {
   V3f position{0};
   float focal_pixels = 1;  ///< pixels per unit of tangent: image height / (2 tan(fov / 2))

@@ -22,19 +22,19 @@ struct EnumNames<StrandRole> {
 };
 
 struct FollicleOptions {
-  int64_t count = 0;     ///< strands in all; 0: `per_area` decides
-  double per_area = 0;   ///< strands per square scene unit of the rest limit surface where the field is 1
-  Field density{1.0f};   ///< relative density over the skin, >= 0
+  int64_t count = 0;    ///< strands in all; 0: `per_area` decides
+  double per_area = 0;  ///< strands per square scene unit of the rest limit surface where the field is 1
+  Field density{1.0f};  ///< relative density over the skin, >= 0
   uint64_t seed = 0;
   int leaf_strands = 8000;
 };
 
 /// Where the strands of a groom grow: progressive blue noise on the rest limit surface, in a fixed hierarchy.
 ///
-/// A follicle's id is its rank in the progressive order: every prefix of the ids is blue noise, so an id is also
-/// the LOD priority (law 3). Ids depend on the rest surface, the density and the seed alone (law 2), not on
-/// leaf_strands or threads. Follicles are stored leaf after leaf, by id within each; leaves are compact in space.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// A follicle's id is its rank in the progressive order: every prefix of the ids is blue noise, so an id is
+/// also the LOD priority (law 3). Ids depend on the rest surface, the density and the seed alone (law 2), not
+/// on leaf_strands or threads. Follicles are stored leaf after leaf, by id within each; leaves are compact in
+/// space. Immutable. Thread safety: const members may be called from any thread.
 class FollicleTree {
  public:
   struct Leaf {

@@ -19,15 +19,16 @@ struct StrandReach {
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
 ///
-/// Contract: pure and deterministic by strand id: what happens to a strand depends on its own points, id and root,
-/// the operator's parameters and what prepare() learned from rest state, never on which other strands are in the
-/// batch. Roots never move. Thread safety: apply() may run on many batches at once.
+/// Contract: pure and deterministic by strand id: what happens to a strand depends on its own points, id and
+/// root, the operator's parameters and what prepare() learned from rest state, never on which other strands
+/// are in the batch. Roots never move. Thread safety: apply() may run on many batches at once.
 class Operator {
  public:
   virtual ~Operator() = default;
   /// As in the scene file: "clump".
   virtual std::string_view name() const = 0;
-  /// Rest state only: the offsets serve every pose and may be frozen. Otherwise the operator sees posed strands.
+  /// Rest state only: the offsets serve every pose and may be frozen. Otherwise the operator sees posed
+  /// strands.
   virtual bool reads_rest_only() const { return true; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.
   virtual void prepare(const PrepareContext&) {}

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// `operators:` of a groom: a list of maps of one key each, the operator's name. Holds the operators as the scene
-/// describes them, not yet prepared; grooms copy what they need.
+/// `operators:` of a groom: a list of maps of one key each, the operator's name. Holds the operators as the
+/// scene describes them, not yet prepared; grooms copy what they need.
 struct OperatorList {
   struct Item {
     std::string name;

@@ -17,8 +17,8 @@ enum class ChannelType { kHalf, kFloat, kUint };
 struct ExrChannel {
   std::string name;
   ChannelType type = ChannelType::kHalf;
-  std::vector<float> pixels;    ///< width * height, rows from the top; unused for kUint
-  std::vector<uint32_t> ids;    ///< the same for kUint
+  std::vector<float> pixels;  ///< width * height, rows from the top; unused for kUint
+  std::vector<uint32_t> ids;  ///< the same for kUint
 };
 
 using ExrAttribute = std::variant<int, float, std::string, V2f, V3f, M44f>;
@@ -33,11 +33,12 @@ struct ExrImage {
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Throws Error (kFailed)
-/// naming the path.
+/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Throws Error
+/// (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
-/// Reads every channel of the first part. Throws Error (kInput) naming the file when it is missing or damaged.
+/// Reads every channel of the first part. Throws Error (kInput) naming the file when it is missing or
+/// damaged.
 ExrImage read_exr(const std::filesystem::path& path);
 
 }  // namespace pelage

@@ -34,15 +34,14 @@ struct FieldDependence {
   bool attributes = false;  ///< reads attributes
 };
 
-/// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an attribute or
-/// a product of those (design.md section 8). An immutable value, cheap to copy.
+/// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an
+/// attribute or a product of those (design.md section 8). An immutable value, cheap to copy.
 ///
 ///   0.5 | [r, g, b]
 ///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}   // without channel: colour
-///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  // piecewise linear; values may be colours
-///   {noise: {frequency, amplitude, offset}}                             // offset + amplitude * noise(rest * frequency)
-///   {attribute: name}
-///   {product: [field, field, ...]}
+///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  // piecewise linear; values may be
+///   colours {noise: {frequency, amplitude, offset}}                             // offset + amplitude *
+///   noise(rest * frequency) {attribute: name} {product: [field, field, ...]}
 class Field {
  public:
   struct Node;
@@ -77,8 +76,8 @@ struct ValueReader<Field> {
   static std::string print(const Field& field);
 };
 
-/// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives three
-/// decorrelated values. [Perlin02, "Improving noise"]
+/// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives
+/// three decorrelated values. [Perlin02, "Improving noise"]
 float perlin_noise(const V3f& p, uint32_t seed = 0);
 V3f perlin_noise3(const V3f& p, uint32_t seed = 0);
 

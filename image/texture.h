@@ -41,7 +41,8 @@ class TextureLibrary {
   explicit TextureLibrary(MemoryLedger& ledger);
   ~TextureLibrary();
 
-  /// Throws Error (kInput) at `asset.position` naming the file when it is missing or cannot be read: never black.
+  /// Throws Error (kInput) at `asset.position` naming the file when it is missing or cannot be read: never
+  /// black.
   std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
 
  private:

@@ -22,17 +22,18 @@ struct StrandFile {
 };
 
 struct StrandReadOptions {
-  std::optional<CurveBasis> basis;     ///< what the file's points are; formats that do not say default to pinned B-spline
+  std::optional<CurveBasis>
+      basis;  ///< what the file's points are; formats that do not say default to pinned B-spline
   std::optional<float> default_width;  ///< diameter for files without widths, scene units
 };
 
 /// Reads strands by the format of the name's ending: Cem Yuksel's .hair, TressFX .tfx. Degenerate strands are
-/// repaired or dropped and counted. Throws Error (kInput) with a reason for files that are damaged, are not what
-/// they say, or claim more than they hold.
+/// repaired or dropped and counted. Throws Error (kInput) with a reason for files that are damaged, are not
+/// what they say, or claim more than they hold.
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
 
-/// Writes strands by the format of the name's ending, whole or not at all. Motion key 0 only. Throws Error (kFailed),
-/// also for what the format cannot hold.
+/// Writes strands by the format of the name's ending, whole or not at all. Motion key 0 only. Throws Error
+/// (kFailed), also for what the format cannot hold.
 void write_strands(const std::filesystem::path& path, const Strands& strands);
 
 }  // namespace pelage

@@ -12,7 +12,7 @@ namespace pelage {
 
 struct LensParams {
   float f_stop = 8;
-  float focal_length = 5;     ///< scene units
+  float focal_length = 5;      ///< scene units
   float focus_distance = 100;  ///< scene units, along the view axis
   static const Schema<LensParams>& schema();
 };
@@ -21,8 +21,8 @@ struct CameraParams {
   Keyed<V3f> position{V3f(0, 0, 10)};
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};
-  Keyed<float> fov{40.0f};     ///< vertical, degrees
-  V2f shutter{0, 0};    ///< frames around the frame
+  Keyed<float> fov{40.0f};  ///< vertical, degrees
+  V2f shutter{0, 0};        ///< frames around the frame
   int motion_keys = 2;
   std::optional<LensParams> lens;
   static const Schema<CameraParams>& schema();
@@ -49,7 +49,8 @@ class Camera {
   View view() const;
   V3f axis(float time) const;  ///< unit view direction
   M44f world_to_camera() const;
-  M44f world_to_ndc() const;   ///< x, y in 0..1 after division by w, y down... as the EXR attribute worldToNDC wants
+  M44f world_to_ndc()
+      const;  ///< x, y in 0..1 after division by w, y down... as the EXR attribute worldToNDC wants
 
  private:
   struct Pose {

@@ -12,9 +12,9 @@ enum class LobeGroup { kDiffuse, kPrimary, kSecondary, kCount };
 inline constexpr int kLobeGroups = static_cast<int>(LobeGroup::kCount);
 inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary", "secondary"};
 
-/// Value of a fibre's scattering for a pair of directions: the throughput density rho = f cos(theta_i) per solid
-/// angle (cos of the inclination, not of any normal), by lobe group, so that radiance out = integral over the
-/// whole sphere of rho * L_in. No further cosine is due.
+/// Value of a fibre's scattering for a pair of directions: the throughput density rho = f cos(theta_i) per
+/// solid angle (cos of the inclination, not of any normal), by lobe group, so that radiance out = integral
+/// over the whole sphere of rho * L_in. No further cosine is due.
 struct FibreValue {
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   float pdf = 0;  ///< of the mixture that sample() draws from, per solid angle
@@ -29,9 +29,10 @@ struct FibreSample {
 
 /// Scattering of one fibre at one point for one outgoing direction.
 ///
-/// Conventions: directions are unit, in world space, and point away from the strand: wo to the viewer or previous
-/// vertex (given when the value is made), wi to the light or next vertex; wi is what is sampled. Inclination theta
-/// is measured from the normal plane: sin theta = dot(w, T), T the unit tangent from root to tip.
+/// Conventions: directions are unit, in world space, and point away from the strand: wo to the viewer or
+/// previous vertex (given when the value is made), wi to the light or next vertex; wi is what is sampled.
+/// Inclination theta is measured from the normal plane: sin theta = dot(w, T), T the unit tangent from root
+/// to tip.
 class FibreBsdf {
  public:
   virtual ~FibreBsdf() = default;

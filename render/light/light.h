@@ -14,7 +14,7 @@ struct LightSample {
   V3f direction{0};    ///< unit, from the shaded point to the light
   float distance = 0;  ///< infinity for an environment
   Rgb radiance{0};
-  float pdf = 0;       ///< per solid angle, of this light alone (the choice of the light not included)
+  float pdf = 0;  ///< per solid angle, of this light alone (the choice of the light not included)
 };
 
 /// Where a ray meets a light.
@@ -35,8 +35,8 @@ class Light {
   /// The light along a ray (unit direction), for rays that leave the geometry or end beyond the light.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
   /// Solid angle x average radiance (luminance) as seen from `from`: the weight for choosing among lights
-  /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres; the
-  /// null vector when the point is not on a fibre.
+  /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres;
+  /// the null vector when the point is not on a fibre.
   virtual float importance(const V3f& from, const V3f& tangent) const = 0;
   /// Whether camera rays see it.
   virtual bool visible() const = 0;

@@ -16,14 +16,14 @@ class TextureLibrary;
 struct RectangleLightParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "rectangle";
-  Keyed<V3f> position{V3f(0)};      ///< centre
+  Keyed<V3f> position{V3f(0)};        ///< centre
   Keyed<V3f> look_at{V3f(0, 0, -1)};  ///< the emitting side faces this point
   V3f up{0, 1, 0};
-  V2f size{1, 1};            ///< width, height
+  V2f size{1, 1};  ///< width, height
   Rgb radiance{1};
-  Keyed<float> intensity{1.0f};     ///< factor on radiance
+  Keyed<float> intensity{1.0f};  ///< factor on radiance
   bool two_sided = false;
-  bool visible = false;      ///< to the camera
+  bool visible = false;  ///< to the camera
   static const Schema<RectangleLightParams>& schema();
 };
 struct SphereLightParams {
@@ -39,10 +39,10 @@ struct SphereLightParams {
 struct EnvironmentLightParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "environment";
-  AssetPath file;            ///< lat-long image, +y up, centre column along -z; without one: constant
-  Rgb radiance{1};           ///< factor on the image, or the constant itself
+  AssetPath file;   ///< lat-long image, +y up, centre column along -z; without one: constant
+  Rgb radiance{1};  ///< factor on the image, or the constant itself
   Keyed<float> intensity{1.0f};
-  V3f rotate{0};             ///< degrees about x, y, z, in this order
+  V3f rotate{0};  ///< degrees about x, y, z, in this order
   bool visible = true;
   static const Schema<EnvironmentLightParams>& schema();
 };

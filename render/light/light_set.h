@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// The lights of a scene and the choice among them. Hit tests and pdfs include the choice, so that "light selection
-/// also uses MIS". Thread safety: const members from any thread.
+/// The lights of a scene and the choice among them. Hit tests and pdfs include the choice, so that "light
+/// selection also uses MIS". Thread safety: const members from any thread.
 class LightSet {
  public:
   explicit LightSet(std::vector<std::unique_ptr<Light>> lights);

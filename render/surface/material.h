@@ -31,14 +31,14 @@ struct ConeShellParams {
   static constexpr const char* kTypeName = "cone-shell";
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};
-  float diffuse = 0.7f;             ///< albedo of the diffuse lobe, times color
-  float balance = 0;                ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
-  Rgb primary{0.08f};               ///< albedo of the primary highlight, not coloured by the fibre
-  float primary_width = 12;         ///< half width of its shell, degrees
-  float primary_shift = -0.03f;     ///< along-strand shift of the tangent lookup, in v
-  float primary_jitter = 0.05f;     ///< random part of the shift, per strand
-  float primary_tilt = 0;           ///< added to the inclination of the shell, degrees
-  Rgb secondary{0.12f};             ///< albedo of the secondary highlight, times color
+  float diffuse = 0.7f;          ///< albedo of the diffuse lobe, times color
+  float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
+  Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
+  float primary_width = 12;      ///< half width of its shell, degrees
+  float primary_shift = -0.03f;  ///< along-strand shift of the tangent lookup, in v
+  float primary_jitter = 0.05f;  ///< random part of the shift, per strand
+  float primary_tilt = 0;        ///< added to the inclination of the shell, degrees
+  Rgb secondary{0.12f};          ///< albedo of the secondary highlight, times color
   float secondary_width = 20;
   float secondary_shift = 0.08f;
   float secondary_jitter = 0.08f;

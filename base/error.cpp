@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/error.h"
+
+namespace pelage {
+
+std::string to_string(const SourcePosition& position) {
+  std::string text = position.file;
+  if (position.line > 0) text += ":" + std::to_string(position.line);
+  if (position.line > 0 && position.column > 0) text += ":" + std::to_string(position.column);
+  return text;
+}
+
+Error::Error(ErrorKind kind, std::vector<Problem> problems) : kind_(kind), problems_(std::move(problems)) {
+  for (const Problem& problem : problems_) {
+    if (!text_.empty()) text_ += '\n';
+    const std::string where = to_string(problem.position);
+    text_ += where.empty() ? problem.message : where + ": " + problem.message;
+  }
+}
+
+void Problems::throw_if_any(ErrorKind kind) const {
+  if (!list_.empty()) throw Error(kind, list_);
+}
+
+}  // namespace pelage

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/module.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <system_error>
+#include <vector>
+
+#include <dlfcn.h>
+
+#include "base/error.h"
+
+namespace pelage {
+
+namespace {
+
+std::vector<std::filesystem::path> search_folders() {
+  std::vector<std::filesystem::path> folders;
+  std::error_code error;
+  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const std::filesystem::path prefix = executable.parent_path().parent_path();
+    folders.push_back(prefix / "lib");
+    folders.push_back(prefix / "lib" / "pelage");
+  }
+  if (const char* list = std::getenv("PELAGE_MODULE_PATH")) {
+    const std::string paths = list;
+    for (size_t begin = 0; begin <= paths.size();) {
+      const size_t end = std::min(paths.find(':', begin), paths.size());
+      if (end > begin) folders.emplace_back(paths.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  return folders;
+}
+
+}  // namespace
+
+Module::Module(const std::string& name) {
+  std::string looked;
+  for (const std::filesystem::path& folder : search_folders()) {
+    const std::filesystem::path candidate = folder / ("lib" + name + ".so");
+    std::error_code error;
+    if (std::filesystem::exists(candidate, error)) {
+      handle_ = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
+      if (!handle_) throw Error(ErrorKind::kFailed, "cannot load module " + name + ": " + ::dlerror());
+      path_ = candidate;
+      return;
+    }
+    looked += " " + candidate.string();
+  }
+  throw Error(ErrorKind::kFailed, "module " + name + " not found; looked for" + looked);
+}
+
+Module::~Module() {
+  if (handle_) ::dlclose(handle_);
+}
+
+void* Module::symbol(const char* name) const {
+  void* address = ::dlsym(handle_, name);
+  if (!address) throw Error(ErrorKind::kFailed, path_.string() + ": has no function " + name);
+  return address;
+}
+
+}  // namespace pelage

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <string>
+
+#include <sched.h>
+
+#ifdef PELAGE_STD_THREADS
+#include <thread>
+#include <vector>
+#else
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace pelage {
+
+namespace {
+
+// Quota of the control group in processors, rounded up; 0 when there is none.
+int cgroup_processors() {
+  std::ifstream v2("/sys/fs/cgroup/cpu.max");
+  std::string quota;
+  double period = 0;
+  if (v2 >> quota >> period && quota != "max" && period > 0) {
+    return static_cast<int>(std::ceil(std::atof(quota.c_str()) / period));
+  }
+  return 0;
+}
+
+// Hands out ranges in order and keeps the first error of a loop.
+class RangeDealer {
+ public:
+  RangeDealer(size_t count, size_t grain) : count_(count), grain_(std::max<size_t>(1, grain)) {}
+
+  void work(int worker, const std::function<void(WorkRange)>& body) {
+    try {
+      while (!stopped_.load(std::memory_order_relaxed)) {
+        const size_t begin = next_.fetch_add(grain_, std::memory_order_relaxed);
+        if (begin >= count_) return;
+        body({begin, std::min(begin + grain_, count_), worker});
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      stopped_.store(true, std::memory_order_relaxed);
+    }
+  }
+
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  const size_t count_;
+  const size_t grain_;
+  std::atomic<size_t> next_{0};
+  std::atomic<bool> stopped_{false};
+  std::mutex mutex_;  // guards error_
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+int available_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  int count = ::sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
+  if (const int quota = cgroup_processors()) count = std::min(count, quota);
+  return std::max(1, count);
+}
+
+#ifdef PELAGE_STD_THREADS
+
+struct Workers::Team {
+  int threads;
+};
+
+void Workers::for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const {
+  RangeDealer dealer(count, grain);
+  std::vector<std::thread> threads;
+  for (int i = 1; i < team_->threads; ++i) threads.emplace_back([&, i] { dealer.work(i, body); });
+  dealer.work(0, body);
+  for (std::thread& thread : threads) thread.join();
+  dealer.rethrow();
+}
+
+Workers::Workers(int threads) : team_(new Team{threads > 0 ? threads : available_processors()}) {}
+int Workers::thread_count() const { return team_->threads; }
+
+#else
+
+struct Workers::Team {
+  explicit Team(int count) : threads(count), arena(count) {}
+  int threads;
+  tbb::task_arena arena;
+};
+
+void Workers::for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const {
+  RangeDealer dealer(count, grain);
+  team_->arena.execute([&] {
+    tbb::parallel_for(
+        0, team_->threads, [&](int) { dealer.work(tbb::this_task_arena::current_thread_index(), body); },
+        tbb::simple_partitioner());
+  });
+  dealer.rethrow();
+}
+
+Workers::Workers(int threads) : team_(new Team(threads > 0 ? threads : available_processors())) {}
+int Workers::thread_count() const { return team_->threads; }
+
+#endif
+
+Workers::~Workers() = default;
+
+}  // namespace pelage

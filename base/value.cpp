@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/value.h"
+
+namespace pelage {
+
+Value Value::scalar(SourcePosition position, std::string text, bool quoted) {
+  Value value;
+  value.kind_ = Kind::kScalar;
+  value.position_ = std::move(position);
+  value.text_ = std::move(text);
+  value.quoted_ = quoted;
+  return value;
+}
+
+Value Value::list(SourcePosition position, std::vector<Value> items) {
+  Value value;
+  value.kind_ = Kind::kList;
+  value.position_ = std::move(position);
+  value.items_ = std::move(items);
+  return value;
+}
+
+Value Value::map(SourcePosition position, std::vector<Entry> entries) {
+  Value value;
+  value.kind_ = Kind::kMap;
+  value.position_ = std::move(position);
+  value.entries_ = std::move(entries);
+  return value;
+}
+
+const Value* Value::find(std::string_view key) const {
+  for (const Entry& entry : entries_) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+Value* Value::find(std::string_view key) {
+  return const_cast<Value*>(static_cast<const Value*>(this)->find(key));
+}
+
+std::string Value::describe() const {
+  constexpr size_t kLongestShown = 40;
+  switch (kind_) {
+    case Kind::kNull:
+      return "nothing";
+    case Kind::kScalar:
+      return "'" + (text_.size() > kLongestShown ? text_.substr(0, kLongestShown) + "..." : text_) + "'";
+    case Kind::kList:
+      return "a list of " + std::to_string(items_.size());
+    case Kind::kMap:
+      return "a block of " + std::to_string(entries_.size()) + (entries_.size() == 1 ? " key" : " keys");
+  }
+  return {};
+}
+
+}  // namespace pelage
