@@ -6,17 +6,21 @@
 
 namespace pelage {
 
-/// Box of the Bezier hull of a segment, inflated by its largest radius: fast and, for fur, within 2 % of the
-/// exact one (a hull of B-spline points is 7 to 9 times larger).
+// All boxes hold the curve's swept spheres, every point +- radius, which is where a ribbon can be that may
+// face any ray. They are enlarged by 2^-21 of the largest coordinate, so that points evaluated in float lie
+// inside too.
+
+/// Box of the Bezier hull: per axis the reach of each Bezier point +- its radius. Fast and, for fur, within 2
+/// % of the exact box (a hull of B-spline points is 7 to 9 times larger).
 Box3f hull_bounds(const CubicSegment& segment);
 
-/// Smallest box of the segment's ray-facing ribbon: exact extrema of the centre line per axis, where radius
-/// varies the extrema of position +- radius.
+/// Smallest box of the swept spheres. Position + radius and position - radius along an axis are cubics of
+/// their own, whose extrema are roots of quadratics.
 Box3f exact_bounds(const CubicSegment& segment);
 
-/// Exact box of a batch over the shutter [open, close] within [0, 1]: every point +- radius at every time
-/// lies inside and some point touches each face (law 4). Points move linearly between motion keys, so the
-/// union over the keys inside the shutter and its two ends is exact.
+/// Smallest box of a batch over the shutter [open, close] within [0, 1] (law 4); empty for no segments.
+/// Points and radii move linearly between motion keys, so the union over the keys inside the shutter and its
+/// two ends is exact.
 Box3f exact_bounds(const Strands& strands, float open = 0, float close = 1);
 
 }  // namespace pelage

@@ -98,7 +98,9 @@ class Strands {
 
 /// Segments of a strand of `points` points in `basis`; 0 when there are too few.
 uint32_t segment_count(CurveBasis basis, uint32_t points);
-/// The value of a per-point attribute at segment `segment`, parameter `t` of a strand, into `out`.
+/// The `components` values of an attribute at parameter `t` of segment `segment` of a strand, into `out`.
+/// Per-point values are linear between the two points beside the segment; constant and per-strand ones are
+/// copied.
 void interpolate_attribute(const Strands& strands, const StrandAttribute& attribute, size_t strand,
                            uint32_t segment, float t, float* out);
 

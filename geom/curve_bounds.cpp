@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/curve_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pelage {
+namespace {
+
+// Points evaluated in float stray from the true curve by a few units in the last place of the largest
+// coordinate. Boxes are enlarged by eight half units, so that those points lie inside as well.
+constexpr float kRounding = 0x1p-21f;
+
+float largest(const CubicSegment& s, int axis) {
+  float result = 0;
+  for (int i = 0; i < 4; ++i) result = std::max(result, std::abs(s.p[i][axis]) + std::abs(s.r[i]));
+  return result;
+}
+
+/// Largest value on [0, 1] of the cubic with Bezier coefficients b.
+double cubic_maximum(double b0, double b1, double b2, double b3) {
+  double best = std::max(b0, b3);
+  if (std::max(b1, b2) <= best) return best;  // the hull says that an end is the highest point
+  const double d0 = b1 - b0, d1 = b2 - b1, d2 = b3 - b2;
+  // derivative / 3 = d0 (1-t)^2 + 2 d1 t (1-t) + d2 t^2 = a t^2 + 2 h t + d0
+  const double a = d0 - 2 * d1 + d2;
+  const double h = d1 - d0;
+  const double discriminant = h * h - a * d0;
+  if (discriminant < 0) return best;
+  const double q = -(h + std::copysign(std::sqrt(discriminant), h));
+  const auto consider = [&](double t) {
+    if (!(t > 0 && t < 1)) return;
+    const double u = 1 - t;
+    best = std::max(best, u * u * u * b0 + 3 * u * t * (u * b1 + t * b2) + t * t * t * b3);
+  };
+  if (a != 0) consider(q / a);
+  if (q != 0) consider(d0 / q);
+  return best;
+}
+
+/// Exact upper end along `axis` of sign * centre + radius, where a negative interpolated radius counts as
+/// none.
+double exact_reach(const CubicSegment& s, int axis, double sign) {
+  double p[4];
+  bool has_negative = false;
+  for (int i = 0; i < 4; ++i) {
+    p[i] = sign * s.p[i][axis];
+    has_negative |= s.r[i] < 0;
+  }
+  const double reach = cubic_maximum(p[0] + s.r[0], p[1] + s.r[1], p[2] + s.r[2], p[3] + s.r[3]);
+  return has_negative ? std::max(reach, cubic_maximum(p[0], p[1], p[2], p[3])) : reach;
+}
+
+/// Enlarges `box` by the exact box of the segment. A hull that lies inside already saves the extrema.
+void extend_exactly(Box3f& box, const CubicSegment& s) {
+  for (int axis = 0; axis < 3; ++axis) {
+    float low = s.p[0][axis], high = low;
+    for (int i = 0; i < 4; ++i) {
+      const float r = std::max(s.r[i], 0.0f);
+      low = std::min(low, s.p[i][axis] - r);
+      high = std::max(high, s.p[i][axis] + r);
+    }
+    const float slack = kRounding * largest(s, axis);
+    if (high + slack > box.max[axis]) {
+      box.max[axis] = std::max(box.max[axis], static_cast<float>(exact_reach(s, axis, 1)) + slack);
+    }
+    if (low - slack < box.min[axis]) {
+      box.min[axis] = std::min(box.min[axis], static_cast<float>(-exact_reach(s, axis, -1)) - slack);
+    }
+  }
+}
+
+/// The ends of the shutter and the keys between them: positions and radii are linear in between.
+std::vector<float> extreme_times(int motion_keys, float open, float close) {
+  std::vector<float> times{open};
+  if (motion_keys < 2) return times;
+  for (int k = 0; k < motion_keys; ++k) {
+    const float time = static_cast<float>(k) / static_cast<float>(motion_keys - 1);
+    if (time > open && time < close) times.push_back(time);
+  }
+  if (close > open) times.push_back(close);
+  return times;
+}
+
+}  // namespace
+
+Box3f hull_bounds(const CubicSegment& s) {
+  Box3f box;
+  for (int i = 0; i < 4; ++i) {
+    const V3f reach(std::max(s.r[i], 0.0f));
+    box.extendBy(s.p[i] - reach);
+    box.extendBy(s.p[i] + reach);
+  }
+  const V3f slack = kRounding * V3f(largest(s, 0), largest(s, 1), largest(s, 2));
+  return {box.min - slack, box.max + slack};
+}
+
+Box3f exact_bounds(const CubicSegment& segment) {
+  Box3f box;
+  extend_exactly(box, segment);
+  return box;
+}
+
+Box3f exact_bounds(const Strands& strands, float open, float close) {
+  Box3f box;
+  const std::vector<float> times = extreme_times(strands.motion_keys(), open, close);
+  for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
+    const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+    for (uint32_t segment = 0; segment < segments; ++segment) {
+      for (float time : times) extend_exactly(box, bezier_segment_at(strands, strand, segment, time));
+    }
+  }
+  return box;
+}
+
+}  // namespace pelage
