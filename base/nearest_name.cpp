@@ -48,4 +48,22 @@ std::string did_you_mean(std::string_view name, std::span<const std::string> can
   return nearest.empty() ? std::string() : "; did you mean '" + std::string(nearest) + "'?";
 }
 
+std::string quote(std::string_view text) {
+  constexpr size_t kQuotedLength = 40;
+  std::string shown = "'";
+  for (const char c : text.substr(0, kQuotedLength)) {
+    const auto byte = static_cast<unsigned char>(c);
+    shown += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  return shown + (text.size() > kQuotedLength ? "...'" : "'");
+}
+
+std::string suggest(std::string_view name, std::span<const std::string> candidates) {
+  std::string near = did_you_mean(name, candidates);
+  if (!near.empty() || candidates.empty()) return near;
+  std::string list = candidates.size() == 1 ? "; expected " : "; expected one of ";
+  for (size_t i = 0; i < candidates.size(); ++i) list += (i ? ", " : "") + candidates[i];
+  return list;
+}
+
 }  // namespace pelage

@@ -24,8 +24,9 @@ namespace pelage {
 //   const Schema<CurlParams>& CurlParams::schema() {
 //     static const Schema<CurlParams> table = [] {
 //       Schema<CurlParams> s("curl", "Winds each strand into a helix about itself.");
-//       s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min =
-//       0}); s.key("turns", &CurlParams::turns, {.help = "Turns from root to tip"}); return s;
+//       s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Of the helix", .min = 0});
+//       s.key("turns", &CurlParams::turns, {.help = "Turns from root to tip"});
+//       return s;
 //     }();
 //     return table;
 //   }
@@ -76,11 +77,14 @@ class SchemaInfo {
 };
 
 /// Reads a T from a Value. Specialisations provide
-///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);  // false: out untouched, problem
-///   added static std::string type_name(); static std::string print(const T&); // as it would stand in a
-///   scene
+///   // Returns false and adds a problem when the value is no T.
+///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);
+///   static std::string type_name();
+///   // As it would stand in a scene.
+///   static std::string print(const T&);
 /// and optionally
-///   static std::vector<const SchemaInfo*> blocks();                        // tables of nested blocks
+///   // Tables of nested blocks.
+///   static std::vector<const SchemaInfo*> blocks();
 template <class T, class Enable = void>
 struct ValueReader;
 
@@ -124,7 +128,7 @@ class Schema : public SchemaInfo {
     const size_t before = problems.list().size();
     std::vector<bool> seen(keys_.size(), false);
     for (const Value::Entry& entry : value.entries()) {
-      if (entry.key == skip) continue;
+      if (!skip.empty() && entry.key == skip) continue;
       size_t i = 0;
       while (i < keys_.size() && keys_[i].name != entry.key) ++i;
       if (i == keys_.size()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/value.h"
 
+#include "base/nearest_name.h"
+
 namespace pelage {
 
 Value Value::scalar(SourcePosition position, std::string text, bool quoted) {
@@ -40,12 +42,11 @@ Value* Value::find(std::string_view key) {
 }
 
 std::string Value::describe() const {
-  constexpr size_t kLongestShown = 40;
   switch (kind_) {
     case Kind::kNull:
       return "nothing";
     case Kind::kScalar:
-      return "'" + (text_.size() > kLongestShown ? text_.substr(0, kLongestShown) + "..." : text_) + "'";
+      return quote(text_);
     case Kind::kList:
       return "a list of " + std::to_string(items_.size());
     case Kind::kMap:

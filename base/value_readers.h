@@ -16,6 +16,11 @@
 
 namespace pelage {
 
+/// A finite decimal number: 12, -0.5, 1e6, 1_000; nothing for any other text.
+std::optional<double> parse_number(std::string_view text);
+/// Bytes with an optional suffix K, M, G or T (powers of 1024): 512M, 1.5G; nothing for any other text.
+std::optional<uint64_t> parse_bytes(std::string_view text);
+
 /// A file that a scene names. Relative paths are relative to the file in which they stand; on the command
 /// line, to the current folder. `position` is where it was named, for errors about the file itself.
 struct AssetPath {
@@ -53,8 +58,10 @@ struct Named {
 };
 
 /// Names of an enumeration in the scene file (kebab-case), in the order of its values from 0. Specialise:
-///   template <> struct EnumNames<Filter> { static constexpr const char* names[] = {"box",
-///   "blackman-harris"}; };
+///   template <>
+///   struct EnumNames<Filter> {
+///     static constexpr const char* names[] = {"box", "blackman-harris"};
+///   };
 template <class E>
 struct EnumNames;
 
@@ -148,7 +155,12 @@ struct ValueReader<E, std::enable_if_t<std::is_enum_v<E>>> {
 
 template <class T>
 struct ValueReader<std::optional<T>> {
+  /// null stands for nothing, so that `--set camera.lens=null` removes what the file says.
   static bool read(const Value& value, const KeyOptions& options, std::optional<T>& out, Problems& problems) {
+    if (value.is_null()) {
+      out.reset();
+      return true;
+    }
     T inner{};
     if (!ValueReader<T>::read(value, options, inner, problems)) return false;
     out = std::move(inner);
