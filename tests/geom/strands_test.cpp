@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/strands.h"
+
+#include <gtest/gtest.h>
+
+namespace pelage {
+namespace {
+
+StrandArrays two_strands(CurveBasis basis = CurveBasis::kPinnedBSpline) {
+  StrandArrays a;
+  a.basis = basis;
+  a.first_point = {0, 4, 9};
+  for (int i = 0; i < 9; ++i) a.points.insert(a.points.end(), {float(i), 0, 0, 0.5f});
+  a.ids = {7, 9};
+  a.attributes.push_back({"hue", AttributeClass::kConstant, 1, {3}});
+  a.attributes.push_back({"tint", AttributeClass::kPerStrand, 2, {1, 2, 3, 4}});
+  a.attributes.push_back({"age", AttributeClass::kPerPoint, 1, {0, 1, 4, 9, 16, 25, 36, 49, 64}});
+  return a;
+}
+
+TEST(Strands, KnowsItsCounts) {
+  const Strands strands(two_strands());
+  EXPECT_EQ(strands.strand_count(), 2u);
+  EXPECT_EQ(strands.point_count(), 9u);
+  EXPECT_EQ(strands.strand_points(1), 5u);
+  EXPECT_EQ(strands.id(1), 9u);
+  EXPECT_EQ(strands.point(5), V3f(5, 0, 0));
+  EXPECT_EQ(strands.radius(5), 0.5f);
+  EXPECT_FALSE(strands.has_roots());
+  EXPECT_NE(strands.find_attribute("tint"), nullptr);
+  EXPECT_EQ(strands.find_attribute("tin"), nullptr);
+  EXPECT_GE(strands.bytes(), 9u * 16 + 3 * 4 + 2 * 8 + (1 + 4 + 9) * 4);
+  EXPECT_EQ(Strands().strand_count(), 0u);
+  EXPECT_EQ(Strands().point_count(), 0u);
+}
+
+TEST(Strands, SegmentsByBasis) {
+  for (CurveBasis basis : {CurveBasis::kLinear, CurveBasis::kPinnedBSpline, CurveBasis::kCatmullRom}) {
+    EXPECT_EQ(segment_count(basis, 8), 7u);
+    EXPECT_EQ(segment_count(basis, 2), 1u);
+    EXPECT_EQ(segment_count(basis, 1), 0u);
+    EXPECT_EQ(segment_count(basis, 0), 0u);
+  }
+  EXPECT_EQ(segment_count(CurveBasis::kBSpline, 8), 5u);
+  EXPECT_EQ(segment_count(CurveBasis::kBSpline, 4), 1u);
+  EXPECT_EQ(segment_count(CurveBasis::kBSpline, 3), 0u);
+}
+
+TEST(Strands, InterpolatesAttributes) {
+  const Strands strands(two_strands());
+  float out[2] = {};
+  interpolate_attribute(strands, *strands.find_attribute("hue"), 1, 2, 0.3f, out);
+  EXPECT_EQ(out[0], 3);
+  interpolate_attribute(strands, *strands.find_attribute("tint"), 1, 2, 0.3f, out);
+  EXPECT_EQ(out[0], 3);
+  EXPECT_EQ(out[1], 4);
+  interpolate_attribute(strands, *strands.find_attribute("age"), 1, 0, 0.0f, out);
+  EXPECT_EQ(out[0], 16);
+  interpolate_attribute(strands, *strands.find_attribute("age"), 1, 3, 1.0f, out);
+  EXPECT_EQ(out[0], 64);
+  interpolate_attribute(strands, *strands.find_attribute("age"), 1, 1, 0.5f, out);
+  EXPECT_EQ(out[0], 0.5f * (25 + 36));
+}
+
+TEST(Strands, UnpinnedSegmentsLieBetweenTheirMiddlePoints) {
+  const Strands strands(two_strands(CurveBasis::kBSpline));
+  float out = 0;
+  interpolate_attribute(strands, *strands.find_attribute("age"), 1, 1, 0.0f, &out);
+  EXPECT_EQ(out, 36);
+}
+
+TEST(StrandsDeathTest, RefusesArraysThatDoNotFit) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  StrandArrays ids = two_strands();
+  ids.ids.pop_back();
+  EXPECT_DEATH(Strands(std::move(ids)), "ids");
+  StrandArrays points = two_strands();
+  points.points.pop_back();
+  EXPECT_DEATH(Strands(std::move(points)), "points");
+  StrandArrays order = two_strands();
+  order.first_point = {0, 10, 9};
+  EXPECT_DEATH(Strands(std::move(order)), "first_point");
+  StrandArrays attribute = two_strands();
+  attribute.attributes[2].values.push_back(0);
+  EXPECT_DEATH(Strands(std::move(attribute)), "values");
+}
+
+}  // namespace
+}  // namespace pelage
