@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/file.h"
+
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include "base/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+size_t entries(const std::filesystem::path& folder) {
+  return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+template <class Function>
+Error error_of(Function&& function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error";
+  return Error(ErrorKind::kFailed, "none");
+}
+
+TEST(ReadFile, ReturnsEveryByte) {
+  const TemporaryFolder folder;
+  std::string bytes(100'000, '\0');
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 31);
+  std::ofstream(folder.path() / "f", std::ios::binary) << bytes;
+  EXPECT_EQ(read_file(folder.path() / "f"), bytes);
+  std::ofstream(folder.path() / "empty");
+  EXPECT_EQ(read_file(folder.path() / "empty"), "");
+}
+
+TEST(ReadFile, RefusesWhatIsNoRegularFileWithItsPathAndTheReason) {
+  const TemporaryFolder folder;
+  const Error missing = error_of([&] { read_file(folder.path() / "missing.hair"); });
+  EXPECT_EQ(missing.kind(), ErrorKind::kInput);
+  EXPECT_EQ(missing.problems().front().position.file, (folder.path() / "missing.hair").string());
+  EXPECT_NE(std::string(missing.what()).find("No such file"), std::string::npos) << missing.what();
+
+  const Error is_folder = error_of([&] { read_file(folder.path()); });
+  EXPECT_NE(std::string(is_folder.what()).find("folder"), std::string::npos) << is_folder.what();
+}
+
+TEST(ReadFile, DoesNotHangOnAPipeWithoutAWriter) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  const Error error = error_of([&] { read_file(folder.path() / "pipe"); });
+  EXPECT_NE(std::string(error.what()).find("regular"), std::string::npos) << error.what();
+}
+
+TEST(ReadFile, RefusesMoreThanTheLimitWithoutReadingIt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "huge") << "x";
+  std::filesystem::resize_file(folder.path() / "huge", uint64_t(1) << 36);  // sparse
+  const Error error = error_of([&] { read_file(folder.path() / "huge"); });
+  EXPECT_EQ(error.kind(), ErrorKind::kInput);
+  EXPECT_NE(std::string(error.what()).find("68719476736"), std::string::npos) << error.what();
+  std::ofstream(folder.path() / "five") << "12345";
+  EXPECT_EQ(read_file(folder.path() / "five", 5), "12345");
+  EXPECT_THROW(read_file(folder.path() / "five", 4), Error);
+}
+
+TEST(AtomicFile, AppearsWholeAtCommitAndReplacesWhatWasThere) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "new" / "folders" / "out.exr";
+  {
+    AtomicFile file(path);
+    file.write("first");
+    file.write(std::as_bytes(std::span(" half", 5)));
+    EXPECT_FALSE(std::filesystem::exists(path));
+    file.commit();
+  }
+  EXPECT_EQ(read_file(path), "first half");
+  AtomicFile again(path);
+  again.write("second");
+  EXPECT_EQ(read_file(path), "first half");
+  again.commit();
+  EXPECT_EQ(read_file(path), "second");
+  EXPECT_EQ(entries(path.parent_path()), 1u);
+}
+
+TEST(AtomicFile, LeavesNothingWithoutCommit) {
+  const TemporaryFolder folder;
+  {
+    AtomicFile file(folder.path() / "out.exr");
+    file.write("half of it");
+    EXPECT_EQ(entries(folder.path()), 1u);
+  }
+  EXPECT_EQ(entries(folder.path()), 0u);
+}
+
+TEST(AtomicFile, LibrariesMayWriteThroughThePathWhichKeepsTheEnding) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder.path() / "out.exr");
+  EXPECT_EQ(file.temporary_path().extension(), ".exr");
+  EXPECT_EQ(file.temporary_path().parent_path(), folder.path());
+  std::ofstream(file.temporary_path()) << "by a library";
+  file.commit();
+  EXPECT_EQ(read_file(folder.path() / "out.exr"), "by a library");
+}
+
+TEST(AtomicFile, HasTheRightsOfAnOrdinaryFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "ordinary") << "x";
+  AtomicFile file(folder.path() / "ours");
+  file.commit();
+  EXPECT_EQ(std::filesystem::status(folder.path() / "ours").permissions(),
+            std::filesystem::status(folder.path() / "ordinary").permissions());
+}
+
+TEST(AtomicFile, WhatCannotBeWrittenIsAFailureWithThePath) {
+  const Error error = error_of([] { AtomicFile("/proc/none/x.exr"); });
+  EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+  EXPECT_EQ(error.problems().front().position.file, "/proc/none/x.exr");
+
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "taken");
+  std::ofstream(folder.path() / "taken" / "inside") << "x";
+  AtomicFile over_a_folder(folder.path() / "taken");
+  EXPECT_EQ(error_of([&] { over_a_folder.commit(); }).kind(), ErrorKind::kFailed);
+}
+
+}  // namespace
+}  // namespace pelage
