@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What grows where: length, density, flow and colour of the coat as functions of the rest pose.
+
+Every function takes a point of the skin, its normal and the body part ("ear_l", "foot_hind_r", ...).
+The animal is symmetric, so all works on the left side and directions are mirrored back.
+"""
+import math
+
+import vec
+from cage import tail_centre
+from eyes import CENTRE as EYE
+from limbs import EAR_AXIS, EAR_FACING, EAR_ROOT
+
+NOSE = (0.0, 4.50, 10.25)
+WHISKER_PAD = (1.10, 4.10, 9.25)
+TAIL_STARTS = -9.7
+HIP, SHOULDER = (2.6, 3.0, -5.0), (2.0, 2.6, 2.0)
+
+# Hair length, 1 = the longest, over z along the trunk and head
+LENGTH_ALONG = [(-10.4, 0.30), (-9.0, 0.80), (-6.0, 1.00), (-2.0, 0.95), (1.5, 0.85), (3.5, 0.68), (5.0, 0.44),
+                (6.5, 0.30), (8.0, 0.19), (9.5, 0.12), (10.4, 0.08)]
+NAKED_HAIR = 0.085     # the short hair of hands, feet and tail
+
+
+def curve(knots, x):
+    """Piecewise linear."""
+    if x <= knots[0][0]:
+        return knots[0][1]
+    for (x0, y0), (x1, y1) in zip(knots, knots[1:]):
+        if x <= x1:
+            return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    return knots[-1][1]
+
+
+def left(p):
+    """A point or normal carried to the left side."""
+    return (abs(p[0]), p[1], p[2])
+
+
+def is_limb(part):
+    return part.startswith(("leg", "foot"))
+
+
+def hand(p, part):
+    """1 on hands and feet, 0 up the leg."""
+    if not is_limb(part):
+        return 0.0
+    high = 1.55 if p[2] < 0 else 1.35
+    return vec.smoothstep(high, 0.75, p[1])
+
+
+def tail(p):
+    """1 on the tail, 0 on the rump."""
+    return vec.smoothstep(TAIL_STARTS + 0.35, TAIL_STARTS - 0.75, p[2])
+
+
+def ear(p, n, part):
+    """(how much ear, how much of it is the inside of the cup)."""
+    if not part.startswith("ear"):
+        return 0.0, 0.0
+    height = vec.dot(vec.sub(p, EAR_ROOT), EAR_AXIS)
+    inside = vec.smoothstep(-0.15, 0.35, vec.dot(n, EAR_FACING))
+    return vec.smoothstep(-0.35, 0.35, height), inside
+
+
+def nose(p):
+    return vec.smoothstep(0.62, 0.42, vec.distance(p, NOSE))
+
+
+def eyelid(p):
+    return vec.smoothstep(0.62, 0.46, vec.distance(p, EYE))
+
+
+def belly(p, n):
+    return vec.smoothstep(-0.15, -0.75, n[1]) * vec.smoothstep(5.0, 3.0, p[1])
+
+
+def length(p, n, part):
+    p, n = left(p), left(n)
+    value = curve(LENGTH_ALONG, p[2])
+    value *= 1 - 0.30 * belly(p, n)
+    if is_limb(part):
+        value *= 0.30 + 0.55 * vec.smoothstep(0.9, 2.4, p[1])
+    in_ear, inside = ear(p, n, part)
+    value += in_ear * (0.085 - 0.04 * inside - value)
+    value += max(hand(p, part), tail(p)) * (NAKED_HAIR - value)
+    near_eye = vec.smoothstep(1.15, 0.45, vec.distance(p, EYE))
+    value *= 1 - 0.55 * near_eye
+    return value * (1 - max(nose(p), eyelid(p)))
+
+
+def density(p, n, part):
+    p, n = left(p), left(n)
+    value = 0.85 + 0.15 * vec.smoothstep(4.0, 8.0, p[2])
+    in_ear, inside = ear(p, n, part)
+    value += in_ear * (0.38 - 0.22 * inside - value)
+    value += hand(p, part) * (0.22 - value)
+    value += tail(p) * (0.16 - value)
+    return value * (1 - max(nose(p), eyelid(p)))
+
+
+def flow(p, n, part):
+    """Unit direction in which the hair lies, in the skin's plane, rest object space."""
+    side = -1.0 if p[0] < 0 else 1.0
+    middle = min(abs(p[0]) / 0.15, 1.0)     # the mid-line has no sideways flow
+    p, n = left(p), (n[0] * side, n[1], n[2])
+    if part.startswith("ear"):
+        raw = vec.add(vec.scale(EAR_AXIS, 1.0), vec.scale(vec.unit(vec.sub(p, EAR_ROOT)), 0.5))
+    elif tail(p) > 0:
+        t = min(max((p[2] + 9.5) / -17.0, 0.0), 1.0)
+        raw = vec.sub(tail_centre(t + 0.01), tail_centre(t - 0.01))
+        raw = (0.0, raw[1], raw[2])
+    else:
+        raw = trunk_flow(p, part)
+    raw = (raw[0] * middle, raw[1], raw[2])
+    flat = vec.unit(vec.along(raw, n, -vec.dot(raw, n)))
+    return (flat[0] * side, flat[1], flat[2])
+
+
+def trunk_flow(p, part):
+    back = (0.0, -0.28 * vec.smoothstep(8.4, 5.5, p[1]) * vec.smoothstep(-9.0, -6.0, p[2]), -1.0)
+    from_nose = vec.unit(vec.sub(p, (0.0, 4.6, 10.6)))
+    raw = vec.mix(back, from_nose, vec.smoothstep(8.2, 9.8, p[2]))
+    to_tail = vec.unit(vec.sub((0.0, 3.2, -11.0), p))
+    raw = vec.mix(raw, to_tail, vec.smoothstep(-7.0, -9.2, p[2]))
+    # down the legs, toward the toes on the feet
+    down = 1.0 if is_limb(part) else max(vec.bump(p, HIP, 1.5), vec.bump(p, SHOULDER, 1.1))
+    raw = vec.mix(raw, (0.08, -1.0, -0.35), 0.85 * down)
+    raw = vec.mix(raw, (0.0, -0.25, 1.0), hand(p, part))
+    # around the eyes and the roots of the ears
+    for centre, radius, amount in ((EYE, 0.70, 0.9), (EAR_ROOT, 0.95, 0.8)):
+        away = vec.unit(vec.sub(p, centre))
+        raw = vec.along(raw, away, amount * vec.bump(p, centre, radius))
+    return raw
+
+
+# ---- whiskers ----
+
+WHISKER_ROWS, WHISKERS_PER_ROW = 5, 6
+WHISKER_DOT = 0.060
+
+
+def whisker_roots():
+    """Follicles of the left pad: five rows, each starting a little further back than the last."""
+    for row in range(WHISKER_ROWS):
+        for k in range(WHISKERS_PER_ROW - (row in (0, 4))):
+            y = WHISKER_PAD[1] + 0.46 - 0.20 * row + 0.03 * k
+            z = WHISKER_PAD[2] + 0.42 - 0.20 * k - 0.08 * abs(row - 2)
+            yield (y, z, k)
+
+
+ROOTS = list(whisker_roots())
+
+
+def whiskers(p, part):
+    """(density, relative length, 0): the rear ones are the longest."""
+    p = left(p)
+    if part != "head" or p[0] < 0.45 or not 8.0 < p[2] < 10.0:
+        return 0.0, 0.0, 0.0
+    best = min(((p[1] - y) ** 2 + (p[2] - z) ** 2, k) for y, z, k in ROOTS)
+    reach = 0.35 + 0.65 * best[1] / (WHISKERS_PER_ROW - 1)
+    return vec.smoothstep(1.6 * WHISKER_DOT, 0.6 * WHISKER_DOT, best[0] ** 0.5), reach, 0.0
+
+
+# ---- colours ----
+
+BACK, FLANK, BELLY = (0.80, 0.78, 0.76), (1.0, 1.0, 1.0), (1.70, 1.72, 1.74)
+MUZZLE, PAW = (1.10, 1.04, 1.00), (1.60, 1.55, 1.50)
+SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE, SKIN_TAIL = (0.36, 0.27, 0.24), (0.80, 0.53, 0.48), (0.82, 0.47, 0.43), (0.62, 0.44, 0.40)
+SKIN_INNER_EAR = (0.78, 0.50, 0.46)
+
+
+def tint(p, n, part):
+    """Multiplies the hair's colour; 1 = as it is."""
+    p, n = left(p), left(n)
+    height = vec.smoothstep(5.2, 8.2, p[1] + 1.6 * vec.smoothstep(3.0, 8.0, p[2]))
+    color = vec.mix(FLANK, BACK, height)
+    color = vec.mix(color, MUZZLE, vec.smoothstep(7.5, 9.5, p[2]))
+    low = vec.smoothstep(0.05, -0.60, n[1]) * vec.smoothstep(4.6, 3.0, p[1])
+    color = vec.mix(color, BELLY, low)
+    if is_limb(part):
+        color = vec.mix(color, PAW, hand(p, part))
+    color = vec.mix(color, PAW, tail(p))
+    return color
+
+
+def skin(p, n, part):
+    """Colour of the bare hide."""
+    p, n = left(p), left(n)
+    color = SKIN_UNDER_FUR
+    in_ear, inside = ear(p, n, part)
+    color = vec.mix(color, vec.mix(SKIN_PINK, SKIN_INNER_EAR, inside), in_ear)
+    color = vec.mix(color, SKIN_PINK, hand(p, part))
+    color = vec.mix(color, SKIN_TAIL, tail(p))
+    color = vec.mix(color, SKIN_NOSE, nose(p))
+    return vec.mix(color, (0.10, 0.07, 0.07), eyelid(p))
+
+
+# Catchlights painted on the eyes, as if lamps stood there: direction on the left eye, size in degrees, colour
+CATCHLIGHTS = [((0.62, 0.58, 0.52), 13.0, (0.95, 0.95, 0.95)), ((0.55, -0.55, 0.62), 16.0, (0.05, 0.04, 0.04))]
+EYE_COLOR, EYE_SKY = (0.012, 0.009, 0.009), (0.05, 0.055, 0.065)
+
+
+def eye(p, _):
+    """Colour of an eye: black, lighter on top, with catchlights."""
+    facing = vec.unit(vec.sub(left(p), EYE))
+    color = vec.mix(EYE_COLOR, EYE_SKY, vec.smoothstep(0.35, 1.0, facing[1]))
+    for direction, size, light in CATCHLIGHTS:
+        away = math.degrees(math.acos(min(vec.dot(facing, vec.unit(direction)), 1.0)))
+        color = vec.mix(color, light, vec.smoothstep(1.25 * size, 0.75 * size, away))
+    return color
