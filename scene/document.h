@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ Override parse_override(const std::string& text);
 /// Depth, size and the number of included files are limited; include cycles are errors. Throws Error
 /// (kInput).
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
+
+/// The same for callers that go on to check the values and report all mistakes together: problems are added,
+/// not thrown, unless the scene file itself cannot be opened. Nothing is returned when some file could not be
+/// read or is not YAML: what such a document lacks means nothing.
+std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                                   Problems& problems);
 
 /// The same from memory; `name` stands for the file in positions, includes are relative to the current
 /// folder.

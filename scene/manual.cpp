@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "base/nearest_name.h"
+#include "scene/document.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kLineWidth = 100;
+
+using Tables = std::vector<const SchemaInfo*>;
+
+// Depth first, so that a block's section follows the one that mentions it.
+void collect(const SchemaInfo& table, Tables& tables) {
+  if (std::find(tables.begin(), tables.end(), &table) != tables.end()) return;
+  tables.push_back(&table);
+  for (const KeyInfo& key : table.keys()) {
+    for (const SchemaInfo* block : key.blocks) collect(*block, tables);
+  }
+}
+
+// Sections that a name means: tables of that name, else the blocks that stand under keys of that name.
+Tables find_sections(const Tables& all, const std::string& name) {
+  Tables found;
+  const auto add = [&](const SchemaInfo* table) {
+    if (std::find(found.begin(), found.end(), table) == found.end()) found.push_back(table);
+  };
+  for (const SchemaInfo* table : all) {
+    if (table->name() == name) add(table);
+  }
+  if (!found.empty()) return found;
+  for (const SchemaInfo* table : all) {
+    for (const KeyInfo& key : table->keys()) {
+      if (key.name != name) continue;
+      for (const SchemaInfo* block : key.blocks) add(block);
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> section_names(const Tables& all) {
+  std::vector<std::string> names;
+  for (const SchemaInfo* table : all) {
+    names.push_back(table->name());
+    for (const KeyInfo& key : table->keys()) {
+      if (!key.blocks.empty()) names.push_back(key.name);
+    }
+  }
+  return names;
+}
+
+std::string join(const std::vector<std::string>& parts, const std::string& separator) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (part.empty()) continue;
+    text += (text.empty() ? "" : separator) + part;
+  }
+  return text;
+}
+
+std::string default_of(const KeyInfo& key) { return key.options.required ? "required" : key.default_text; }
+
+// Words of `text` in lines of at most kLineWidth characters that begin with `indent`.
+std::string wrap(const std::string& text, const std::string& indent) {
+  std::string result, line;
+  size_t start = 0;
+  while (start < text.size()) {
+    size_t end = text.find(' ', start);
+    if (end == std::string::npos) end = text.size();
+    const std::string word = text.substr(start, end - start);
+    if (!line.empty() && indent.size() + line.size() + 1 + word.size() > kLineWidth) {
+      result += indent + line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+    start = end + 1;
+  }
+  return line.empty() ? result : result + indent + line + "\n";
+}
+
+std::string plain_section(const SchemaInfo& table) {
+  size_t width = 0;
+  for (const KeyInfo& key : table.keys()) width = std::max(width, key.name.size());
+  std::string text = table.name() + "\n" + wrap(table.help(), "  ") + "\n";
+  const std::string indent(width + 4, ' ');
+  for (const KeyInfo& key : table.keys()) {
+    std::vector<std::string> facts{key.type, range_text(key.options), key.options.unit};
+    const std::string shown = default_of(key);
+    if (!shown.empty()) facts.push_back(key.options.required ? shown : "default " + shown);
+    std::string entry = wrap(join(facts, ", "), indent);
+    entry.replace(2, key.name.size(), key.name);
+    text += entry + wrap(key.options.help, indent);
+    std::vector<std::string> sections;
+    for (const SchemaInfo* block : key.blocks) sections.push_back(block->name());
+    if (!sections.empty()) text += wrap("see " + join(sections, ", "), indent);
+  }
+  return text;
+}
+
+std::string escape_cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '|' || c == '<') escaped += '\\';
+    escaped += c;
+  }
+  return escaped;
+}
+
+std::string markdown_section(const SchemaInfo& table) {
+  std::string text = "## " + table.name() + "\n\n" + table.help() + "\n\n";
+  if (table.keys().empty()) return text;
+  text += "| key | type | default | range | unit | |\n|---|---|---|---|---|---|\n";
+  for (const KeyInfo& key : table.keys()) {
+    std::vector<std::string> sections;
+    for (const SchemaInfo* block : key.blocks) {
+      sections.push_back("[" + block->name() + "](#" + block->name() + ")");
+    }
+    const std::string see = sections.empty() ? "" : "See " + join(sections, ", ") + ".";
+    std::string help = key.options.help;
+    if (!help.empty() && help.back() != '.') help += '.';
+    text += "| `" + key.name + "` | " + escape_cell(key.type) + " | " + escape_cell(default_of(key)) + " | " +
+            escape_cell(range_text(key.options)) + " | " + escape_cell(key.options.unit) + " | " +
+            join({escape_cell(help), see}, " ") + " |\n";
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string manual_text(const SchemaInfo& root, const std::string& section, bool markdown) {
+  Tables all;
+  collect(root, all);
+  const Tables shown = section.empty() ? all : find_sections(all, section);
+  if (shown.empty()) {
+    throw Error(ErrorKind::kArguments,
+                "the manual has no section " + quote(section) + suggest(section, section_names(all)));
+  }
+  std::string text;
+  for (const SchemaInfo* table : shown) {
+    if (!text.empty() && !markdown) text += "\n";
+    text += markdown ? markdown_section(*table) : plain_section(*table);
+  }
+  return text;
+}
+
+}  // namespace pelage

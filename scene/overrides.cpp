@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/overrides.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "base/nearest_name.h"
+
+namespace pelage {
+namespace {
+
+std::vector<std::string> split(const std::string& key) {
+  std::vector<std::string> names;
+  size_t start = 0;
+  while (true) {
+    const size_t dot = key.find('.', start);
+    names.push_back(key.substr(start, dot - start));
+    if (dot == std::string::npos) return names;
+    start = dot + 1;
+  }
+}
+
+std::string given_name(const Value& item) {
+  if (!item.is_map() || item.entries().size() != 1) return {};
+  const Value* name = item.entries()[0].value.find("name");
+  return name && name->is_scalar() ? name->text() : std::string();
+}
+
+std::string only_key(const Value& item) {
+  return item.is_map() && item.entries().size() == 1 ? item.entries()[0].key : std::string();
+}
+
+// The item of a list that a name means: the item itself for an index, else what stands under its only key.
+Value* find_item(Value& list, const std::string& name, const SourcePosition& where, Problems& problems) {
+  std::vector<Value>& items = list.items();
+  size_t index = 0;
+  const char* end = name.data() + name.size();
+  if (const auto [rest, error] = std::from_chars(name.data(), end, index);
+      error == std::errc() && rest == end) {
+    if (index < items.size()) return &items[index];
+    problems.add(where, "there is no item " + name + " in a list of " + std::to_string(items.size()) +
+                            (items.empty() ? "" : " (the first is 0)"));
+    return nullptr;
+  }
+  std::vector<std::string> names;
+  std::vector<size_t> found;
+  for (size_t i = 0; i < items.size(); ++i) {
+    const std::string key = only_key(items[i]);
+    const std::string given = given_name(items[i]);
+    if (name == key || name == given) found.push_back(i);
+    if (!key.empty()) names.push_back(key);
+    if (!given.empty()) names.push_back(given);
+  }
+  if (found.size() == 1) return &items[found[0]].entries()[0].value;
+  if (found.empty()) {
+    problems.add(where, "there is no item " + quote(name) + " in the list" + suggest(name, names));
+  } else {
+    std::string message = quote(name) + " means several items of the list; use an index:";
+    for (const size_t i : found) message += " " + std::to_string(i);
+    problems.add(where, std::move(message));
+  }
+  return nullptr;
+}
+
+// The value under a name, made when there is none.
+Value* find_entry(Value& block, const std::string& name, const SourcePosition& where, Problems& problems) {
+  if (block.is_null()) block = Value::map(where, {});
+  if (!block.is_map()) {
+    problems.add(where, quote(name) + " is sought in " + block.describe() + ", which is no block");
+    return nullptr;
+  }
+  if (Value* value = block.find(name)) return value;
+  block.entries().push_back({name, where, Value()});
+  block.entries().back().value.set_position(where);
+  return &block.entries().back().value;
+}
+
+}  // namespace
+
+void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems) {
+  const SourcePosition where{"--set " + override.key, 0, 0};
+  const std::vector<std::string> names = split(override.key);
+  if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); })) {
+    problems.add(where, "expected names separated by single dots");
+    return;
+  }
+  Value* target = &document;
+  for (const std::string& name : names) {
+    target = target->is_list() ? find_item(*target, name, where, problems)
+                               : find_entry(*target, name, where, problems);
+    if (!target) return;
+  }
+  std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);
+  if (!value) return;
+  value->set_position(where);
+  *target = std::move(*value);
+}
+
+}  // namespace pelage

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/yaml_reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <unordered_map>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include "base/nearest_name.h"
+#include "scene/source_text.h"
+
+namespace pelage {
+namespace {
+
+// Deeper than any scene needs, and far from the limits of yaml-cpp's own recursion.
+constexpr size_t kDeepest = 64;
+
+// Leaves yaml-cpp once the reason has been reported.
+struct Stop {};
+
+// Builds values from the events of yaml-cpp's parser, which reports aliases instead of following them.
+class ValueBuilder final : public YAML::EventHandler {
+ public:
+  ValueBuilder(SourceText& source, const std::optional<SourcePosition>& fixed, DocumentLimits& limits,
+               Problems& problems)
+      : source_(source), fixed_(fixed), limits_(limits), problems_(problems) {}
+
+  Value take_root() { return std::move(root_); }
+
+  SourcePosition at(const YAML::Mark& mark) {
+    return fixed_ ? *fixed_ : source_.position(mark.line, mark.column);
+  }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (documents_++ == 0) return;
+    problems_.add(at(mark), "nothing may follow the end of the document");
+    throw Stop{};
+  }
+  void OnDocumentEnd() override {}
+
+  void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
+    problems_.add(at(mark), "anchors are refused (" + quote("&" + name) + "); share values by 'include:'");
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    problems_.add(at(mark), "aliases are refused; share values by 'include:'");
+    place(Value());
+  }
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    Value null;
+    // The mark of a value that is not there is that of whatever follows, often on the next line.
+    const bool after_key = !open_.empty() && open_.back().has_key;
+    null.set_position(after_key ? open_.back().key_position : before(mark));
+    place(std::move(null));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& text) override {
+    check_tag(mark, tag);
+    place(Value::scalar(at(mark), text, tag == "!"));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(mark, tag, false);
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(mark, tag, true);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    bool is_map = false;
+    SourcePosition position;
+    std::vector<Value> items;
+    std::vector<Value::Entry> entries;
+    std::unordered_map<std::string, int> lines;  // of the keys so far
+    bool has_key = false;
+    bool key_refused = false;
+    std::string key;
+    SourcePosition key_position;
+  };
+
+  void check_tag(const YAML::Mark& mark, const std::string& tag) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    problems_.add(at(mark), "tags are refused (" + quote(tag) + ")");
+  }
+
+  // End of the text before the mark, blanks left out.
+  SourcePosition before(const YAML::Mark& mark) {
+    if (fixed_) return *fixed_;
+    const std::string& text = source_.text();
+    auto end = static_cast<size_t>(std::clamp<long>(mark.pos, 0, static_cast<long>(text.size())));
+    const std::string_view there = std::string_view(text).substr(end, 1);
+    if (there == "~" || there == "n" || there == "N") return at(mark);
+    int line = mark.line;
+    while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1])))
+      line -= text[--end] == '\n' ? 1 : 0;
+    if (end == 0) return at(mark);
+    const size_t start = text.rfind('\n', end - 1);
+    return source_.position(line, static_cast<int>(end - 1 - (start == std::string::npos ? 0 : start + 1)));
+  }
+
+  void open(const YAML::Mark& mark, const std::string& tag, bool is_map) {
+    check_tag(mark, tag);
+    if (open_.size() == kDeepest) {
+      problems_.add(at(mark), "values are nested more than " + std::to_string(kDeepest) + " deep");
+      throw Stop{};
+    }
+    open_.emplace_back();
+    open_.back().is_map = is_map;
+    open_.back().position = at(mark);
+  }
+
+  void close() {
+    Open done = std::move(open_.back());
+    open_.pop_back();
+    place(done.is_map ? Value::map(std::move(done.position), std::move(done.entries))
+                      : Value::list(std::move(done.position), std::move(done.items)));
+  }
+
+  void place(Value value) {
+    if (limits_.values == 0) {
+      problems_.add(value.position(), "the scene holds too many values");
+      throw Stop{};
+    }
+    --limits_.values;
+    if (open_.empty()) {
+      root_ = std::move(value);
+    } else if (!open_.back().is_map) {
+      open_.back().items.push_back(std::move(value));
+    } else if (!open_.back().has_key) {
+      place_key(open_.back(), value);
+    } else {
+      Open& map = open_.back();
+      if (!map.key_refused) map.entries.push_back({std::move(map.key), map.key_position, std::move(value)});
+      map.has_key = false;
+    }
+  }
+
+  void place_key(Open& map, const Value& key) {
+    map.has_key = true;
+    map.key_refused = true;
+    map.key = key.text();
+    map.key_position = key.position();
+    if (!key.is_scalar() || key.text().empty()) {
+      problems_.add(key.position(), "expected a key, got " + key.describe());
+    } else if (key.text() == "<<" && !key.quoted()) {
+      problems_.add(key.position(), "merge keys are refused; share values by 'include:'");
+    } else if (const auto [first, is_new] = map.lines.try_emplace(key.text(), key.position().line); !is_new) {
+      std::string message = "duplicate key " + quote(key.text());
+      if (!fixed_) message += ", first on line " + std::to_string(first->second);
+      problems_.add(key.position(), std::move(message));
+    } else {
+      map.key_refused = false;
+    }
+  }
+
+  SourceText& source_;
+  const std::optional<SourcePosition>& fixed_;
+  DocumentLimits& limits_;
+  Problems& problems_;
+  std::vector<Open> open_;
+  Value root_;
+  int documents_ = 0;
+};
+
+// yaml-cpp's wording, where it is obscure, in terms of what to look for.
+std::string explain(const std::string& message) {
+  struct Wording {
+    const char* theirs;
+    const char* ours;
+  };
+  constexpr Wording kWordings[] = {
+      {YAML::ErrorMsg::MAP_VALUE, "a ':' where no value may stand; check the indentation and quotes"},
+      {YAML::ErrorMsg::MAP_KEY, "a key where none may stand; check the indentation"},
+      {YAML::ErrorMsg::BLOCK_ENTRY, "a '-' where no list item may stand; check the indentation"},
+      {YAML::ErrorMsg::END_OF_MAP,
+       "the block ends in the middle; check the indentation and the ':' of each key"},
+      {YAML::ErrorMsg::END_OF_SEQ,
+       "the list ends in the middle; check the indentation and the '-' of each item"},
+      {YAML::ErrorMsg::END_OF_MAP_FLOW, "expected ',' or '}'"},
+      {YAML::ErrorMsg::END_OF_SEQ_FLOW, "expected ',' or ']'"},
+      {YAML::ErrorMsg::FLOW_END, "a closing bracket that nothing opened"},
+      {YAML::ErrorMsg::EOF_IN_SCALAR, "the quoted text does not end"},
+      {YAML::ErrorMsg::DOC_IN_SCALAR, "the quoted text does not end"},
+      {YAML::ErrorMsg::TAB_IN_INDENTATION, "a tab in the indentation; use spaces"},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, "a character that no value may begin with; put the text in quotes"},
+      {YAML::ErrorMsg::BAD_FILE, "values are nested too deep"},
+  };
+  for (const Wording& wording : kWordings) {
+    if (message == wording.theirs) return wording.ours;
+  }
+  if (message.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR))
+    return "aliases are refused; share values by 'include:'";
+  std::string line = quote(message);
+  return line.substr(1, line.size() - 2);
+}
+
+}  // namespace
+
+std::optional<Value> read_yaml(std::string text, const std::string& file,
+                               const std::optional<SourcePosition>& fixed, DocumentLimits& limits,
+                               Problems& problems) {
+  const SourcePosition whole = fixed.value_or(SourcePosition{file, 0, 0});
+  if (text.size() > limits.bytes) {
+    problems.add(whole, "the scene is larger than " + std::to_string(DocumentLimits{}.bytes >> 20) + " MiB");
+    return std::nullopt;
+  }
+  limits.bytes -= text.size();
+  SourceText source(std::move(text), file);
+  if (!source.check(problems)) return std::nullopt;
+
+  ValueBuilder builder(source, fixed, limits, problems);
+  try {
+    std::istringstream stream(source.text());
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(builder)) {
+    }
+    return builder.take_root();
+  } catch (const Stop&) {
+  } catch (const YAML::Exception& error) {
+    problems.add(error.mark.is_null() ? whole : builder.at(error.mark),
+                 "malformed YAML: " + explain(error.msg));
+  }
+  return std::nullopt;
+}
+
+}  // namespace pelage

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "base/value.h"
+
+namespace pelage {
+
+/// What may be read in all for one scene, over all its files and overrides. Readers count down.
+struct DocumentLimits {
+  size_t bytes = size_t(16) << 20;
+  size_t values = 200'000;
+  int files = 64;
+};
+
+/// Reads one YAML document into values, without expanding anything: anchors, aliases, tags, merge keys,
+/// duplicate keys and keys that are not names are problems, and so is nesting beyond 64 levels. An empty
+/// document is a null value; text that is not YAML is a problem and nothing at all. Nothing is thrown for
+/// what stands in the text.
+///
+/// `file` is what positions say; with `fixed`, every position is that one instead (text from the command
+/// line).
+std::optional<Value> read_yaml(std::string text, const std::string& file,
+                               const std::optional<SourcePosition>& fixed, DocumentLimits& limits,
+                               Problems& problems);
+
+}  // namespace pelage
