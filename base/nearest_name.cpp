@@ -60,7 +60,8 @@ std::string quote(std::string_view text) {
 
 std::string suggest(std::string_view name, std::span<const std::string> candidates) {
   std::string near = did_you_mean(name, candidates);
-  if (!near.empty() || candidates.empty()) return near;
+  constexpr size_t kLongestList = 12;
+  if (!near.empty() || candidates.empty() || candidates.size() > kLongestList) return near;
   std::string list = candidates.size() == 1 ? "; expected " : "; expected one of ";
   for (size_t i = 0; i < candidates.size(); ++i) list += (i ? ", " : "") + candidates[i];
   return list;

@@ -14,7 +14,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 /// "; did you mean 'clump'?" or an empty string.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
-/// did_you_mean, or the list of all candidates when none is near: "; expected one of box, blackman-harris".
+/// did_you_mean, or the list of all candidates (when it is short) if none is near: "; expected one of a, b".
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
 /// A user's text for a message: in quotes, in one line, cut when it is long.

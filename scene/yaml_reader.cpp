@@ -61,6 +61,7 @@ class ValueBuilder final : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& text) override {
     check_tag(mark, tag);
+    check_closed(mark);
     place(Value::scalar(at(mark), text, tag == "!"));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
@@ -90,6 +91,24 @@ class ValueBuilder final : public YAML::EventHandler {
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
     problems_.add(at(mark), "tags are refused (" + quote(tag) + ")");
+  }
+
+  // yaml-cpp takes the end of the file for a closing quote.
+  void check_closed(const YAML::Mark& mark) {
+    const std::string& text = source_.text();
+    auto i = static_cast<size_t>(std::clamp<long>(mark.pos, 0, static_cast<long>(text.size())));
+    const char quote_mark = i < text.size() ? text[i] : ' ';
+    if (quote_mark != '"' && quote_mark != '\'') return;
+    for (++i; i < text.size(); ++i) {
+      if (quote_mark == '"' && text[i] == '\\') {
+        ++i;
+      } else if (text[i] == quote_mark) {
+        if (quote_mark == '"' || text.compare(i + 1, 1, "'") != 0) return;
+        ++i;
+      }
+    }
+    problems_.add(at(mark), "the quoted text does not end");
+    throw Stop{};
   }
 
   // End of the text before the mark, blanks left out.
@@ -195,12 +214,12 @@ std::string explain(const std::string& message) {
       {YAML::ErrorMsg::BAD_FILE, "values are nested too deep"},
   };
   for (const Wording& wording : kWordings) {
-    if (message == wording.theirs) return wording.ours;
+    if (message == wording.theirs) return "malformed YAML: " + std::string(wording.ours);
   }
   if (message.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR))
     return "aliases are refused; share values by 'include:'";
   std::string line = quote(message);
-  return line.substr(1, line.size() - 2);
+  return "malformed YAML: " + line.substr(1, line.size() - 2);
 }
 
 }  // namespace
@@ -226,8 +245,7 @@ std::optional<Value> read_yaml(std::string text, const std::string& file,
     return builder.take_root();
   } catch (const Stop&) {
   } catch (const YAML::Exception& error) {
-    problems.add(error.mark.is_null() ? whole : builder.at(error.mark),
-                 "malformed YAML: " + explain(error.msg));
+    problems.add(error.mark.is_null() ? whole : builder.at(error.mark), explain(error.msg));
   }
   return std::nullopt;
 }
