@@ -12,9 +12,10 @@ from eyes import CENTRE as EYE
 from limbs import EAR_AXIS, EAR_FACING, EAR_ROOT
 
 NOSE = (0.0, 4.50, 10.25)
+MOUTH = [(0.0, 4.00, 10.05), (0.0, 3.42, 9.76), (0.40, 3.30, 9.62), (0.78, 3.20, 9.15), (0.98, 3.34, 8.65)]
 WHISKER_PAD = (1.10, 4.10, 9.25)
 TAIL_STARTS = -9.7
-HIP, SHOULDER = (2.6, 3.0, -5.0), (2.0, 2.6, 2.0)
+HIP, SHOULDER = (2.8, 2.6, -5.0), (2.0, 2.4, 2.0)
 
 # Hair length, 1 = the longest, over z along the trunk and head
 LENGTH_ALONG = [(-10.4, 0.30), (-9.0, 0.80), (-6.0, 1.00), (-2.0, 0.95), (1.5, 0.85), (3.5, 0.68), (5.0, 0.44),
@@ -71,6 +72,18 @@ def eyelid(p):
     return vec.smoothstep(0.62, 0.46, vec.distance(p, EYE))
 
 
+def mouth(p):
+    """1 on the line of the mouth and the groove under the nose."""
+    nearest = min(to_segment(p, a, b) for a, b in zip(MOUTH, MOUTH[1:]))
+    return vec.smoothstep(0.15, 0.05, nearest)
+
+
+def to_segment(p, a, b):
+    ab = vec.sub(b, a)
+    t = min(max(vec.dot(vec.sub(p, a), ab) / vec.dot(ab, ab), 0.0), 1.0)
+    return vec.distance(p, vec.along(a, ab, t))
+
+
 def belly(p, n):
     return vec.smoothstep(-0.15, -0.75, n[1]) * vec.smoothstep(5.0, 3.0, p[1])
 
@@ -80,23 +93,27 @@ def length(p, n, part):
     value = curve(LENGTH_ALONG, p[2])
     value *= 1 - 0.30 * belly(p, n)
     if is_limb(part):
-        value *= 0.30 + 0.55 * vec.smoothstep(0.9, 2.4, p[1])
+        value *= 0.30 + 0.70 * vec.smoothstep(0.8, 3.0, p[1])
     in_ear, inside = ear(p, n, part)
     value += in_ear * (0.085 - 0.04 * inside - value)
     value += max(hand(p, part), tail(p)) * (NAKED_HAIR - value)
     near_eye = vec.smoothstep(1.15, 0.45, vec.distance(p, EYE))
     value *= 1 - 0.55 * near_eye
+    value *= 1 - 0.5 * mouth(p)
     return value * (1 - max(nose(p), eyelid(p)))
 
 
 def density(p, n, part):
+    """Relative density of (undercoat, guard hair, 0)."""
     p, n = left(p), left(n)
-    value = 0.85 + 0.15 * vec.smoothstep(4.0, 8.0, p[2])
+    under = 0.55 + 0.45 * vec.smoothstep(3.0, 8.0, p[2])
     in_ear, inside = ear(p, n, part)
-    value += in_ear * (0.38 - 0.22 * inside - value)
-    value += hand(p, part) * (0.22 - value)
-    value += tail(p) * (0.16 - value)
-    return value * (1 - max(nose(p), eyelid(p)))
+    furred = (1 - in_ear) * (1 - hand(p, part)) * (1 - tail(p)) * (1 - max(nose(p), eyelid(p)))
+    guard = furred * under
+    under += in_ear * (0.30 - 0.18 * inside - under)
+    under += hand(p, part) * (0.15 - under)
+    under += tail(p) * (0.12 - under)
+    return under * (1 - max(nose(p), eyelid(p))), guard, 0.0
 
 
 def flow(p, n, part):
@@ -105,7 +122,9 @@ def flow(p, n, part):
     middle = min(abs(p[0]) / 0.15, 1.0)     # the mid-line has no sideways flow
     p, n = left(p), (n[0] * side, n[1], n[2])
     if part.startswith("ear"):
-        raw = vec.add(vec.scale(EAR_AXIS, 1.0), vec.scale(vec.unit(vec.sub(p, EAR_ROOT)), 0.5))
+        up = vec.along(EAR_AXIS, vec.unit(vec.sub(p, EAR_ROOT)), 0.5)
+        height = vec.dot(vec.sub(p, EAR_ROOT), EAR_AXIS)
+        raw = vec.mix(trunk_flow(p, part), up, vec.smoothstep(-0.5, 0.3, height))
     elif tail(p) > 0:
         t = min(max((p[2] + 9.5) / -17.0, 0.0), 1.0)
         raw = vec.sub(tail_centre(t + 0.01), tail_centre(t - 0.01))
@@ -124,8 +143,10 @@ def trunk_flow(p, part):
     to_tail = vec.unit(vec.sub((0.0, 3.2, -11.0), p))
     raw = vec.mix(raw, to_tail, vec.smoothstep(-7.0, -9.2, p[2]))
     # down the legs, toward the toes on the feet
-    down = 1.0 if is_limb(part) else max(vec.bump(p, HIP, 1.5), vec.bump(p, SHOULDER, 1.1))
-    raw = vec.mix(raw, (0.08, -1.0, -0.35), 0.85 * down)
+    down = max(vec.bump(p, HIP, 1.9), vec.bump(p, SHOULDER, 1.4))
+    if is_limb(part):
+        down = max(down, vec.smoothstep(3.0, 1.4, p[1]))
+    raw = vec.mix(raw, (0.08, -1.0, -0.45), 0.80 * down)
     raw = vec.mix(raw, (0.0, -0.25, 1.0), hand(p, part))
     # around the eyes and the roots of the ears
     for centre, radius, amount in ((EYE, 0.70, 0.9), (EAR_ROOT, 0.95, 0.8)):
@@ -176,8 +197,11 @@ def tint(p, n, part):
     height = vec.smoothstep(5.2, 8.2, p[1] + 1.6 * vec.smoothstep(3.0, 8.0, p[2]))
     color = vec.mix(FLANK, BACK, height)
     color = vec.mix(color, MUZZLE, vec.smoothstep(7.5, 9.5, p[2]))
-    low = vec.smoothstep(0.05, -0.60, n[1]) * vec.smoothstep(4.6, 3.0, p[1])
-    color = vec.mix(color, BELLY, low)
+    low = vec.smoothstep(0.10, -0.50, n[1]) * vec.smoothstep(4.8, 2.8, p[1])
+    chin = vec.smoothstep(3.45, 3.10, p[1]) * vec.smoothstep(8.0, 9.0, p[2])
+    color = vec.mix(color, BELLY, max(low, chin))
+    color = vec.mix(color, PAW, ear(p, n, part)[0])
+    color = vec.mix(color, vec.scale(color, 0.35), mouth(p))
     if is_limb(part):
         color = vec.mix(color, PAW, hand(p, part))
     color = vec.mix(color, PAW, tail(p))

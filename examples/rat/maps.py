@@ -10,7 +10,7 @@ DILATION = 8     # texels by which every chart is widened, so that filtered look
 TINT_RANGE = 2.0
 
 # map: first channel and number of channels, in the row of values of a texel
-RAT_MAPS = {"length": (0, 1), "density": (1, 1), "direction": (2, 3), "tint": (5, 3), "skin": (8, 3), "whiskers": (11, 3)}
+RAT_MAPS = {"length": (0, 1), "density": (1, 3), "direction": (4, 3), "tint": (7, 3), "skin": (10, 3), "whiskers": (13, 3)}
 EYE_MAPS = {"eyes": (0, 3)}
 
 
@@ -18,7 +18,7 @@ def smooth_values(p, n, part):
     """What may be interpolated between the points of the subdivided skin, each 0 .. 1."""
     direction = [0.5 + 0.5 * x for x in coat.flow(p, n, part)]
     tint = [x / TINT_RANGE for x in coat.tint(p, n, part)]
-    return (coat.length(p, n, part), coat.density(p, n, part), *direction, *tint, *coat.skin(p, n, part))
+    return (coat.length(p, n, part), *coat.density(p, n, part), *direction, *tint, *coat.skin(p, n, part))
 
 
 def patches(mesh, atlas, smooth, steps=2):
