@@ -12,8 +12,8 @@ WIDTH, HEIGHT = 256, 128
 # Softboxes and windows: direction of the centre, half width and half height in degrees, softness of the edge
 # in degrees, radiance
 PANELS = [
-    ((0.10, 1.00, 0.15), 42, 34, 12, (4.2, 4.1, 4.0)),       # overhead softbox
-    ((0.80, 0.45, 0.55), 16, 24, 5, (6.5, 7.2, 8.4)),        # window, cool, camera right
+    ((0.10, 1.00, 0.15), 32, 26, 10, (4.6, 4.5, 4.4)),       # overhead softbox
+    ((0.84, 0.30, 0.46), 15, 20, 4, (6.5, 7.2, 8.4)),        # window, cool, camera right
     ((-0.75, 0.30, -0.80), 12, 30, 6, (5.6, 4.8, 4.0)),      # warm strip behind, for the rim of the fur
 ]
 WINDOW_BARS = 1      # the panel crossed by glazing bars
@@ -111,7 +111,7 @@ def run_lengths(values):
             i += run
             continue
         start = i
-        while i < len(values) and i - start < 128 and not (i + 2 < len(values) and values[i] == values[i + 1] == values[i + 2]):
+        while i < len(values) and i - start < 128 and values[i:i + 3] != [values[i]] * 3:
             i += 1
         out += bytes((i - start,)) + bytes(values[start:i])
     return out

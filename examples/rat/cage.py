@@ -214,7 +214,8 @@ def tail(mesh, body):
         points = []
         for i in range(6):
             angle = math.radians(60 * i)
-            points.append(vec.add(centre, vec.scale(up, radius * math.cos(angle)), vec.scale(across, radius * math.sin(angle))))
+            points.append(vec.add(centre, vec.scale(up, radius * math.cos(angle)),
+                                  vec.scale(across, radius * math.sin(angle))))
         upper = mesh.add_points(points)
         mesh.bridge(loop, upper, "tail", "tail", k)
         loop = upper

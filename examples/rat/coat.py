@@ -187,8 +187,8 @@ def whiskers(p, part):
 
 BACK, FLANK, BELLY = (0.80, 0.78, 0.76), (1.0, 1.0, 1.0), (1.70, 1.72, 1.74)
 MUZZLE, PAW = (1.10, 1.04, 1.00), (1.60, 1.55, 1.50)
-SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE, SKIN_TAIL = (0.36, 0.27, 0.24), (0.80, 0.53, 0.48), (0.82, 0.47, 0.43), (0.62, 0.44, 0.40)
-SKIN_INNER_EAR = (0.78, 0.50, 0.46)
+SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.36, 0.27, 0.24), (0.80, 0.53, 0.48), (0.82, 0.47, 0.43)
+SKIN_TAIL, SKIN_INNER_EAR = (0.62, 0.44, 0.40), (0.78, 0.50, 0.46)
 
 
 def tint(p, n, part):

@@ -10,7 +10,8 @@ DILATION = 8     # texels by which every chart is widened, so that filtered look
 TINT_RANGE = 2.0
 
 # map: first channel and number of channels, in the row of values of a texel
-RAT_MAPS = {"length": (0, 1), "density": (1, 3), "direction": (4, 3), "tint": (7, 3), "skin": (10, 3), "whiskers": (13, 3)}
+RAT_MAPS = {"length": (0, 1), "density": (1, 3), "direction": (4, 3), "tint": (7, 3), "skin": (10, 3),
+            "whiskers": (13, 3)}
 EYE_MAPS = {"eyes": (0, 3)}
 
 

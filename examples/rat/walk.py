@@ -93,7 +93,7 @@ def leg_motions(pair, side, phase, parent):
     toes = translation((0.0, lift, z))
     if phase > STANCE:      # toes hang while they swing
         s = (phase - STANCE) / (1 - STANCE)
-        toes = chain(toes, rotation(0, 25.0 * math.sin(math.pi * s), ball))
+        toes = chain(toes, rotation(0, 20.0 * math.sin(math.pi * s) ** 2, ball))
     foot = chain(translation((0.0, lift, z)), rotation(0, heel, ball))
     new_hip, new_ankle = apply(parent, hip), apply(foot, ankle)
     upper_turn, lower_turn = bend(hip, knee, ankle, new_hip, new_ankle, skeleton.LEGS[pair]["bend"])
