@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "render/light/light.h"
@@ -17,7 +18,9 @@ class LightSet {
   size_t size() const { return lights_.size(); }
   const Light& light(size_t i) const { return *lights_[i]; }
 
-  /// A light chosen with probability in proportion to its importance (mixed with 10 % of uniform choice).
+  /// A light chosen with probability in proportion to its importance (mixed with 10 % of uniform choice among
+  /// the lights that can contribute at all). One number, so that several choices with u = (k + offset) / n
+  /// form a systematic sample.
   struct Choice {
     size_t light = 0;
     float probability = 0;  ///< 0 when no light can contribute
@@ -25,6 +28,11 @@ class LightSet {
   };
   Choice choose(const V3f& from, const V3f& tangent, float u) const;
   float probability(const V3f& from, const V3f& tangent, size_t light) const;
+
+  /// The same in two steps, for those who need both at one point: probabilities of all lights into `out`
+  /// (size() entries; they sum to 1, or are all 0), then the choice.
+  void probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const;
+  static Choice choose(std::span<const float> probabilities, float u);
 
  private:
   std::vector<std::unique_ptr<Light>> lights_;

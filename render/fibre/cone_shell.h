@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/fibre/wigner.h"
+#include "render/surface/material.h"
+
+namespace pelage {
+
+/// Width and tilt of a specular shell with their sines and cosines: constants of a material.
+struct ShellShape {
+  /// Half width in [1, 90] degrees; tilt in degrees, added to the polar angle of the middle cone.
+  ShellShape(float half_width_degrees, float tilt_degrees);
+
+  float half_width;  ///< radians
+  float cos_width, sin_width;
+  float cos_tilt, sin_tilt;
+};
+
+/// How directions of a shell are drawn. All give the same integrals; kMatched is the one that rendering uses.
+enum class ShellSampler {
+  kMatched,  ///< in proportion to the shell's own density
+  kUniform,  ///< uniform in solid angle, as in the slides of [Neulander13]
+  kTent,     ///< the older piecewise-linear density, see tent_pdf()
+};
+
+/// A drawn polar cosine with its density in z.
+struct ShellPoint {
+  float z;
+  float pdf;
+};
+
+/// The directions between two cones about a tangent T: the specular lobe of the cone-shell model
+/// [Neulander10, Neulander13], normalised to integrate to one over the sphere.
+///
+/// A cylinder reflects into the cone that mirrors the inclination of wo: the middle cone has polar angle
+/// Theta_mid = acos(-sin theta_o) + tilt. The shell reaches half_width to both sides and is cut at the poles.
+/// The literal variant has the weight of the slides, cos(Theta - Theta_mid) in the whole shell; the Wigner
+/// variant has sqrt(1 - u^2), u in [-1, 1] the place of z = cos Theta between the cones, which falls to zero
+/// at both and is what the Wigner sampler draws. Both are uniform in azimuth.
+class ConeShell {
+ public:
+  ConeShell(const ShellShape& shape, ShellVariant variant, float sin_theta_o);
+
+  /// Throughput density of a white lobe per solid angle at z = dot(wi, T); also the density of sample().
+  float density(float z) const {
+    const float from_center = (z - center_) * inverse_half_range_;
+    const float inside = 1.0f - from_center * from_center;
+    if (!(inside > 0.0f)) return 0.0f;
+    if (variant_ == ShellVariant::kWigner) return scale_ * std::sqrt(inside);
+    const float weight = z * cos_mid_ + std::sqrt(std::max(0.0f, (1.0f - z) * (1.0f + z))) * sin_mid_;
+    return scale_ * std::max(0.0f, weight);
+  }
+
+  /// z drawn with density 2 pi density(z).
+  float sample(float xi) const {
+    if (variant_ == ShellVariant::kLiteral) return sample_literal(xi);
+    return std::clamp(center_ + half_range_ * WignerTable::instance().sample(xi), -1.0f, 1.0f);
+  }
+  /// The same by any sampler, with the density that it really has.
+  ShellPoint sample(ShellSampler sampler, float xi) const;
+
+  /// Range of z: cosines of the outer and the inner cone.
+  float z_min() const { return center_ - half_range_; }
+  float z_max() const { return center_ + half_range_; }
+
+ private:
+  float sample_literal(float xi) const;
+
+  ShellVariant variant_;
+  float cos_mid_, sin_mid_;
+  float half_width_;
+  float below_, above_;  ///< how far the shell reaches to smaller and larger Theta, radians (literal only)
+  float center_, half_range_, inverse_half_range_;
+  float scale_;  ///< normalises the weight
+};
+
+}  // namespace pelage

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light/environment_light.h"
+
+#include <cmath>
+
+#include "render/sampling/warp.h"
+
+namespace pelage {
+
+namespace {
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+}
+
+EnvironmentLight::EnvironmentLight(std::string name, const Rgb& radiance, bool visible)
+    : name_(std::move(name)),
+      radiance_(radiance),
+      importance_(4.0f * kPi * luminance(radiance)),
+      visible_(visible) {}
+
+EnvironmentLight::EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture,
+                                   const Rgb& factor, const M33f& to_world, bool visible,
+                                   MemoryLedger& ledger)
+    : name_(std::move(name)),
+      texture_(std::move(texture)),
+      radiance_(factor),
+      to_world_(to_world),
+      map_(std::make_unique<EnvironmentMap>(texture_->image(), factor)),
+      importance_(static_cast<float>(map_->power())),
+      visible_(visible),
+      charge_(ledger, MemoryTag::kTextures, static_cast<int64_t>(map_->bytes())) {}
+
+std::optional<LightSample> EnvironmentLight::sample(const V3f&, const V2f& u) const {
+  if (!(importance_ > 0.0f)) return std::nullopt;
+  if (!map_) return LightSample{uniform_direction(u), kInfinity, radiance_, 1.0f / (4.0f * kPi)};
+  const EnvironmentMap::Draw draw = map_->sample(u);
+  return LightSample{draw.direction * to_world_, kInfinity, map_->radiance(draw.texel),
+                     map_->pdf(draw.texel)};
+}
+
+float EnvironmentLight::pdf(const V3f&, const V3f& direction) const {
+  if (!(importance_ > 0.0f)) return 0.0f;
+  return map_ ? map_->pdf(map_->texel_of(to_map(direction))) : 1.0f / (4.0f * kPi);
+}
+
+std::optional<LightHit> EnvironmentLight::intersect(const V3f&, const V3f& direction) const {
+  return LightHit{kInfinity, map_ ? map_->radiance(map_->texel_of(to_map(direction))) : radiance_};
+}
+
+float EnvironmentLight::importance(const V3f&, const V3f&) const { return importance_; }
+
+V3f EnvironmentLight::to_map(const V3f& world) const {
+  // The inverse of a rotation is its transpose.
+  const M33f& m = to_world_;
+  return {world.x * m[0][0] + world.y * m[0][1] + world.z * m[0][2],
+          world.x * m[1][0] + world.y * m[1][1] + world.z * m[1][2],
+          world.x * m[2][0] + world.y * m[2][1] + world.z * m[2][2]};
+}
+
+M33f rotation_xyz(const V3f& degrees) {
+  const auto turn = [](float angle, int a, int b) {
+    const double radians = angle * std::numbers::pi / 180;
+    const float c = static_cast<float>(std::cos(radians)), s = static_cast<float>(std::sin(radians));
+    M33f m;
+    m[a][a] = c;
+    m[a][b] = s;
+    m[b][a] = -s;
+    m[b][b] = c;
+    return m;
+  };
+  return turn(degrees.x, 1, 2) * turn(degrees.y, 2, 0) * turn(degrees.z, 0, 1);
+}
+
+}  // namespace pelage

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "base/ledger.h"
+#include "image/texture.h"
+#include "render/light/environment_map.h"
+#include "render/light/light.h"
+
+namespace pelage {
+
+/// Light from infinitely far away in every direction: a lat-long image looked up without interpolation (crisp
+/// sun shadows; see EnvironmentMap), or one radiance for all directions.
+class EnvironmentLight final : public Light {
+ public:
+  EnvironmentLight(std::string name, const Rgb& radiance, bool visible);
+  /// `to_world` is the rotation from the space of EnvironmentMap. Throws Error (kInput) for images that
+  /// cannot be used.
+  EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture, const Rgb& factor,
+                   const M33f& to_world, bool visible, MemoryLedger& ledger);
+
+  const std::string& name() const override { return name_; }
+  std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
+  float pdf(const V3f& from, const V3f& direction) const override;
+  std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
+  float importance(const V3f& from, const V3f& tangent) const override;
+  bool visible() const override { return visible_; }
+
+ private:
+  V3f to_map(const V3f& world) const;
+
+  std::string name_;
+  std::shared_ptr<const Texture> texture_;
+  Rgb radiance_;                               ///< of the constant environment
+  M33f to_world_;                              ///< for row vectors, as all Imath matrices
+  std::unique_ptr<const EnvironmentMap> map_;  ///< none when constant
+  float importance_;
+  bool visible_;
+  MemoryCharge charge_;
+};
+
+/// Rotation about x, then y, then z, by degrees, for row vectors.
+M33f rotation_xyz(const V3f& degrees);
+
+}  // namespace pelage

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// Upper bound, but at least 0.1, of cos(theta_i) over the directions from a fibre of tangent `tangent` into
+/// a ball of `radius` about `to_center`: cos(max(0, |theta_c| - theta_u)), theta_c the inclination of the
+/// centre, theta_u the ball's angular radius. 1 for the null tangent (no fibre). The floor is for lobes about
+/// shifted tangents, to which the bound does not apply strictly.
+inline float fibre_cosine_bound(const V3f& to_center, float radius, const V3f& tangent) {
+  const float distance2 = to_center.dot(to_center);
+  if (tangent == V3f(0) || !(distance2 > radius * radius)) return 1.0f;
+  const float distance = std::sqrt(distance2);
+  const float sin_center = std::min(1.0f, std::abs(to_center.dot(tangent)) / distance);
+  const float sin_radius = radius / distance;
+  if (sin_center <= sin_radius) return 1.0f;
+  const float cos_center = std::sqrt((1.0f - sin_center) * (1.0f + sin_center));
+  const float cos_radius = std::sqrt((1.0f - sin_radius) * (1.0f + sin_radius));
+  return std::max(0.1f, cos_center * cos_radius + sin_center * sin_radius);
+}
+
+}  // namespace pelage

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light/guided_cdf.h"
+
+#include <algorithm>
+
+#include "render/sampling/warp.h"
+
+namespace pelage {
+
+double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide) {
+  double total = 0;
+  for (float w : weights) total += w;
+  double sum = 0;
+  size_t last = weights.size() - 1;
+  if (total > 0) {
+    while (weights[last] == 0) --last;
+  }
+  for (size_t i = 0; i < weights.size(); ++i) {
+    sum += total > 0 ? weights[i] / total : 1.0 / static_cast<double>(weights.size());
+    weights[i] = i >= last ? 1.0f : std::min(static_cast<float>(sum), 1.0f);
+  }
+  size_t i = 0;
+  for (size_t g = 0; g < guide.size(); ++g) {
+    const float start = static_cast<float>(g) / static_cast<float>(guide.size());
+    while (i < weights.size() - 1 && weights[i] <= start) ++i;
+    guide[g] = static_cast<uint32_t>(i);
+  }
+  return total;
+}
+
+GuidedDraw draw_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u) {
+  const size_t cell = std::min(static_cast<size_t>(u * static_cast<float>(guide.size())), guide.size() - 1);
+  // Rounding may have put u into the cell after its own: one entry further back is then still right.
+  size_t low = guide[cell];
+  while (low > 0 && cdf[low - 1] > u) --low;
+  size_t high = cell + 1 < guide.size() ? std::min<size_t>(guide[cell + 1] + 1, cdf.size()) : cdf.size();
+  while (high < cdf.size() && cdf[high - 1] <= u) ++high;
+  const auto entry = std::upper_bound(cdf.begin() + low, cdf.begin() + high, u);
+  const size_t index = std::min(static_cast<size_t>(entry - cdf.begin()), cdf.size() - 1);
+  const float before = index > 0 ? cdf[index - 1] : 0.0f;
+  const float width = cdf[index] - before;
+  return {index, width > 0 ? std::clamp((u - before) / width, 0.0f, kBelowOne) : u};
+}
+
+}  // namespace pelage

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light/rectangle_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/light/fibre_bound.h"
+#include "render/light/spherical_rectangle.h"
+
+namespace pelage {
+
+namespace {
+
+SphericalRectangle seen_from(const Rectangle& shape, const V3f& normal, const V3f& from) {
+  const V3f to_center = shape.center - from;
+  return {to_center.dot(shape.x), to_center.dot(shape.y), to_center.dot(normal), shape.half_size.x,
+          shape.half_size.y};
+}
+
+}  // namespace
+
+RectangleLight::RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided,
+                               bool visible)
+    : name_(std::move(name)),
+      shape_(shape),
+      normal_(shape.x.cross(shape.y)),
+      radiance_(radiance),
+      luminance_(luminance(radiance)),
+      radius_(shape.half_size.length()),
+      two_sided_(two_sided),
+      visible_(visible) {}
+
+double RectangleLight::solid_angle(const V3f& from) const {
+  return seen_from(shape_, normal_, from).solid_angle();
+}
+
+std::optional<LightSample> RectangleLight::sample(const V3f& from, const V2f& u) const {
+  if (!emits_toward((from - shape_.center).dot(normal_))) return std::nullopt;
+  const SphericalRectangle seen = seen_from(shape_, normal_, from);
+  if (!(seen.solid_angle() > 0)) return std::nullopt;
+  const V3d local = seen.sample(u.x, u.y);
+  const double distance = std::sqrt(local.dot(local));
+  const V3f x = static_cast<float>(local.x / distance) * shape_.x;
+  const V3f y = static_cast<float>(local.y / distance) * shape_.y;
+  const V3f z = static_cast<float>(local.z / distance) * normal_;
+  return LightSample{x + y + z, static_cast<float>(distance), radiance_,
+                     static_cast<float>(seen.pdf(distance))};
+}
+
+float RectangleLight::pdf(const V3f& from, const V3f& direction) const {
+  const std::optional<LightHit> hit = intersect(from, direction);
+  return hit ? static_cast<float>(seen_from(shape_, normal_, from).pdf(hit->distance)) : 0.0f;
+}
+
+std::optional<LightHit> RectangleLight::intersect(const V3f& from, const V3f& direction) const {
+  const V3f from_center = from - shape_.center;
+  const float height = from_center.dot(normal_);
+  const float descent = -direction.dot(normal_);
+  if (!emits_toward(height) || !(height * descent > 0.0f)) return std::nullopt;
+  const float distance = height / descent;
+  const V3f on_plane = from_center + distance * direction;
+  if (!(std::abs(on_plane.dot(shape_.x)) <= shape_.half_size.x) ||
+      !(std::abs(on_plane.dot(shape_.y)) <= shape_.half_size.y)) {
+    return std::nullopt;
+  }
+  return LightHit{distance, radiance_};
+}
+
+float RectangleLight::importance(const V3f& from, const V3f& tangent) const {
+  if (!emits_toward((from - shape_.center).dot(normal_))) return 0.0f;
+  return luminance_ * static_cast<float>(solid_angle(from)) *
+         fibre_cosine_bound(shape_.center - from, radius_, tangent);
+}
+
+}  // namespace pelage

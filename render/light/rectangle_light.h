@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/light/light.h"
+
+namespace pelage {
+
+/// A rectangle in space. `x` and `y` are unit and perpendicular; it emits to the side of x cross y.
+struct Rectangle {
+  V3f center{0};
+  V3f x{1, 0, 0};
+  V3f y{0, 1, 0};
+  V2f half_size{0.5f};
+};
+
+/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]; by area where it subtends so
+/// little that its angles cancel in rounding.
+class RectangleLight final : public Light {
+ public:
+  RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);
+
+  const std::string& name() const override { return name_; }
+  std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
+  float pdf(const V3f& from, const V3f& direction) const override;
+  std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
+  float importance(const V3f& from, const V3f& tangent) const override;
+  bool visible() const override { return visible_; }
+
+  /// Solid angle from `from`, whichever side that is on.
+  double solid_angle(const V3f& from) const;
+
+ private:
+  bool emits_toward(float height) const { return two_sided_ ? height != 0.0f : height > 0.0f; }
+
+  std::string name_;
+  Rectangle shape_;
+  V3f normal_;
+  Rgb radiance_;
+  float luminance_;
+  float radius_;  ///< of the circumscribed circle
+  bool two_sided_;
+  bool visible_;
+};
+
+}  // namespace pelage
