@@ -21,7 +21,7 @@ class Keyed {
   explicit Keyed(std::vector<std::pair<double, T>> keys) : keys_(std::move(keys)) {}
 
   T at(double frame) const {
-    if (keys_.empty()) return T{};
+    if (keys_.empty()) return T(0);
     auto after = std::upper_bound(keys_.begin(), keys_.end(), frame,
                                   [](double f, const auto& key) { return f < key.first; });
     if (after == keys_.begin()) return keys_.front().second;
@@ -52,7 +52,7 @@ struct ValueReader<Keyed<T>> {
     bool is_keyed = false;
     if (!detail::read_key_frames(value, frames, is_keyed, problems)) return false;
     if (!is_keyed) {
-      T constant{};
+      T constant(0);
       if (!ValueReader<T>::read(value, options, constant, problems)) return false;
       out = Keyed<T>(constant);
       return true;
@@ -60,7 +60,7 @@ struct ValueReader<Keyed<T>> {
     std::vector<std::pair<double, T>> keys;
     bool good = true;
     for (const auto& [frame, entry] : frames) {
-      keys.push_back({frame, T{}});
+      keys.push_back({frame, T(0)});
       good &= ValueReader<T>::read(*entry, options, keys.back().second, problems);
     }
     if (good) out = Keyed<T>(std::move(keys));

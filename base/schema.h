@@ -38,13 +38,14 @@ namespace pelage {
 
 /// What a key's value must satisfy and how the manual describes it.
 struct KeyOptions {
-  std::string unit;
-  std::string help;
+  std::string unit = {};
+  std::string help = {};
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;    ///< min itself is refused
-  std::string default_text;  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
+  bool above_min = false;  ///< min itself is refused
+  std::string default_text =
+      {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
 };
 
 class SchemaInfo;
