@@ -35,7 +35,8 @@ function(pelage_test room)
   target_link_libraries(${target} PRIVATE pelage_options pelage_warnings pelage_test_support ${ARG_DEPS} ${ARG_LIBS}
                         GTest::gtest GTest::gtest_main)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  gtest_discover_tests(${target} TEST_PREFIX ${room}. DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
+  gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES
+                       DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
                        PROPERTIES LABELS "${room};${ARG_LABELS}" TIMEOUT 900)
 endfunction()
 

@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# consumer_test.sh BUILD_DIR: installs what is built there, and builds and runs tests/consumer against that.
+set -euo pipefail
+source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/../consumer" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+cmake --install "$1" --prefix "$scratch/prefix" >"$scratch/install.log"
+cmake -S "$source_dir" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake --build "$scratch/build"
+said=$("$scratch/build/consumer")
+echo "$said"
+[ "$said" = "2 strands, 6 points, box -0.100 -0.100 -0.100 to 3.100 2.100 0.100" ]
+
+# The installed command, where there is one, runs from there and finds what it needs.
+if [ -x "$scratch/prefix/bin/pelage" ]; then "$scratch/prefix/bin/pelage" --version; fi

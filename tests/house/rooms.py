@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of rooms in docs/ARCHITECTURE.md, and what of a source tree breaks it."""
+import pathlib
+import re
+from dataclasses import dataclass, field
+
+# How each library that a table may name is included.
+LIBRARY_HEADERS = {
+    "TBB": r"(tbb|oneapi)/",
+    "spdlog": r"spdlog/",
+    "fmt": r"fmt/",
+    "xxHash": r"xxh",
+    "dlopen": r"dlfcn\.h",
+    "Imath": r"Imath/",
+    "OpenImageIO": r"OpenImageIO/",
+    "OpenEXR": r"(OpenEXR/|Imf|Iex|IlmThread)",
+    "OpenSubdiv": r"opensubdiv/",
+    "tinyobjloader": r"tiny_obj_loader",
+    "yaml-cpp": r"yaml-cpp/",
+    "liburcu": r"urcu",
+    "Embree": r"embree[0-9]/",
+    "Highway": r"hwy/",
+    "CLI11": r"CLI/",
+    "JSON": r"nlohmann/",
+}
+# Anything else in angle brackets is the C++ library (no dot, no slash), the C library or the system.
+SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys|linux)/[a-z]+\.h|[a-z]+\.h)$")
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+@dataclass
+class Room:
+    name: str
+    level: int
+    may_include: set = field(default_factory=set)
+    libraries: dict = field(default_factory=dict)  # name -> folder, the room itself or one below it
+
+
+def table_rows(text, heading):
+    """Cells of the first table below `heading`, without its two head lines."""
+    lines = text[text.index(heading):].splitlines()
+    start = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    rows = []
+    for line in lines[start + 2:]:
+        if not line.startswith("|"):
+            break
+        rows.append([cell.strip() for cell in line.strip().strip("|").split("|")])
+    return rows
+
+
+def read_rooms(text):
+    rooms = {}
+    for level, folder, _, may_include, libraries in table_rows(text, "## Rooms"):
+        room = Room(re.fullmatch(r"`([a-z]+)/`", folder).group(1), int(level))
+        room.may_include = may_include.split() if may_include not in ("–", "all") else may_include
+        for entry in libraries.split(",") if libraries != "–" else []:
+            name, _, below = entry.strip().partition(" in ")
+            room.libraries[name] = f"{room.name}/{below.strip('`/')}" if below else room.name
+        rooms[room.name] = room
+    for room in rooms.values():
+        if room.may_include == "all":
+            room.may_include = rooms.keys() - {room.name}
+        room.may_include = set(room.may_include) - {"–"}
+    return rooms
+
+
+def read_shared_libraries(text):
+    """Libraries of several rooms -> the rooms that may include them."""
+    rooms = read_rooms(text).keys()
+    return {name: set(rooms if where == "all" else where.split())
+            for name, where in table_rows(text, "### Shared libraries")}
+
+
+def library_of(header):
+    return next((name for name, pattern in LIBRARY_HEADERS.items() if re.match(pattern, header)), None)
+
+
+def violations(root, text):
+    """One line for each include below `root` that the tables in `text` do not allow."""
+    rooms, shared = read_rooms(text), read_shared_libraries(text)
+    owners = {name: folder for room in rooms.values() for name, folder in room.libraries.items()}
+    found = [f"the tables name {name}, which LIBRARY_HEADERS does not know"
+             for name in owners.keys() | shared.keys() if name not in LIBRARY_HEADERS]
+    found += [f"the table lets {room.name} include {other}, which is no room below it"
+              for room in rooms.values() for other in sorted(room.may_include)
+              if other not in rooms or rooms[other].level >= room.level]
+
+    for room in rooms.values():
+        for path in sorted((root / room.name).rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            inside = path.relative_to(root).as_posix()
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                quoted, header = match.group(1) == '"', match.group(2)
+                if quoted:
+                    other = header.split("/")[0]
+                    allowed = "/" in header and (other == room.name or other in room.may_include)
+                else:
+                    library = library_of(header)
+                    if library is None:
+                        allowed = SYSTEM_HEADER.match(header)
+                    elif library in shared:
+                        allowed = room.name in shared[library]
+                    else:
+                        allowed = inside.startswith(owners.get(library, "nowhere") + "/")
+                if not allowed:
+                    found.append(f"{inside}:{number}: {room.name} may not include {header}")
+    return found
+
+
+def source_root():
+    return pathlib.Path(__file__).resolve().parents[2]
