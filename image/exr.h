@@ -33,12 +33,13 @@ struct ExrImage {
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Throws Error
-/// (kFailed) naming the path.
+/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Half channels
+/// are rounded to nearest; what is beyond their range becomes their largest number, infinity stays. Throws
+/// Error (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
-/// Reads every channel of the first part. Throws Error (kInput) naming the file when it is missing or
-/// damaged.
+/// Reads every channel of the first part (scan lines or tiles) over its data window, and those attributes
+/// that ExrAttribute can hold. Throws Error (kInput) naming the file when it is missing or damaged.
 ExrImage read_exr(const std::filesystem::path& path);
 
 }  // namespace pelage

@@ -40,8 +40,12 @@ struct FieldDependence {
 ///   0.5 | [r, g, b]
 ///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}   // without channel: colour
 ///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  // piecewise linear; values may be
-///   colours {noise: {frequency, amplitude, offset}}                             // offset + amplitude *
-///   noise(rest * frequency) {attribute: name} {product: [field, field, ...]}
+///   colours {noise: {frequency, amplitude, offset, seed}}                       // offset + amplitude *
+///   noise(rest * frequency) {attribute: name}                                                   // 0 where
+///   strands do not carry it {product: [field, field, ...]}
+///
+/// A map with a channel is data: `space: auto` takes it as stored. A map without one is a colour: auto
+/// decodes integer formats from sRGB and leaves floating-point formats alone.
 class Field {
  public:
   struct Node;
@@ -50,13 +54,14 @@ class Field {
   explicit Field(Rgb constant);
   explicit Field(std::shared_ptr<const Node> node);
 
-  /// First channel / all three. Maps must have been loaded (see load_textures).
+  /// First channel / all three. Maps must have been read (with_textures).
   float value(const FieldPoint& point) const;
   Rgb color(const FieldPoint& point) const;
 
   FieldDependence dependence() const;
   bool is_constant() const;
-  /// Bounds of the values that the field can take in the first channel (maps: their range).
+  /// Bounds of the values that the field can take in the first channel. Maps: of what they hold, or of their
+  /// `range` until they are read. Attributes have none: infinite, but for the limits of the key.
   std::pair<float, float> value_range() const;
   /// Names of the attributes it reads.
   std::vector<std::string> attribute_names() const;
@@ -64,16 +69,20 @@ class Field {
   /// The same field with its maps read. Throws Error (kInput) at the place in the scene where a map is named.
   Field with_textures(TextureLibrary& textures) const;
 
+  const Node& node() const { return *node_; }
+
  private:
   std::shared_ptr<const Node> node_;
 };
 
-/// `min` and `max` of the options are checked against the constants of the field.
+/// The limits of the options hold for every value of a field: numbers that a scene states outside them are
+/// refused; what maps, noise, attributes and products come to is kept within them.
 template <>
 struct ValueReader<Field> {
   static bool read(const Value&, const KeyOptions&, Field& out, Problems&);
   static std::string type_name() { return "field"; }
   static std::string print(const Field& field);
+  static std::vector<const SchemaInfo*> blocks();
 };
 
 /// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives

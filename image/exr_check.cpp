@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/exr_check.h"
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint32_t kMagic = 20000630;
+constexpr uint32_t kLongNames = 0x400, kMultiPart = 0x1000;
+constexpr int64_t kLargestSide = 1 << 16;
+constexpr int64_t kMostBlockBytes = int64_t(1) << 29;
+constexpr int kMostParts = 1024;
+
+/// Rows that are compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
+/// DWAA, DWAB).
+constexpr int64_t kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+
+class HeaderWalk {
+ public:
+  explicit HeaderWalk(const std::filesystem::path& path) : path_(path), stream_(path, std::ios::binary) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) {
+      fail(std::filesystem::exists(path, error) ? "is not a regular file" : "there is no such file");
+    }
+    if (!stream_) fail("cannot be opened");
+    size_ = static_cast<int64_t>(std::filesystem::file_size(path, error));
+  }
+
+  void run() {
+    if (size_ < 8 || number() != kMagic) fail("is not an EXR file");
+    const uint32_t version = number();
+    longest_name_ = (version & kLongNames) ? 255 : 31;
+    int parts = 0;
+    while (header()) {
+      if (!(version & kMultiPart)) return;
+      if (++parts > kMostParts) fail("has too many parts");
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw Error(ErrorKind::kInput, {path_.string(), 0, 0}, why);
+  }
+
+  void bytes(void* to, int64_t count) {
+    stream_.read(static_cast<char*>(to), count);
+    if (stream_.gcount() != count) fail("ends within its header");
+  }
+  uint32_t number() {
+    unsigned char b[4];
+    bytes(b, 4);
+    return uint32_t(b[0]) | uint32_t(b[1]) << 8 | uint32_t(b[2]) << 16 | uint32_t(b[3]) << 24;
+  }
+  int64_t signed_number() { return static_cast<int32_t>(number()); }
+  std::string name() {
+    std::string text;
+    for (char c = 0; bytes(&c, 1), c != '\0'; text += c) {
+      if (text.size() >= longest_name_) fail("has a name in its header that does not end");
+    }
+    return text;
+  }
+
+  /// One header; false for the empty one that ends the list of a multi-part file.
+  bool header() {
+    int64_t width = 1, height = 1, pixel_bytes = 0, rows = 1;
+    bool is_empty = true;
+    for (std::string attribute = name(); !attribute.empty(); attribute = name()) {
+      is_empty = false;
+      name();
+      const int64_t length = signed_number();
+      const int64_t begin = stream_.tellg();
+      if (length < 0 || length > size_ - begin) {
+        fail("attribute " + quote(attribute) + " claims " + std::to_string(length) +
+             " bytes, more than there are");
+      }
+      if (attribute == "dataWindow" && length == 16) {
+        const int64_t x0 = signed_number(), y0 = signed_number();
+        width = signed_number() - x0 + 1;
+        height = signed_number() - y0 + 1;
+      } else if (attribute == "compression" && length == 1) {
+        unsigned char kind = 0;
+        bytes(&kind, 1);
+        rows = kind < std::size(kBlockRows) ? kBlockRows[kind] : 256;
+      } else if (attribute == "tiles" && length == 9) {
+        rows = tile_rows();
+      } else if (attribute == "channels") {
+        pixel_bytes = channels();
+      }
+      stream_.seekg(begin + length);
+    }
+    if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
+      fail("claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+    }
+    if (width * pixel_bytes * rows > kMostBlockBytes) fail("claims rows that are too long");
+    return !is_empty;
+  }
+
+  /// Bytes of one pixel of all channels.
+  int64_t channels() {
+    int64_t total = 0;
+    while (!name().empty()) {
+      total += number() == 1 ? 2 : 4;
+      stream_.seekg(12, std::ios::cur);
+    }
+    return total;
+  }
+
+  int64_t tile_rows() {
+    const int64_t width = number(), height = number();
+    if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide)
+      fail("claims impossible tiles");
+    return height;
+  }
+
+  const std::filesystem::path& path_;
+  std::ifstream stream_;
+  int64_t size_ = 0;
+  size_t longest_name_ = 31;
+};
+
+}  // namespace
+
+void check_exr_headers(const std::filesystem::path& path) { HeaderWalk(path).run(); }
+
+}  // namespace pelage

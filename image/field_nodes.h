@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/value_readers.h"
+#include "image/field.h"
+#include "image/texture.h"
+
+// The forms of a field behind image/field.h, and the blocks of the scene file that state them.
+
+namespace pelage {
+
+struct Field::Node {
+  virtual ~Node() = default;
+  virtual float value(const FieldPoint& point) const = 0;
+  virtual Rgb color(const FieldPoint& point) const = 0;
+  virtual FieldDependence dependence() const = 0;
+  virtual std::pair<float, float> range() const = 0;
+  virtual std::string print() const = 0;
+  virtual void collect_attributes(std::vector<std::string>&) const {}
+  /// The node with its maps read, or nullptr when it has none to read.
+  virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
+};
+
+enum class MapChannel { kR, kG, kB, kA };
+template <>
+struct EnumNames<MapChannel> {
+  static constexpr const char* names[] = {"r", "g", "b", "a"};
+};
+
+/// {map: f.png, channel: r, range: [a, b], space: auto}
+struct MapForm {
+  AssetPath map;
+  std::optional<MapChannel> channel;
+  V2f range{0, 1};
+  ColorSpace space = ColorSpace::kAuto;
+  static const Schema<MapForm>& schema();
+};
+
+enum class RampAxis { kStrand, kX, kY, kZ, kU, kV };
+template <>
+struct EnumNames<RampAxis> {
+  static constexpr const char* names[] = {"strand", "x", "y", "z", "u", "v"};
+};
+
+struct RampKnot {
+  float at = 0;
+  Rgb value{0};
+};
+template <>
+struct ValueReader<RampKnot> {
+  static bool read(const Value&, const KeyOptions&, RampKnot& out, Problems&);
+  static std::string type_name() { return "[number, number or colour]"; }
+  static std::string print(const RampKnot& knot);
+};
+
+struct Ramp {
+  RampAxis along = RampAxis::kStrand;
+  std::vector<RampKnot> knots;  ///< by rising `at`; two of equal `at` make a step
+  static const Schema<Ramp>& schema();
+};
+
+struct Noise {
+  float frequency = 1;
+  float amplitude = 1;
+  float offset = 0;
+  int seed = 0;
+  static const Schema<Noise>& schema();
+};
+
+Field map_field(MapForm form);
+Field ramp_field(Ramp ramp);
+Field noise_field(Noise noise);
+Field attribute_field(std::string name);
+Field product_field(std::vector<Field> factors);
+/// `field`, every channel of which is kept within [low, high].
+Field clamped_field(Field field, float low, float high);
+
+}  // namespace pelage

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/nearest_name.h"
+#include "image/field_nodes.h"
+
+namespace pelage {
+namespace {
+
+// What stands beside the blocks' own keys: {ramp: {...}}, {noise: {...}}, {attribute: name}, {product:
+// [...]}.
+struct RampForm {
+  Ramp ramp;
+  static const Schema<RampForm>& schema();
+};
+struct NoiseForm {
+  Noise noise;
+  static const Schema<NoiseForm>& schema();
+};
+struct AttributeForm {
+  std::string attribute;
+  static const Schema<AttributeForm>& schema();
+};
+struct Factors {
+  std::vector<Field> list;
+};
+struct ProductForm {
+  Factors product;
+  static const Schema<ProductForm>& schema();
+};
+
+}  // namespace
+
+// Names no blocks: a field's blocks include this one, and the table would be asked for while it is made.
+template <>
+struct ValueReader<Factors> {
+  static bool read(const Value& value, const KeyOptions& options, Factors& out, Problems& problems) {
+    return ValueReader<std::vector<Field>>::read(value, options, out.list, problems);
+  }
+  static std::string type_name() { return "list of field"; }
+  static std::string print(const Factors& factors) {
+    return ValueReader<std::vector<Field>>::print(factors.list);
+  }
+};
+
+namespace {
+
+const Schema<RampForm>& RampForm::schema() {
+  static const Schema<RampForm> table = [] {
+    Schema<RampForm> s("ramp field", "A value that changes along a strand or over the skin.");
+    s.key("ramp", &RampForm::ramp, {.help = "Where and what", .required = true});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<NoiseForm>& NoiseForm::schema() {
+  static const Schema<NoiseForm> table = [] {
+    Schema<NoiseForm> s("noise field", "A value that wanders smoothly over the skin.");
+    s.key("noise", &NoiseForm::noise, {.help = "How fast and how far", .required = true});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<AttributeForm>& AttributeForm::schema() {
+  static const Schema<AttributeForm> table = [] {
+    Schema<AttributeForm> s("attribute field", "A value that strands carry.");
+    s.key("attribute", &AttributeForm::attribute, {.help = "Name of the attribute", .required = true});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<ProductForm>& ProductForm::schema() {
+  static const Schema<ProductForm> table = [] {
+    Schema<ProductForm> s("product field", "The product of several fields.");
+    s.key("product", &ProductForm::product, {.help = "The factors", .required = true});
+    return s;
+  }();
+  return table;
+}
+
+/// Adds a problem for a value outside the limits of the key, at its own place.
+bool within_limits(const Value& value, const KeyOptions& options, Problems& problems) {
+  Rgb ignored;
+  return ValueReader<Rgb>::read(value, options, ignored, problems);
+}
+
+bool read_map(const Value& value, const KeyOptions& options, Field& out, Problems& problems) {
+  MapForm form;
+  if (!MapForm::schema().read(value, form, problems)) return false;
+  V2f ignored;
+  const Value* range = value.find("range");
+  if (range && !ValueReader<V2f>::read(*range, options, ignored, problems)) return false;
+  out = map_field(std::move(form));
+  return true;
+}
+
+bool read_ramp(const Value& value, const KeyOptions& options, Field& out, Problems& problems) {
+  RampForm form;
+  if (!RampForm::schema().read(value, form, problems)) return false;
+  const Value& list = *value.find("ramp")->find("knots");
+  bool good = true;
+  if (form.ramp.knots.size() < 2) {
+    problems.add(list.position(),
+                 fmt::format("a ramp needs at least 2 knots, got {}", form.ramp.knots.size()));
+    good = false;
+  }
+  for (size_t i = 0; i < form.ramp.knots.size(); ++i) {
+    const Value& knot = list.items()[i];
+    good &= within_limits(knot.items()[1], options, problems);
+    if (i > 0 && form.ramp.knots[i].at < form.ramp.knots[i - 1].at) {
+      problems.add(knot.position(), fmt::format("knots must be in rising order, got {} after {}",
+                                                form.ramp.knots[i].at, form.ramp.knots[i - 1].at));
+      good = false;
+    }
+  }
+  if (good) out = ramp_field(std::move(form.ramp));
+  return good;
+}
+
+bool read_noise(const Value& value, const KeyOptions& options, Field& out, Problems& problems) {
+  NoiseForm form;
+  if (!NoiseForm::schema().read(value, form, problems)) return false;
+  const Value* offset = value.find("noise")->find("offset");
+  if (offset && !within_limits(*offset, options, problems)) return false;
+  out = noise_field(form.noise);
+  return true;
+}
+
+bool read_attribute(const Value& value, const KeyOptions&, Field& out, Problems& problems) {
+  AttributeForm form;
+  if (!AttributeForm::schema().read(value, form, problems)) return false;
+  if (form.attribute.empty()) {
+    problems.add(value.find("attribute")->position(), "expected the name of an attribute, got ''");
+    return false;
+  }
+  out = attribute_field(std::move(form.attribute));
+  return true;
+}
+
+bool read_product(const Value& value, const KeyOptions&, Field& out, Problems& problems) {
+  ProductForm form;
+  if (!ProductForm::schema().read(value, form, problems)) return false;
+  if (form.product.list.empty()) {
+    problems.add(value.find("product")->position(), "a product needs at least 1 factor");
+    return false;
+  }
+  out = product_field(std::move(form.product.list));
+  return true;
+}
+
+using FormReader = bool (*)(const Value&, const KeyOptions&, Field&, Problems&);
+struct Form {
+  const char* key;
+  FormReader read;
+};
+constexpr Form kForms[] = {{"map", read_map},
+                           {"ramp", read_ramp},
+                           {"noise", read_noise},
+                           {"attribute", read_attribute},
+                           {"product", read_product}};
+
+/// What the key's limits allow, as floats within them.
+std::pair<float, float> float_limits(const KeyOptions& options) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low = static_cast<float>(options.min);
+  if (static_cast<double>(low) < options.min || options.above_min) low = std::nextafter(low, kInfinity);
+  float high = static_cast<float>(options.max);
+  if (static_cast<double>(high) > options.max) high = std::nextafter(high, -kInfinity);
+  return {low, high};
+}
+
+bool read_form(const Value& value, const KeyOptions& options, Field& out, Problems& problems) {
+  for (const Form& form : kForms) {
+    if (!value.find(form.key)) continue;
+    if (!form.read(value, options, out, problems)) return false;
+    const bool limited = std::isfinite(options.min) || std::isfinite(options.max);
+    if (limited) {
+      const auto [low, high] = float_limits(options);
+      out = clamped_field(out, low, high);
+    }
+    return true;
+  }
+  std::vector<std::string> names;
+  for (const Form& form : kForms) names.push_back(form.key);
+  if (value.entries().empty()) {
+    problems.add(value.position(), "expected map, ramp, noise, attribute or product, got an empty block");
+    return false;
+  }
+  const Value::Entry& entry = value.entries().front();
+  problems.add(entry.key_position, "unknown kind of field " + quote(entry.key) + suggest(entry.key, names));
+  return false;
+}
+
+}  // namespace
+
+const Schema<MapForm>& MapForm::schema() {
+  static const Schema<MapForm> table = [] {
+    Schema<MapForm> s("map field", "A value read from an image by the texture coordinates of the root.");
+    s.key("map", &MapForm::map, {.help = "Image file of any common format", .required = true});
+    s.key("channel", &MapForm::channel,
+          {.help = "One channel, taken as data; without it the map is a colour"});
+    s.key("range", &MapForm::range, {.help = "What stored 0 and 1 stand for"});
+    s.key("space", &MapForm::space,
+          {.help = "How stored values become linear; auto: integer formats are sRGB, unless a channel is "
+                   "given, and floating-point formats linear"});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<Ramp>& Ramp::schema() {
+  static const Schema<Ramp> table = [] {
+    Schema<Ramp> s("ramp", "Piecewise linear between knots, constant outside them.");
+    s.key(
+        "along", &Ramp::along,
+        {.help = "strand: 0 at the root, 1 at the tip; x, y, z: the root in the skin's rest space; u, v: its "
+                 "texture coordinates"});
+    s.key("knots", &Ramp::knots,
+          {.help =
+               "[position, value] in rising order, values being numbers or colours; two at one position make "
+               "a step",
+           .required = true});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<Noise>& Noise::schema() {
+  static const Schema<Noise> table = [] {
+    Schema<Noise> s("noise", "offset + amplitude * gradient noise in [-1, 1] of the root's rest position.");
+    s.key("frequency", &Noise::frequency,
+          {.unit = "per scene unit", .help = "Cells of the noise per unit", .min = 0});
+    s.key("amplitude", &Noise::amplitude, {.help = "Farthest from the offset"});
+    s.key("offset", &Noise::offset, {.help = "Value in the middle"});
+    s.key("seed", &Noise::seed, {.help = "Another noise for another number", .min = 0});
+    return s;
+  }();
+  return table;
+}
+
+bool ValueReader<RampKnot>::read(const Value& value, const KeyOptions&, RampKnot& out, Problems& problems) {
+  if (!value.is_list() || value.items().size() != 2) {
+    problems.add(value.position(), "expected a knot, [position, value], got " + value.describe());
+    return false;
+  }
+  const bool at = ValueReader<float>::read(value.items()[0], {}, out.at, problems);
+  return ValueReader<Rgb>::read(value.items()[1], {}, out.value, problems) && at;
+}
+
+std::string ValueReader<RampKnot>::print(const RampKnot& knot) {
+  return fmt::format("[{}, {}]", ValueReader<float>::print(knot.at),
+                     ValueReader<Field>::print(Field(knot.value)));
+}
+
+bool ValueReader<Field>::read(const Value& value, const KeyOptions& options, Field& out, Problems& problems) {
+  if (value.is_map()) return read_form(value, options, out, problems);
+  const bool is_number = value.is_scalar() && !value.quoted() && parse_number(value.text());
+  if (!is_number && !(value.is_list() && value.items().size() == 3)) {
+    problems.add(value.position(),
+                 "expected a number, a colour [r, g, b], or a block with map, ramp, noise, "
+                 "attribute or product, got " +
+                     value.describe());
+    return false;
+  }
+  Rgb constant;
+  if (!ValueReader<Rgb>::read(value, options, constant, problems)) return false;
+  out = Field(constant);
+  return true;
+}
+
+std::vector<const SchemaInfo*> ValueReader<Field>::blocks() {
+  return {&MapForm::schema(), &RampForm::schema(), &NoiseForm::schema(), &AttributeForm::schema(),
+          &ProductForm::schema()};
+}
+
+}  // namespace pelage

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/reader_module.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imageio.h>
+
+namespace {
+
+constexpr int kLargestSide = 1 << 16;
+constexpr int kMostChannels = 4;
+constexpr size_t kStripFloats = size_t(1) << 20;
+constexpr size_t kMostStripFloats = size_t(1) << 26;
+
+/// The library's messages may have several lines.
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.' || text.back() == ' ')) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "cannot be decoded" : text;
+}
+
+/// Once per process: no threads of its own, which would compete with a renderer's, and bounded memory.
+void configure() {
+  static const bool done = [] {
+    OIIO::attribute("threads", 1);
+    OIIO::attribute("exr_threads", 1);
+    OIIO::attribute("limits:imagesize_MB", 4096);
+    return true;
+  }();
+  static_cast<void>(done);
+}
+
+class Source {
+ public:
+  explicit Source(const char* path) {
+    OIIO::ImageSpec configuration;
+    configuration["oiio:UnassociatedAlpha"] = 1;
+    input_ = OIIO::ImageInput::open(path, &configuration);
+    if (!input_) throw std::runtime_error(one_line(OIIO::geterror()));
+  }
+
+  PelageImageInfo info() const {
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
+      throw std::runtime_error("is not a picture");
+    }
+    if (spec.width > kLargestSide || spec.height > kLargestSide) {
+      throw std::runtime_error("claims to have " + std::to_string(spec.width) + " x " +
+                               std::to_string(spec.height) + " pixels, at most 65536 a side are accepted");
+    }
+    const bool is_integer = !spec.format.is_floating_point();
+    return {spec.width, spec.height, std::min(spec.nchannels, kMostChannels), is_integer ? 1 : 0};
+  }
+
+  /// Hands over strips of rows; false when the sink has had enough.
+  bool read(const PelageImageInfo& info, const PelageImageSink& sink) {
+    const OIIO::ImageSpec& spec = input_->spec();
+    const size_t row = static_cast<size_t>(info.width) * static_cast<size_t>(info.channels);
+    const bool tiled = spec.tile_width > 0;
+    const int rows = tiled ? spec.tile_height : static_cast<int>(std::max<size_t>(kStripFloats / row, 1));
+    if (row * static_cast<size_t>(std::min(rows, info.height)) > kMostStripFloats) {
+      throw std::runtime_error("has tiles that are too large");
+    }
+    std::vector<float> strip;
+    for (int y = 0; y < info.height; y += rows) {
+      const int end = std::min(y + rows, info.height);
+      strip.resize(row * static_cast<size_t>(end - y));
+      const int top = spec.y + y, bottom = spec.y + end;
+      const bool good = tiled
+                            ? input_->read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, spec.z,
+                                                 spec.z + 1, 0, info.channels, OIIO::TypeFloat, strip.data())
+                            : input_->read_scanlines(0, 0, top, bottom, spec.z, 0, info.channels,
+                                                     OIIO::TypeFloat, strip.data());
+      if (!good) throw std::runtime_error(one_line(input_->geterror()));
+      if (sink.rows(sink.context, strip.data(), strip.size()) != 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::unique_ptr<OIIO::ImageInput> input_;
+};
+
+}  // namespace
+
+int pelage_image_reader_version(void) {
+  configure();
+  return PELAGE_IMAGE_READER_VERSION;
+}
+
+int pelage_read_image(const char* path, const PelageImageSink* sink, char* message, size_t message_size) {
+  try {
+    configure();
+    Source source(path);
+    const PelageImageInfo info = source.info();
+    if (sink->begin(sink->context, &info) != 0) return 1;
+    return source.read(info, *sink) ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::snprintf(message, message_size, "%s", error.what());
+  } catch (...) {
+    std::snprintf(message, message_size, "cannot be decoded");
+  }
+  return 1;
+}
