@@ -208,6 +208,16 @@ bool ValueReader<AssetPath>::read(const Value& value, const KeyOptions&, AssetPa
 }
 std::string ValueReader<AssetPath>::print(const AssetPath& v) { return v.empty() ? "none" : v.path.string(); }
 
+bool ValueReader<NameReference>::read(const Value& value, const KeyOptions&, NameReference& out,
+                                      Problems& problems) {
+  if (!value.is_scalar() || value.text().empty()) {
+    problems.add(value.position(), "expected a name, got " + value.describe());
+    return false;
+  }
+  out = {value.text(), value.position()};
+  return true;
+}
+
 bool ValueReader<ByteSize>::read(const Value& value, const KeyOptions& options, ByteSize& out,
                                  Problems& problems) {
   const std::optional<uint64_t> bytes = value.is_scalar() ? parse_bytes(value.text()) : std::nullopt;

@@ -29,6 +29,12 @@ struct AssetPath {
   bool empty() const { return path.empty(); }
 };
 
+/// The name of something else in the scene, and where it was used, for errors about what it names.
+struct NameReference {
+  std::string name;
+  SourcePosition position;
+};
+
 /// Bytes, written as 512M or 4G (powers of 1024).
 struct ByteSize {
   uint64_t bytes = 0;
@@ -107,6 +113,12 @@ struct ValueReader<AssetPath> {
   static bool read(const Value&, const KeyOptions&, AssetPath& out, Problems&);
   static std::string type_name() { return "file"; }
   static std::string print(const AssetPath& v);
+};
+template <>
+struct ValueReader<NameReference> {
+  static bool read(const Value&, const KeyOptions&, NameReference& out, Problems&);
+  static std::string type_name() { return "name"; }
+  static std::string print(const NameReference& v) { return v.name.empty() ? "none" : v.name; }
 };
 template <>
 struct ValueReader<ByteSize> {
@@ -231,7 +243,11 @@ struct ValueReader<std::variant<Ps...>> {
     ((type->text() == Ps::kTypeName ? void(good = read_as<Ps>(value, key, out, problems)) : void(0)), ...);
     return good;
   }
-  static std::string type_name() { return "block"; }
+  static std::string type_name() {
+    std::string names;
+    ((names += (names.empty() ? "" : " | ") + std::string(Ps::kTypeName)), ...);
+    return "block with " + std::string(std::variant_alternative_t<0, Variant>::kTypeKey) + ": " + names;
+  }
   static std::string print(const Variant&) { return "{}"; }
   static std::vector<const SchemaInfo*> blocks() { return {&Ps::schema()...}; }
 

@@ -29,7 +29,7 @@ struct GroomCacheParams {
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  std::string skin;        ///< name of a skin; empty for an imported groom
+  NameReference skin;      ///< name of a skin; empty for an imported groom
   AssetPath strands_file;  ///< curves made elsewhere, instead of everything but `role` and `operators`
   std::optional<CurveBasis> basis;     ///< of strands_file
   std::optional<float> default_width;  ///< of strands_file

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "base/nearest_name.h"
+#include "cli/scene_schema.h"
+
+namespace pelage {
+namespace {
+
+template <class T>
+void check_name(const NameReference& reference, const char* what, const Named<T>& known, Problems& problems) {
+  if (known.find(reference.name)) return;
+  std::string message = "there is no " + std::string(what) + " " + quote(reference.name);
+  message += known.items.empty() ? "; the scene has none" : suggest(reference.name, known.names());
+  problems.add(reference.position, std::move(message));
+}
+
+bool is_fibre(const MaterialParams& material) { return std::holds_alternative<ConeShellParams>(material); }
+
+void check_material(const SceneDescription& scene, const NameReference& reference, bool for_fibres,
+                    Problems& problems) {
+  const auto* material = scene.materials.find(reference.name);
+  if (!material) {
+    check_name(reference, "material", scene.materials, problems);
+  } else if (is_fibre(material->value) != for_fibres) {
+    problems.add(reference.position, quote(reference.name) + " is a material for " +
+                                         (for_fibres ? "skins, not for strands" : "strands, not for skins"));
+  }
+}
+
+void check_part(const SceneDescription& scene, const PartParams& part, Problems& problems) {
+  check_name(part.skin, "skin", scene.skins, problems);
+  check_material(scene, part.material, false, problems);
+  for (const auto& [name, position, material] : part.grooms.items) {
+    const auto* groom = scene.grooms.find(name);
+    if (!groom) {
+      check_name({name, position}, "groom", scene.grooms, problems);
+    } else if (!groom->value.skin.name.empty() && groom->value.skin.name != part.skin.name) {
+      problems.add(position, "groom " + quote(name) + " grows on the skin " + quote(groom->value.skin.name) +
+                                 ", not on " + quote(part.skin.name));
+    }
+    check_material(scene, material, true, problems);
+  }
+}
+
+// By file in the order of first mention, then by line: what a reader of the files expects.
+std::vector<Problem> in_file_order(std::vector<Problem> problems) {
+  std::map<std::string, size_t> files;
+  for (const Problem& problem : problems) files.try_emplace(problem.position.file, files.size());
+  std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
+    const auto key = [&](const Problem& p) {
+      return std::tuple(files.at(p.position.file), p.position.line, p.position.column);
+    };
+    return key(a) < key(b);
+  });
+  return problems;
+}
+
+}  // namespace
+
+void check_references(const SceneDescription& scene, Problems& problems) {
+  for (const auto& [name, position, groom] : scene.grooms.items) {
+    if (!groom.skin.name.empty()) {
+      check_name(groom.skin, "skin", scene.skins, problems);
+    } else if (groom.strands_file.empty()) {
+      problems.add(position, "groom " + quote(name) + " needs a skin to grow on, or a strands_file");
+    }
+  }
+  for (const auto& [name, position, character] : scene.characters.items) {
+    if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
+    for (const PartParams& part : character.parts) check_part(scene, part, problems);
+  }
+}
+
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+  Problems problems;
+  SceneDescription scene;
+  if (const std::optional<Value> document = load_document(path, overrides, problems)) {
+    // A name that is missing because its block could not be read would be blamed twice.
+    if (SceneDescription::schema().read(*document, scene, problems)) check_references(scene, problems);
+  }
+  if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
+  return scene;
+}
+
+}  // namespace pelage

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "cli/commands.h"
+#include "cli/report_error.h"
+
+namespace {
+
+int run(const pelage::Options& options) {
+  using pelage::Command;
+  switch (options.command) {
+    case Command::kRender:
+      return pelage::run_render(options);
+    case Command::kGrow:
+      return pelage::run_grow(options);
+    case Command::kInfo:
+      return pelage::run_info(options);
+    case Command::kConvert:
+      return pelage::run_convert(options);
+    case Command::kManual:
+      return pelage::run_manual(options);
+  }
+  return 2;
+}
+
+int run_command_line(int argc, char** argv) {
+  try {
+    const auto options = pelage::parse_options(std::vector<std::string>(argv + 1, argv + argc), std::cout);
+    return options ? run(*options) : 0;
+  } catch (const pelage::Error& error) {
+    std::fputs(pelage::error_text(error).c_str(), stderr);
+    return pelage::exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fputs("pelage: error: the machine has no memory left\n", stderr);
+    return pelage::exit_code(pelage::ErrorKind::kMemory);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pelage: error: %s\n", error.what());
+    return pelage::exit_code(pelage::ErrorKind::kFailed);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int code = run_command_line(argc, argv);
+  // What was printed but did not arrive (a full disk) is a failure too.
+  if (code == 0 && (!std::cout.flush() || std::fflush(stdout) != 0)) return 1;
+  return code;
+}

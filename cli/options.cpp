@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options.h"
+
+#include <algorithm>
+#include <map>
+#include <ostream>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "base/nearest_name.h"
+#include "cli/frames.h"
+#include "cli/version.h"
+#include "groom/groom.h"
+
+namespace pelage {
+namespace {
+
+// What the parser leaves as text until it is checked here, so that every message is ours.
+struct Texts {
+  std::string frames, memory, progress, basis, stats;
+  std::vector<std::string> set;
+  bool quiet = false;
+};
+
+constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
+
+void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
+  command.add_option("SCENE", options.input, "Scene file")->required();
+  // Not greedy: `--set a=1 scene.yaml` must leave the scene alone.
+  command.add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+void add_run_flags(CLI::App& command, Options& options, Texts& texts) {
+  command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
+  command.add_option("--threads", options.threads, "Threads to use (default: all available)")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N");
+  command.add_option("--memory", texts.memory, "Memory budget, such as 512M or 4G (render.memory)")
+      ->type_name("BYTES");
+  CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "No progress");
+  command.add_option("--progress", texts.progress, "How to show progress: bar, plain or json")
+      ->type_name("STYLE")
+      ->excludes(quiet);
+}
+
+void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
+  command
+      .add_option("--basis", texts.basis,
+                  "Curve basis of a strand file: " + ValueReader<CurveBasis>::type_name())
+      ->type_name("BASIS");
+  command.add_option("--default-width", options.default_width, "Strand width where the file has none")
+      ->check(CLI::PositiveNumber)
+      ->type_name("WIDTH");
+}
+
+void add_commands(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* render = app.add_subcommand("render", "Render a scene to EXR files");
+  add_scene_flags(*render, options, texts);
+  render
+      ->add_option("-o,--output", options.output,
+                   "File to write (default: the scene's name); %04d is the frame")
+      ->type_name("FILE.%04d.exr");
+  render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
+  add_run_flags(*render, options, texts);
+
+  CLI::App* grow =
+      app.add_subcommand("grow", "Grow the grooms of a scene, say what came of it, write strand files");
+  add_scene_flags(*grow, options, texts);
+  grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx)")->type_name("FILE");
+  grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
+  grow->add_option("--frames", texts.frames, "Frame whose pose to grow on")->type_name("FRAME");
+  add_run_flags(*grow, options, texts);
+
+  CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh or EXR");
+  info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj or .exr file")->required();
+  info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+  add_strand_flags(*info, options, texts);
+
+  CLI::App* convert = app.add_subcommand("convert", "Convert strand files to each other (.hair, .tfx)");
+  convert->add_option("IN", options.input, "Strand file to read")->required();
+  convert->add_option("OUT", options.output, "Strand file to write")->required();
+  add_strand_flags(*convert, options, texts);
+
+  CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
+  manual->add_option("SECTION", options.section, "Only this section, such as camera or curl");
+  manual->add_flag("--markdown", options.markdown, "Write Markdown");
+}
+
+const std::map<std::string, Command>& command_names() {
+  static const std::map<std::string, Command> names{{"render", Command::kRender},
+                                                    {"grow", Command::kGrow},
+                                                    {"info", Command::kInfo},
+                                                    {"convert", Command::kConvert},
+                                                    {"manual", Command::kManual}};
+  return names;
+}
+
+[[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
+
+// A first word that is no command would otherwise be reported as a superfluous argument.
+void check_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty()) fail("expected a command; see 'pelage --help'");
+  if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
+  std::vector<std::string> names;
+  for (const auto& [name, command] : command_names()) names.push_back(name);
+  fail("there is no command " + quote(arguments[0]) + suggest(arguments[0], names));
+}
+
+std::vector<std::string> flag_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+[[noreturn]] void fail_extras(const CLI::App& app) {
+  for (const std::string& extra : app.remaining(true)) {
+    if (!extra.starts_with("-")) fail("did not expect the argument " + quote(extra));
+    const std::string flag = extra.substr(0, extra.find('='));
+    const std::vector<std::string> names = flag_names(app);
+    const std::string near = did_you_mean(flag, names);
+    fail("there is no flag " + quote(flag) +
+         (near.empty() ? "; see 'pelage " + app.get_name() + " --help'" : near));
+  }
+  fail("the arguments were not understood; see 'pelage --help'");
+}
+
+ProgressStyle parse_progress(const Texts& texts) {
+  if (texts.quiet) return ProgressStyle::kQuiet;
+  if (texts.progress.empty()) return ProgressStyle::kAuto;
+  const std::vector<std::string> names(std::begin(kProgressNames), std::end(kProgressNames));
+  const auto found = std::find(names.begin(), names.end(), texts.progress);
+  if (found == names.end())
+    fail("--progress " + quote(texts.progress) + " is not known" + suggest(texts.progress, names));
+  return static_cast<ProgressStyle>(found - names.begin());
+}
+
+CurveBasis parse_basis(const std::string& text) {
+  const std::vector<std::string> names(std::begin(EnumNames<CurveBasis>::names),
+                                       std::end(EnumNames<CurveBasis>::names));
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) fail("--basis " + quote(text) + " is not known" + suggest(text, names));
+  return static_cast<CurveBasis>(found - names.begin());
+}
+
+void interpret(const Texts& texts, Options& options) {
+  for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
+  if (!texts.memory.empty()) {
+    if (!parse_bytes(texts.memory))
+      fail("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
+    options.overrides.push_back({"render.memory", texts.memory});
+  }
+  if (!texts.frames.empty()) {
+    parse_frames(texts.frames);  // throws here, where the flag can be named
+    options.overrides.push_back({"frames", "'" + texts.frames + "'"});
+  }
+  if (!texts.stats.empty()) options.stats = texts.stats;
+  if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
+  options.progress = parse_progress(texts);
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out) {
+  Options options;
+  Texts texts;
+  CLI::App app("Pelage grows fur on demand and renders it.", "pelage");
+  app.set_version_flag("--version", "pelage " + std::string(version()), "Print the version and leave");
+  app.require_subcommand(1);
+  app.footer("'pelage COMMAND --help' explains a command, 'pelage manual' the scene file.");
+  add_commands(app, options, texts);
+
+  check_command(arguments);
+  const CLI::App* chosen = &app;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == arguments[0]) chosen = command;
+  }
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    out << chosen->help(chosen == &app ? "" : "pelage");
+    return {};
+  } catch (const CLI::CallForVersion&) {
+    out << "pelage " << version() << "\n";
+    return {};
+  } catch (const CLI::ExtrasError&) {
+    fail_extras(*chosen);
+  } catch (const CLI::ParseError& error) {
+    std::string message = error.what();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    fail(message + (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));
+  }
+  options.command = command_names().at(arguments[0]);
+  interpret(texts, options);
+  return options;
+}
+
+}  // namespace pelage

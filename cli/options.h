@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/strands.h"
+#include "scene/document.h"
+
+namespace pelage {
+
+enum class Command { kRender, kGrow, kInfo, kConvert, kManual };
+
+enum class ProgressStyle {
+  kAuto,   ///< a bar on a terminal, lines elsewhere
+  kBar,    ///< one line that is drawn again and again, with the time left
+  kPlain,  ///< a line per percent
+  kJson,   ///< a JSON object per percent
+  kQuiet,  ///< nothing
+};
+
+/// The whole command line as one value. Commands read what concerns them; the rest has its default.
+struct Options {
+  Command command = Command::kManual;
+  std::string input;   ///< SCENE, FILE or IN
+  std::string output;  ///< -o or OUT; may hold a place for the frame number (cli/frames.h)
+  std::vector<Override>
+      overrides;  ///< --set, then the flags that stand for scene values (--frames, --memory)
+  std::optional<std::string> stats;  ///< --stats
+  int threads = 0;                   ///< --threads; 0: all that the process may use
+  ProgressStyle progress = ProgressStyle::kAuto;
+
+  std::string groom;  ///< grow: only this one; empty: all
+
+  std::string section;    ///< manual
+  bool markdown = false;  ///< manual
+
+  std::optional<CurveBasis> basis;     ///< convert, info: of strand files that do not say
+  std::optional<float> default_width;  ///< convert, info: of strand files without widths
+};
+
+/// Reads a command line. Returns nothing when help or the version was asked for, which then stands in `out`.
+/// Throws Error (kArguments) with the nearest known name for unknown commands and flags.
+std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out);
+
+}  // namespace pelage

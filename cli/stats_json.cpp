@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/stats_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/version.h"
+
+namespace pelage {
+
+std::string statistics_json(const Statistics& s) {
+  const nlohmann::ordered_json json{
+      {"schema", kStatisticsSchema},
+      {"version", version()},
+      {"wall_s", s.wall_s},
+      {"cpu_s", s.cpu_s},
+      {"peak_rss_bytes", s.peak_rss_bytes},
+      {"baseline_rss_bytes", s.baseline_rss_bytes},
+      {"memory_bytes", s.memory_bytes},
+      {"working_set_bytes", s.working_set_bytes},
+      {"strands_described", s.strands_described},
+      {"strands_unique", s.strands_unique},
+      {"strands_generated", s.strands_generated},
+      {"strands_dropped", s.strands_dropped},
+      {"strands_repaired", s.strands_repaired},
+      {"characters_in_frame", s.characters_in_frame},
+      {"chunks", s.chunks},
+      {"expansions", s.expansions},
+      {"reexpansions", s.reexpansions},
+      {"false_expansions", s.false_expansions},
+      {"samples_rejected", s.samples_rejected},
+      {"rays", s.rays},
+      {"stages_s", s.stages_s},
+  };
+  return json.dump(2) + "\n";
+}
+
+void write_statistics(const std::filesystem::path& path, const Statistics& statistics) {
+  AtomicFile file(path);
+  file.write(statistics_json(statistics));
+  file.commit();
+}
+
+}  // namespace pelage
