@@ -19,7 +19,13 @@ Error::Error(ErrorKind kind, std::vector<Problem> problems) : kind_(kind), probl
 }
 
 void Problems::throw_if_any(ErrorKind kind) const {
-  if (!list_.empty()) throw Error(kind, list_);
+  if (list_.empty()) return;
+  std::vector<Problem> problems = list_;
+  if (omitted_ > 0) {
+    std::string more = std::to_string(omitted_) + " more problems";
+    problems.push_back({{problems.front().position.file, 0, 0}, std::move(more)});
+  }
+  throw Error(kind, std::move(problems));
 }
 
 }  // namespace pelage

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <exception>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,16 +56,26 @@ class Error : public std::exception {
 /// Collects problems while a file is read, so that all are reported together.
 class Problems {
  public:
+  Problems() = default;
+  /// Keeps the first `most` and only counts the others, for files whose damage may be as long as they are.
+  explicit Problems(size_t most) : most_(most) {}
+
   void add(SourcePosition position, std::string message) {
-    list_.push_back({std::move(position), std::move(message)});
+    if (list_.size() < most_) {
+      list_.push_back({std::move(position), std::move(message)});
+    } else {
+      ++omitted_;
+    }
   }
   bool empty() const { return list_.empty(); }
   const std::vector<Problem>& list() const { return list_; }
-  /// Throws an Error of `kind` with all problems, if there are any.
+  /// Throws an Error of `kind` with all problems, if there are any, and says how many were only counted.
   void throw_if_any(ErrorKind kind = ErrorKind::kInput) const;
 
  private:
   std::vector<Problem> list_;
+  size_t most_ = std::numeric_limits<size_t>::max();
+  size_t omitted_ = 0;
 };
 
 }  // namespace pelage

@@ -35,6 +35,9 @@ class SurfaceTopology {
                                                        BoundaryRule boundary, const std::string& source);
   ~SurfaceTopology();
 
+  /// Most faces around a vertex and corners around a face: weights around it grow with the square of this.
+  static constexpr uint32_t kMaxValence = 1000;
+
   /// Ptex faces: one per quad, n per n-gon (Catmull-Clark); one per triangle (Loop).
   uint32_t face_count() const;
   uint32_t control_count() const;
@@ -44,13 +47,15 @@ class SurfaceTopology {
   /// Texture coordinates at (u, v) of a ptex face: bilinear within the cage's, (u, v) itself when it has
   /// none.
   V2f texture_coordinates(uint32_t face, float u, float v) const;
-  /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0) of `face`, or -1 at a boundary.
+  /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0; Loop: v = 0, u + v = 1, u = 0) of `face`; -1
+  /// at a boundary and where more than two faces meet. Where a quad meets an n-gon, whose ptex faces have
+  /// half its edge: the one at the edge's first corner, counterclockwise around `face`.
   int neighbour(uint32_t face, int edge) const;
   /// Of everything that the topology depends on; meshes with equal hashes share one topology.
   ContentHash hash() const;
   size_t bytes() const;
 
-  struct Impl;
+  struct Impl;  // geom/surface_topology_impl.h
   const Impl& impl() const { return *impl_; }
 
  private:
@@ -75,6 +80,8 @@ class LimitSurface {
   const SurfaceTopology& topology() const { return *topology_; }
   const std::shared_ptr<const SurfaceTopology>& shared_topology() const { return topology_; }
 
+  /// (u, v) outside the face are moved to its border. `face` must exist. Faces that are holes have a surface
+  /// here.
   SurfacePoint evaluate(uint32_t face, float u, float v) const;
   /// Orthonormal frame: normal = du x dv, tangent = du made perpendicular. Where du x dv vanishes (poles,
   /// collapsed faces) it is taken a little towards the middle of the face; frames are always finite and
@@ -86,7 +93,7 @@ class LimitSurface {
 
  private:
   std::shared_ptr<const SurfaceTopology> topology_;
-  std::vector<float> points_;  // control, refined and local points of the patch table, xyz
+  std::vector<float> points_;  // control, refined and local points of the patches, xyz
   Box3f bounds_;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,18 @@ struct ControlMesh {
   std::vector<uint32_t> holes;        ///< faces that leave no surface
   std::vector<uint16_t> face_groups;  ///< index into groups, one per face
   std::vector<std::string> groups;
+  bool chaikin_creases = false;   ///< crease sharpness decays by Chaikin's rule ("t creasemethod chaikin")
+  bool smooth_triangles = false;  ///< Catmull-Clark rounds triangles better ("t smoothtriangles smooth")
+  /// "t interpolateboundary": 0 none, 1 edge and corner, 2 edge only; -1 when the file does not say. What the
+  /// skin asks for decides; this is for tools that follow the file.
+  int boundary_tag = -1;
 
   size_t face_count() const { return face_sizes.size(); }
   size_t bytes() const;
 };
+
+/// Whether a face is more than a line: its corners that are not the vertex of a corner before, counted up
+/// to 3.
+int distinct_corners(std::span<const uint32_t> face);
 
 }  // namespace pelage

@@ -2,19 +2,24 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "geom/mesh.h"
 
 namespace pelage {
 
-/// Reads a cage from an OBJ file: v, vt, f (3 corners and more, negative indices), g, o, and the `t crease`,
-/// `t corner` and `t hole` lines of OpenSubdiv's shapes, whose indices are global. Throws Error (kInput) with
-/// file and line for every index out of range, number that is not finite, and face that is degenerate beyond
-/// use.
+/// Reads a cage from an OBJ file: v, vt, f (3 corners and more, negative indices), g, o, and the `t` lines of
+/// OpenSubdiv's shapes (crease, corner, hole, interpolateboundary, creasemethod, smoothtriangles), whose
+/// indices are those of the whole file from 0. A face belongs to the last g or o line above it. Faces without
+/// texture coordinates in a file that has some get (0, 0). What else OBJ files hold is passed over.
+///
+/// Throws Error (kInput) with all problems, the first 20 with file and line: numbers that are malformed or
+/// not finite, indices out of range, faces of fewer than 3 different vertices, hierarchical
+/// edits, no faces.
 ControlMesh read_obj(const std::filesystem::path& path);
 
 /// Only the vertex positions, for a pose of a cage that has `expected` vertices. Throws Error (kInput) when
-/// the count differs.
+/// the count differs or a number is malformed.
 std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t expected);
 
 }  // namespace pelage

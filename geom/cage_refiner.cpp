@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/cage_refiner.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include "base/error.h"
+
+namespace pelage {
+
+namespace Far = OpenSubdiv::Far;
+namespace Sdc = OpenSubdiv::Sdc;
+
+namespace {
+
+/// Collects what keeps a cage from being subdivided, the first few of it in words.
+class CageChecker {
+ public:
+  CageChecker(const ControlMesh& mesh, SubdivisionScheme scheme, const std::string& source)
+      : mesh_(mesh), scheme_(scheme), source_(source) {}
+
+  void check() {
+    if (mesh_.face_sizes.empty()) complain("the cage has no faces");
+    check_faces();
+    if (problems_.empty()) check_tags();
+    problems_.throw_if_any();
+  }
+
+ private:
+  void complain(std::string message) { problems_.add({source_, 0, 0}, std::move(message)); }
+
+  void check_faces() {
+    size_t corners = 0;
+    for (uint32_t size : mesh_.face_sizes) corners += size;
+    if (corners != mesh_.face_vertices.size() ||
+        (!mesh_.face_uv.empty() && mesh_.face_uv.size() != mesh_.face_vertices.size())) {
+      return complain(fmt::format("the faces of the cage have {} corners, {} are given", corners,
+                                  mesh_.face_vertices.size()));
+    }
+    std::vector<uint32_t> valence(mesh_.positions.size());
+    size_t first = 0;
+    for (size_t face = 0; face < mesh_.face_sizes.size(); first += mesh_.face_sizes[face], ++face) {
+      check_face(face, std::span(mesh_.face_vertices).subspan(first, mesh_.face_sizes[face]), valence);
+    }
+    for (size_t v = 0; v < valence.size(); ++v) {
+      if (valence[v] > SurfaceTopology::kMaxValence) {
+        complain(fmt::format("{} faces meet at vertex {}, at most {} may", valence[v], v + 1,
+                             SurfaceTopology::kMaxValence));
+      }
+    }
+    for (uint32_t index : mesh_.face_uv) {
+      if (index >= mesh_.uv.size())
+        return complain(fmt::format("texture coordinate {} does not exist", index + 1));
+    }
+  }
+
+  void check_face(size_t face, std::span<const uint32_t> vertices, std::vector<uint32_t>& valence) {
+    const size_t most = scheme_ == SubdivisionScheme::kLoop ? 3 : SurfaceTopology::kMaxValence;
+    if (vertices.size() < 3 || vertices.size() > most) {
+      return complain(
+          scheme_ == SubdivisionScheme::kLoop
+              ? fmt::format("the loop scheme takes triangles only, face {} has {} corners", face + 1,
+                            vertices.size())
+              : fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), most));
+    }
+    const uint32_t last = *std::max_element(vertices.begin(), vertices.end());
+    if (last >= valence.size()) {
+      return complain(fmt::format("face {} uses vertex {} of {}", face + 1, last + 1, valence.size()));
+    }
+    if (distinct_corners(vertices) < 3)
+      complain(fmt::format("face {} has fewer than 3 different vertices", face + 1));
+    for (uint32_t v : vertices) ++valence[v];
+  }
+
+  static uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
+
+  void check_tags() {
+    for (const ControlMesh::Corner& c : mesh_.corners) {
+      if (c.vertex >= mesh_.positions.size())
+        complain(fmt::format("corner at vertex {}: no such vertex", c.vertex + 1));
+    }
+    for (uint32_t hole : mesh_.holes) {
+      if (hole >= mesh_.face_sizes.size()) complain(fmt::format("hole {}: no such face", hole + 1));
+    }
+    if (mesh_.creases.empty()) return;
+    std::vector<uint64_t> edges;
+    size_t first = 0;
+    for (uint32_t size : mesh_.face_sizes) {
+      for (uint32_t i = 0; i < size; ++i) {
+        edges.push_back(
+            edge_key(mesh_.face_vertices[first + i], mesh_.face_vertices[first + (i + 1) % size]));
+      }
+      first += size;
+    }
+    std::sort(edges.begin(), edges.end());
+    for (const ControlMesh::Crease& c : mesh_.creases) {
+      if (!std::binary_search(edges.begin(), edges.end(), edge_key(c.a, c.b))) {
+        complain(fmt::format("a crease joins vertices {} and {}, which no face does", c.a + 1, c.b + 1));
+      }
+    }
+  }
+
+  const ControlMesh& mesh_;
+  SubdivisionScheme scheme_;
+  const std::string& source_;
+  Problems problems_{20};
+};
+
+Sdc::Options scheme_options(const ControlMesh& mesh, BoundaryRule boundary) {
+  Sdc::Options options;
+  options.SetVtxBoundaryInterpolation(boundary == BoundaryRule::kEdgeOnly
+                                          ? Sdc::Options::VTX_BOUNDARY_EDGE_ONLY
+                                          : Sdc::Options::VTX_BOUNDARY_EDGE_AND_CORNER);
+  options.SetCreasingMethod(mesh.chaikin_creases ? Sdc::Options::CREASE_CHAIKIN
+                                                 : Sdc::Options::CREASE_UNIFORM);
+  options.SetTriangleSubdivision(mesh.smooth_triangles ? Sdc::Options::TRI_SUB_SMOOTH
+                                                       : Sdc::Options::TRI_SUB_CATMARK);
+  return options;
+}
+
+Sdc::SchemeType scheme_type(SubdivisionScheme scheme) {
+  switch (scheme) {
+    case SubdivisionScheme::kLoop:
+      return Sdc::SCHEME_LOOP;
+    case SubdivisionScheme::kBilinear:
+      return Sdc::SCHEME_BILINEAR;
+    default:
+      return Sdc::SCHEME_CATMARK;
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Far::TopologyRefiner> make_refiner(const ControlMesh& mesh, SubdivisionScheme scheme,
+                                                   BoundaryRule boundary, const std::string& source) {
+  CageChecker(mesh, scheme, source).check();
+
+  const std::vector<int> sizes(mesh.face_sizes.begin(), mesh.face_sizes.end());
+  const std::vector<int> vertices(mesh.face_vertices.begin(), mesh.face_vertices.end());
+  std::vector<int> crease_vertices, corner_vertices;
+  std::vector<float> crease_sharpness, corner_sharpness;
+  for (const ControlMesh::Crease& c : mesh.creases) {
+    crease_vertices.insert(crease_vertices.end(), {static_cast<int>(c.a), static_cast<int>(c.b)});
+    crease_sharpness.push_back(std::min(c.sharpness, Sdc::Crease::SHARPNESS_INFINITE));
+  }
+  for (const ControlMesh::Corner& c : mesh.corners) {
+    corner_vertices.push_back(static_cast<int>(c.vertex));
+    corner_sharpness.push_back(std::min(c.sharpness, Sdc::Crease::SHARPNESS_INFINITE));
+  }
+  Far::TopologyDescriptor descriptor;
+  descriptor.numVertices = static_cast<int>(mesh.positions.size());
+  descriptor.numFaces = static_cast<int>(sizes.size());
+  descriptor.numVertsPerFace = sizes.data();
+  descriptor.vertIndicesPerFace = vertices.data();
+  descriptor.numCreases = static_cast<int>(crease_sharpness.size());
+  descriptor.creaseVertexIndexPairs = crease_vertices.data();
+  descriptor.creaseWeights = crease_sharpness.data();
+  descriptor.numCorners = static_cast<int>(corner_sharpness.size());
+  descriptor.cornerVertexIndices = corner_vertices.data();
+  descriptor.cornerWeights = corner_sharpness.data();
+
+  using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+  std::unique_ptr<Far::TopologyRefiner> refiner(
+      Factory::Create(descriptor, Factory::Options(scheme_type(scheme), scheme_options(mesh, boundary))));
+  if (!refiner) throw Error(ErrorKind::kInput, {source, 0, 0}, "the cage cannot be subdivided");
+  return refiner;
+}
+
+}  // namespace pelage

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <opensubdiv/far/topologyRefiner.h>
+
+#include "geom/limit_surface.h"
+
+// For sources of geom and its tests: shows OpenSubdiv's types.
+
+namespace pelage {
+
+/// The unrefined topology of a cage. Throws Error (kInput) with `source` and every reason why it cannot be
+/// subdivided (SurfaceTopology::create). Holes are not passed on: they stop no surface around them.
+std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const ControlMesh& mesh,
+                                                               SubdivisionScheme scheme,
+                                                               BoundaryRule boundary,
+                                                               const std::string& source);
+
+}  // namespace pelage
