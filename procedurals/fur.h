@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "procedurals/posed_character_skin.h"
+#include "procedurals/procedural.h"
+
+namespace pelage {
+
+/// The coat of one groom on one character: splits into one leaf per leaf of the groom's follicle hierarchy.
+class FurProcedural final : public Procedural {
+ public:
+  FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin);
+
+  Box3f bound() const override;
+  std::vector<std::unique_ptr<Procedural>> split() const override;
+  /// The whole coat at once, leaf after leaf, for tools that want one batch.
+  Strands generate() const override;
+
+ private:
+  std::shared_ptr<const Groom> groom_;
+  std::shared_ptr<const PosedCharacterSkin> skin_;
+};
+
+/// One leaf of a coat: a chunk.
+class FurLeafProcedural final : public Procedural {
+ public:
+  FurLeafProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
+                    size_t leaf);
+
+  Box3f bound() const override;
+  Strands generate() const override;
+
+ private:
+  std::shared_ptr<const Groom> groom_;
+  std::shared_ptr<const PosedCharacterSkin> skin_;
+  size_t leaf_;
+};
+
+}  // namespace pelage
