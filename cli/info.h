@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/scene_schema.h"
+#include "geom/io/strand_file.h"
+#include "geom/mesh.h"
+#include "image/exr.h"
+
+namespace pelage {
+
+// What `pelage info` says of each kind of file: lines of text, the last one ended.
+
+std::string describe_scene(const SceneDescription& scene);
+std::string describe_strands(const StrandFile& file);
+std::string describe_mesh(const ControlMesh& mesh);
+std::string describe_exr(const ExrImage& image);
+
+}  // namespace pelage

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <iostream>
+
+#include "cli/commands.h"
+#include "cli/info.h"
+#include "geom/io/obj_file.h"
+
+namespace pelage {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::string describe_file(const Options& options) {
+  const std::filesystem::path path = options.input;
+  const std::string kind = lower_extension(path);
+  if (kind == ".yaml" || kind == ".yml") return describe_scene(load_scene(path, options.overrides));
+  if (!options.overrides.empty()) throw Error(ErrorKind::kArguments, "--set is for scenes only");
+  if (kind == ".hair" || kind == ".tfx") {
+    return describe_strands(read_strands(path, {options.basis, options.default_width}));
+  }
+  if (kind == ".obj") return describe_mesh(read_obj(path));
+  if (kind == ".exr") return describe_exr(read_exr(path));
+  throw Error(ErrorKind::kInput, {options.input, 0, 0},
+              "what this is cannot be told from its name; expected .yaml, .hair, .tfx, .obj or .exr");
+}
+
+}  // namespace
+
+int run_info(const Options& options) {
+  std::cout << options.input << ": " << describe_file(options);
+  return 0;
+}
+
+}  // namespace pelage

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/value_readers.h"
+#include "cli/info.h"
+#include "groom/groom.h"
+
+namespace pelage {
+namespace {
+
+// The longest attribute text that is shown whole.
+constexpr size_t kLongestText = 100;
+
+template <class T>
+std::string shown(const T& value) {
+  return ValueReader<T>::print(value);
+}
+
+std::string shown_box(const Box3f& box) {
+  return box.isEmpty() ? "empty" : fmt::format("{} to {}", shown(box.min), shown(box.max));
+}
+
+// "name: value" without control characters, which would reach the terminal.
+std::string safe(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  if (text.size() > kLongestText) text = text.substr(0, kLongestText) + "...";
+  return text;
+}
+
+std::string describe(const ExrAttribute& attribute) {
+  struct Printer {
+    std::string operator()(int v) const { return std::to_string(v); }
+    std::string operator()(float v) const { return shown(v); }
+    std::string operator()(const std::string& v) const { return safe(v); }
+    std::string operator()(const V2f& v) const { return shown(v); }
+    std::string operator()(const V3f& v) const { return shown(v); }
+    std::string operator()(const M44f& v) const {
+      std::string rows;
+      for (const auto& row : v.x) {
+        rows += fmt::format("{}[{}, {}, {}, {}]", rows.empty() ? "" : " ", row[0], row[1], row[2], row[3]);
+      }
+      return rows;
+    }
+  };
+  return std::visit(Printer{}, attribute);
+}
+
+const char* type_name(ChannelType type) {
+  switch (type) {
+    case ChannelType::kHalf:
+      return "half";
+    case ChannelType::kFloat:
+      return "float";
+    case ChannelType::kUint:
+      return "uint";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string describe_strands(const StrandFile& file) {
+  const Strands& strands = file.strands;
+  Box3f box;
+  float thinnest = std::numeric_limits<float>::infinity(), thickest = 0;
+  for (size_t i = 0; i < strands.point_count(); ++i) {
+    box.extendBy(strands.point(i));
+    thinnest = std::min(thinnest, 2 * strands.radius(i));
+    thickest = std::max(thickest, 2 * strands.radius(i));
+  }
+  uint32_t fewest = std::numeric_limits<uint32_t>::max(), most = 0;
+  for (size_t i = 0; i < strands.strand_count(); ++i) {
+    fewest = std::min(fewest, strands.strand_points(i));
+    most = std::max(most, strands.strand_points(i));
+  }
+  std::string text = fmt::format("strands ({}), {} strands, {} points, basis {}\n", file.format,
+                                 strands.strand_count(), strands.point_count(), shown(strands.basis()));
+  if (strands.strand_count() > 0) {
+    text += fmt::format("  points per strand: {} to {}\n", fewest, most);
+    text += fmt::format("  widths: {} to {}\n", shown(thinnest), shown(thickest));
+    text += fmt::format("  bounds of the points: {}\n", shown_box(box));
+  }
+  for (const StrandAttribute& attribute : strands.attributes()) {
+    text += fmt::format("  attribute {}: {} x {} numbers\n", safe(attribute.name),
+                        attribute.values.size() / static_cast<size_t>(std::max(attribute.components, 1)),
+                        attribute.components);
+  }
+  return text + fmt::format("  repaired: {}, dropped: {}\n", file.repairs.repaired, file.repairs.dropped);
+}
+
+std::string describe_mesh(const ControlMesh& mesh) {
+  Box3f box;
+  for (const V3f& position : mesh.positions) box.extendBy(position);
+  std::string text = fmt::format("mesh, {} faces, {} vertices, {} texture coordinates\n", mesh.face_count(),
+                                 mesh.positions.size(), mesh.uv.size());
+  std::map<uint32_t, size_t> sizes;
+  for (const uint32_t size : mesh.face_sizes) ++sizes[size];
+  for (const auto& [size, count] : sizes) text += fmt::format("  {} faces of {} corners\n", count, size);
+  text += fmt::format("  bounds: {}\n", shown_box(box));
+  text += fmt::format("  creases: {}, corners: {}, holes: {}\n", mesh.creases.size(), mesh.corners.size(),
+                      mesh.holes.size());
+  for (const std::string& group : mesh.groups) text += fmt::format("  group {}\n", safe(group));
+  return text;
+}
+
+std::string describe_exr(const ExrImage& image) {
+  std::string text =
+      fmt::format("image, {} x {} pixels, {} channels\n", image.width, image.height, image.channels.size());
+  // Channels of one layer stand together: "key.diffuse: R G B (half)".
+  std::map<std::string, std::map<ChannelType, std::string>> layers;
+  for (const ExrChannel& channel : image.channels) {
+    const size_t dot = channel.name.rfind('.');
+    const std::string layer = dot == std::string::npos ? "" : channel.name.substr(0, dot);
+    layers[layer][channel.type] += " " + channel.name.substr(dot == std::string::npos ? 0 : dot + 1);
+  }
+  for (const auto& [layer, types] : layers) {
+    text += "  " + (layer.empty() ? "no layer" : "layer " + safe(layer)) + ":";
+    for (const auto& [type, names] : types) text += fmt::format("{} ({})", safe(names), type_name(type));
+    text += "\n";
+  }
+  for (const auto& [name, value] : image.attributes) {
+    text += fmt::format("  attribute {}: {}\n", safe(name), describe(value));
+  }
+  return text;
+}
+
+}  // namespace pelage

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cli/info.h"
+
+namespace pelage {
+namespace {
+
+template <class T>
+std::string shown(const T& value) {
+  return ValueReader<T>::print(value);
+}
+
+std::string describe(const SkinParams& skin) {
+  std::string text = fmt::format("{}, {}", skin.mesh.path.string(), shown(skin.scheme));
+  if (skin.poses) {
+    text += fmt::format(", {} poses{}", skin.poses->count, skin.poses->cycle ? " in a cycle" : "");
+  }
+  return text;
+}
+
+std::string strands_of(const GroomParams& groom) {
+  if (!groom.strands_file.empty()) return "strands of " + groom.strands_file.path.string();
+  const std::string count = groom.strands ? fmt::format("{} strands", *groom.strands) : "strands by density";
+  return fmt::format("{} of {} points on {}", count, groom.points, groom.skin.name);
+}
+
+std::string describe(const GroomParams& groom) {
+  std::string text = fmt::format("{}, {}", strands_of(groom), shown(groom.role));
+  for (size_t i = 0; i < groom.operators.items.size(); ++i) {
+    text += (i ? ", " : ": ") + groom.operators.items[i].name;
+  }
+  return text;
+}
+
+template <class... Ps>
+std::string kind_of(const std::variant<Ps...>& params) {
+  return std::visit([](const auto& p) { return std::string(p.kTypeName); }, params);
+}
+
+std::string describe(const CharacterParams& character) {
+  std::string text;
+  for (const PartParams& part : character.parts) {
+    text += fmt::format("{}{} in {}", text.empty() ? "" : "; ", part.skin.name, part.material.name);
+    for (size_t i = 0; i < part.grooms.items.size(); ++i) {
+      const auto& groom = part.grooms.items[i];
+      text += fmt::format("{}{} in {}", i ? ", " : " with ", groom.name, groom.value.name);
+    }
+  }
+  return text;
+}
+
+std::string describe(const LightParams& light) { return kind_of(light); }
+std::string describe(const MaterialParams& material) { return kind_of(material); }
+
+template <class T>
+std::string section(const char* title, const Named<T>& named) {
+  std::string text = fmt::format("{} {}\n", named.items.size(), title);
+  for (const auto& item : named.items) text += fmt::format("  {}: {}\n", item.name, describe(item.value));
+  return text;
+}
+
+}  // namespace
+
+std::string describe_scene(const SceneDescription& scene) {
+  std::string text = fmt::format("scene, {} x {} pixels, frames {}, {} samples, {} bounces, integrator {}\n",
+                                 scene.image.width, scene.image.height, shown(scene.frames),
+                                 scene.render.samples, scene.render.bounces, shown(scene.render.integrator));
+  text +=
+      section("skins", scene.skins) + section("grooms", scene.grooms) + section("materials", scene.materials);
+  return text + section("characters", scene.characters) + section("lights", scene.lights);
+}
+
+}  // namespace pelage
