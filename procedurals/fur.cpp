@@ -11,7 +11,7 @@ FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
 
 Box3f FurProcedural::bound() const {
   Box3f box;
-  for (size_t leaf = 0; leaf < groom_->leaf_count(); ++leaf) {
+  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
     box.extendBy(groom_->conservative_bound(leaf, skin_->pose()));
   }
   return box;
@@ -19,7 +19,7 @@ Box3f FurProcedural::bound() const {
 
 std::vector<std::unique_ptr<Procedural>> FurProcedural::split() const {
   std::vector<std::unique_ptr<Procedural>> leaves;
-  for (size_t leaf = 0; leaf < groom_->leaf_count(); ++leaf) {
+  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
     leaves.push_back(std::make_unique<FurLeafProcedural>(groom_, skin_, leaf));
   }
   return leaves;
@@ -27,7 +27,7 @@ std::vector<std::unique_ptr<Procedural>> FurProcedural::split() const {
 
 Strands FurProcedural::generate() const {
   std::vector<Strands> leaves;
-  for (size_t leaf = 0; leaf < groom_->leaf_count(); ++leaf)
+  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf)
     leaves.push_back(groom_->grow(leaf, skin_->pose()));
   return merge(leaves);
 }
