@@ -20,9 +20,13 @@ struct FurPart {
   std::string name;  ///< "rat.under"
   std::vector<std::unique_ptr<Procedural>> procedurals;
   size_t material = 0;
+  /// The skin that the strands grow on, in rest pose, for material fields that depend on the rest position;
+  /// may be null, then strands rest at their roots.
+  std::shared_ptr<const LimitSurface> rest;
 };
 
-/// Texture coordinates of skin hits are asked of the topology; rest positions of fields too.
+/// A skin. Texture coordinates of its hits are asked of the topology of `rest`, rest positions of `rest`
+/// itself; where that is null, both are zero.
 struct SkinPart {
   std::string name;
   std::shared_ptr<const SkinMesh> mesh;

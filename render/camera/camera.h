@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/keyed.h"
 #include "base/schema.h"
@@ -34,31 +35,54 @@ struct CameraRay {
   float time = 0;    ///< in [0, 1] of the shutter
 };
 
-/// A camera over the shutter of one frame: position and axes interpolated between shutter open and close.
-/// Right-handed, looks along -z of its own space.
+/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Its position, view
+/// axis and field of view are interpolated linearly between `motion_keys` even times of the shutter, as
+/// geometry is.
+///
+/// Raster space: pixels, x right, y down, (0, 0) the upper left corner of the image.
 class Camera {
  public:
+  /// Throws Error (kInput) when the camera stands on what it looks at or looks along its up vector.
   Camera(const CameraParams& params, double frame, int width, int height);
 
-  /// Ray through raster position (x, y) (pixels, y down, (0, 0) the upper left corner of the image), lens
-  /// position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
+  /// Ray through raster position (x, y), lens position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
-  /// Raster position and depth along the axis of a world point at a time; nothing behind the camera.
-  std::optional<V3f> project(const V3f& world, float time) const;
-  /// At the frame itself (shutter offset 0 when the shutter contains it): for tessellation and LOD.
+  /// Raster position and depth along the axis of a world point at a time of the shutter; nothing behind the
+  /// camera.
+  std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
+  /// The same at the frame itself, or `frames_ahead` = 1 at the next one.
+  std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {
+    return project(frames_ahead == 0 ? frame_ : next_frame_, world);
+  }
+
+  /// At the frame itself: for tessellation and LOD.
   View view() const;
-  V3f axis(float time) const;  ///< unit view direction
+  V3f position(float time) const { return pose_at(time).position; }
+  V3f axis(float time) const { return pose_at(time).forward; }      ///< unit view direction
+  float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
+  /// Time of the frame itself on the scale of the shutter; outside [0, 1] when the shutter does not contain
+  /// it.
+  float frame_time() const;
+
+  /// As the EXR attributes of these names want it: camera space is left-handed, +y up, looking along +z; NDC
+  /// has (0, 0) in the upper left corner and (1, 1) in the lower right one after division by w. Row vectors:
+  /// p * M.
   M44f world_to_camera() const;
-  M44f world_to_ndc()
-      const;  ///< x, y in 0..1 after division by w, y down... as the EXR attribute worldToNDC wants
+  M44f world_to_ndc() const;
 
  private:
   struct Pose {
-    V3f position, right, up, forward;
-    float tan_half = 1;
+    V3f position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
+    float tan_half = 1;  ///< of half the vertical field of view
   };
+  static Pose make_pose(const CameraParams& params, double frame);
+  static Pose blend(const Pose& a, const Pose& b, float t);
   Pose pose_at(float time) const;
-  Pose open_, close_, middle_;
+  std::optional<V3f> project(const Pose& pose, const V3f& world) const;
+
+  std::vector<Pose> keys_;  // over the shutter; one when the camera stands still
+  Pose frame_, next_frame_;
+  V2f shutter_;
   int width_, height_;
   float lens_radius_ = 0, focus_distance_ = 0;
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "base/schema.h"
 #include "base/value_readers.h"
 #include "base/vector.h"
+#include "render/fibre/fibre_bsdf.h"
 
 namespace pelage {
 
@@ -16,11 +18,35 @@ struct EnumNames<PixelFilter> {
   static constexpr const char* names[] = {"box", "blackman-harris"};
 };
 
+/// `image:` of a scene.
 struct ImageParams {
   int width = 1280;
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
+  bool light_layers = true;  ///< one layer per light x lobe group
   static const Schema<ImageParams>& schema();
+};
+
+/// Which light layers a film has: for each light, one per lobe group at the first surface that the camera
+/// sees (skin counts as diffuse), then, for lights that the camera sees, what they emit straight into it.
+struct FilmLayers {
+  struct LightInfo {
+    std::string name;
+    bool visible = false;
+  };
+  /// `groups`: how many of the lobe groups the materials of the scene use, from the first.
+  static FilmLayers make(const std::vector<LightInfo>& lights, int groups);
+
+  std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are switched off
+  int groups = 0;
+
+  bool empty() const { return names.empty(); }
+  size_t size() const { return names.size(); }
+  size_t scattered(size_t light, int group) const { return first_[light] + static_cast<size_t>(group); }
+  size_t emitted(size_t light) const { return first_[light] + static_cast<size_t>(groups); }
+
+ private:
+  std::vector<size_t> first_;  // layer of the first group, by light
 };
 
 }  // namespace pelage

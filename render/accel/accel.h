@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+struct Ray {
+  V3f origin{0};
+  float near = 0;
+  V3f direction{0, 0, 1};  ///< unit
+  float far = std::numeric_limits<float>::infinity();
+  float time = 0;  ///< in [0, 1] of the shutter
+  uint32_t random =
+      0;  ///< decides at which semi-transparent crossings closest() stops; unused when all is opaque
+};
+
+enum class HitKind : uint8_t { kNone, kStrand, kSkin };
+
+/// Where a ray meets geometry, by value: nothing of the accelerator is held by it.
+struct Hit {
+  HitKind kind = HitKind::kNone;
+  float distance = std::numeric_limits<float>::infinity();
+  uint32_t object = 0;     ///< which of the strand batches or of the skins, in the order they were given
+  uint32_t primitive = 0;  ///< strand of the batch, or triangle of the skin
+  uint32_t segment = 0;    ///< of the strand
+  float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
+  float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
+
+  explicit operator bool() const { return kind != HitKind::kNone; }
+};
+
+/// Rays against all strands and skins of a frame.
+///
+/// A hit is a function of the ray and of what it meets alone: equal distances are decided by strand id (then
+/// by part and segment), so that neither the number of threads nor the shape of the tree reaches a pixel (law
+/// 1). h is that of the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit lies at
+/// axis - h * radius * ez. Rays that are not finite meet nothing.
+/// Thread safety: const members may be called from many threads at once, each inside a FlushDenormals scope.
+class Accel {
+ public:
+  virtual ~Accel() = default;
+  /// The nearest hit in (near, far). Semi-transparent crossings are passed with probability 1 - opacity, each
+  /// crossing deciding once by a hash of `ray.random`, the strand and the place on it.
+  virtual Hit closest(const Ray& ray) const = 0;
+  /// The part of light that comes through between near and far: the product of 1 - opacity over all
+  /// crossings.
+  virtual float transmittance(const Ray& ray) const = 0;
+  /// Whether everything is opaque; then transmittance() is 0 or 1.
+  virtual bool opaque() const = 0;
+  virtual Box3f bounds() const = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/hash.h"
+
+namespace pelage {
+
+/// A place where rays cross a strand: the half segments on both sides of one joint. An accelerator may report
+/// one crossing several times (two segments overlap at their joint; a round one is entered and left); reports
+/// of the same place are one crossing.
+struct CrossingPlace {
+  uint64_t strand_id = 0;
+  uint32_t part = 0;
+  uint32_t joint = 0;
+
+  friend auto operator<=>(const CrossingPlace&, const CrossingPlace&) = default;
+};
+
+/// Whether a ray with the random word `random` is stopped at a crossing: the same for every report of it.
+inline bool stops_at(uint32_t random, const CrossingPlace& place, float opacity) {
+  return unit_float(hash64(random, place.strand_id, place.part, place.joint, random_use("opacity"))) <
+         opacity;
+}
+
+/// The semi-transparent crossings of one ray, in whatever order they are met.
+class Crossings {
+ public:
+  void add(const CrossingPlace& place, float opacity) {
+    if (count_ < few_.size()) {
+      few_[count_++] = {place, opacity};
+    } else {
+      many_.push_back({place, opacity});
+    }
+  }
+
+  /// Product of 1 - opacity over the crossings, each counted once with its largest opacity. The factors are
+  /// multiplied in the order of places, so that the order of reports does not matter.
+  float transmittance() {
+    if (many_.empty()) return product(std::span(few_).first(count_));
+    many_.insert(many_.end(), few_.begin(), few_.end());
+    return product(many_);
+  }
+
+ private:
+  struct Report {
+    CrossingPlace place;
+    float opacity = 0;
+    friend auto operator<=>(const Report&, const Report&) = default;
+  };
+
+  static float product(std::span<Report> reports) {
+    std::sort(reports.begin(), reports.end());
+    float result = 1;
+    for (size_t i = 0; i < reports.size(); ++i) {
+      const bool last_report = i + 1 == reports.size() || reports[i + 1].place != reports[i].place;
+      if (last_report) result *= 1 - reports[i].opacity;
+    }
+    return result;
+  }
+
+  std::array<Report, 24> few_;
+  size_t count_ = 0;
+  std::vector<Report> many_;
+};
+
+}  // namespace pelage

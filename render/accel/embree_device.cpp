@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/embree_device.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace pelage {
+namespace {
+
+/// What `render.memory` covers (law 5).
+int64_t budgeted_bytes(const MemoryLedger& ledger) {
+  int64_t bytes = 0;
+  for (MemoryTag tag : {MemoryTag::kChunks, MemoryTag::kSkins, MemoryTag::kOperatorCache,
+                        MemoryTag::kReflectionCache, MemoryTag::kFilm}) {
+    bytes += ledger.current(tag);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+EmbreeDevice::EmbreeDevice(int threads, uint64_t memory_limit, MemoryLedger& ledger)
+    : ledger_(ledger), memory_limit_(memory_limit) {
+  device_ = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  if (!device_) {
+    throw Error(ErrorKind::kFailed, fmt::format("Embree does not start (error {})",
+                                                static_cast<int>(rtcGetDeviceError(nullptr))));
+  }
+  rtcSetDeviceErrorFunction(device_, on_error, this);
+  rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);
+}
+
+EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+
+void EmbreeDevice::rethrow() const {
+  std::lock_guard lock(mutex_);
+  if (code_ == RTC_ERROR_NONE) return;
+  if (over_limit_) {
+    throw Error(ErrorKind::kMemory, fmt::format("the geometry and its tree do not fit render.memory ({} MiB)",
+                                                memory_limit_ >> 20));
+  }
+  if (code_ == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorKind::kMemory, "out of memory while building the tree");
+  throw Error(ErrorKind::kFailed, "Embree: " + text_);
+}
+
+void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcept {
+  auto& device = *static_cast<EmbreeDevice*>(self);
+  std::lock_guard lock(device.mutex_);
+  if (device.code_ != RTC_ERROR_NONE) return;
+  device.code_ = code;
+  try {
+    device.text_ = text ? text : "";
+  } catch (const std::bad_alloc&) {
+    // The code alone still says that something went wrong.
+  }
+}
+
+bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool) noexcept {
+  auto& device = *static_cast<EmbreeDevice*>(self);
+  device.ledger_.charge(MemoryTag::kChunks, bytes);
+  if (bytes <= 0 || device.memory_limit_ == 0) return true;
+  if (budgeted_bytes(device.ledger_) <= static_cast<int64_t>(device.memory_limit_)) return true;
+  device.over_limit_ = true;
+  return false;
+}
+
+}  // namespace pelage

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/camera/camera.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "render/sampling/warp.h"
+
+namespace pelage {
+
+Camera::Pose Camera::make_pose(const CameraParams& params, double frame) {
+  Pose pose;
+  pose.position = params.position.at(frame);
+  const V3f view = params.look_at.at(frame) - pose.position;
+  const V3f right = view.cross(params.up.at(frame));
+  if (view.length() == 0) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("camera: position and look_at are one point at frame {}", frame));
+  }
+  if (right.length() <= 1e-6f * view.length() * params.up.at(frame).length()) {
+    throw Error(ErrorKind::kInput, fmt::format("camera: looks along its up vector at frame {}", frame));
+  }
+  pose.forward = view.normalized();
+  pose.right = right.normalized();
+  pose.up = pose.right.cross(pose.forward);
+  pose.tan_half = std::tan(params.fov.at(frame) * kPi / 360);
+  return pose;
+}
+
+Camera::Pose Camera::blend(const Pose& a, const Pose& b, float t) {
+  Pose pose;
+  pose.position = a.position * (1 - t) + b.position * t;
+  pose.forward = (a.forward * (1 - t) + b.forward * t).normalized();
+  pose.right = pose.forward.cross(a.up * (1 - t) + b.up * t).normalized();
+  pose.up = pose.right.cross(pose.forward);
+  pose.tan_half = a.tan_half * (1 - t) + b.tan_half * t;
+  return pose;
+}
+
+Camera::Camera(const CameraParams& params, double frame, int width, int height)
+    : frame_(make_pose(params, frame)),
+      next_frame_(make_pose(params, frame + 1)),
+      shutter_(params.shutter),
+      width_(width),
+      height_(height) {
+  const bool still = params.position.is_constant() && params.look_at.is_constant() &&
+                     params.up.is_constant() && params.fov.is_constant();
+  const int count = still || shutter_frames() <= 0 ? 1 : std::max(params.motion_keys, 2);
+  for (int k = 0; k < count; ++k) {
+    const double at = count == 1 ? shutter_.x : shutter_.x + shutter_frames() * k / (count - 1.0);
+    keys_.push_back(make_pose(params, frame + at));
+  }
+  if (params.lens) {
+    lens_radius_ = params.lens->focal_length / (2 * params.lens->f_stop);
+    focus_distance_ = params.lens->focus_distance;
+  }
+}
+
+Camera::Pose Camera::pose_at(float time) const {
+  if (keys_.size() == 1) return keys_.front();
+  const float scaled = std::clamp(time, 0.0f, 1.0f) * static_cast<float>(keys_.size() - 1);
+  const size_t key = std::min(static_cast<size_t>(scaled), keys_.size() - 2);
+  return blend(keys_[key], keys_[key + 1], scaled - static_cast<float>(key));
+}
+
+CameraRay Camera::ray(float x, float y, const V2f& lens, float time) const {
+  const Pose pose = pose_at(time);
+  const float scale = 2 * pose.tan_half / static_cast<float>(height_);
+  const float sx = (x - 0.5f * static_cast<float>(width_)) * scale;
+  const float sy = (0.5f * static_cast<float>(height_) - y) * scale;
+  const V3f through = pose.forward + sx * pose.right + sy * pose.up;  // unit length along the axis
+  if (lens_radius_ == 0) return {pose.position, through.normalized(), time};
+  const V2f disk = lens_radius_ * concentric_disk(lens);
+  const V3f origin = pose.position + disk.x * pose.right + disk.y * pose.up;
+  return {origin, (pose.position + focus_distance_ * through - origin).normalized(), time};
+}
+
+std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
+  const V3f local = world - pose.position;
+  const float depth = local.dot(pose.forward);
+  if (!(depth > 0)) return std::nullopt;
+  const float scale = static_cast<float>(height_) / (2 * pose.tan_half * depth);
+  return V3f(0.5f * static_cast<float>(width_) + scale * local.dot(pose.right),
+             0.5f * static_cast<float>(height_) - scale * local.dot(pose.up), depth);
+}
+
+View Camera::view() const {
+  View view;
+  view.position = frame_.position;
+  view.focal_pixels = static_cast<float>(height_) / (2 * frame_.tan_half);
+  return view;
+}
+
+float Camera::frame_time() const { return shutter_frames() > 0 ? -shutter_.x / shutter_frames() : 0.0f; }
+
+M44f Camera::world_to_camera() const {
+  const Pose& p = frame_;
+  const auto shift = [&](const V3f& axis) { return -p.position.dot(axis); };
+  return {p.right.x,      p.up.x,      p.forward.x,      0,  //
+          p.right.y,      p.up.y,      p.forward.y,      0,  //
+          p.right.z,      p.up.z,      p.forward.z,      0,  //
+          shift(p.right), shift(p.up), shift(p.forward), 1};
+}
+
+M44f Camera::world_to_ndc() const {
+  const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
+  const float y = 0.5f / frame_.tan_half;
+  const float x = y / aspect;
+  // camera (x, y, z, 1) -> (x' + z/2, z/2 - y', z, z)
+  const M44f projection(x, 0, 0, 0,        //
+                        0, -y, 0, 0,       //
+                        0.5f, 0.5f, 1, 1,  //
+                        0, 0, 0, 0);
+  return world_to_camera() * projection;
+}
+
+}  // namespace pelage

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "base/ledger.h"
+#include "image/exr.h"
+#include "render/film/film_layers.h"
+
+namespace pelage {
+
+inline constexpr uint32_t kNoStrand = 0xffffffffu;
+
+/// The first surface that a camera ray met. Defaults are those of an empty pixel.
+struct VisibleSurface {
+  float depth = std::numeric_limits<float>::infinity();  ///< along the camera axis
+  V3f normal{0};                                         ///< unit, world space
+  V3f tangent{0};                                        ///< unit, root to tip; zero on skins
+  V2f forward{0};                                        ///< pixels to the next frame, x right, y down
+  V2f root_uv{0};           ///< texture coordinates of the strand's root or of the skin
+  uint32_t id = kNoStrand;  ///< lower half of the strand's id
+};
+
+/// What one path brought back.
+struct FilmSample {
+  Rgb radiance{0};
+  float alpha = 0;
+  VisibleSurface surface;
+  bool inside_pixel =
+      true;  ///< whether the camera ray passed within the pixel itself, not only within its filter
+};
+
+/// Sums of all samples of a picture, pixel by pixel.
+///
+/// Thread safety: different pixels may be written at once. A pixel's samples are added by one thread at a
+/// time in the order of their numbers, so its sums do not depend on the number of threads. Data that cannot
+/// be averaged (depth, normal, id ...) is that of the front-most sample, of those within the pixel if there
+/// are any.
+class Film {
+ public:
+  Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  const FilmLayers& layers() const { return layers_; }
+
+  /// `by_layer`: the radiance divided among layers(). Returns false, and leaves the pixel as it was, when a
+  /// value is not finite.
+  bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
+
+  uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
+  Rgb radiance(int x, int y) const;
+  float alpha(int x, int y) const;
+  Rgb layer(int x, int y, size_t layer) const;
+  const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].sample; }
+
+  /// All channels under the names of docs and notes: R G B A and light layers as half, Z, N, tangent, forward
+  /// and root as float, id as uint. Attributes are copied into the header.
+  ExrImage to_exr(std::map<std::string, ExrAttribute> attributes) const;
+
+ private:
+  struct Surface {
+    VisibleSurface sample;
+    bool inside_pixel = false;
+  };
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
+  }
+  float average(size_t pixel, size_t channel) const;
+
+  int width_, height_;
+  FilmLayers layers_;
+  size_t stride_;  // floats per pixel: R G B A, then 3 per layer
+  std::vector<float> sums_;
+  std::vector<uint32_t> counts_;
+  std::vector<Surface> surfaces_;
+  MemoryCharge charge_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film/frame_header.h"
+
+namespace pelage {
+
+std::map<std::string, ExrAttribute> exr_attributes(const FrameHeader& header, const Camera& camera) {
+  std::map<std::string, ExrAttribute> attributes;
+  attributes["worldToCamera"] = camera.world_to_camera();
+  attributes["worldToNDC"] = camera.world_to_ndc();
+  attributes["framesPerSecond"] = static_cast<float>(header.frames_per_second);
+  attributes["pelage:frame"] = static_cast<float>(header.frame);
+  attributes["pelage:metersPerUnit"] = static_cast<float>(header.meters_per_unit);
+  attributes["pelage:seed"] = std::to_string(header.seed);
+  attributes["pelage:samples"] = static_cast<int>(header.samples);
+  attributes["pelage:partial"] = header.partial ? 1 : 0;
+  attributes["pelage:renderSeconds"] = static_cast<float>(header.render_seconds);
+  attributes["pelage:peakMemoryBytes"] = std::to_string(header.peak_memory_bytes);
+  attributes["pelage:version"] = header.program_version;
+  attributes["pelage:sceneHash"] = header.scene_hash;
+  return attributes;
+}
+
+}  // namespace pelage

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "image/exr.h"
+#include "render/camera/camera.h"
+
+namespace pelage {
+
+/// What the header of a picture says beside its pixels.
+struct FrameHeader {
+  double frame = 1;
+  double frames_per_second = 24;
+  double meters_per_unit = 0.01;
+  int64_t seed = 0;
+  uint32_t samples = 0;
+  bool partial = false;  ///< interrupted: some pixels have got fewer samples
+  double render_seconds = 0;
+  int64_t peak_memory_bytes = 0;
+  std::string program_version;
+  std::string scene_hash;  ///< of all that the picture was made from
+};
+
+/// The EXR attributes of a frame: the standard ones (worldToCamera, worldToNDC, framesPerSecond) and, under
+/// "pelage:", the rest.
+std::map<std::string, ExrAttribute> exr_attributes(const FrameHeader& header, const Camera& camera);
+
+}  // namespace pelage

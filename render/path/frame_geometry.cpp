@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/frame_geometry.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "render/accel/embree_accel.h"
+#include "render/path/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+struct Leaf {
+  const Procedural* procedural = nullptr;
+  uint32_t part = 0;
+};
+
+/// Leaves in a fixed order. Procedurals made on the way down live in `made`.
+void collect_leaves(const Procedural& procedural, uint32_t part,
+                    std::vector<std::unique_ptr<Procedural>>& made, std::vector<Leaf>& leaves) {
+  std::vector<std::unique_ptr<Procedural>> children = procedural.split();
+  if (children.empty()) leaves.push_back({&procedural, part});
+  for (std::unique_ptr<Procedural>& child : children) {
+    made.push_back(std::move(child));
+    collect_leaves(*made.back(), part, made, leaves);
+  }
+}
+
+FurBatch grow(const Leaf& leaf, const RenderScene& scene) {
+  const FurPart& part = scene.fur[leaf.part];
+  FurBatch batch;
+  batch.part = leaf.part;
+  batch.strands = leaf.procedural->generate();
+  if (batch.strands.strand_count() == 0) return batch;
+  const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[part.material]);
+  if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not one for fibres");
+  batch.color_attributes = find_attributes(fibre->color, batch.strands, part.name);
+  batch.opacity = point_opacities(fibre->opacity, batch.strands, part);
+  return batch;
+}
+
+}  // namespace
+
+std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Workers& workers,
+                                                         Progress& progress, MemoryLedger& ledger,
+                                                         Statistics& statistics) {
+  std::vector<std::unique_ptr<Procedural>> made;
+  std::vector<Leaf> leaves;
+  for (uint32_t part = 0; part < scene.fur.size(); ++part) {
+    for (const auto& procedural : scene.fur[part].procedurals)
+      collect_leaves(*procedural, part, made, leaves);
+  }
+
+  auto geometry = std::make_unique<FrameGeometry>();
+  geometry->batches_.resize(leaves.size());
+  geometry->charges_.resize(leaves.size());
+  progress.begin("grow", static_cast<double>(leaves.size()));
+  workers.for_each(leaves.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end && !progress.cancelled(); ++i) {
+      FurBatch& batch = geometry->batches_[i];
+      batch = grow(leaves[i], scene);
+      const size_t bytes = batch.strands.bytes() + batch.opacity.capacity() * sizeof(float);
+      geometry->charges_[i] = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
+      progress.advance(1);
+    }
+  });
+  progress.end();
+  if (progress.cancelled()) return nullptr;
+
+  std::vector<AccelStrands> strands;
+  for (const FurBatch& batch : geometry->batches_) {
+    strands.push_back({&batch.strands, batch.part, batch.opacity});
+    statistics.strands_generated += static_cast<int64_t>(batch.strands.strand_count());
+  }
+  statistics.chunks += static_cast<int64_t>(leaves.size());
+  std::vector<const SkinMesh*> skins;
+  for (const SkinPart& skin : scene.skins) skins.push_back(skin.mesh.get());
+
+  progress.begin("build", 1);
+  EmbreeOptions options;
+  options.shape = scene.render.curves;
+  options.memory_limit = scene.render.memory.bytes;
+  geometry->accel_ =
+      std::make_unique<EmbreeAccel>(std::move(strands), std::move(skins), options, ledger, workers);
+  progress.advance(1);
+  progress.end();
+  return geometry;
+}
+
+}  // namespace pelage

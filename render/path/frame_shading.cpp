@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/frame_shading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "geom/curve.h"
+#include "render/path/skin_point.h"
+#include "render/path/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+V3f unit(const V3f& v) { return v * (1 / std::sqrt(v.length2())); }
+
+/// Place over the whole strand of a place in one of its segments.
+float along_strand(const Strands& strands, const Hit& hit) {
+  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(hit.primitive));
+  return (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
+}
+
+std::optional<Rgb> constant_of(const Field& field) {
+  return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
+}
+
+}  // namespace
+
+FrameShading::FrameShading(const RenderScene& scene, const FrameGeometry& geometry)
+    : scene_(scene), geometry_(geometry), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[i])) {
+      fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color)};
+    } else if (const auto* skin = std::get_if<LambertParams>(&scene.materials[i])) {
+      skins_[i] = Skin{skin->color, constant_of(skin->color), skin->color.dependence().surface};
+    }
+  }
+  for (const SkinPart& part : scene.skins) {
+    if (!skins_.at(part.material))
+      throw Error(ErrorKind::kInput, part.name + ": its material is not one for skins");
+  }
+}
+
+Rgb FrameShading::fibre_color(const Fibre& fibre, const FurBatch& batch, const Hit& hit, float v) const {
+  if (fibre.constant_color) return *fibre.constant_color;
+  return strand_color(fibre.color, batch.strands, batch.color_attributes, scene_.fur[batch.part].rest.get(),
+                      {hit.primitive, hit.segment, hit.u, v});
+}
+
+ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit) const {
+  const FurBatch& batch = geometry_.batch(hit.object);
+  const Strands& strands = batch.strands;
+  const Fibre& fibre = *fibres_[scene_.fur[batch.part].material];
+  const CubicSegment segment = bezier_segment_at(strands, hit.primitive, hit.segment, ray.time);
+  const float v = along_strand(strands, hit);
+
+  LobeTangents tangents;
+  tangents[0] = unit(curve_tangent(segment, hit.u));
+  for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
+    const float place = fibre.shells.tangent_place(lobe, v, strands.id(hit.primitive), 0);
+    float t = 0;
+    const CubicSegment shifted = segment_at(strands, hit.primitive, place, ray.time, t);
+    tangents[static_cast<size_t>(lobe)] = unit(curve_tangent(shifted, t));
+  }
+  const Rgb color = fibre_color(fibre, batch, hit, v);
+  return {curve_position(segment, hit.u), tangents[0], curve_radius(segment, hit.u),
+          ray.origin + hit.distance * ray.direction,
+          ConeShellBsdf(fibre.shells, color, tangents, -ray.direction)};
+}
+
+Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit) const {
+  if (skin.constant_color) return *skin.constant_color;
+  FieldPoint point;
+  if (part.rest) {
+    const uint32_t face = part.mesh->faces[hit.primitive];
+    const V2f place = skin_parameters(*part.mesh, hit);
+    const V2f uv = part.rest->topology().texture_coordinates(face, place.x, place.y);
+    point.u = uv.x;
+    point.v = uv.y;
+    if (skin.needs_rest) point.rest = part.rest->evaluate(face, place.x, place.y).position;
+  }
+  return skin.color.color(point);
+}
+
+ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit) const {
+  const SkinPart& part = scene_.skins[hit.object];
+  const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
+  return {point.position, point.start,
+          LambertBsdf(skin_color(part, *skins_[part.material], hit), point.normal)};
+}
+
+ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit) const {
+  return hit.kind == HitKind::kStrand ? fibre_point(ray, hit) : skin_point(ray, hit);
+}
+
+/// Pixels from the frame to the next one for a point seen at `time` of the shutter, which goes on moving as
+/// it does, on average, while the shutter is open; the camera moves as its keys say.
+V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const {
+  const Camera& camera = scene_.camera;
+  const float frames = camera.shutter_frames();
+  const V3f per_frame = frames > 0 ? shutter_motion / frames : V3f(0);
+  const V3f now = position + shutter_motion * (camera.frame_time() - time);
+  const auto from = camera.project_at_frame(now, 0);
+  const auto to = camera.project_at_frame(now + per_frame, 1);
+  if (!from || !to) return V2f(0);
+  return {to->x - from->x, to->y - from->y};
+}
+
+VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit) const {
+  VisibleSurface surface;
+  const V3f position = ray.origin + hit.distance * ray.direction;
+  const Camera& camera = scene_.camera;
+  surface.depth = (position - camera.position(ray.time)).dot(camera.axis(ray.time));
+  if (hit.kind == HitKind::kSkin) {
+    const SkinPart& part = scene_.skins[hit.object];
+    const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
+    surface.normal = point.normal;
+    if (part.rest) {
+      const V2f place = skin_parameters(*part.mesh, hit);
+      surface.root_uv =
+          part.rest->topology().texture_coordinates(part.mesh->faces[hit.primitive], place.x, place.y);
+    }
+    surface.forward = motion_in_image(position, point.shutter_motion, ray.time);
+    return surface;
+  }
+  const Strands& strands = geometry_.batch(hit.object).strands;
+  const CubicSegment segment = bezier_segment_at(strands, hit.primitive, hit.segment, ray.time);
+  surface.tangent = unit(curve_tangent(segment, hit.u));
+  // The normal of a circular fibre at h, from the frame of the fibre and the ray.
+  const V3f across = surface.tangent.cross(-ray.direction);
+  const float length = across.length();
+  if (length > 1e-6f) {
+    const V3f ez = across / length;
+    const V3f ey = ez.cross(surface.tangent);
+    surface.normal = std::sqrt(std::max(0.0f, 1 - hit.v * hit.v)) * ey - hit.v * ez;
+  } else {
+    surface.normal = -ray.direction;
+  }
+  V3f motion(0);
+  if (strands.motion_keys() > 1) {
+    motion = curve_position(bezier_segment(strands, hit.primitive, hit.segment, strands.motion_keys() - 1),
+                            hit.u) -
+             curve_position(bezier_segment(strands, hit.primitive, hit.segment, 0), hit.u);
+  }
+  surface.forward = motion_in_image(position, motion, ray.time);
+  surface.root_uv = strands.root_uv(hit.primitive);
+  surface.id = static_cast<uint32_t>(strands.id(hit.primitive));
+  return surface;
+}
+
+}  // namespace pelage

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/path_integrator.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <optional>
+
+#include "base/parallel.h"
+#include "render/accel/flush_denormals.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kTileSide = 16;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+FilmLayers film_layers(const RenderScene& scene) {
+  if (!scene.image.light_layers) return {};
+  std::vector<FilmLayers::LightInfo> lights;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
+  }
+  return FilmLayers::make(lights, scene.fur.empty() ? 1 : kLobeGroups);
+}
+
+/// Traces passes of samples over a film.
+class FrameLoop {
+ public:
+  FrameLoop(const PathTracer& tracer, const Workers& workers, Progress& progress, Film& film)
+      : tracer_(tracer),
+        workers_(workers),
+        progress_(progress),
+        film_(film),
+        columns_((film.width() + kTileSide - 1) / kTileSide),
+        rows_((film.height() + kTileSide - 1) / kTileSide),
+        scratch_(static_cast<size_t>(workers.thread_count())) {}
+
+  /// Adds samples `first` .. `last` - 1 to every pixel. Returns false when cancelled on the way.
+  bool pass(uint32_t first, uint32_t last) {
+    std::atomic<bool> whole{true};
+    const auto tiles = static_cast<size_t>(columns_) * static_cast<size_t>(rows_);
+    workers_.for_each(tiles, 1, [&](WorkRange range) {
+      const FlushDenormals flush;
+      for (size_t i = range.begin; i < range.end; ++i) {
+        if (progress_.cancelled()) {
+          whole = false;
+          return;
+        }
+        progress_.advance(
+            tile(static_cast<int>(i), first, last, scratch_[static_cast<size_t>(range.worker)]));
+      }
+    });
+    return whole;
+  }
+
+  void add_to(Statistics& statistics) const {
+    statistics.samples_rejected += rejected_;
+    for (const PathScratch& scratch : scratch_) {
+      statistics.rays["camera"] += scratch.rays.camera;
+      statistics.rays["shadow"] += scratch.rays.shadow;
+      statistics.rays["indirect"] += scratch.rays.indirect;
+    }
+  }
+
+ private:
+  /// Returns how many samples it traced.
+  double tile(int number, uint32_t first, uint32_t last, PathScratch& scratch) {
+    const int x0 = number % columns_ * kTileSide, y0 = number / columns_ * kTileSide;
+    const int x1 = std::min(x0 + kTileSide, film_.width()), y1 = std::min(y0 + kTileSide, film_.height());
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        for (uint32_t sample = first; sample < last; ++sample) {
+          tracer_.trace(x, y, sample, scratch);
+          if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
+        }
+      }
+    }
+    return static_cast<double>(x1 - x0) * (y1 - y0) * (last - first);
+  }
+
+  const PathTracer& tracer_;
+  const Workers& workers_;
+  Progress& progress_;
+  Film& film_;
+  const int columns_, rows_;
+  std::vector<PathScratch> scratch_;  // one per worker
+  std::atomic<int64_t> rejected_{0};
+};
+
+}  // namespace
+
+FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progress& progress,
+                         MemoryLedger& ledger, Statistics& statistics, const PathOptions& options) {
+  const Stopwatch preparing;
+  FrameResult result{Film(scene.image.width, scene.image.height, film_layers(scene), ledger)};
+  const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
+  statistics.stages_s["prepare"] += preparing.seconds();
+  result.partial = geometry == nullptr;
+  if (result.partial) return result;
+
+  const Stopwatch rendering;
+  const PathTracer tracer(scene, *geometry, result.film.layers(), options);
+  FrameLoop loop(tracer, workers, progress, result.film);
+  const auto samples = static_cast<uint32_t>(scene.render.samples);
+  progress.begin("render", static_cast<double>(result.film.width()) * result.film.height() * samples);
+  while (result.samples < samples && !result.partial) {
+    const uint32_t next = std::min(samples, std::max(1u, 2 * result.samples));
+    result.partial = !loop.pass(result.samples, next);
+    if (!result.partial) result.samples = next;
+  }
+  progress.end();
+  loop.add_to(statistics);
+  statistics.stages_s["render"] += rendering.seconds();
+  return result;
+}
+
+}  // namespace pelage

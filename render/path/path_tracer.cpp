@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/path_tracer.h"
+
+#include <algorithm>
+
+#include "render/light/mis.h"
+
+namespace pelage {
+namespace {
+
+/// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
+enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
+enum VertexDraw : uint32_t { kLightChoice = 0, kLightPoint = 1, kLobe = 2, kRoulette = 4, kVertexDraws = 5 };
+
+/// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
+constexpr float kJustBefore = 1 - 1e-4f;
+
+float largest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
+
+}  // namespace
+
+/// The state of a path at its current vertex.
+struct PathTracer::Path {
+  Path(const FilmLayers& film_layers, const SampleStream& numbers, PathScratch& memory)
+      : layers(film_layers), stream(numbers), scratch(memory) {}
+
+  void seek(uint32_t draw) { stream.seek(kFirstVertex + kVertexDraws * vertex + draw); }
+
+  /// Adds light that reaches the camera through lobe group g of the first surface as lobes[g] * light.
+  void add(size_t source, const Rgb* lobes, const Rgb& light) {
+    Rgb total(0);
+    for (int g = 0; g < kLobeGroups; ++g) {
+      const Rgb part = lobes[g] * light;
+      total += part;
+      if (g < layers.groups) scratch.by_layer[layers.scattered(source, g)] += part;
+    }
+    scratch.sample.radiance += total;
+  }
+  /// Light arriving at the current vertex from a direction whose scattering is `value`.
+  void add_scattered(size_t source, const FibreValue& value, const Rgb& light) {
+    if (vertex == 0) {
+      add(source, value.lobes, light);
+    } else {
+      add(source, first, throughput * value.total() * light);
+    }
+  }
+
+  const FilmLayers& layers;
+  SampleStream stream;
+  PathScratch& scratch;
+  uint32_t vertex = 0;
+  uint32_t random = 0;  // decides at semi-transparent crossings
+  float time = 0;
+  Ray ray;  // that led to `hit`
+  Hit hit;
+  Rgb first[kLobeGroups];  // rho / pdf of the first vertex, by lobe group
+  Rgb throughput{1};       // of the vertices after the first
+};
+
+PathTracer::PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const FilmLayers& layers,
+                       const PathOptions& options)
+    : scene_(scene),
+      geometry_(geometry),
+      layers_(layers),
+      options_(options),
+      shading_(scene, geometry),
+      filter_(scene.image.filter) {}
+
+Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const {
+  stream.seek(kFilm);
+  const V2f offset = filter_.offset(stream.next2d());
+  const V2f lens = stream.next2d();
+  const float time = stream.next1d();
+  scratch.sample.inside_pixel = std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f;
+  const CameraRay from = scene_.camera.ray(static_cast<float>(x) + 0.5f + offset.x,
+                                           static_cast<float>(y) + 0.5f + offset.y, lens, time);
+  Ray ray;
+  ray.origin = from.origin;
+  ray.direction = from.direction;
+  ray.time = from.time;
+  return ray;
+}
+
+/// Lights that the camera sees directly, in front of `distance`.
+void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch) const {
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Light& light = scene_.lights.light(i);
+    if (!light.visible()) continue;
+    const auto hit = light.intersect(ray.origin, ray.direction);
+    if (!hit || hit->distance > distance) continue;
+    scratch.sample.radiance += hit->radiance;
+    if (!layers_.empty()) scratch.by_layer[layers_.emitted(i)] += hit->radiance;
+  }
+}
+
+/// Direct light by a point on one light.
+void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
+  path.seek(kLightChoice);
+  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, path.stream.next1d());
+  if (!(choice.probability > 0)) return;
+  const Light& light = scene_.lights.light(choice.light);
+  const auto sample = light.sample(point.position(), path.stream.next2d());
+  if (!sample || !(sample->pdf > 0)) return;
+  const FibreValue value = point.eval(sample->direction);
+  const float pdf = choice.probability * sample->pdf;
+  const float weight = options_.direct == DirectLight::kBoth ? power_weight(pdf, value.pdf) : 1.0f;
+  const Rgb light_in = sample->radiance * (weight / pdf);
+  if (!(largest(value.total() * light_in) > 0)) return;
+
+  Ray ray;
+  ray.origin = point.start(sample->direction);
+  ray.direction = sample->direction;
+  ray.far = sample->distance * kJustBefore;
+  ray.time = path.time;
+  ++path.scratch.rays.shadow;
+  const float through = geometry_.accel().transmittance(ray);
+  if (through > 0) path.add_scattered(choice.light, value, light_in * through);
+}
+
+/// Lights along a ray drawn from the lobes of the current vertex, seen from `from` as light sampling sees
+/// them, in front of `distance`. With `shadowed`, what lies between has yet to be found out.
+void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
+                               Path& path) const {
+  for (size_t i = 0; i < scene_.lights.size(); ++i) {
+    const Light& light = scene_.lights.light(i);
+    const auto hit = light.intersect(from, ray.direction);
+    if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
+    float weight = 1;
+    if (options_.direct == DirectLight::kBoth) {
+      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
+      weight = power_weight(lobe_pdf, pdf);
+    }
+    if (shadowed) {
+      Ray shadow = ray;
+      shadow.far = hit->distance * kJustBefore;
+      ++path.scratch.rays.shadow;
+      weight *= geometry_.accel().transmittance(shadow);
+    }
+    if (weight > 0) path.add(i, path.first, path.throughput * hit->radiance * weight);
+  }
+}
+
+/// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
+bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
+  const bool last = path.vertex == static_cast<uint32_t>(scene_.render.bounces);
+  if (last && options_.direct == DirectLight::kLightsOnly) return false;
+  path.seek(kLobe);
+  const auto sample = point.sample(path.stream.next3d());
+  if (!sample) return false;
+  const FibreValue& value = sample->value;
+  if (path.vertex == 0) {
+    for (int g = 0; g < kLobeGroups; ++g) path.first[g] = value.lobes[g] / value.pdf;
+  } else {
+    path.throughput *= value.total() / value.pdf;
+  }
+  const Rgb weight = (path.first[0] + path.first[1] + path.first[2]) * path.throughput;
+  if (!(largest(weight) > 0)) return false;
+
+  Ray ray;
+  ray.origin = point.start(sample->wi);
+  ray.direction = sample->wi;
+  ray.time = path.time;
+  if (last) {
+    gather_lights(point.position(), ray, ray.far, value.pdf, true, path);
+    return false;
+  }
+  if (options_.roulette) {
+    const float survival = std::min(1.0f, largest(weight));
+    path.seek(kRoulette);
+    if (path.stream.next1d() >= survival) return false;
+    path.throughput /= survival;
+  }
+  ray.random = ++path.random;
+  ++path.scratch.rays.indirect;
+  const Hit hit = geometry_.accel().closest(ray);
+  if (options_.direct != DirectLight::kLightsOnly) {
+    gather_lights(point.position(), ray, hit.distance, value.pdf, false, path);
+  }
+  path.ray = ray;
+  path.hit = hit;
+  return static_cast<bool>(hit);
+}
+
+void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) const {
+  scratch.sample = FilmSample{};
+  scratch.by_layer.assign(layers_.size(), Rgb(0));
+  scratch.light_probabilities.resize(scene_.lights.size());
+
+  const auto seed = static_cast<uint64_t>(scene_.render.seed);
+  const auto px = static_cast<uint32_t>(x), py = static_cast<uint32_t>(y);
+  Path path(layers_, SampleStream(seed, px, py, sample), scratch);
+  path.ray = camera_ray(x, y, path.stream, scratch);
+  path.time = path.ray.time;
+  if (!geometry_.accel().opaque()) {
+    path.random = static_cast<uint32_t>(hash64(seed, px, py, sample, random_use("crossings")));
+    path.ray.random = path.random;
+  }
+  ++scratch.rays.camera;
+  path.hit = geometry_.accel().closest(path.ray);
+  see_lights(path.ray, path.hit.distance, scratch);
+  if (!path.hit) return;
+  scratch.sample.alpha = 1;
+  scratch.sample.surface = shading_.visible_surface(path.ray, path.hit);
+
+  for (;; ++path.vertex) {
+    const ScatterPoint point = shading_.scatter_point(path.ray, path.hit);
+    scene_.lights.probabilities(point.position(), point.tangent(), scratch.light_probabilities);
+    if (options_.direct != DirectLight::kLobesOnly) sample_lights(point, path);
+    if (!sample_lobes(point, path)) return;
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "render/fibre/cone_shell_bsdf.h"
+#include "render/surface/lambert.h"
+
+namespace pelage {
+
+/// A vertex of a path: where light is scattered, and how. Fibres and skins alike, in terms of lobe groups and
+/// of rho = f cos(theta_i) as FibreBsdf has it.
+class ScatterPoint {
+ public:
+  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface.
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, const ConeShellBsdf& bsdf)
+      : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), bsdf_(bsdf) {}
+  /// A point of a skin: `start` is where rays that leave it begin.
+  ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
+      : position_(position), surface_(start), bsdf_(bsdf) {}
+
+  /// Where light sampling looks from.
+  const V3f& position() const { return position_; }
+  /// Unit tangent of a fibre, the null vector on a skin.
+  const V3f& tangent() const { return tangent_; }
+
+  FibreValue eval(const V3f& wi) const {
+    if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->eval(wi);
+    return as_fibre(std::get_if<LambertBsdf>(&bsdf_)->eval(wi));
+  }
+
+  std::optional<FibreSample> sample(const V3f& u) const {
+    if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->sample(u);
+    const auto drawn = std::get_if<LambertBsdf>(&bsdf_)->sample({u.x, u.y});
+    if (!drawn) return std::nullopt;
+    return FibreSample{drawn->wi, as_fibre(drawn->value)};
+  }
+
+  /// Origin of a ray towards `wi`. Light enters and leaves a fibre at one point of its axis; the ray begins
+  /// where it leaves the fibre's surface, so that the fibre does not shadow itself.
+  V3f start(const V3f& wi) const {
+    if (radius_ == 0) return surface_;
+    const V3f side = wi - wi.dot(tangent_) * tangent_;
+    const float length2 = side.length2();
+    if (length2 < 1e-6f) return surface_;
+    return position_ + (kJustOutside * radius_ / std::sqrt(length2)) * side;
+  }
+
+ private:
+  static constexpr float kJustOutside = 1.001f;
+
+  static FibreValue as_fibre(const SurfaceValue& value) {
+    FibreValue result;
+    result.lobes[static_cast<int>(LobeGroup::kDiffuse)] = value.rho;
+    result.pdf = value.pdf;
+    return result;
+  }
+
+  V3f position_;
+  V3f tangent_{0};
+  V3f surface_;
+  float radius_ = 0;
+  std::variant<ConeShellBsdf, LambertBsdf> bsdf_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/skin_point.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pelage {
+namespace {
+
+struct Corner {
+  V3f position, normal;
+};
+
+Corner corner(const SkinMesh& mesh, uint32_t vertex, float time) {
+  if (mesh.motion_keys == 1) return {mesh.position(vertex), mesh.normal(vertex)};
+  const float scaled = std::clamp(time, 0.0f, 1.0f) * static_cast<float>(mesh.motion_keys - 1);
+  const int key = std::min(static_cast<int>(scaled), mesh.motion_keys - 2);
+  const float t = scaled - static_cast<float>(key);
+  return {mesh.position(vertex, key) * (1 - t) + mesh.position(vertex, key + 1) * t,
+          (mesh.normal(vertex, key) * (1 - t) + mesh.normal(vertex, key + 1) * t).normalized()};
+}
+
+}  // namespace
+
+SkinPoint skin_point(const SkinMesh& mesh, const Ray& ray, const Hit& hit) {
+  const uint32_t* vertices = &mesh.triangles[size_t(3) * hit.primitive];
+  const float weights[3] = {1 - hit.u - hit.v, hit.u, hit.v};
+  std::array<Corner, 3> corners;
+  SkinPoint point;
+  for (int c = 0; c < 3; ++c) {
+    corners[c] = corner(mesh, vertices[c], ray.time);
+    point.position += weights[c] * corners[c].position;
+    point.normal += weights[c] * corners[c].normal;
+    if (mesh.motion_keys > 1) {
+      point.shutter_motion +=
+          weights[c] * (mesh.position(vertices[c], mesh.motion_keys - 1) - mesh.position(vertices[c], 0));
+    }
+  }
+  V3f facet = (corners[1].position - corners[0].position)
+                  .cross(corners[2].position - corners[0].position)
+                  .normalized();
+  if (facet.dot(ray.direction) > 0) facet = -facet;
+  point.normal.normalize();
+  if (point.normal.dot(facet) < 0) point.normal = -point.normal;
+
+  // Each corner's tangent plane says how far the surface bulges out over the facet there.
+  V3f bulge(0);
+  for (int c = 0; c < 3; ++c) {
+    V3f n = corners[c].normal;
+    if (n.dot(facet) < 0) n = -n;
+    const float below = std::min(0.0f, (point.position - corners[c].position).dot(n));
+    bulge -= weights[c] * below * n;
+  }
+  // The hit is off by a few units in the last place of its largest coordinate and of its distance.
+  const V3f& p = point.position;
+  const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), hit.distance});
+  point.start = p + bulge + (0x1p-20f * size) * facet;
+  return point;
+}
+
+V2f skin_parameters(const SkinMesh& mesh, const Hit& hit) {
+  const V2f* corners = &mesh.vertex_uv[size_t(3) * hit.primitive];
+  return corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
+}
+
+}  // namespace pelage

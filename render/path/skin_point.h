@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geom/tessellation.h"
+#include "render/accel/accel.h"
+
+namespace pelage {
+
+/// A hit on a skin's triangles, evaluated at the time of the ray.
+struct SkinPoint {
+  V3f position{0};
+  V3f normal{0};  ///< unit limit normal, interpolated; on the side that the ray came from
+  /// Where rays begin that leave the surface: on the curved surface which the triangle stands for, so that a
+  /// convex skin is not shadowed by its own facets at grazing light [Hanika21].
+  V3f start{0};
+  V3f shutter_motion{0};  ///< how far the point travels while the shutter is open
+};
+
+SkinPoint skin_point(const SkinMesh& mesh, const Ray& ray, const Hit& hit);
+
+/// Parameters in its ptex face of a hit.
+V2f skin_parameters(const SkinMesh& mesh, const Hit& hit);
+
+}  // namespace pelage
