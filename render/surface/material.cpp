@@ -22,6 +22,19 @@ const Schema<LambertParams>& LambertParams::schema() {
   return table;
 }
 
+const Schema<GlossyParams>& GlossyParams::schema() {
+  static const Schema<GlossyParams> table = [] {
+    Schema<GlossyParams> s("glossy", "A surface under a clear coat: eyes, noses.");
+    s.key("color", &GlossyParams::color,
+          {.help = "Fraction of the light that the base reflects, by channel", .min = 0, .max = 1});
+    s.key("roughness", &GlossyParams::roughness,
+          {.help = "Of the coat: 0 is a mirror, 1 is matt", .min = 0, .max = 1});
+    s.key("ior", &GlossyParams::ior, {.help = "Index of refraction of the coat", .min = 1, .max = 3});
+    return s;
+  }();
+  return table;
+}
+
 const Schema<ConeShellParams>& ConeShellParams::schema() {
   static const Schema<ConeShellParams> table = [] {
     using P = ConeShellParams;
@@ -84,6 +97,13 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
     return s;
   }();
   return table;
+}
+
+MaterialParams with_textures(MaterialParams material, TextureLibrary& textures) {
+  std::visit([&](auto& params) { params.color = params.color.with_textures(textures); }, material);
+  if (auto* fibre = std::get_if<ConeShellParams>(&material))
+    fibre->opacity = fibre->opacity.with_textures(textures);
+  return material;
 }
 
 }  // namespace pelage

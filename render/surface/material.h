@@ -18,6 +18,16 @@ struct LambertParams {
   static const Schema<LambertParams>& schema();
 };
 
+/// A diffuse skin under a clear coat: eyes, noses.
+struct GlossyParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "glossy";
+  Field color{Rgb(0.5f)};
+  float roughness = 0.1f;
+  float ior = 1.5f;
+  static const Schema<GlossyParams>& schema();
+};
+
 /// Which weight the specular shells have, see render/fibre/cone_shell.h.
 enum class ShellVariant { kWigner, kLiteral };
 template <>
@@ -47,6 +57,11 @@ struct ConeShellParams {
   static const Schema<ConeShellParams>& schema();
 };
 
-using MaterialParams = std::variant<LambertParams, ConeShellParams>;
+using MaterialParams = std::variant<LambertParams, GlossyParams, ConeShellParams>;
+
+class TextureLibrary;
+
+/// The material with the maps of its fields read. Throws Error (kInput) where the scene names a missing one.
+MaterialParams with_textures(MaterialParams material, TextureLibrary& textures);
 
 }  // namespace pelage

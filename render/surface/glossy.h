@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// What a glossy surface sends back, rho = f cos(theta_i) per solid angle, cosine of the normal.
+struct GlossyValue {
+  Rgb diffuse{0};
+  float specular = 0;  ///< of the clear coat, not coloured
+  float pdf = 0;       ///< of the mixture that sample() draws from, per solid angle
+};
+
+struct GlossySample {
+  V3f wi{0};
+  GlossyValue value;
+};
+
+/// A diffuse base under a smooth clear coat: eyes, noses, wet ground. The coat is a GGX microfacet dielectric
+/// [Walter07] with height-correlated shadowing [Heitz14], drawn by visible normals [Heitz18], Fresnel by
+/// [Schlick94]; what it lets in and out again reaches the base. Reciprocal; never gives back more than it
+/// gets. World space, directions point away from the surface, `normal` and `wo` are on one side. A plain
+/// value, cheap to make.
+class GlossyBsdf {
+ public:
+  /// `roughness` in [0, 1], squared to the width of the microfacets; `ior` > 1.
+  GlossyBsdf(const Rgb& albedo, float roughness, float ior, const V3f& normal, const V3f& wo);
+
+  GlossyValue eval(const V3f& wi) const;
+  /// u.x, u.y: direction; u.z: coat or base.
+  std::optional<GlossySample> sample(const V3f& u) const;
+
+ private:
+  float fresnel(float cosine) const;
+  GlossyValue eval_local(const V3f& wi) const;
+  float visible_normal_density(const V3f& half) const;
+  V3f draw_visible_normal(const V2f& u) const;
+
+  Rgb albedo_;
+  float alpha_;
+  float facing_reflectance_;
+  Frame frame_;
+  V3f wo_;             // local: z along the normal
+  float base_share_;   // of the light that the coat lets in on the way to the viewer
+  float coat_choice_;  // probability of drawing from the coat
+};
+
+}  // namespace pelage
