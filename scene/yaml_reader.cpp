@@ -196,7 +196,7 @@ std::string explain(const std::string& message) {
     const char* theirs;
     const char* ours;
   };
-  constexpr Wording kWordings[] = {
+  const Wording kWordings[] = {
       {YAML::ErrorMsg::MAP_VALUE, "a ':' where no value may stand; check the indentation and quotes"},
       {YAML::ErrorMsg::MAP_KEY, "a key where none may stand; check the indentation"},
       {YAML::ErrorMsg::BLOCK_ENTRY, "a '-' where no list item may stand; check the indentation"},

@@ -34,7 +34,7 @@ TEST(ReadFile, ReturnsEveryByte) {
   for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 31);
   std::ofstream(folder.path() / "f", std::ios::binary) << bytes;
   EXPECT_EQ(read_file(folder.path() / "f"), bytes);
-  std::ofstream(folder.path() / "empty");
+  std::ofstream(folder.path() / "empty") << "";
   EXPECT_EQ(read_file(folder.path() / "empty"), "");
 }
 

@@ -55,7 +55,7 @@ TEST(Hash64, Avalanches) {
       }
       // Six standard deviations of a fair coin, over 3 * 10 * 64 counts.
       for (int count : flips)
-        EXPECT_NEAR(count, kTrials / 2, 6 * std::sqrt(kTrials / 4.0)) << word << " " << bit;
+        EXPECT_NEAR(count, 0.5 * kTrials, 6 * std::sqrt(0.25 * kTrials)) << word << " " << bit;
     }
   }
 }
