@@ -6,6 +6,8 @@
 namespace pelage {
 namespace {
 
+constexpr int kMostBrackets = 256;
+
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
 // Length of the well-formed UTF-8 sequence at the start of `text`, or 0.
@@ -42,6 +44,12 @@ SourceText::SourceText(std::string text, std::string file) : text_(std::move(tex
   }
 }
 
+std::string_view SourceText::line(int line) const {
+  if (line < 0 || static_cast<size_t>(line) >= line_starts_.size()) return {};
+  const std::string_view rest = std::string_view(text_).substr(line_starts_[static_cast<size_t>(line)]);
+  return rest.substr(0, rest.find('\n'));
+}
+
 SourcePosition SourceText::position(int line, int byte_column) {
   line = std::clamp(line, 0, static_cast<int>(line_starts_.size()) - 1);
   const size_t start = line_starts_[static_cast<size_t>(line)];
@@ -58,20 +66,29 @@ SourcePosition SourceText::position(int line, int byte_column) {
 }
 
 bool SourceText::check(Problems& problems) {
+  int brackets = 0;  // open ones; those in comments and quotes count too, which does no harm at this size
   for (size_t i = 0; i < text_.size();) {
     const std::string_view rest = std::string_view(text_).substr(i);
     const size_t length = sequence_length(rest);
-    if (length == 0 || is_forbidden_control(rest)) {
-      const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), i);
-      const auto line = static_cast<int>(after - line_starts_.begin()) - 1;
-      const size_t column = i - line_starts_[static_cast<size_t>(line)];
-      problems.add(position(line, static_cast<int>(column)),
-                   length == 0 ? "this is not UTF-8 text" : "control characters may not stand in a scene");
+    if (text_[i] == '[' || text_[i] == '{') ++brackets;
+    if (text_[i] == ']' || text_[i] == '}') brackets = std::max(brackets - 1, 0);
+    const char* mistake = length == 0                  ? "this is not UTF-8 text"
+                          : is_forbidden_control(rest) ? "control characters may not stand in a scene"
+                          : brackets > kMostBrackets   ? "too many brackets are open"
+                                                       : nullptr;
+    if (mistake) {
+      problems.add(position_of_byte(i), mistake);
       return false;
     }
     i += length;
   }
   return true;
+}
+
+SourcePosition SourceText::position_of_byte(size_t byte) {
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), byte);
+  const auto line = static_cast<size_t>(after - line_starts_.begin()) - 1;
+  return position(static_cast<int>(line), static_cast<int>(byte - line_starts_[line]));
 }
 
 }  // namespace pelage

@@ -19,11 +19,18 @@ class SourceText {
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
 
+  /// A line, counted from 0, without its end; empty when there is none.
+  std::string_view line(int line) const;
+
   /// Position of a byte of a line, both counted from 0; places beyond the text become its end. Quick when
   /// asked in ascending order.
   SourcePosition position(int line, int byte_column);
 
-  /// Adds a problem and returns false when the text is not UTF-8 or holds control characters.
+  /// The same of a byte of the whole text.
+  SourcePosition position_of_byte(size_t byte);
+
+  /// Adds a problem and returns false when the text is not UTF-8, holds control characters, or opens brackets
+  /// by the hundred: yaml-cpp queues a quarter kilobyte for each before its first event.
   bool check(Problems& problems);
 
  private:

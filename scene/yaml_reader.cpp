@@ -48,7 +48,9 @@ class ValueBuilder final : public YAML::EventHandler {
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     problems_.add(at(mark), "aliases are refused; share values by 'include:'");
-    place(Value());
+    Value nothing;
+    nothing.set_position(at(mark));
+    place(std::move(nothing));
   }
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
@@ -118,12 +120,8 @@ class ValueBuilder final : public YAML::EventHandler {
     auto end = static_cast<size_t>(std::clamp<long>(mark.pos, 0, static_cast<long>(text.size())));
     const std::string_view there = std::string_view(text).substr(end, 1);
     if (there == "~" || there == "n" || there == "N") return at(mark);
-    int line = mark.line;
-    while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1])))
-      line -= text[--end] == '\n' ? 1 : 0;
-    if (end == 0) return at(mark);
-    const size_t start = text.rfind('\n', end - 1);
-    return source_.position(line, static_cast<int>(end - 1 - (start == std::string::npos ? 0 : start + 1)));
+    while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1]))) --end;
+    return end == 0 ? at(mark) : source_.position_of_byte(end - 1);
   }
 
   void open(const YAML::Mark& mark, const std::string& tag, bool is_map) {
@@ -245,7 +243,13 @@ std::optional<Value> read_yaml(std::string text, const std::string& file,
     return builder.take_root();
   } catch (const Stop&) {
   } catch (const YAML::Exception& error) {
-    problems.add(error.mark.is_null() ? whole : builder.at(error.mark), explain(error.msg));
+    if (error.mark.is_null()) {
+      problems.add(whole, explain(error.msg));
+    } else {
+      const std::string_view line = source.line(error.mark.line);
+      const bool has_tab = line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string_view::npos;
+      problems.add(builder.at(error.mark), explain(has_tab ? YAML::ErrorMsg::TAB_IN_INDENTATION : error.msg));
+    }
   }
   return std::nullopt;
 }

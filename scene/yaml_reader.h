@@ -11,8 +11,8 @@ namespace pelage {
 
 /// What may be read in all for one scene, over all its files and overrides. Readers count down.
 struct DocumentLimits {
-  size_t bytes = size_t(16) << 20;
-  size_t values = 200'000;
+  size_t bytes = size_t(2) << 20;
+  size_t values = 100'000;
   int files = 64;
 };
 
