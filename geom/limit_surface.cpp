@@ -93,8 +93,7 @@ Frame LimitSurface::frame_of(const SurfacePoint& point) {
   return {along.normalized(), across.bitangent, across.normal};
 }
 
-Frame LimitSurface::frame(uint32_t face, float u, float v) const {
-  const SurfacePoint here = evaluate(face, u, v);
+Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, float v) const {
   V3f normal;
   if (normal_of(here.du, here.dv, normal)) return frame_around(normal, here.du);
   const float middle = topology_->impl().triangular ? 1.0f / 3 : 0.5f;

@@ -86,7 +86,9 @@ class LimitSurface {
   /// Orthonormal frame: normal = du x dv, tangent = du made perpendicular. Where du x dv vanishes (poles,
   /// collapsed faces) it is taken a little towards the middle of the face; frames are always finite and
   /// orthonormal.
-  Frame frame(uint32_t face, float u, float v) const;
+  Frame frame(uint32_t face, float u, float v) const { return frame(evaluate(face, u, v), face, u, v); }
+  /// The same where `point`, the surface at (face, u, v), is known already.
+  Frame frame(const SurfacePoint& point, uint32_t face, float u, float v) const;
   static Frame frame_of(const SurfacePoint& point);
   Box3f control_bounds() const { return bounds_; }
   size_t bytes() const;

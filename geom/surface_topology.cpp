@@ -54,7 +54,9 @@ ContentHash hash_cage(const ControlMesh& mesh, SubdivisionScheme scheme, Boundar
   return content_hash(std::as_bytes(std::span(words)));
 }
 
-CageConnectivity connect(const Far::TopologyRefiner& refiner, bool triangular) {
+CageConnectivity connect(const Far::TopologyRefiner& refiner, SubdivisionScheme scheme) {
+  const bool triangular = scheme == SubdivisionScheme::kLoop,
+             faceted = scheme == SubdivisionScheme::kBilinear;
   const Far::TopologyLevel& base = refiner.GetLevel(0);
   CageConnectivity cage;
   cage.first_corner.push_back(0);
@@ -71,13 +73,13 @@ CageConnectivity connect(const Far::TopologyRefiner& refiner, bool triangular) {
   cage.vertex_split.resize(static_cast<size_t>(base.GetNumVertices()));
   for (int v = 0; v < base.GetNumVertices(); ++v) {
     cage.vertex_split[static_cast<size_t>(v)] =
-        base.IsVertexNonManifold(v) ||
+        faceted || base.IsVertexNonManifold(v) ||
         base.GetVertexSharpness(v) >= OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE;
   }
   for (int e = 0; e < base.GetNumEdges(); ++e) {
     const Far::ConstIndexArray ends = base.GetEdgeVertices(e);
     const bool split = base.GetEdgeFaces(e).size() > 1 &&
-                       (base.IsEdgeNonManifold(e) ||
+                       (faceted || base.IsEdgeNonManifold(e) ||
                         base.GetEdgeSharpness(e) >= OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE);
     for (int end = 0; end < 2; ++end) {
       cage.edge_vertices.push_back(static_cast<uint32_t>(ends[end]));
@@ -228,7 +230,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   impl->triangular = scheme == SubdivisionScheme::kLoop;
   impl->control_count = static_cast<uint32_t>(mesh.positions.size());
   impl->hash = hash_cage(mesh, scheme, boundary);
-  impl->cage = connect(*refiner, impl->triangular);
+  impl->cage = connect(*refiner, scheme);
   fill_ptex_faces(*impl, refiner->GetLevel(0), mesh);
 
   Far::PatchTableFactory::Options options(kSharpLevels);

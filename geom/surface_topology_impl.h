@@ -23,7 +23,8 @@ struct CageConnectivity {
   std::vector<uint32_t> corner_vertex;
   std::vector<uint32_t> corner_edge;
   std::vector<uint32_t> edge_vertices;  ///< 2 per edge
-  std::vector<uint8_t> edge_split;  ///< the normals of its faces differ: infinitely sharp, or of three faces
+  std::vector<uint8_t>
+      edge_split;  ///< the normals of its faces differ: infinitely sharp, of three faces, or bilinear
   std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
   std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
 

@@ -19,7 +19,7 @@ class Workers;
 struct SkinMesh {
   int motion_keys = 1;
   std::vector<float> positions;     ///< motion_keys x vertex_count x 3, the whole of key 0 first
-  std::vector<float> normals;       ///< as positions: unit limit normals
+  std::vector<float> normals;       ///< as positions: unit limit normals, averaged over faces at sharp edges
   std::vector<uint32_t> triangles;  ///< 3 vertices each
   std::vector<uint32_t> faces;      ///< ptex face of each triangle
   std::vector<V2f> vertex_uv;       ///< parameters of each triangle's 3 corners in its ptex face
@@ -42,7 +42,10 @@ struct TessellationOptions {
   int max_rate = 32;      ///< most quads along an edge of a ptex face
 };
 
-/// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`.
+/// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`. Every
+/// edge of the cage is divided by its own length on screen, so that a skin costs what is seen of it; faces
+/// that share an edge share its vertices. Holes are left out. The same for any number of threads. Throws
+/// Error (kMemory) when there would be more than 2^31 vertices or triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
 
