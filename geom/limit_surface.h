@@ -41,6 +41,8 @@ class SurfaceTopology {
   /// Ptex faces: one per quad, n per n-gon (Catmull-Clark); one per triangle (Loop).
   uint32_t face_count() const;
   uint32_t control_count() const;
+  /// Whether ptex faces are triangles (Loop), with parameters u + v <= 1, not squares.
+  bool is_triangular() const;
   bool is_hole(uint32_t face) const;
   /// Cage face that a ptex face is part of.
   uint32_t cage_face(uint32_t face) const;

@@ -247,6 +247,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   return std::shared_ptr<const SurfaceTopology>(new SurfaceTopology(std::move(impl)));
 }
 
+bool SurfaceTopology::is_triangular() const { return impl_->triangular; }
 uint32_t SurfaceTopology::face_count() const { return static_cast<uint32_t>(impl_->cage_face.size()); }
 uint32_t SurfaceTopology::control_count() const { return impl_->control_count; }
 bool SurfaceTopology::is_hole(uint32_t face) const { return impl_->hole[face] != 0; }

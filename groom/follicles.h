@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "base/value_readers.h"
 #include "base/vector.h"
 #include "geom/limit_surface.h"
 #include "geom/strands.h"
@@ -23,8 +25,9 @@ struct EnumNames<StrandRole> {
 
 struct FollicleOptions {
   int64_t count = 0;    ///< strands in all; 0: `per_area` decides
-  double per_area = 0;  ///< strands per square scene unit of the rest limit surface where the field is 1
+  double per_area = 0;  ///< strands per square scene unit of the rest limit surface where the density is 1
   Field density{1.0f};  ///< relative density over the skin, >= 0
+  std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< factor on the density; may be empty
   uint64_t seed = 0;
   int leaf_strands = 8000;
 };
@@ -37,12 +40,20 @@ struct FollicleOptions {
 /// space. Immutable. Thread safety: const members may be called from any thread.
 class FollicleTree {
  public:
+  /// Most follicles of one groom.
+  static constexpr int64_t kMaxFollicles = 500'000'000;
+
   struct Leaf {
     uint32_t begin = 0, end = 0;  ///< follicles
     Box3f rest_roots;             ///< box of their rest positions
   };
 
+  /// Empty where the density is 0 everywhere. Throws Error (kInput) when more than kMaxFollicles are asked
+  /// for.
   static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Workers& workers);
+  /// The same hierarchy over given places: follicle i has id i.
+  static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
+                           int leaf_strands);
 
   size_t size() const { return ids_.size(); }
   std::span<const Leaf> leaves() const { return leaves_; }

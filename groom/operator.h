@@ -1,20 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
 #include <string_view>
 
+#include "base/error.h"
 #include "base/vector.h"
+#include "geom/strands.h"
 
 namespace pelage {
 
-class StrandBatch;
-struct PrepareContext;
+class LimitSurface;
+class Operator;
+class TextureLibrary;
+class Workers;
+struct StrandBatch;
 
-/// Longest possible strand and widest possible radius before or after an operator, for bounds. Scene units.
+/// What is known of every strand before or after an operator, for bounds. Scene units, before the scale of a
+/// character. All of it is about control points: curves stay within their hull.
 struct StrandReach {
-  float length = 0;  ///< no point lies further than this from its root
-  float radius = 0;
+  float length = 1;                        ///< longest arc (of the control polygon)
+  float distance = 1;                      ///< no point lies further than this from its root
+  float radius = 0;                        ///< widest
+  float lean = std::numbers::pi_v<float>;  ///< largest angle of any segment to the normal of its root
+  int segments = 7;                        ///< most segments of a control polygon
+};
+
+/// What an operator may learn from before strands are grown. Rest state only.
+struct PrepareContext {
+  const LimitSurface* rest = nullptr;  ///< null for imported strands that grow on no skin
+  TextureLibrary& textures;
+  const Workers& workers;
+  std::span<const std::unique_ptr<Operator>> preceding;  ///< prepared already
+  uint64_t seed = 0;  ///< of this operator: changes when the groom's does, differs between equal operators
+  int points = 8;     ///< of a grown strand
+  SourcePosition position;  ///< where the operator stands in the scene, for errors
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
@@ -30,16 +54,26 @@ class Operator {
   /// Rest state only: the offsets serve every pose and may be frozen. Otherwise the operator sees posed
   /// strands.
   virtual bool reads_rest_only() const { return true; }
+  /// Whether apply() asks for the posed skin (StrandBatch::skin).
+  virtual bool needs_closest_point() const { return false; }
+  /// How often the colours that apply() writes change; nothing when it writes none.
+  virtual std::optional<AttributeClass> colors() const { return {}; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.
+  /// Throws Error (kInput).
   virtual void prepare(const PrepareContext&) {}
+  /// How many strands shall grow at a point of the rest skin, relative to the density that the groom asks
+  /// for.
+  virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
+  /// Whether coverage() differs from 1 anywhere.
+  virtual bool restricts_coverage() const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
   /// Bound on how far apply() moves any point of a strand that `before` bounds: at most 1.5 times what it
   /// really does to the worst strand.
   virtual float displacement_bound(const StrandReach& before) const = 0;
-  /// What holds after apply(); the default adds the displacement.
-  virtual StrandReach reach_after(const StrandReach& before) const {
-    return {before.length + displacement_bound(before), before.radius};
-  }
+  /// What holds after apply().
+  virtual StrandReach reach_after(const StrandReach& before) const = 0;
+  /// Heap bytes held after prepare().
+  virtual size_t bytes() const { return 0; }
 };
 
 }  // namespace pelage

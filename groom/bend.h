@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `bend`.
+struct BendParams {
+  Field direction{Rgb(0, -1, 0)};
+  Field angle{45.0f};
+  float start = 0;
+  float profile = 1;
+  float variation = 0;
+  static const Schema<BendParams>& schema();
+};
+
+/// Bends strands towards a direction, more and more from root to tip. Keeps every segment's length.
+class Bend final : public Operator {
+ public:
+  using Params = BendParams;
+  static constexpr const char* kName = "bend";
+  explicit Bend(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+
+ private:
+  float largest_angle() const;  // radians
+
+  Params params_;
+  uint64_t seed_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/clump.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "base/value_readers.h"
+#include "groom/clump_centres.h"
+#include "groom/strand_batch.h"
+#include "groom/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+/// How much longer drawing may make a strand before it is scaled back: as a part of amount * (distance to the
+/// centre
+/// + twice the strand's length). Keeps the way back shorter than that part of the way there.
+constexpr float kStretch = 0.25f;
+
+}  // namespace
+
+const Schema<ClumpLevelParams>& ClumpLevelParams::schema() {
+  static const Schema<ClumpLevelParams> table = [] {
+    Schema<ClumpLevelParams> s("clump level", "A finer level of clumps inside the others.");
+    s.key("spacing", &ClumpLevelParams::spacing,
+          {.unit = "scene units", .help = "Mean distance between clumps", .min = 0, .above_min = true});
+    s.key(
+        "amount", &ClumpLevelParams::amount,
+        {.help = "How much of the way to the centre strand; may vary along the strand", .min = 0, .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<ClumpParams>& ClumpParams::schema() {
+  static const Schema<ClumpParams> table = [] {
+    Schema<ClumpParams> s(
+        "clump",
+        "Draws strands together into clumps, each along a strand of its own that the operators "
+        "before this one shape. Strands do not grow longer.");
+    s.key("spacing", &ClumpParams::spacing,
+          {.unit = "scene units", .help = "Mean distance between clumps", .min = 0, .above_min = true});
+    s.key(
+        "amount", &ClumpParams::amount,
+        {.help = "How much of the way to the centre strand; may vary along the strand", .min = 0, .max = 1});
+    s.key("root", &ClumpParams::root, {.help = "Factor on the amount at the root", .min = 0, .max = 1});
+    s.key("tip", &ClumpParams::tip, {.help = "Factor on the amount at the tip", .min = 0, .max = 1});
+    s.key(
+        "profile", &ClumpParams::profile,
+        {.help = "Power by which the factor goes from root to tip: below 1 clumps close early, above 1 late",
+         .min = 0.1,
+         .max = 10});
+    s.key("variation", &ClumpParams::variation,
+          {.help = "Part of the amount that the loosest clump lacks", .min = 0, .max = 1});
+    s.key("strays", &ClumpParams::strays,
+          {.help = "Part of the strands that join no clump", .min = 0, .max = 1});
+    s.key("levels", &ClumpParams::levels, {.help = "Finer clumps inside the clumps, coarse ones first"});
+    return s;
+  }();
+  return table;
+}
+
+void Clump::prepare(const PrepareContext& context) {
+  if (!context.rest)
+    throw Error(ErrorKind::kInput, context.position, "clump needs strands that grow on a skin");
+  seed_ = context.seed;
+  levels_.clear();
+  const auto add = [&](float spacing, const Field& amount) {
+    const uint64_t level_seed = hash64(seed_, levels_.size());
+    const auto grow = [&](StrandBatch& batch) {
+      for (const auto& op : context.preceding) {
+        if (op->reads_rest_only()) op->apply(batch);
+      }
+      for (size_t i = 0; i < levels_.size(); ++i) apply_level(levels_[i], hash64(seed_, i), batch);
+    };
+    auto centres = std::make_shared<const ClumpCentres>(context, spacing, level_seed, grow);
+    levels_.push_back({spacing, amount.with_textures(context.textures), std::move(centres)});
+  };
+  add(params_.spacing, params_.amount);
+  for (const ClumpLevelParams& level : params_.levels) add(level.spacing, level.amount);
+}
+
+void Clump::apply(StrandBatch& batch) const {
+  for (size_t i = 0; i < levels_.size(); ++i) apply_level(levels_[i], hash64(seed_, i), batch);
+}
+
+void Clump::apply_level(const Level& level, uint64_t level_seed, StrandBatch& batch) const {
+  const int points = batch.point_count();
+  const ClumpCentres& centres = *level.centres;
+  std::array<RootGrid::Neighbour, kBlockStrands> centre;
+  StrandRow strength, arc, longer;  // longer: arc length after drawing
+  for (size_t s = 0; s < batch.count; ++s) {
+    const bool joins = centres.roots().nearest(vector_at(batch.rest.position, s),
+                                               vector_at(batch.rest.normal, s), centre[s]) &&
+                       unit_float(hash64(level_seed, batch.ids[s], random_use("stray"))) >= params_.strays;
+    strength[s] = 0;
+    arc[s] = longer[s] = 0;
+    if (!joins) continue;
+    const uint64_t of_clump = hash64(level_seed, centre[s].index, random_use("clump"));
+    strength[s] = 1.0f - params_.variation * unit_float(of_clump);
+    batch.clump[s] = unit_float(mix64(of_clump));
+  }
+
+  StrandField amount(level.amount, batch);
+  std::array<int, kBlockStrands> segment{};
+  StrandRow most{};  // largest amount along each strand
+  VectorRow before = batch.points[0].offset;
+  for (int p = 1; p < points; ++p) {
+    const float along = batch.along(p);
+    const float profile = params_.root + (params_.tip - params_.root) * std::pow(along, params_.profile);
+    const StrandRow& row = amount.at(along);
+    for (size_t s = 0; s < batch.count; ++s) {
+      if (strength[s] <= 0) continue;
+      const V3f here = batch.offset(p, s);
+      arc[s] += (here - vector_at(before, s)).length();
+      set_vector(before, s, here);
+      const float k = std::clamp(row[s], 0.0f, 1.0f) * profile * strength[s];
+      most[s] = std::max(most[s], k);
+      // Centres live in rest space, at the scale of the rest skin.
+      const V3f rest =
+          centres.at(centre[s].index, arc[s] / batch.scale, segment[s]) - vector_at(batch.rest.position, s);
+      batch.set_offset(p, s, here + (batch.from_rest(s, rest) * batch.scale - here) * k);
+    }
+  }
+  arc_lengths(batch, longer);
+  for (size_t s = 0; s < batch.count; ++s) {
+    if (strength[s] <= 0 || longer[s] <= arc[s]) continue;
+    const float limit = kStretch * most[s] * (centre[s].distance * batch.scale + 2.0f * arc[s]);
+    longer[s] = arc[s] / std::min(longer[s], arc[s] + limit);
+    const V3f base = batch.offset(0, s);
+    for (int p = 1; p < points; ++p) batch.set_offset(p, s, base + (batch.offset(p, s) - base) * longer[s]);
+  }
+}
+
+float Clump::strongest(const Level& level) const {
+  return std::clamp(level.amount.value_range().second, 0.0f, 1.0f) * std::max(params_.root, params_.tip);
+}
+
+float Clump::displacement_bound(const StrandReach& before) const {
+  // A point P and its place C on the centre strand lie within D = distance of the roots + reach of P + arc of
+  // C of each other. All levels together move P by K D with 1 - K = product of (1 - k), plus the way that
+  // scaling back takes.
+  float stays = 1, roots = 0, back = 0;
+  for (const Level& level : levels_) {
+    const float k = strongest(level);
+    stays *= 1 - k;
+    roots += ClumpCentres::kReach * level.spacing;
+    back += k;
+  }
+  const float apart = roots + before.distance + before.length;
+  const float drawn = (1 - stays) * apart;
+  // Scaling back moves P' = P + d towards the root: never further from P than the longer of |P| and |d|.
+  const bool drawn_further = levels_.size() == 1 && drawn >= before.distance;
+  const float moved = drawn_further ? drawn : drawn + kStretch * back * apart;
+  return std::min(moved, before.distance + reach_after(before).distance);
+}
+
+StrandReach Clump::reach_after(const StrandReach& before) const {
+  StrandReach after = before;
+  for (const Level& level : levels_) {
+    const float k = strongest(level);
+    if (k <= 0) continue;
+    const float root = ClumpCentres::kReach * level.spacing;
+    const float stretch = k * (root + 2 * after.length);
+    after.distance += k * (root + after.length - after.distance);
+    after.length *= (after.length + stretch) / (after.length + kStretch * stretch);
+    after.lean = std::numbers::pi_v<float>;
+  }
+  return after;
+}
+
+size_t Clump::bytes() const {
+  size_t total = 0;
+  for (const Level& level : levels_) total += level.centres->bytes();
+  return total;
+}
+
+}  // namespace pelage

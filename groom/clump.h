@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+class ClumpCentres;
+
+/// Keys of a finer level of clumps inside those of `clump`.
+struct ClumpLevelParams {
+  float spacing = 0.1f;
+  Field amount{0.5f};
+  static const Schema<ClumpLevelParams>& schema();
+};
+
+/// Keys of the operator `clump`.
+struct ClumpParams {
+  float spacing = 0.5f;
+  Field amount{0.5f};
+  float root = 0;
+  float tip = 1;
+  float profile = 1;
+  float variation = 0;
+  float strays = 0;
+  std::vector<ClumpLevelParams> levels;
+  static const Schema<ClumpParams>& schema();
+};
+
+/// Draws strands towards the nearest of a set of centre strands, which stand on the rest skin as blue noise
+/// and are grown by the operators before this one; finer levels draw towards finer sets, whose strands the
+/// coarser levels have drawn already.
+///
+/// A strand meets its centre's at the same arc length, so that strands of unequal length lie together. One
+/// that would grow longer than it was is scaled back about its root, fully unless it is shorter than 1.5
+/// times the distance to its centre. Where a strand and its centre diverge by 30 degrees, half the amount
+/// shortens it by 3 %.
+class Clump final : public Operator {
+ public:
+  using Params = ClumpParams;
+  static constexpr const char* kName = "clump";
+  explicit Clump(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+  size_t bytes() const override;
+
+ private:
+  struct Level {
+    float spacing = 0;
+    Field amount;
+    std::shared_ptr<const ClumpCentres> centres;
+  };
+  void apply_level(const Level& level, uint64_t level_seed, StrandBatch& batch) const;
+  float strongest(const Level& level) const;
+
+  Params params_;
+  uint64_t seed_ = 0;
+  std::vector<Level> levels_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "groom/operator.h"
+#include "groom/root_grid.h"
+#include "groom/strand_batch.h"
+
+namespace pelage {
+
+/// The centre strands of one level of clumps, in rest space.
+class ClumpCentres {
+ public:
+  /// Centres as blue noise, one per spacing^2 of the rest skin; `grow` shapes strands that have been placed
+  /// and started. Throws Error (kInput) at the operator's position when there would be too many.
+  ClumpCentres(const PrepareContext& context, float spacing, uint64_t seed,
+               const std::function<void(StrandBatch&)>& grow);
+
+  /// Furthest that a strand looks for its centre, in spacings: blue noise leaves no place further from a
+  /// centre.
+  static constexpr float kReach = 1.25f;
+
+  const RootGrid& roots() const { return roots_; }
+  /// Place on centre `i` at arc length `arc` from its root, straight on beyond its tip. `segment` is where
+  /// the last call for this strand and centre ended (0 at first); arcs must not decrease from call to call.
+  V3f at(size_t i, float arc, int& segment) const;
+  size_t bytes() const;
+
+ private:
+  RootGrid roots_;
+  int points_ = 0;
+  std::vector<float> curves_;  // per centre and point: rest position and arc length up to it
+};
+
+}  // namespace pelage

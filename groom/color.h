@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `color`.
+struct ColorParams {
+  Field value{Rgb(0.5f)};
+  float variation = 0;
+  static const Schema<ColorParams>& schema();
+};
+
+/// Colours strands: the attribute "color" that materials may ask for.
+class Color final : public Operator {
+ public:
+  using Params = ColorParams;
+  static constexpr const char* kName = "color";
+  explicit Color(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  std::optional<AttributeClass> colors() const override;
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach&) const override { return 0; }
+  StrandReach reach_after(const StrandReach& before) const override { return before; }
+
+ private:
+  Params params_;
+  uint64_t seed_ = 0;
+};
+
+}  // namespace pelage

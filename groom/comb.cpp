@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/comb.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/value_readers.h"
+#include "groom/strand_fields.h"
+#include "groom/turning.h"
+
+namespace pelage {
+namespace {
+
+constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
+
+/// Where a strand on a root with this frame shall point. A direction that is nearly normal to the skin says
+/// little about where to lie: from a fifth of its length along the skin downwards the strand stands up
+/// gradually, so that the coat has no seam there.
+V3f combed_direction(const V3f& direction, const V3f& normal, float lift) {
+  const V3f unit = unit_or(direction, normal);
+  const V3f along_skin = unit - normal * unit.dot(normal);
+  const float x = std::min(along_skin.length() / 0.2f, 1.0f);
+  const float weight = x * x * (3.0f - 2.0f * x);
+  const float angle = std::clamp(lift, 0.0f, 1.0f) * kQuarterTurn;
+  const float flat = std::cos(angle) * weight;
+  const float up = std::sin(angle) + std::cos(angle) * (1.0f - weight);
+  return unit_or(unit_or(along_skin, V3f(0)) * flat + normal * up, normal);
+}
+
+}  // namespace
+
+const Schema<CombParams>& CombParams::schema() {
+  static const Schema<CombParams> table = [] {
+    Schema<CombParams> s("comb", "Lays strands over in a direction along the skin. Lengths stay.");
+    s.key(
+        "direction", &CombParams::direction,
+        {.help =
+             "Where to, in the rest space of the skin: a vector or a map of vectors; its part along the skin "
+             "counts, not its length"});
+    s.key("lift", &CombParams::lift,
+          {.help = "How far strands stand up: 0 lies on the skin, 1 stands on it", .min = 0, .max = 1});
+    s.key("amount", &CombParams::amount,
+          {.help = "How much of the way from where a strand points now", .min = 0, .max = 1});
+    s.key("curve", &CombParams::curve,
+          {.help = "Part of a strand, from the root, over which it turns; 0 turns it as a whole",
+           .min = 0,
+           .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+void Comb::prepare(const PrepareContext& context) {
+  params_.direction = params_.direction.with_textures(context.textures);
+  params_.lift = params_.lift.with_textures(context.textures);
+  params_.amount = params_.amount.with_textures(context.textures);
+}
+
+void Comb::apply(StrandBatch& batch) const {
+  VectorRow direction;
+  StrandRow lift, amount;
+  evaluate_color(params_.direction, batch, 0, direction);
+  evaluate(params_.lift, batch, 0, lift);
+  evaluate(params_.amount, batch, 0, amount);
+  const TurnProfile profile{0, params_.curve, 1};
+  const int tip = batch.segment_count();
+  for (size_t s = 0; s < batch.count; ++s) {
+    const Frame frame = batch.here.frame(s);
+    const V3f target = combed_direction(batch.from_rest(s, vector_at(direction, s)), frame.normal, lift[s]);
+    const V3f now = unit_or(batch.offset(tip, s) - batch.offset(0, s), frame.normal);
+    Rotation rotation = rotation_between(now, target, any_perpendicular(now));
+    rotation.angle *= std::clamp(amount[s], 0.0f, 1.0f);
+    turn_strand(batch, s, profile, rotation);
+  }
+}
+
+float Comb::largest_turn(const StrandReach& before) const {
+  // A chord leans no more than the segments do as long as those stay on one side of the skin.
+  const float lean = before.lean <= kQuarterTurn ? before.lean : std::numbers::pi_v<float>;
+  const float target = kQuarterTurn * (1.0f - std::clamp(params_.lift.value_range().first, 0.0f, 1.0f));
+  const float amount = std::clamp(params_.amount.value_range().second, 0.0f, 1.0f);
+  return amount * std::min(lean + target, std::numbers::pi_v<float>);
+}
+
+float Comb::displacement_bound(const StrandReach& before) const {
+  return turn_bound(before, {0, params_.curve, 1}, largest_turn(before));
+}
+
+StrandReach Comb::reach_after(const StrandReach& before) const {
+  StrandReach after = before;
+  after.lean = std::min(before.lean + largest_turn(before), std::numbers::pi_v<float>);
+  if (params_.curve > 0) after.distance = after.length;
+  return after;
+}
+
+}  // namespace pelage

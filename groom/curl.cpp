@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/curl.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "base/value_readers.h"
+#include "groom/rotation.h"
+#include "groom/strand_fields.h"
+#include "groom/transported_frame.h"
+
+namespace pelage {
+namespace {
+
+/// A uniform cubic B-spline through control points on a circle, a fixed part of a turn apart, has (2 + cos) /
+/// 3 of the circle's radius. The inverse, so that the curve gets the radius asked for; up to a third of a
+/// turn, where control points stop describing a circle.
+float spline_gain(float turns_per_segment) {
+  float sine, cosine;
+  sincos_turns(std::min(std::fabs(turns_per_segment), 1.0f / 3), sine, cosine);
+  return 3.0f / (2.0f + cosine);
+}
+
+}  // namespace
+
+const Schema<CurlParams>& CurlParams::schema() {
+  static const Schema<CurlParams> table = [] {
+    Schema<CurlParams> s(
+        "curl",
+        "Winds each strand into a helix about itself. The root stays; lengths grow by the winding. "
+        "A turn takes at least 3 points, better 5.");
+    s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min = 0});
+    s.key("turns", &CurlParams::turns,
+          {.help = "Turns from root to tip; negative: the other way round", .min = -1000, .max = 1000});
+    s.key("random", &CurlParams::random,
+          {.help = "How much strands differ in where their helix begins: 0 all alike, 1 anywhere",
+           .min = 0,
+           .max = 1});
+    s.key("start", &CurlParams::start,
+          {.help = "Part of the strand, from the root, over which the radius grows to its full size",
+           .min = 0,
+           .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+void Curl::prepare(const PrepareContext& context) {
+  seed_ = context.seed;
+  params_.radius = params_.radius.with_textures(context.textures);
+  params_.turns = params_.turns.with_textures(context.textures);
+}
+
+void Curl::apply(StrandBatch& batch) const {
+  StrandRow phase, turns, gain, a, b;
+  evaluate(params_.turns, batch, 0, turns);
+  const float segments = static_cast<float>(batch.segment_count());
+  for (size_t s = 0; s < batch.count; ++s) {
+    turns[s] = std::clamp(turns[s], -1000.0f, 1000.0f);
+    phase[s] = params_.random * unit_float(hash64(seed_, batch.ids[s], random_use("curl")));
+    gain[s] = spline_gain(turns[s] / segments) * batch.scale;
+  }
+  StrandField radius(params_.radius, batch);
+  TransportedFrame frame(batch);
+  for (int p = 1; p < batch.point_count(); ++p) {
+    const float along = batch.along(p);
+    const float envelope = params_.start > 0 ? std::min(along / params_.start, 1.0f) : 1.0f;
+    const StrandRow& size = radius.at(along);
+    for (size_t s = 0; s < batch.count; ++s) {
+      float sine, cosine;
+      sincos_turns(phase[s] + turns[s] * along, sine, cosine);
+      const float scale = envelope * gain[s] * std::max(size[s], 0.0f);
+      a[s] = scale * cosine;
+      b[s] = scale * sine;
+    }
+    frame.advance(batch);
+    frame.displace(batch, p, a, b);
+  }
+}
+
+float Curl::displacement_bound(const StrandReach& before) const {
+  const auto [low, high] = params_.turns.value_range();
+  const float most = std::min(std::max(std::fabs(low), std::fabs(high)), 1000.0f);
+  return std::max(params_.radius.value_range().second, 0.0f) *
+         spline_gain(most / static_cast<float>(before.segments)) * 1.00001f;
+}
+
+StrandReach Curl::reach_after(const StrandReach& before) const {
+  const float moved = displacement_bound(before);
+  StrandReach after = before;
+  after.distance += moved;
+  after.length += 2.0f * moved * static_cast<float>(before.segments);
+  if (moved > 0) after.lean = std::numbers::pi_v<float>;
+  return after;
+}
+
+}  // namespace pelage

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/frizz.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "base/value_readers.h"
+#include "groom/rotation.h"
+#include "groom/strand_fields.h"
+#include "groom/transported_frame.h"
+
+namespace pelage {
+namespace {
+
+/// Sideways noise of each strand at one place: unit vectors that stand at whole numbers of `t`, blended
+/// smoothly between, so never longer than 1.
+struct LatticeNoise {
+  StrandRow before, after;  // turns of the two unit vectors
+  StrandRow blend;
+
+  void find(const StrandBatch& batch, const std::array<uint64_t, kBlockStrands>& streams, float along,
+            const StrandRow& frequency) {
+    for (size_t s = 0; s < batch.count; ++s) {
+      const float t = along * frequency[s] + unit_float(streams[s]);
+      const float cell = std::floor(t);
+      const auto k = static_cast<uint64_t>(static_cast<int64_t>(cell));
+      before[s] = unit_float(mix64(streams[s] + k * 0x9e3779b97f4a7c15ull));
+      after[s] = unit_float(mix64(streams[s] + (k + 1) * 0x9e3779b97f4a7c15ull));
+      const float x = t - cell;
+      blend[s] = x * x * (3.0f - 2.0f * x);
+    }
+  }
+};
+
+}  // namespace
+
+const Schema<FrizzParams>& FrizzParams::schema() {
+  static const Schema<FrizzParams> table = [] {
+    Schema<FrizzParams> s(
+        "frizz",
+        "Makes each strand wander sideways in its own way. The root stays; the amplitude is "
+        "reached half way along. Lengths grow by the wandering.");
+    s.key("amplitude", &FrizzParams::amplitude,
+          {.unit = "scene units", .help = "How far a point moves at most", .min = 0});
+    s.key("frequency", &FrizzParams::frequency,
+          {.help = "Changes of direction from root to tip; more than half the number of points are lost",
+           .min = 0,
+           .max = 1000});
+    return s;
+  }();
+  return table;
+}
+
+void Frizz::prepare(const PrepareContext& context) {
+  seed_ = context.seed;
+  params_.amplitude = params_.amplitude.with_textures(context.textures);
+  params_.frequency = params_.frequency.with_textures(context.textures);
+}
+
+void Frizz::apply(StrandBatch& batch) const {
+  std::array<uint64_t, kBlockStrands> streams;
+  for (size_t s = 0; s < batch.count; ++s) streams[s] = hash64(seed_, batch.ids[s], random_use("frizz"));
+  StrandRow frequency, a, b;
+  evaluate(params_.frequency, batch, 0, frequency);
+  for (float& f : frequency) f = std::clamp(f, 0.0f, 1000.0f);
+  StrandField amplitude(params_.amplitude, batch);
+  TransportedFrame frame(batch);
+  LatticeNoise noise;
+  for (int p = 1; p < batch.point_count(); ++p) {
+    const float along = batch.along(p);
+    const float envelope = std::min(2.0f * along, 1.0f) * batch.scale;
+    const StrandRow& size = amplitude.at(along);
+    noise.find(batch, streams, along, frequency);
+    for (size_t s = 0; s < batch.count; ++s) {
+      float s0, c0, s1, c1;
+      sincos_turns(noise.before[s], s0, c0);
+      sincos_turns(noise.after[s], s1, c1);
+      const float scale = envelope * std::max(size[s], 0.0f);
+      a[s] = scale * (c0 + (c1 - c0) * noise.blend[s]);
+      b[s] = scale * (s0 + (s1 - s0) * noise.blend[s]);
+    }
+    frame.advance(batch);
+    frame.displace(batch, p, a, b);
+  }
+}
+
+float Frizz::displacement_bound(const StrandReach&) const {
+  return std::max(params_.amplitude.value_range().second, 0.0f);
+}
+
+StrandReach Frizz::reach_after(const StrandReach& before) const {
+  const float moved = displacement_bound(before);
+  StrandReach after = before;
+  after.distance += moved;
+  after.length += 2.0f * moved * static_cast<float>(before.segments);
+  if (moved > 0) after.lean = std::numbers::pi_v<float>;
+  return after;
+}
+
+}  // namespace pelage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `frizz`.
+struct FrizzParams {
+  Field amplitude{0.02f};
+  Field frequency{3.0f};
+  static const Schema<FrizzParams>& schema();
+};
+
+/// Makes each strand wander sideways in its own way.
+class Frizz final : public Operator {
+ public:
+  using Params = FrizzParams;
+  static constexpr const char* kName = "frizz";
+  explicit Frizz(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+
+ private:
+  Params params_;
+  uint64_t seed_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/value_readers.h"
+#include "geom/strands.h"
+#include "groom/curve_basis_names.h"
+#include "groom/follicles.h"
+#include "groom/operator_list.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// `cache:` of a groom.
+struct GroomCacheParams {
+  std::string directory = "cache";
+  std::string freeze;  ///< name of the last frozen operator
+  static const Schema<GroomCacheParams>& schema();
+};
+
+/// One entry of `grooms:`.
+struct GroomParams {
+  NameReference skin;                  ///< name of a skin; empty for an imported groom
+  AssetPath strands_file;              ///< curves made elsewhere, instead of follicles
+  std::optional<CurveBasis> basis;     ///< of strands_file
+  std::optional<float> default_width;  ///< of strands_file
+  StrandRole role = StrandRole::kUnder;
+  std::optional<int64_t> strands;
+  std::optional<Field> density;  ///< with strands: relative; without: strands per square unit
+  int points = 8;
+  int64_t seed = 0;
+  OperatorList operators;
+  int leaf_strands = 8000;
+  std::optional<GroomCacheParams> cache;
+  static const Schema<GroomParams>& schema();
+};
+
+}  // namespace pelage

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/guide_set.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geom/io/strand_file.h"
+#include "geom/limit_surface.h"
+#include "groom/resample.h"
+#include "groom/skin_binding.h"
+
+namespace pelage {
+namespace {
+
+/// Median over a bounded number of guides, evenly chosen, of the distance to the nearest other guide.
+float median_spacing(const std::vector<V3f>& roots) {
+  if (roots.size() < 2) return 0;
+  const size_t step = std::max<size_t>(1, roots.size() / 1000);
+  std::vector<float> nearest;
+  for (size_t i = 0; i < roots.size(); i += step) {
+    float best = std::numeric_limits<float>::infinity();
+    for (size_t j = 0; j < roots.size(); ++j) {
+      if (j != i) best = std::min(best, (roots[i] - roots[j]).length());
+    }
+    nearest.push_back(best);
+  }
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return *middle;
+}
+
+}  // namespace
+
+GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : points_(context.points) {
+  const StrandFile file = read_strands(source.file.path, {source.basis, 1.0f});
+  const size_t count = file.strands.strand_count();
+  if (count == 0)
+    throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
+  const SkinBinding binding(*context.rest, context.workers);
+  for (size_t g = 0; g < count; ++g) {
+    const std::vector<V3f> points = resample_strand(file.strands, g, points_);
+    const RootAddress root = binding.nearest(points[0] * source.scale + source.translate);
+    roots_.push_back(context.rest->evaluate(root.face, root.u, root.v).position);
+    normals_.push_back(context.rest->frame(root.face, root.u, root.v).normal);
+    float length = 0;
+    for (size_t p = 0; p < points.size(); ++p) {
+      offsets_.push_back((points[p] - points[0]) * source.scale);
+      if (p > 0) length += (points[p] - points[p - 1]).length() * source.scale;
+    }
+    lengths_.push_back(length);
+    longest_ = std::max(longest_, length);
+  }
+  spacing_ = median_spacing(roots_);
+}
+
+size_t GuideSet::bytes() const {
+  return (roots_.capacity() + normals_.capacity() + offsets_.capacity()) * sizeof(V3f) +
+         lengths_.capacity() * sizeof(float);
+}
+
+}  // namespace pelage

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/value_readers.h"
+#include "geom/strands.h"
+#include "groom/operator.h"
+#include "groom/root_grid.h"
+
+namespace pelage {
+
+struct GuideFile {
+  AssetPath file;
+  std::optional<CurveBasis> basis;
+  float scale = 1;
+  V3f translate{0};
+};
+
+/// Guide strands in rest space, bound to the rest skin and brought to one number of points.
+/// Immutable. Thread safety: const members may be called from any thread.
+class GuideSet {
+ public:
+  /// Throws Error (kInput) when the file cannot be read or holds no strand.
+  GuideSet(const GuideFile& source, const PrepareContext& context);
+
+  size_t size() const { return normals_.size(); }
+  int points() const { return points_; }
+  const std::vector<V3f>& roots() const { return roots_; }      ///< on the skin
+  const std::vector<V3f>& normals() const { return normals_; }  ///< of the skin there
+  /// Control point `p` of guide `g` as an offset from its base, along the axes of rest space.
+  const V3f& offset(size_t g, int p) const {
+    return offsets_[g * static_cast<size_t>(points_) + static_cast<size_t>(p)];
+  }
+  float length(size_t g) const { return lengths_[g]; }  ///< of the control polygon
+  float longest() const { return longest_; }
+  /// Median distance from a guide's root to the nearest other's.
+  float spacing() const { return spacing_; }
+  size_t bytes() const;
+
+ private:
+  int points_ = 0;
+  float longest_ = 0;
+  float spacing_ = 0;
+  std::vector<V3f> roots_;
+  std::vector<V3f> normals_;
+  std::vector<V3f> offsets_;
+  std::vector<float> lengths_;
+};
+
+}  // namespace pelage

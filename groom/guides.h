@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/schema.h"
+#include "base/value_readers.h"
+#include "geom/strands.h"
+#include "groom/operator.h"
+#include "groom/root_grid.h"
+#include "image/field.h"
+
+namespace pelage {
+
+class GuideSet;
+
+/// Keys of the operator `guides`.
+struct GuidesParams {
+  AssetPath file;
+  std::optional<CurveBasis> basis;
+  float scale = 1;
+  V3f translate{0};
+  int neighbours = 4;
+  std::optional<float> radius;
+  std::optional<float> spread;
+  Field amount{1.0f};
+  static const Schema<GuidesParams>& schema();
+};
+
+/// Gives strands the shape of nearby guides: the offsets of each guide from its root, turned by the smallest
+/// rotation from the guide's root normal to the strand's, weighted by (1 - d / R)^2, at the weighted mean of
+/// their lengths.
+///
+/// R is the distance of the first guide that is left out, or the radius if that is less, so that the coat is
+/// continuous where the set of nearest guides changes. A strand that has no guide within the radius stays as
+/// it was.
+class Guides final : public Operator {
+ public:
+  using Params = GuidesParams;
+  static constexpr const char* kName = "guides";
+  explicit Guides(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  float coverage(const V3f& rest_position, const V3f& normal) const override;
+  bool restricts_coverage() const override { return params_.spread.has_value(); }
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+  size_t bytes() const override;
+
+ private:
+  bool every_strand_has_one() const;
+
+  Params params_;
+  std::shared_ptr<const GuideSet> guides_;
+  RootGrid near_;     // for interpolation
+  RootGrid covered_;  // for coverage
+};
+
+}  // namespace pelage

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geom/io/strand_file.h"
+#include "groom/follicles.h"
+#include "groom/groom_params.h"
+#include "groom/operator.h"
+#include "groom/strand_batch.h"
+
+namespace pelage {
+
+/// The strands of a file as the start of a groom: each is bound to the nearest place of the rest skin, or
+/// stands free. Immutable. Thread safety: const members may be called from any thread.
+class ImportedStrands {
+ public:
+  /// Throws Error (kInput) when the file cannot be read. `rest` may be null.
+  ImportedStrands(const GroomParams& params, const LimitSurface* rest, const Workers& workers);
+
+  const FollicleTree& follicles() const { return follicles_; }
+  CurveBasis basis() const { return file_.strands.basis(); }
+  const StrandRepairs& repairs() const { return file_.repairs; }
+  int strand_points(size_t follicle) const {
+    return static_cast<int>(file_.strands.strand_points(follicles_.id(follicle)));
+  }
+
+  /// How many of the follicles from `begin`, at most to `end`, can share a batch: as many as have equally
+  /// many points.
+  size_t run_length(size_t begin, size_t end) const;
+  /// Rest roots of strands that stand free: their first points, along the axes.
+  void place_free(StrandBatch& batch, size_t begin) const;
+  /// Points and radii from the file, as offsets from the rest roots that are set.
+  void start(StrandBatch& batch, size_t begin) const;
+  /// What holds of the strands [begin, end).
+  const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
+  /// Attributes of the file for follicles [begin, end), all but `except`.
+  std::vector<StrandAttribute> attributes(size_t begin, size_t end, std::string_view except) const;
+  size_t bytes() const { return file_.strands.bytes() + follicles_.bytes(); }
+
+ private:
+  StrandFile file_;
+  FollicleTree follicles_;
+  std::vector<StrandReach> reach_;  // per leaf
+};
+
+}  // namespace pelage

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/noise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/value_readers.h"
+#include "groom/strand_fields.h"
+
+namespace pelage {
+
+const Schema<NoiseParams>& NoiseParams::schema() {
+  static const Schema<NoiseParams> table = [] {
+    Schema<NoiseParams> s(
+        "noise",
+        "Pushes neighbouring strands about together, by smooth noise over the rest skin. The root "
+        "stays; lengths change by the pushing.");
+    s.key("amplitude", &NoiseParams::amplitude,
+          {.unit = "scene units", .help = "How far a tip moves at most", .min = 0});
+    s.key("frequency", &NoiseParams::frequency,
+          {.unit = "1 / scene unit", .help = "Ups and downs per unit of the skin", .min = 0});
+    s.key("along", &NoiseParams::along, {.help = "Ups and downs from root to tip", .min = 0});
+    s.key("profile", &NoiseParams::profile,
+          {.help = "Power by which the push grows from root to tip", .min = 0.1, .max = 10});
+    return s;
+  }();
+  return table;
+}
+
+void Noise::prepare(const PrepareContext& context) {
+  seed_ = static_cast<uint32_t>(context.seed);
+  params_.amplitude = params_.amplitude.with_textures(context.textures);
+}
+
+void Noise::apply(StrandBatch& batch) const {
+  StrandField amplitude(params_.amplitude, batch);
+  const V3f drift(0.37f, 0.61f, 0.70f);  // where strands go through the noise: no axis of its lattice
+  for (int p = 1; p < batch.point_count(); ++p) {
+    const float along = batch.along(p);
+    const float envelope = std::pow(along, params_.profile) * batch.scale;
+    const StrandRow& size = amplitude.at(along);
+    for (size_t s = 0; s < batch.count; ++s) {
+      const V3f place =
+          vector_at(batch.rest.position, s) * params_.frequency + drift * (along * params_.along);
+      V3f push = perlin_noise3(place, seed_);
+      const float length = push.length();
+      if (length > 1.0f) push *= 1.0f / length;
+      push = batch.from_rest(s, push) * (envelope * std::max(size[s], 0.0f));
+      batch.set_offset(p, s, batch.offset(p, s) + push);
+    }
+  }
+}
+
+float Noise::displacement_bound(const StrandReach&) const {
+  return std::max(params_.amplitude.value_range().second, 0.0f);
+}
+
+StrandReach Noise::reach_after(const StrandReach& before) const {
+  const float moved = displacement_bound(before);
+  StrandReach after = before;
+  after.distance += moved;
+  after.length += 2.0f * moved * static_cast<float>(before.segments);
+  if (moved > 0) after.lean = std::numbers::pi_v<float>;
+  return after;
+}
+
+}  // namespace pelage

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `noise`.
+struct NoiseParams {
+  Field amplitude{0.1f};
+  float frequency = 1;
+  float along = 1;
+  float profile = 1;
+  static const Schema<NoiseParams>& schema();
+};
+
+/// Pushes neighbouring strands about together, by noise over the rest skin.
+class Noise final : public Operator {
+ public:
+  using Params = NoiseParams;
+  static constexpr const char* kName = "noise";
+  explicit Noise(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+
+ private:
+  Params params_;
+  uint32_t seed_ = 0;
+};
+
+}  // namespace pelage

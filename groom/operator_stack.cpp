@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/operator_stack.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/hash.h"
+
+namespace pelage {
+namespace {
+
+uint64_t hash_name(std::string_view name) {
+  uint64_t h = random_use("operator");
+  for (char c : name) h = hash64(h, static_cast<unsigned char>(c));
+  return h;
+}
+
+/// The frame at a point already evaluated; only where it is ill defined is the surface asked again.
+Frame frame_at(const LimitSurface& surface, const RootAddress& root, const SurfacePoint& point) {
+  const V3f cross = point.du.cross(point.dv);
+  if (cross.dot(cross) > 1e-6f * point.du.dot(point.du) * point.dv.dot(point.dv))
+    return LimitSurface::frame_of(point);
+  return surface.frame(root.face, root.u, root.v);
+}
+
+}  // namespace
+
+OperatorStack::OperatorStack(const OperatorList& list, const PrepareContext& context) {
+  // The seed of an operator depends on how many of its name come before, not on its place, so that adding an
+  // operator of another name changes nothing in it.
+  std::map<std::string, uint64_t> seen;
+  operators_.reserve(list.items.size());
+  for (const OperatorList::Item& item : list.items) {
+    std::unique_ptr<Operator> op = item.clone(*item.prototype);
+    PrepareContext own = context;
+    own.preceding = operators_;
+    own.seed = hash64(context.seed, hash_name(item.name), seen[item.name]++);
+    own.position = item.position;
+    op->prepare(own);
+    operators_.push_back(std::move(op));
+  }
+  live_ = static_cast<size_t>(std::find_if(operators_.begin(), operators_.end(),
+                                           [](const auto& op) { return !op->reads_rest_only(); }) -
+                              operators_.begin());
+}
+
+void OperatorStack::apply(size_t begin, size_t end, StrandBatch& batch) const {
+  for (size_t i = begin; i < end; ++i) operators_[i]->apply(batch);
+}
+
+bool OperatorStack::needs_closest_point() const {
+  return std::any_of(operators_.begin(), operators_.end(),
+                     [](const auto& op) { return op->needs_closest_point(); });
+}
+
+std::optional<AttributeClass> OperatorStack::colors() const {
+  std::optional<AttributeClass> most;
+  for (const auto& op : operators_) {
+    const std::optional<AttributeClass> own = op->colors();
+    if (own && (!most || *own > *most)) most = own;
+  }
+  return most;
+}
+
+StrandReach OperatorStack::reach(StrandReach before) const {
+  for (const auto& op : operators_) before = op->reach_after(before);
+  return before;
+}
+
+float OperatorStack::coverage(const V3f& rest_position, const V3f& normal) const {
+  float result = 1;
+  for (const auto& op : operators_) result *= op->coverage(rest_position, normal);
+  return result;
+}
+
+bool OperatorStack::restricts_coverage() const {
+  return std::any_of(operators_.begin(), operators_.end(),
+                     [](const auto& op) { return op->restricts_coverage(); });
+}
+
+size_t OperatorStack::bytes() const {
+  size_t total = 0;
+  for (const auto& op : operators_) total += op->bytes();
+  return total;
+}
+
+void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles,
+                   size_t begin) {
+  for (size_t s = 0; s < batch.count; ++s) {
+    const RootAddress& root = follicles.root(begin + s);
+    const SurfacePoint point = rest.evaluate(root.face, root.u, root.v);
+    batch.rest.set(s, point.position, frame_at(rest, root, point));
+    batch.ids[s] = follicles.id(begin + s);
+    const V2f uv = rest.topology().texture_coordinates(root.face, root.u, root.v);
+    batch.u[s] = uv.x;
+    batch.v[s] = uv.y;
+    batch.clump[s] = unit_float(hash64(batch.ids[s], random_use("no clump")));
+  }
+}
+
+void place_in_pose(StrandBatch& batch, const LimitSurface& pose, const FollicleTree& follicles,
+                   size_t begin) {
+  for (size_t s = 0; s < batch.count; ++s) {
+    const RootAddress& root = follicles.root(begin + s);
+    const SurfacePoint point = pose.evaluate(root.face, root.u, root.v);
+    batch.here.set(s, point.position, frame_at(pose, root, point));
+  }
+}
+
+}  // namespace pelage

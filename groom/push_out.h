@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `push_out`.
+struct PushOutParams {
+  Field offset{0.0f};
+  int iterations = 4;
+  static const Schema<PushOutParams>& schema();
+};
+
+/// Moves strands out of the posed skin. Live: runs in every pose, against the tessellation that everything
+/// else sees.
+///
+/// After it no point of a strand's curve lies inside a closed skin, and control points keep a distance from
+/// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as that allows; a strand
+/// that finds no way out is drawn back along itself to where it last was outside.
+class PushOut final : public Operator {
+ public:
+  using Params = PushOutParams;
+  static constexpr const char* kName = "push_out";
+  explicit PushOut(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  bool reads_rest_only() const override { return false; }
+  bool needs_closest_point() const override { return true; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach& before) const override;
+  StrandReach reach_after(const StrandReach& before) const override;
+
+ private:
+  Params params_;
+};
+
+}  // namespace pelage

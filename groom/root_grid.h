@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// Finds the nearest of a fixed set of places on a skin. Places whose normals differ by more than 60 degrees
+/// from that of the query do not count, so that the two sides of a thin ear stay apart. Immutable. Thread
+/// safety: const members may be called from any thread.
+class RootGrid {
+ public:
+  struct Neighbour {
+    uint32_t index = 0;
+    float distance = 0;
+  };
+
+  RootGrid() = default;
+  /// `radius`: the furthest that queries look.
+  RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float radius);
+
+  size_t size() const { return positions_.size(); }
+  const V3f& position(size_t i) const { return positions_[i]; }
+  const V3f& normal(size_t i) const { return normals_[i]; }
+  float radius() const { return radius_; }
+
+  /// Nearest place within the radius, the lower index of equals; false when there is none.
+  bool nearest(const V3f& position, const V3f& normal, Neighbour& result) const;
+  /// The `wanted` nearest places within the radius into `result`, nearest first; how many there are.
+  int nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const;
+  size_t bytes() const;
+
+  /// Calls visit(index, squared distance) for every place within the radius, in no meaningful but a fixed
+  /// order.
+  template <class Visit>
+  void for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const;
+
+ private:
+  size_t bucket(int64_t x, int64_t y, int64_t z) const;
+  int64_t cell(float coordinate) const;
+
+  float radius_ = 0;
+  float inverse_cell_ = 0;
+  std::vector<V3f> positions_;
+  std::vector<V3f> normals_;
+  std::vector<uint32_t> first_;  // of each bucket, into items_
+  std::vector<uint32_t> items_;
+};
+
+template <class Visit>
+void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const {
+  if (positions_.empty()) return;
+  const int64_t x0 = cell(position.x - radius_), x1 = cell(position.x + radius_);
+  const int64_t y0 = cell(position.y - radius_), y1 = cell(position.y + radius_);
+  const int64_t z0 = cell(position.z - radius_), z1 = cell(position.z + radius_);
+  for (int64_t z = z0; z <= z1; ++z) {
+    for (int64_t y = y0; y <= y1; ++y) {
+      for (int64_t x = x0; x <= x1; ++x) {
+        const size_t b = bucket(x, y, z);
+        for (uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
+          const uint32_t i = items_[k];
+          const V3f& p = positions_[i];
+          const V3f d = p - position;
+          const float distance2 = d.dot(d);
+          if (distance2 > radius_ * radius_ || normals_[i].dot(normal) < 0.5f) continue;
+          // Several cells may share a bucket: each place counts in its own cell only.
+          if (cell(p.x) != x || cell(p.y) != y || cell(p.z) != z) continue;
+          visit(i, distance2);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/skin_binding.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/check.h"
+#include "geom/closest_point.h"
+#include "geom/tessellation.h"
+
+namespace pelage {
+
+struct SkinBinding::Impl {
+  SkinMesh mesh;
+  ClosestPointTree tree;
+  explicit Impl(SkinMesh&& m) : mesh(std::move(m)), tree(mesh, 0) {}
+};
+
+namespace {
+
+SkinMesh tessellate_evenly(const LimitSurface& rest, const Workers& workers) {
+  View everywhere;
+  everywhere.focal_pixels = 1e12f;  // every edge wants more than the largest rate
+  TessellationOptions options;
+  options.max_rate = 8;
+  return tessellate(std::span(&rest, 1), everywhere, options, workers);
+}
+
+/// Parameters of a point of a triangle, by its barycentric coordinates.
+RootAddress address_of(const SkinMesh& mesh, uint32_t triangle, const V3f& point) {
+  const uint32_t* corner = &mesh.triangles[3 * static_cast<size_t>(triangle)];
+  const V2f* uv = &mesh.vertex_uv[3 * static_cast<size_t>(triangle)];
+  const V3f a = mesh.position(corner[0]);
+  const V3f ab = mesh.position(corner[1]) - a, ac = mesh.position(corner[2]) - a, ap = point - a;
+  const V3f normal = ab.cross(ac);
+  const float area = normal.dot(normal);
+  float wb = 0, wc = 0;
+  if (area > 0) {
+    wb = std::clamp(ap.cross(ac).dot(normal) / area, 0.0f, 1.0f);
+    wc = std::clamp(ab.cross(ap).dot(normal) / area, 0.0f, 1.0f - wb);
+  }
+  const V2f at = uv[0] * (1 - wb - wc) + uv[1] * wb + uv[2] * wc;
+  return {mesh.faces[triangle], std::clamp(at.x, 0.0f, 1.0f), std::clamp(at.y, 0.0f, 1.0f)};
+}
+
+}  // namespace
+
+SkinBinding::SkinBinding(const LimitSurface& rest, const Workers& workers)
+    : impl_(std::make_unique<Impl>(tessellate_evenly(rest, workers))) {}
+SkinBinding::~SkinBinding() = default;
+
+RootAddress SkinBinding::nearest(const V3f& point) const {
+  ClosestPoint closest;
+  const bool found = impl_->tree.closest(point, std::numeric_limits<float>::infinity(), closest);
+  PELAGE_CHECK(found);
+  return address_of(impl_->mesh, closest.triangle, closest.position);
+}
+
+}  // namespace pelage

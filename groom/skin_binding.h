@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "geom/limit_surface.h"
+#include "geom/strands.h"
+
+namespace pelage {
+
+class Workers;
+
+/// Finds the place of the rest skin nearest to a point, for what was made elsewhere: guides and imported
+/// strands. By an even tessellation, so addresses are exact to its triangles. Immutable. Thread safety: const
+/// members may be called from any thread.
+class SkinBinding {
+ public:
+  SkinBinding(const LimitSurface& rest, const Workers& workers);
+  ~SkinBinding();
+
+  /// Ptex address of the nearest place.
+  RootAddress nearest(const V3f& point) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pelage

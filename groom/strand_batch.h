@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+class ClosestPointTree;
+
+/// Strands that operators work on together: small enough for the second cache level, long enough for SIMD.
+inline constexpr size_t kBlockStrands = 256;
+/// One number per strand of a batch; vectors are three rows.
+using StrandRow = std::array<float, kBlockStrands>;
+using VectorRow = std::array<StrandRow, 3>;
+
+inline V3f vector_at(const VectorRow& row, size_t strand) {
+  return {row[0][strand], row[1][strand], row[2][strand]};
+}
+inline void set_vector(VectorRow& row, size_t strand, const V3f& value) {
+  row[0][strand] = value.x;
+  row[1][strand] = value.y;
+  row[2][strand] = value.z;
+}
+
+/// Where strands stand on a skin.
+struct RootRows {
+  VectorRow position;
+  VectorRow tangent, bitangent, normal;  ///< orthonormal follicle frames
+
+  void set(size_t strand, const V3f& position_of_root, const Frame& frame);
+  Frame frame(size_t strand) const {
+    return {vector_at(tangent, strand), vector_at(bitangent, strand), vector_at(normal, strand)};
+  }
+};
+
+/// A few strands on their way through the operators, as rows over strands: [point][strand].
+///
+/// Points are offsets from the root along the axes of the batch's space: rest space for frozen operators, the
+/// posed space of one motion key for live ones. All strands of a batch have the same number of points. Point
+/// 0 is the base of the strand: zero for grown strands, the gap to the skin for imported ones; operators
+/// leave it.
+struct StrandBatch {
+  struct PointRows {
+    VectorRow offset;
+    StrandRow radius;  ///< half the width
+  };
+
+  size_t count = 0;
+  std::vector<PointRows> points;
+  std::vector<VectorRow>
+      colors;  ///< one per point, one for whole strands, or none when nothing asks for colour
+  std::array<uint64_t, kBlockStrands> ids;
+  RootRows rest;    ///< in rest space
+  RootRows here;    ///< in the batch's space
+  StrandRow u, v;   ///< texture coordinates of the roots
+  StrandRow clump;  ///< random number of the clump that a strand belongs to, or of the strand itself
+  const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that ask for it
+  float scale = 1;     ///< of the character: what a scene unit of an operator measures here
+  bool posed = false;  ///< whether the batch's space is that of a pose
+
+  int point_count() const { return static_cast<int>(points.size()); }
+  int segment_count() const { return point_count() - 1; }
+  V3f offset(int point, size_t strand) const {
+    return vector_at(points[static_cast<size_t>(point)].offset, strand);
+  }
+  void set_offset(int point, size_t strand, const V3f& value) {
+    set_vector(points[static_cast<size_t>(point)].offset, strand, value);
+  }
+  /// Position along a strand by point number: 0 at the root, 1 at the tip.
+  float along(int point) const { return static_cast<float>(point) / static_cast<float>(segment_count()); }
+  /// A direction of rest space in the batch's space, carried by the follicle frames.
+  V3f from_rest(size_t strand, const V3f& direction) const {
+    return posed ? here.frame(strand).to_world(rest.frame(strand).to_local(direction)) : direction;
+  }
+};
+
+/// Makes straight strands of unit length along the root normals of `batch.rest`, without width; copies the
+/// rest frames to `here`.
+void start_strands(StrandBatch& batch, int points);
+
+/// Turns rest offsets into those of a pose, whose roots stand in batch.here, and scales offsets and radii.
+void carry_to_pose(StrandBatch& batch, float scale);
+
+/// Arc length of each strand's control polygon.
+void arc_lengths(const StrandBatch& batch, StrandRow& lengths);
+
+}  // namespace pelage

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/schema.h"
+#include "groom/operator.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// Keys of the operator `width`. Diameters.
+struct WidthParams {
+  Field root{0.01f};
+  Field tip{0.001f};
+  float profile = 1;
+  float variation = 0;
+  static const Schema<WidthParams>& schema();
+};
+
+/// Sets the thickness of strands from root to tip.
+class Width final : public Operator {
+ public:
+  using Params = WidthParams;
+  static constexpr const char* kName = "width";
+  explicit Width(Params params) : params_(std::move(params)) {}
+
+  std::string_view name() const override { return kName; }
+  void prepare(const PrepareContext& context) override;
+  void apply(StrandBatch& batch) const override;
+  float displacement_bound(const StrandReach&) const override { return 0; }
+  StrandReach reach_after(const StrandReach& before) const override;
+
+ private:
+  Params params_;
+  uint64_t seed_ = 0;
+};
+
+}  // namespace pelage
