@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+
+namespace pelage {
+
+/// A little-endian binary file read in pieces, whose every claim about itself is checked against its length
+/// first.
+class BinaryFile {
+ public:
+  /// Throws Error (kInput) when the file is missing, empty, no regular file or a git-lfs pointer.
+  explicit BinaryFile(const std::filesystem::path& path);
+
+  uint64_t size() const { return size_; }
+  /// Throws Error (kInput) naming `what` unless `count` values of `value_size` bytes lie at `offset`.
+  void require(uint64_t offset, uint64_t count, uint64_t value_size, const std::string& what) const;
+  /// Reads what `require` has found to be there.
+  void read(uint64_t offset, std::span<float> values) {
+    read_bytes(offset, values.data(), values.size_bytes());
+  }
+  void read(uint64_t offset, std::span<uint16_t> values) {
+    read_bytes(offset, values.data(), values.size_bytes());
+  }
+  void read_bytes(uint64_t offset, void* to, size_t count);
+
+  /// Throws Error (kInput): "path: why".
+  [[noreturn]] void fail(const std::string& why) const;
+
+ private:
+  std::filesystem::path path_;
+  std::ifstream stream_;
+  uint64_t size_ = 0;
+};
+
+}  // namespace pelage

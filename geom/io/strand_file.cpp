@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/io/strand_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <vector>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "geom/io/strand_formats.h"
+#include "geom/io/strand_repair.h"
+
+namespace pelage {
+namespace {
+
+struct Format {
+  const char* ending;
+  StrandFile (*read)(const std::filesystem::path&, const StrandReadOptions&);
+  void (*write)(const std::filesystem::path&, const Strands&);
+};
+constexpr Format kFormats[] = {{".hair", read_hair, write_hair}, {".tfx", read_tfx, write_tfx}};
+
+const Format& format_of(const std::filesystem::path& path, ErrorKind kind) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  for (const Format& format : kFormats) {
+    if (ending == format.ending) return format;
+  }
+  throw Error(kind, {path.string(), 0, 0}, "expected a strand file ending in .hair or .tfx");
+}
+
+constexpr size_t kChunk = 4096;
+
+}  // namespace
+
+StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options) {
+  return format_of(path, ErrorKind::kInput).read(path, options);
+}
+
+void write_strands(const std::filesystem::path& path, const Strands& strands) {
+  format_of(path, ErrorKind::kFailed).write(path, strands);
+}
+
+void read_point_parts(BinaryFile& file, uint64_t offset, int components, size_t count, float* points) {
+  const size_t n = static_cast<size_t>(components);
+  std::vector<float> chunk(kChunk * n);
+  for (size_t begin = 0; begin < count; begin += kChunk) {
+    const size_t size = std::min(kChunk, count - begin);
+    file.read(offset + begin * n * sizeof(float), std::span(chunk.data(), size * n));
+    for (size_t i = 0; i < size; ++i) std::copy_n(&chunk[i * n], n, points + (begin + i) * 4);
+  }
+}
+
+void write_per_point(AtomicFile& file, const Strands& strands, int components,
+                     const std::function<void(size_t, size_t, float*)>& value) {
+  const size_t n = static_cast<size_t>(components);
+  std::vector<float> chunk;
+  chunk.reserve(kChunk * n);
+  const auto flush = [&] {
+    file.write(std::as_bytes(std::span(chunk)));
+    chunk.clear();
+  };
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    const uint32_t end = strands.first_point(s) + strands.strand_points(s);
+    for (uint32_t p = strands.first_point(s); p < end; ++p) {
+      chunk.resize(chunk.size() + n);
+      value(s, p, &chunk[chunk.size() - n]);
+      if (chunk.size() >= kChunk * n) flush();
+    }
+  }
+  flush();
+}
+
+void attribute_at(const StrandAttribute& attribute, size_t strand, size_t point, int components, float* out) {
+  size_t index = 0;
+  if (attribute.frequency == AttributeClass::kPerStrand) index = strand;
+  if (attribute.frequency == AttributeClass::kPerPoint) index = point;
+  const float* values = &attribute.values[index * static_cast<size_t>(attribute.components)];
+  for (int c = 0; c < components; ++c) out[c] = values[std::min(c, attribute.components - 1)];
+}
+
+StrandFile finish_strands(StrandArrays arrays, const char* format, const StrandReadOptions& options,
+                          bool has_widths, float file_width) {
+  StrandFile result;
+  result.format = format;
+  float width = file_width > 0 && file_width <= std::numeric_limits<float>::max() ? file_width : 0;
+  if (options.default_width && !width) width = *options.default_width;
+  if (!width) {
+    width = assumed_width(arrays);
+    if (!has_widths) result.assumed_width = width;
+  }
+  if (!has_widths) {
+    for (size_t i = 3; i < arrays.points.size(); i += 4) arrays.points[i] = 0.5f * width;
+  }
+  result.repairs = repair_strands(arrays, width);
+  result.strands = Strands(std::move(arrays));
+  return result;
+}
+
+void fail_to_write(const std::filesystem::path& path, const std::string& why) {
+  throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, why);
+}
+
+}  // namespace pelage

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+
+#include "base/file.h"
+#include "geom/io/strand_formats.h"
+
+// TressFX 4's .tfx format [TressFX]: a header of 160 bytes that holds byte offsets of the arrays, 0 for those
+// that are absent. All strands have equally many points; a point's fourth float is 0 where the simulation
+// holds it, else 1.
+
+namespace pelage {
+namespace {
+
+struct Header {
+  float version;
+  uint32_t strand_count;
+  uint32_t points_per_strand;
+  uint32_t points;     ///< 4 floats per point
+  uint32_t strand_uv;  ///< 2 floats per strand
+  uint32_t point_uv;   ///< 2 floats per point
+  uint32_t thickness;  ///< a float per strand
+  uint32_t color;      ///< 4 floats per point
+  uint32_t reserved[32];
+};
+static_assert(sizeof(Header) == 160 && std::is_trivially_copyable_v<Header>);
+
+Header read_header(BinaryFile& file) {
+  Header header;
+  file.require(0, sizeof header, 1, "bytes of header");
+  file.read_bytes(0, &header, sizeof header);
+  if (!(header.version >= 4 && header.version < 5))
+    file.fail("is not a TressFX 4 file: its version is not 4");
+  if (header.points == 0) file.fail("holds no points");
+  if (header.strand_count == 0) file.fail("holds no strands");
+  if (uint64_t(header.strand_count) * header.points_per_strand > std::numeric_limits<uint32_t>::max()) {
+    file.fail("claims " + std::to_string(header.strand_count) + " strands of " +
+              std::to_string(header.points_per_strand) + " points, more than it can hold");
+  }
+  if (header.points_per_strand < 2) {
+    file.fail("claims " + std::to_string(header.points_per_strand) + " points a strand, expected at least 2");
+  }
+  return header;
+}
+
+void check_array(const BinaryFile& file, uint64_t offset, uint64_t count, int components, const char* what) {
+  if (offset == 0) return;
+  if (offset < sizeof(Header)) file.fail("its " + std::string(what) + " would lie within its header");
+  file.require(offset, count, 4 * static_cast<uint64_t>(components), what);
+}
+
+std::vector<float> read_floats(BinaryFile& file, uint64_t offset, size_t count) {
+  std::vector<float> values(count);
+  file.read(offset, std::span(values));
+  return values;
+}
+
+/// Splits RGBA into "color" and "opacity".
+void read_color(BinaryFile& file, const Header& header, size_t points, StrandArrays& a) {
+  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}};
+  StrandAttribute opacity{"opacity", AttributeClass::kPerPoint, 1, {}};
+  color.values.resize(points * 3);
+  opacity.values.resize(points);
+  std::vector<float> rgba;
+  for (size_t i = 0; i < points; i += 4096) {
+    const size_t count = std::min<size_t>(4096, points - i);
+    rgba.resize(count * 4);
+    file.read(header.color + i * 16, std::span(rgba));
+    for (size_t k = 0; k < count; ++k) {
+      std::copy_n(&rgba[k * 4], 3, &color.values[(i + k) * 3]);
+      opacity.values[i + k] = rgba[k * 4 + 3];
+    }
+  }
+  a.attributes.push_back(std::move(color));
+  a.attributes.push_back(std::move(opacity));
+}
+
+float largest_radius(const Strands& strands, size_t strand) {
+  float largest = 0;
+  for (uint32_t i = 0; i < strands.strand_points(strand); ++i) {
+    largest = std::max(largest, strands.radius(strands.first_point(strand) + i));
+  }
+  return largest;
+}
+
+}  // namespace
+
+StrandFile read_tfx(const std::filesystem::path& path, const StrandReadOptions& options) {
+  BinaryFile file(path);
+  const Header header = read_header(file);
+  const size_t strands = header.strand_count;
+  const size_t points = strands * header.points_per_strand;
+  check_array(file, header.points, points, 4, "points");
+  check_array(file, header.strand_uv, strands, 2, "strand coordinates");
+  check_array(file, header.point_uv, points, 2, "point coordinates");
+  check_array(file, header.thickness, strands, 1, "thicknesses");
+  check_array(file, header.color, points, 4, "colours");
+
+  StrandArrays a;
+  a.basis = options.basis.value_or(CurveBasis::kPinnedBSpline);
+  a.ids.resize(strands);
+  std::iota(a.ids.begin(), a.ids.end(), uint64_t(0));
+  a.first_point.resize(strands + 1);
+  for (size_t s = 0; s <= strands; ++s)
+    a.first_point[s] = static_cast<uint32_t>(s * header.points_per_strand);
+  a.points = read_floats(file, header.points, points * 4);
+  if (header.strand_uv) {
+    const std::vector<float> uv = read_floats(file, header.strand_uv, strands * 2);
+    for (size_t s = 0; s < strands; ++s) a.root_uv.emplace_back(uv[2 * s], uv[2 * s + 1]);
+  }
+  if (header.point_uv) {
+    a.attributes.push_back(
+        {"uv", AttributeClass::kPerPoint, 2, read_floats(file, header.point_uv, points * 2)});
+  }
+  if (header.color) read_color(file, header, points, a);
+  if (header.thickness) {
+    const std::vector<float> thickness = read_floats(file, header.thickness, strands);
+    for (size_t p = 0; p < points; ++p) a.points[4 * p + 3] = 0.5f * thickness[p / header.points_per_strand];
+  }
+  return finish_strands(std::move(a), "tfx", options, header.thickness != 0, 0);
+}
+
+void write_tfx(const std::filesystem::path& path, const Strands& strands) {
+  if (strands.strand_count() == 0) fail_to_write(path, "there are no strands to write");
+  const uint32_t per_strand = strands.strand_points(0);
+  for (size_t s = 1; s < strands.strand_count(); ++s) {
+    if (strands.strand_points(s) == per_strand) continue;
+    fail_to_write(path, "the .tfx format needs strands of equally many points, strand 0 has " +
+                            std::to_string(per_strand) + ", strand " + std::to_string(s) + " has " +
+                            std::to_string(strands.strand_points(s)));
+  }
+  const StrandAttribute* color = strands.find_attribute("color");
+  const StrandAttribute* opacity = strands.find_attribute("opacity");
+  const StrandAttribute* uv = strands.find_attribute("uv");
+  const bool has_root_uv = !strands.arrays().root_uv.empty();
+
+  Header header{};
+  header.version = 4.0f;
+  header.strand_count = static_cast<uint32_t>(strands.strand_count());
+  header.points_per_strand = per_strand;
+  uint64_t end = sizeof header;
+  const auto place = [&](uint64_t count, uint64_t components) {
+    const uint64_t begin = end;
+    end += (count * components * sizeof(float) + 7) / 8 * 8;  // arrays begin at multiples of 8 bytes
+    return static_cast<uint32_t>(begin);
+  };
+  const size_t points = strands.point_count();
+  header.points = place(points, 4);
+  if (has_root_uv) header.strand_uv = place(strands.strand_count(), 2);
+  if (uv) header.point_uv = place(points, 2);
+  if (color || opacity) header.color = place(points, 4);
+  header.thickness = place(strands.strand_count(), 1);
+  if (end > std::numeric_limits<uint32_t>::max()) fail_to_write(path, "the .tfx format holds at most 4 GiB");
+
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(&header, 1)));
+  write_per_point(file, strands, 4, [&](size_t strand, size_t point, float* out) {
+    const V3f p = strands.point(point);
+    std::copy_n(&p.x, 3, out);
+    out[3] = point == strands.first_point(strand) ? 0.0f : 1.0f;
+  });
+  if (has_root_uv) {
+    std::vector<float> values;
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      values.push_back(strands.root_uv(s).x);
+      values.push_back(strands.root_uv(s).y);
+    }
+    file.write(std::as_bytes(std::span(values)));
+  }
+  if (uv) {
+    write_per_point(file, strands, 2, [&](size_t strand, size_t point, float* out) {
+      attribute_at(*uv, strand, point, 2, out);
+    });
+  }
+  if (color || opacity) {
+    write_per_point(file, strands, 4, [&](size_t strand, size_t point, float* out) {
+      std::fill_n(out, 4, 1.0f);
+      if (color) attribute_at(*color, strand, point, 3, out);
+      if (opacity) attribute_at(*opacity, strand, point, 1, out + 3);
+    });
+  }
+  std::vector<float> thickness;
+  for (size_t s = 0; s < strands.strand_count(); ++s) thickness.push_back(2 * largest_radius(strands, s));
+  file.write(std::as_bytes(std::span(thickness)));
+  file.commit();
+}
+
+}  // namespace pelage
