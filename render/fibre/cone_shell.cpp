@@ -40,7 +40,7 @@ ConeShell::ConeShell(const ShellShape& shape, ShellVariant variant, float sin_th
   const float inner_cos = cos_mid_ * shape.cos_width + sin_mid_ * shape.sin_width;
   const float outer_cos = cos_mid_ * shape.cos_width - sin_mid_ * shape.sin_width;
   const bool literal = variant == ShellVariant::kLiteral;
-  // Integral of the literal weight over z [shading note 1.2], with cos P - cos Q as a product of sines:
+  // Integral of the literal weight over z, with cos P - cos Q as a product of sines:
   // (W sin mid + sin(T_max + T_min - T_mid) sin W) / 2, W = T_max - T_min.
   float weight_integral;
   if (inner_sin < 0.0f) {  // cut at T: Theta_min = 0

@@ -14,8 +14,9 @@ constexpr float kSmoothest = 1e-3f;
 constexpr float kGrazing = 1e-4f;
 
 float microfacet_density(const V3f& half, float alpha) {
+  // 1 - z^2 as x^2 + y^2: narrow facets live on what that difference would lose.
   const float a2 = alpha * alpha;
-  const float d = half.z * half.z * (a2 - 1) + 1;
+  const float d = half.x * half.x + half.y * half.y + a2 * half.z * half.z;
   return a2 / (kPi * d * d);
 }
 

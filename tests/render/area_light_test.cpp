@@ -13,7 +13,7 @@ namespace {
 constexpr double kPiD = std::numbers::pi;
 
 TEST(SphericalRectangle, HasTheReferenceNumbers) {
-  // [shading note 3.2]
+  // Computed in double precision from the formulas of [Urena13].
   const SphericalRectangle centred(0, 0, -1, 0.5, 0.5);
   EXPECT_NEAR(centred.solid_angle(), 0.80543168, 1e-8);
   EXPECT_NEAR(centred.solid_angle(), 4 * std::asin(0.2), 1e-12);

@@ -190,15 +190,15 @@ double literal_variance(double half_width, Pdf&& pdf) {
 TEST(ConeShell, NarrowLiteralShellsAreNotBestSampledByTheSemicircle) {
   const struct {
     double half_width, uniform, wigner;
-  } reference[] = {{0.1, 0.0000, 0.231},
-                   {0.3, 0.0002, 0.214},
-                   {0.6, 0.003, 0.163},
-                   {1.0, 0.023, 0.066},
-                   {kPiD / 2, 0.081, 0}};
+  } reference[] = {{0.1, 0.00000, 0.23165},
+                   {0.3, 0.00019, 0.21543},
+                   {0.6, 0.00295, 0.16378},
+                   {1.0, 0.02259, 0.06669},
+                   {kPiD / 2, 0.08076, 0}};
   for (const auto& r : reference) {
-    EXPECT_NEAR(literal_variance(r.half_width, [](double) { return 0.5; }), r.uniform, 7e-4) << r.half_width;
+    EXPECT_NEAR(literal_variance(r.half_width, [](double) { return 0.5; }), r.uniform, 1e-5) << r.half_width;
     EXPECT_NEAR(literal_variance(r.half_width, [](double u) { return 2 / kPiD * std::sqrt(1 - u * u); }),
-                r.wigner, 7e-4)
+                r.wigner, 1e-5)
         << r.half_width;
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 TEST(Wigner, DrawsTheReferenceNumbers) {
   const WignerTable& table = WignerTable::instance();
-  // [shading note 2]
+  // By quadrature in double precision.
   const std::pair<float, double> reference[] = {{0.01f, -0.9343329934}, {0.05f, -0.8053836365},
                                                 {0.1f, -0.6870488261},  {0.25f, -0.4039727533},
                                                 {0.4f, -0.1577361938},  {0.5f, 0.0}};

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light/light_set.h"
+
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "render/light/environment_light.h"
+#include "render/light/rectangle_light.h"
+#include "render/light/sphere_light.h"
+#include "tests/render/random.h"
+#include "tests/support/chi_square.h"
+
+namespace pelage {
+namespace {
+
+/// Spheres, rectangles that shine down from above, and a dim sky.
+LightSet many_lights(int count) {
+  std::vector<std::unique_ptr<Light>> lights;
+  TestRandom random(count);
+  for (int i = 0; i < count - 1; ++i) {
+    const V3f at = random.direction() * random.between(3, 8);
+    const Rgb radiance(std::pow(10.0f, random.between(-1, 2)));
+    if (i % 2) {
+      lights.push_back(std::make_unique<SphereLight>("s", at, random.between(0.1f, 1), radiance, false));
+    } else {
+      Rectangle shape;  // toward -z
+      shape.center = at;
+      shape.x = {-1, 0, 0};
+      lights.push_back(std::make_unique<RectangleLight>("r", shape, radiance, false, false));
+    }
+  }
+  lights.push_back(std::make_unique<EnvironmentLight>("sky", Rgb(0.1f), true));
+  return LightSet(std::move(lights));
+}
+
+TEST(LightSet, ProbabilitiesSumToOneAndGiveUsefulLightsTheirShare) {
+  for (int count : {1, 3, 10, 40}) {
+    const LightSet set = many_lights(count);
+    TestRandom random(2);
+    std::vector<float> p(set.size());
+    for (int i = 0; i < 300; ++i) {
+      const V3f from = random.direction() * random.between(0, 6);
+      const V3f tangent = i % 2 ? random.direction() : V3f(0);
+      set.probabilities(from, tangent, p);
+      ASSERT_NEAR(std::accumulate(p.begin(), p.end(), 0.0), 1, 1e-5);
+      for (size_t k = 0; k < p.size(); ++k) {
+        ASSERT_EQ(p[k], set.probability(from, tangent, k));
+        const bool useful = set.light(k).importance(from, tangent) > 0;
+        ASSERT_EQ(p[k] > 0, useful);
+        if (useful) {
+          ASSERT_GE(p[k], 0.0999f / static_cast<float>(set.size()));
+        }
+        ASSERT_EQ(set.light(k).sample(from, V2f(0.4f)).has_value(), useful);
+      }
+    }
+  }
+}
+
+TEST(LightSet, ChoosesInProportion) {
+  const LightSet set = many_lights(12);
+  const V3f from(0.3f, -0.2f, 0.5f), tangent(0, 0, 1);
+  constexpr int kSamples = 200000;
+  std::vector<double> observed(12, 0.0), expected(12);
+  RunningMean remapped;
+  TestRandom random(3);
+  for (int i = 0; i < kSamples; ++i) {
+    const LightSet::Choice choice = set.choose(from, tangent, random.unit());
+    ASSERT_EQ(choice.probability, set.probability(from, tangent, choice.light));
+    ASSERT_GE(choice.remapped, 0.0f);
+    ASSERT_LT(choice.remapped, 1.0f);
+    observed[choice.light] += 1;
+    remapped.add(choice.remapped);
+  }
+  for (size_t k = 0; k < 12; ++k) expected[k] = kSamples * set.probability(from, tangent, k);
+  EXPECT_GT(chi_square(observed, expected).p, 1e-4);
+  EXPECT_NEAR(remapped.mean(), 0.5, 4 * remapped.standard_error());
+  EXPECT_NEAR(remapped.variance(), 1.0 / 12, 2e-3);
+}
+
+TEST(LightSet, EvenlySpacedNumbersMakeASystematicSample) {
+  const LightSet set = many_lights(12);
+  const V3f from(0.3f, -0.2f, 0.5f);
+  constexpr int kDraws = 32;
+  TestRandom random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<int> hits(12, 0);
+    const float offset = random.unit();
+    for (int i = 0; i < kDraws; ++i) ++hits[set.choose(from, V3f(0), (i + offset) / kDraws).light];
+    for (size_t k = 0; k < 12; ++k) {
+      ASSERT_LT(std::abs(hits[k] - kDraws * set.probability(from, V3f(0), k)), 1.001);
+    }
+  }
+}
+
+TEST(LightSet, NothingToChooseFrom) {
+  EXPECT_EQ(LightSet({}).choose(V3f(0), V3f(0), 0.5f).probability, 0);
+  std::vector<std::unique_ptr<Light>> lights;
+  lights.push_back(std::make_unique<RectangleLight>("r", Rectangle{}, Rgb(1), false, false));  // toward +z
+  lights.push_back(std::make_unique<EnvironmentLight>("night", Rgb(0), false));
+  const LightSet dark(std::move(lights));
+  EXPECT_EQ(dark.choose(V3f(0, 0, -1), V3f(0), 0.5f).probability, 0);
+  EXPECT_EQ(dark.probability(V3f(0, 0, -1), V3f(0), 0), 0);
+  EXPECT_EQ(dark.choose(V3f(0, 0, 1), V3f(0), 0.99f).probability, 1);
+}
+
+}  // namespace
+}  // namespace pelage
