@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
+#include "groom/rotation.h"
 
 namespace pelage {
 namespace {
@@ -64,7 +65,7 @@ FaceStatistics measure_face(const LimitSurface& rest, const FollicleDensity& den
 std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const FollicleDensity& density,
                                           const Workers& workers) {
   const size_t faces = rest.topology().face_count();
-  const bool uniform = density.field.is_constant() && !density.coverage;
+  const bool uniform = density.is_uniform();
   const int grid =
       uniform ? 4
               : static_cast<int>(std::clamp(
@@ -78,10 +79,40 @@ std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const Follic
   return result;
 }
 
+/// A place on a face, uniform by area, that passes the density with probability density / bound.
+bool try_candidate(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
+                   const FaceStatistics& statistics, float room, uint64_t stream, FollicleCandidate& out) {
+  RootAddress root{face, 0, 0};
+  SurfacePoint point;
+  V3f normal;
+  const float limit = statistics.largest_element * 1.1f;
+  // Rejection against |du x dv|; after 64 failures (a face that is nearly a line) any place.
+  for (uint64_t attempt = 0; attempt < 64; ++attempt) {
+    const uint64_t h = hash64(stream, attempt);
+    root.u = unit_float(h);
+    root.v = unit_float(mix64(h));
+    if (is_triangular(rest) && root.u + root.v > 1) {
+      root.u = 1 - root.u;
+      root.v = 1 - root.v;
+    }
+    point = rest.evaluate(face, root.u, root.v);
+    normal = point.du.cross(point.dv);
+    if (unit_float(mix64(h + 1)) * limit < normal.length()) break;
+  }
+  const float value = density.at(rest.topology(), root, point);
+  const float bound = statistics.largest_density * room;
+  if (!(unit_float(hash64(stream, random_use("density"))) * bound < value)) return false;
+  out = {point.position.x,        point.position.y,
+         point.position.z,        pack_normal(unit_or(normal, V3f(0, 0, 1))),
+         1.0f / std::sqrt(value), root};
+  return true;
+}
+
 }  // namespace
 
 float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& address,
                           const SurfacePoint& point) const {
+  if (is_uniform()) return std::max(field.value({}), 0.0f);
   FieldPoint place;
   place.rest = point.position;
   const V2f uv = topology.texture_coordinates(address.face, address.u, address.v);
@@ -102,8 +133,8 @@ SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& 
   return result;
 }
 
-FollicleCandidates make_candidates(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed,
-                                   size_t wanted, const Workers& workers) {
+std::vector<FollicleCandidate> make_candidates(const LimitSurface& rest, const FollicleDensity& density,
+                                               uint64_t seed, size_t wanted, const Workers& workers) {
   const std::vector<FaceStatistics> faces = measure_faces(rest, density, workers);
   double mass = 0;
   for (const FaceStatistics& face : faces) mass += face.mass;
@@ -111,80 +142,48 @@ FollicleCandidates make_candidates(const LimitSurface& rest, const FollicleDensi
 
   // Every face tries as many as its area times a bound on its density asks for; the bound leaves room for
   // what lies between the samples.
-  constexpr float kRoom = 1.25f;
+  const float room = density.is_uniform() ? 1.0f : 1.25f;
   std::vector<uint64_t> first(faces.size() + 1, 0);
   double cumulative = 0;
   for (size_t f = 0; f < faces.size(); ++f) {
-    const double limit = faces[f].largest_density * kRoom;
+    const double limit = faces[f].largest_density * room;
     cumulative += static_cast<double>(wanted) * faces[f].area * limit / mass;
     first[f + 1] = static_cast<uint64_t>(cumulative);
   }
 
-  struct Kept {
-    uint64_t order;
-    V3f position;
-    uint32_t normal;
-    float spacing;
-    RootAddress root;
-  };
-  const bool triangle = is_triangular(rest);
-  std::vector<std::vector<Kept>> kept(faces.size());
-  workers.for_each(faces.size(), 4, [&](WorkRange range) {
-    for (size_t f = range.begin; f < range.end; ++f) {
-      const auto face = static_cast<uint32_t>(f);
-      const float element_limit = faces[f].largest_element * 1.1f;
-      const float density_limit = faces[f].largest_density * kRoom;
-      const uint64_t tries = first[f + 1] - first[f];
-      kept[f].reserve(static_cast<size_t>(static_cast<double>(tries) / kRoom));
-      for (uint64_t i = 0; i < tries; ++i) {
-        const uint64_t stream = hash64(seed, face, i, random_use("follicle"));
-        // Uniform by area: rejection against |du x dv|; after 64 failures (a face that is nearly a line) any
-        // place.
-        RootAddress root{face, 0, 0};
-        SurfacePoint point;
-        for (uint64_t attempt = 0; attempt < 64; ++attempt) {
-          const uint64_t h = hash64(stream, attempt);
-          root.u = unit_float(h);
-          root.v = unit_float(mix64(h));
-          if (triangle && root.u + root.v > 1) {
-            root.u = 1 - root.u;
-            root.v = 1 - root.v;
-          }
-          point = rest.evaluate(face, root.u, root.v);
-          if (unit_float(mix64(h + 1)) * element_limit < area_element(point)) break;
-        }
-        const float value = density.at(rest.topology(), root, point);
-        if (!(unit_float(hash64(stream, random_use("density"))) * density_limit < value)) continue;
-        const V3f normal = LimitSurface::frame_of(point).normal;
-        kept[f].push_back({hash64(stream, random_use("order")), point.position, pack_normal(normal),
-                           1.0f / std::sqrt(value), root});
+  // Small faces are done together and large ones in parts, whatever the threads.
+  const uint64_t tries = first.back();
+  constexpr uint64_t kPart = 4096;
+  const size_t parts = static_cast<size_t>((tries + kPart - 1) / kPart);
+  std::vector<std::vector<FollicleCandidate>> kept(parts);
+  std::vector<std::vector<uint64_t>> orders(parts);
+  workers.for_each(parts, 1, [&](WorkRange range) {
+    for (size_t part = range.begin; part < range.end; ++part) {
+      const uint64_t begin = part * kPart, end = std::min(tries, begin + kPart);
+      size_t f = static_cast<size_t>(std::upper_bound(first.begin(), first.end(), begin) - first.begin()) - 1;
+      for (uint64_t i = begin; i < end; ++i) {
+        while (i >= first[f + 1]) ++f;
+        const uint64_t stream = hash64(seed, f, i - first[f], random_use("follicle"));
+        FollicleCandidate candidate;
+        if (!try_candidate(rest, density, static_cast<uint32_t>(f), faces[f], room, stream, candidate))
+          continue;
+        kept[part].push_back(candidate);
+        orders[part].push_back(mix64(stream));
       }
     }
   });
 
-  std::vector<std::pair<uint64_t, const Kept*>> order;
-  for (const auto& list : kept) {
-    for (const Kept& k : list) order.push_back({k.order, &k});
+  std::vector<std::pair<uint64_t, std::pair<uint32_t, uint32_t>>> order;
+  for (size_t part = 0; part < parts; ++part) {
+    for (size_t i = 0; i < kept[part].size(); ++i) {
+      order.push_back({orders[part][i], {static_cast<uint32_t>(part), static_cast<uint32_t>(i)}});
+    }
+    orders[part] = {};
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  FollicleCandidates result;
-  const size_t count = order.size();
-  result.x.resize(count);
-  result.y.resize(count);
-  result.z.resize(count);
-  result.normal.resize(count);
-  result.spacing.resize(count);
-  result.roots.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    const Kept& k = *order[i].second;
-    result.x[i] = k.position.x;
-    result.y[i] = k.position.y;
-    result.z[i] = k.position.z;
-    result.normal[i] = k.normal;
-    result.spacing[i] = k.spacing;
-    result.roots[i] = k.root;
-  }
+  std::sort(order.begin(), order.end());
+  std::vector<FollicleCandidate> result;
+  result.reserve(order.size());
+  for (const auto& [key, at] : order) result.push_back(kept[at.first][at.second]);
   return result;
 }
 

@@ -70,7 +70,7 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   if (count == 0 || !(measure.mass > 0)) return {};
 
   // How many candidates pass is random: ask again with more in the rare case that they are too few.
-  FollicleCandidates candidates;
+  std::vector<FollicleCandidate> candidates;
   for (size_t wanted = count * kCandidatesPerFollicle + 100, round = 0; round < 8; wanted *= 2, ++round) {
     candidates = make_candidates(rest, density, options.seed, wanted, workers);
     if (candidates.size() >= count) break;
@@ -81,8 +81,8 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   positions.reserve(order.size());
   roots.reserve(order.size());
   for (uint32_t i : order) {
-    positions.emplace_back(candidates.x[i], candidates.y[i], candidates.z[i]);
-    roots.push_back(candidates.roots[i]);
+    positions.emplace_back(candidates[i].x, candidates[i].y, candidates[i].z);
+    roots.push_back(candidates[i].root);
   }
   candidates = {};
   return over(positions, roots, options.leaf_strands);

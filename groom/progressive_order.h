@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "groom/follicle_candidates.h"
@@ -22,6 +23,7 @@ inline constexpr size_t kCandidatesPerFollicle = 6;
 /// integral of the density); it only says how many follicles to expect of a radius.
 ///
 /// Returns indices of candidates; fewer than `count` when there are fewer candidates.
-std::vector<uint32_t> progressive_order(const FollicleCandidates& candidates, size_t count, double area);
+std::vector<uint32_t> progressive_order(std::span<const FollicleCandidate> candidates, size_t count,
+                                        double area);
 
 }  // namespace pelage

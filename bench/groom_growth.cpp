@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What growing costs: strands per second and core through length + comb + clump + frizz + width at 8 points,
+// the same in evaluations of the rest surface (the yardstick), efficiency of all cores, and peak memory over
+// the bytes of the strands. Follicles per second for placing them.
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <malloc.h>
+
+#include "base/parallel.h"
+#include "groom/groom.h"
+#include "image/texture.h"
+#include "tests/groom/shapes.h"
+#include "tests/groom/stacks.h"
+
+namespace {
+
+// Every byte that operator new hands out, to see the peak of a growth.
+std::atomic<int64_t> bytes_in_use{0};
+std::atomic<int64_t> bytes_peak{0};
+
+void* count_allocation(size_t size) {
+  void* p = std::malloc(size);
+  if (!p) throw std::bad_alloc();
+  const int64_t now = bytes_in_use += static_cast<int64_t>(malloc_usable_size(p));
+  int64_t peak = bytes_peak;
+  while (now > peak && !bytes_peak.compare_exchange_weak(peak, now)) {
+  }
+  return p;
+}
+
+void count_release(void* p) {
+  if (!p) return;
+  bytes_in_use -= static_cast<int64_t>(malloc_usable_size(p));
+  std::free(p);
+}
+
+}  // namespace
+
+void* operator new(size_t size) { return count_allocation(size); }
+void operator delete(void* p) noexcept { count_release(p); }
+void operator delete(void* p, size_t) noexcept { count_release(p); }
+
+namespace pelage {
+namespace {
+
+struct Coat {
+  std::shared_ptr<const LimitSurface> rest = shapes::surface_of(shapes::ball_cage(10));
+  MemoryLedger ledger;
+  TextureLibrary textures{ledger};
+  std::shared_ptr<const Groom> groom;
+
+  Coat() {
+    GroomParams params;
+    params.strands = 200000;
+    params.operators = stacks::usual();
+    groom = Groom::create("coat", params, rest, textures, Workers(), ledger);
+  }
+  PosedSkin pose() const { return {{rest.get(), 1}, {}, 1, {}}; }
+};
+
+const Coat& coat() {
+  static const Coat one;
+  return one;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Seconds for one evaluation of position and frame at a root of the coat.
+double seconds_per_root() {
+  const FollicleTree& follicles = coat().groom->follicles();
+  const auto start = std::chrono::steady_clock::now();
+  V3f sum(0);
+  for (size_t f = 0; f < follicles.size(); ++f) {
+    const RootAddress& root = follicles.root(f);
+    const SurfacePoint point = coat().rest->evaluate(root.face, root.u, root.v);
+    sum += point.position + LimitSurface::frame_of(point).normal;
+  }
+  benchmark::DoNotOptimize(sum);
+  return seconds_since(start) / static_cast<double>(follicles.size());
+}
+
+/// Grows all leaves and keeps them, as a renderer would.
+double grow_all(const Workers& workers, int64_t& strand_bytes) {
+  const Groom& groom = *coat().groom;
+  const size_t leaves = groom.follicles().leaves().size();
+  std::vector<Strands> grown(leaves);
+  const auto start = std::chrono::steady_clock::now();
+  workers.for_each(leaves, 1, [&](WorkRange range) {
+    for (size_t leaf = range.begin; leaf < range.end; ++leaf) grown[leaf] = groom.grow(leaf, coat().pose());
+  });
+  const double seconds = seconds_since(start);
+  strand_bytes = 0;
+  for (const Strands& strands : grown) strand_bytes += static_cast<int64_t>(strands.bytes());
+  return seconds;
+}
+
+void growth(benchmark::State& state) {
+  const Workers one(1);
+  const auto strands = static_cast<double>(coat().groom->follicles().size());
+  double best = 1e30, root = 1e30;
+  int64_t bytes = 0;
+  for (auto _ : state) {
+    best = std::min(best, grow_all(one, bytes));
+    root = std::min(root, seconds_per_root());
+  }
+  state.counters["strands_per_s"] = strands / best;
+  state.counters["roots_per_strand"] = best / strands / root;
+}
+BENCHMARK(growth)->Unit(benchmark::kMillisecond)->Iterations(3);
+
+void growth_on_all_cores(benchmark::State& state) {
+  const Workers one(1), all;
+  double single = 1e30, team = 1e30;
+  int64_t bytes = 0, peak = 0;
+  for (auto _ : state) {
+    single = std::min(single, grow_all(one, bytes));
+    const int64_t before = bytes_in_use;
+    bytes_peak = before;
+    team = std::min(team, grow_all(all, bytes));
+    peak = std::max(peak, bytes_peak - before);
+  }
+  state.counters["threads"] = all.thread_count();
+  state.counters["efficiency"] = single / team / all.thread_count();
+  state.counters["peak_over_strands"] = static_cast<double>(peak) / static_cast<double>(bytes);
+  state.counters["bytes_per_strand"] =
+      static_cast<double>(bytes) / static_cast<double>(coat().groom->follicles().size());
+}
+BENCHMARK(growth_on_all_cores)->Unit(benchmark::kMillisecond)->Iterations(3);
+
+void follicles(benchmark::State& state) {
+  const Workers one(1);
+  double best = 1e30;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    FollicleOptions options;
+    options.count = state.range(0);
+    benchmark::DoNotOptimize(FollicleTree::build(*coat().rest, options, one));
+    best = std::min(best, seconds_since(start));
+  }
+  state.counters["follicles_per_s"] = static_cast<double>(state.range(0)) / best;
+  state.counters["roots_per_follicle"] = best / static_cast<double>(state.range(0)) / seconds_per_root();
+}
+BENCHMARK(follicles)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->Iterations(1);
+
+}  // namespace
+}  // namespace pelage
+
+BENCHMARK_MAIN();

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "groom/follicle_candidates.h"
+
+namespace pelage {
+
+/// Follicles in cells of space, found by hashing, for progressive_order(). Follicles whose spacings differ by
+/// more than two are kept in grids of their own (octaves), so that a search never walks through many small
+/// cells.
+class OctaveGrid {
+ public:
+  explicit OctaveGrid(float smallest_spacing) : smallest_(smallest_spacing) {}
+
+  /// Files everything anew for searches at radii up to `radius`, with room for about `expected` follicles.
+  void rebuild(size_t expected, float radius);
+  void insert(const FollicleCandidate& follicle);
+
+  /// Distance from a candidate to the nearest follicle whose normal lies within 60 degrees of its own, in
+  /// units of the smaller of both spacings, or `radius` when none is nearer.
+  float nearest(const FollicleCandidate& candidate, float radius) const;
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffffu;
+  struct Item {
+    float x, y, z;
+    uint32_t normal;
+    float spacing;
+    uint32_t next;
+  };
+
+  void link(uint32_t item);
+  float nearest_in(uint32_t item, const FollicleCandidate& candidate, const V3f& normal, float best) const;
+  int octave_of(float spacing) const;
+  float inverse_cell(int octave) const { return 1.0f / (cell_ * static_cast<float>(uint64_t(1) << octave)); }
+  size_t row(int32_t x, int32_t y, int32_t z, int octave) const;
+
+  float smallest_;
+  float cell_ = 1;
+  unsigned octaves_ = 0;         // bit k: octave k holds follicles
+  std::vector<uint32_t> heads_;  // of lists; the cells of a row of 16 along x lie side by side
+  std::vector<Item> items_;
+};
+
+}  // namespace pelage
