@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/closest_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geom/triangle_distance.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr uint32_t kWidth = 4;
+constexpr uint32_t kLeaf = 1u << 31;
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+/// Boxes of up to four children, one per lane. Lanes without a child have an empty box, infinitely far away.
+struct Node {
+  FourVectors low, high;
+  uint32_t child[kWidth];  // a node, or kLeaf and a packet
+};
+
+/// Squares of the distances from a point to four boxes.
+Four box_distances(const Node& node, const FourVectors& point) {
+  const FourVectors below = node.low - point, above = point - node.high;
+  const FourVectors outside{larger(larger(below.x, above.x), four(0)),
+                            larger(larger(below.y, above.y), four(0)),
+                            larger(larger(below.z, above.z), four(0))};
+  return outside.dot(outside);
+}
+
+/// Component of vectors by axis.
+Four& axis_of(FourVectors& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+}  // namespace
+
+struct ClosestPointTree::Impl {
+  struct Range {
+    uint32_t begin, end;
+    uint32_t size() const { return end - begin; }
+  };
+  /// What the build knows of a triangle.
+  struct Item {
+    Box3f box;
+    V3f centre;
+    uint32_t triangle;
+  };
+
+  Impl(const SkinMesh& skin, int motion_key) : mesh(skin), key(motion_key) {
+    const auto count = static_cast<uint32_t>(mesh.triangle_count());
+    if (count == 0) return;
+    list_triangles_of_vertices();
+    std::vector<Item> items(count);
+    float farthest = 0;
+    for (uint32_t t = 0; t < count; ++t) {
+      for (uint32_t i = 0; i < 3; ++i) {
+        const V3f p = corner(t, i);
+        items[t].box.extendBy(p);
+        farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      }
+      items[t].centre = items[t].box.center();
+      items[t].triangle = t;
+    }
+    // A nearest point that rounding put outside its box must not be missed.
+    pad = 1e-6f * farthest;
+    packets.reserve(count / kWidth + 1);
+    nodes.reserve(count / (kWidth * 2) + 1);
+    root = build(items, {0, count});
+  }
+
+  V3f corner(uint32_t triangle, uint32_t i) const {
+    return mesh.position(mesh.triangles[triangle * 3 + i], key);
+  }
+  Triangle triangle_at(uint32_t t) const { return {V3d(corner(t, 0)), V3d(corner(t, 1)), V3d(corner(t, 2))}; }
+
+  void list_triangles_of_vertices() {
+    first_use.assign(mesh.vertex_count() + 1, 0);
+    for (uint32_t v : mesh.triangles) ++first_use[v + 1];
+    for (size_t v = 1; v < first_use.size(); ++v) first_use[v] += first_use[v - 1];
+    uses.resize(mesh.triangles.size());
+    std::vector<uint32_t> next(first_use.begin(), first_use.end() - 1);
+    for (uint32_t i = 0; i < mesh.triangles.size(); ++i) uses[next[mesh.triangles[i]]++] = i / 3;
+  }
+
+  /// Halves a range at a multiple of the packet size, across the longest side of its centres.
+  static Range split(std::vector<Item>& items, Range& range) {
+    Box3f centres;
+    for (uint32_t i = range.begin; i < range.end; ++i) centres.extendBy(items[i].centre);
+    const auto axis = centres.majorAxis();
+    const uint32_t middle = range.begin + (range.size() / 2 + kWidth - 1) / kWidth * kWidth;
+    std::nth_element(items.begin() + range.begin, items.begin() + middle, items.begin() + range.end,
+                     [&](const Item& a, const Item& b) {
+                       const float x = a.centre[axis], y = b.centre[axis];
+                       return x != y ? x < y : a.triangle < b.triangle;
+                     });
+    const Range rest{middle, range.end};
+    range.end = middle;
+    return rest;
+  }
+
+  uint32_t build(std::vector<Item>& items, Range range) {
+    if (range.size() <= kWidth) return make_packet(items, range);
+    Range children[kWidth] = {range};
+    uint32_t count = 1;
+    while (count < kWidth) {
+      Range* largest = std::max_element(children, children + count,
+                                        [](const Range& a, const Range& b) { return a.size() < b.size(); });
+      if (largest->size() <= kWidth) break;
+      children[count] = split(items, *largest);
+      ++count;
+    }
+    const auto index = static_cast<uint32_t>(nodes.size());
+    nodes.emplace_back();
+    for (uint32_t lane = 0; lane < kWidth; ++lane) {
+      Box3f box;
+      if (lane < count) {
+        for (uint32_t i = children[lane].begin; i < children[lane].end; ++i) box.extendBy(items[i].box);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        constexpr float kFar = std::numeric_limits<float>::infinity();
+        axis_of(nodes[index].low, axis)[lane] = lane < count ? box.min[axis] - pad : kFar;
+        axis_of(nodes[index].high, axis)[lane] = lane < count ? box.max[axis] + pad : kFar;
+      }
+    }
+    for (uint32_t lane = 0; lane < kWidth; ++lane) {
+      const uint32_t child = lane < count ? build(items, children[lane]) : kNone;
+      nodes[index].child[lane] = child;
+    }
+    return index;
+  }
+
+  uint32_t make_packet(const std::vector<Item>& items, Range range) {
+    TrianglePacket packet;
+    for (uint32_t lane = 0; lane < kWidth; ++lane) {
+      // The last triangle fills up lanes that are left.
+      const uint32_t triangle = items[std::min(range.begin + lane, range.end - 1)].triangle;
+      packet.triangle[lane] = triangle;
+      for (uint32_t i = 0; i < 3; ++i) {
+        const V3f p = corner(triangle, i);
+        for (int axis = 0; axis < 3; ++axis) axis_of(packet.corner[i], axis)[lane] = p[axis];
+      }
+    }
+    packets.push_back(packet);
+    return kLeaf | static_cast<uint32_t>(packets.size() - 1);
+  }
+
+  /// Triangle nearest to `point` with a squared distance up to `limit`, or kNone.
+  uint32_t find(const V3f& point, float limit) const {
+    struct Visit {
+      uint32_t child;
+      float distance;
+    };
+    const FourVectors lanes{four(point.x), four(point.y), four(point.z)};
+    // Every level leaves at most three children behind.
+    Visit stack[3 * 32];
+    size_t depth = 0;
+    float best = limit;
+    uint32_t found = kNone;
+    Visit now{root, 0};
+    while (true) {
+      if (now.distance <= best) {
+        if (now.child & kLeaf) {
+          const TrianglePacket& packet = packets[now.child & ~kLeaf];
+          const Four distances = packet_distances(packet, point);
+          for (uint32_t lane = 0; lane < kWidth; ++lane) {
+            const bool nearer =
+                distances[lane] < best || (distances[lane] == best && packet.triangle[lane] < found);
+            if (nearer) {
+              best = distances[lane];
+              found = packet.triangle[lane];
+            }
+          }
+        } else {
+          const Node& node = nodes[now.child];
+          const Four distances = box_distances(node, lanes);
+          // Nearest on top. What is as far as the best may hold a triangle of a lower number.
+          const size_t bottom = depth;
+          for (uint32_t lane = 0; lane < kWidth; ++lane) {
+            if (!(distances[lane] <= best) || node.child[lane] == kNone) continue;
+            size_t at = depth++;
+            for (; at > bottom && stack[at - 1].distance < distances[lane]; --at) stack[at] = stack[at - 1];
+            stack[at] = {node.child[lane], distances[lane]};
+          }
+        }
+      }
+      if (depth == 0) return found;
+      now = stack[--depth];
+    }
+  }
+
+  V3d face_normal(uint32_t triangle) const { return triangle_at(triangle).normal(); }
+
+  /// The normal whose side of the surface is that of every point nearest to this feature [Baerentzen05].
+  V3d pseudonormal(uint32_t triangle, const NearestOnTriangle& nearest) const {
+    if (nearest.feature == NearestOnTriangle::Feature::kFace) return face_normal(triangle);
+    V3d sum(0);
+    const uint32_t vertex = mesh.triangles[triangle * 3 + nearest.corner];
+    const uint32_t other = mesh.triangles[triangle * 3 + (nearest.corner + 1) % 3];
+    const bool at_vertex = nearest.feature == NearestOnTriangle::Feature::kVertex;
+    for (uint32_t use = first_use[vertex]; use < first_use[vertex + 1]; ++use) {
+      const uint32_t* corners = &mesh.triangles[size_t(uses[use]) * 3];
+      if (at_vertex) {
+        const auto i = static_cast<size_t>(std::find(corners, corners + 3, vertex) - corners);
+        sum += face_normal(uses[use]) * triangle_at(uses[use]).angle(i);
+      } else if (std::find(corners, corners + 3, other) != corners + 3) {
+        sum += face_normal(uses[use]);
+      }
+    }
+    return sum;
+  }
+
+  const SkinMesh& mesh;
+  int key;
+  float pad = 0;
+  uint32_t root = kNone;
+  std::vector<Node> nodes;
+  std::vector<TrianglePacket> packets;
+  std::vector<uint32_t> first_use;  // vertex_count + 1 entries into uses
+  std::vector<uint32_t> uses;       // triangles around each vertex, in order
+};
+
+ClosestPointTree::ClosestPointTree(const SkinMesh& mesh, int key)
+    : impl_(std::make_unique<Impl>(mesh, key)) {}
+ClosestPointTree::~ClosestPointTree() = default;
+ClosestPointTree::ClosestPointTree(ClosestPointTree&&) noexcept = default;
+
+bool ClosestPointTree::closest(const V3f& point, float limit, ClosestPoint& result) const {
+  const Impl& tree = *impl_;
+  if (tree.root == kNone || !(limit >= 0)) return false;
+  const uint32_t triangle = tree.find(point, limit * limit);
+  if (triangle == kNone) return false;
+
+  const NearestOnTriangle nearest = nearest_on_triangle(tree.triangle_at(triangle), V3d(point));
+  const V3d away = V3d(point) - nearest.position;
+  result.position = V3f(nearest.position);
+  result.distance = static_cast<float>(away.length());
+  result.inside = away.dot(tree.pseudonormal(triangle, nearest)) < 0;
+  result.triangle = triangle;
+  V3d normal(0);
+  for (uint32_t i = 0; i < 3; ++i) {
+    normal += V3d(tree.mesh.normal(tree.mesh.triangles[triangle * 3 + i], tree.key)) *
+              nearest.weights[static_cast<int>(i)];
+  }
+  if (!(normal.length() > 1e-6)) normal = tree.face_normal(triangle);
+  result.normal = V3f(normal.normalized());
+  return true;
+}
+
+size_t ClosestPointTree::bytes() const {
+  return sizeof(Impl) + impl_->nodes.capacity() * sizeof(Node) +
+         impl_->packets.capacity() * sizeof(TrianglePacket) +
+         (impl_->first_use.capacity() + impl_->uses.capacity()) * sizeof(uint32_t);
+}
+
+}  // namespace pelage

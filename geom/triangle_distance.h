@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/vector.h"
+#include "geom/four_lanes.h"
+
+namespace pelage {
+
+/// Four triangles side by side.
+struct TrianglePacket {
+  FourVectors corner[3];
+  uint32_t triangle[4];  ///< their numbers
+};
+
+/// Squares of the distances from a point to four triangles. Never less than the truth but for rounding,
+/// degenerate triangles included: it is the distance to a point that each triangle has.
+Four packet_distances(const TrianglePacket& packet, const V3f& point);
+
+struct Triangle {
+  V3d corner[3];
+
+  /// Unit normal, counterclockwise from outside; zero when the triangle has no area.
+  V3d normal() const;
+  /// Angle at a corner, radians.
+  double angle(size_t corner) const;
+};
+
+/// The point of a triangle that is nearest to another, and whether it lies within, on an edge or at a corner.
+struct NearestOnTriangle {
+  enum class Feature { kFace, kEdge, kVertex };
+  V3d position{0};
+  V3d weights{0};  ///< of the corners, sum 1
+  Feature feature = Feature::kFace;
+  uint32_t corner = 0;  ///< the vertex, or the first of the edge's two
+};
+NearestOnTriangle nearest_on_triangle(const Triangle& triangle, const V3d& point);
+
+}  // namespace pelage
