@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/exr_check.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -17,6 +18,9 @@ constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kLongNames = 0x400, kMultiPart = 0x1000;
 constexpr int64_t kLargestSide = 1 << 16;
 constexpr int64_t kMostBlockBytes = int64_t(1) << 29;
+/// Blocks beyond this must be in proportion to the file.
+constexpr int64_t kAnyBlockBytes = int64_t(1) << 26;
+constexpr int64_t kMostExpansion = 4096;
 constexpr int kMostParts = 1024;
 
 /// Rows that are compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
@@ -99,7 +103,10 @@ class HeaderWalk {
     if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
       fail("claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
     }
-    if (width * pixel_bytes * rows > kMostBlockBytes) fail("claims rows that are too long");
+    const int64_t block = width * pixel_bytes * rows;
+    if (block > kMostBlockBytes || block > std::max(kAnyBlockBytes, kMostExpansion * size_)) {
+      fail("claims rows that are too long for a file of " + std::to_string(size_) + " bytes");
+    }
     return !is_empty;
   }
 

@@ -7,6 +7,7 @@
 
 #include "base/module.h"
 #include "base/statistics.h"
+#include "image/exr_check.h"
 #include "image/reader_module.h"
 #include "image/texture.h"
 
@@ -42,6 +43,13 @@ void check_is_readable(const AssetPath& asset) {
   if (stream.gcount() == 0) fail(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
   if (beginning.starts_with("version https://git-lfs"))
     fail(asset, "is a git-lfs pointer, not the image itself");
+  if (beginning.starts_with("v/1\x01")) {
+    try {
+      check_exr_headers(asset.path);
+    } catch (const Error& damage) {
+      fail(asset, damage.problems().front().message);
+    }
+  }
 }
 
 /// An image on its way out of the module. Grows as rows arrive, so that a damaged file costs what it holds,

@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "scene/document.h"
-#include "tests/scene/allocation_meter.h"
+#include "tests/support/allocation_meter.h"
 #include "tests/scene/document_text.h"
 
 // No text may crash the reader, hang it or make it allocate much. A hang is caught by the time limit of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/scene/allocation_meter.h"
+#include "tests/support/allocation_meter.h"
 
 #include <atomic>
 #include <cstdlib>

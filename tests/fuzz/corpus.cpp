@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/corpus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "geom/io/strand_file.h"
+#include "image/exr.h"
+#include "tests/geom/random_strands.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+template <class T>
+void append(std::string& text, T value) {
+  text.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string strand_bytes(const char* ending) {
+  const TemporaryFolder folder;
+  RandomStrandOptions options;
+  options.strands = 6;
+  options.min_points = options.max_points = 5;
+  StrandArrays a = random_strands(1, options).arrays();
+  a.attributes.push_back(
+      {"color", AttributeClass::kPerPoint, 3, std::vector<float>(a.points.size() / 4 * 3, 0.5f)});
+  a.root_uv.resize(a.ids.size());
+  const std::filesystem::path path = folder.path() / (std::string("a") + ending);
+  write_strands(path, Strands(std::move(a)));
+  return read_file(path);
+}
+
+std::string exr_bytes(int width, int height) {
+  const TemporaryFolder folder;
+  ExrImage image;
+  image.width = width;
+  image.height = height;
+  const size_t count = static_cast<size_t>(width) * static_cast<size_t>(height);
+  for (const char* name : {"B", "G", "R"}) {
+    image.channels.push_back({name, ChannelType::kHalf, std::vector<float>(count, 0.5f), {}});
+  }
+  image.channels.push_back({"id", ChannelType::kUint, {}, std::vector<uint32_t>(count, 7)});
+  image.attributes["comments"] = std::string("seed");
+  write_exr(folder.path() / "a.exr", image);
+  return read_file(folder.path() / "a.exr");
+}
+
+}  // namespace
+
+void for_each_damaged(const std::string& seed, int count,
+                      const std::function<void(const std::string&)>& feed) {
+  for (size_t length = 0; length < std::min<size_t>(seed.size(), 200); ++length) feed(seed.substr(0, length));
+  for (uint64_t i = 0; i < 60; ++i) feed(seed.substr(0, hash64(i, random_use("cut")) % seed.size()));
+  for (uint64_t i = 0; i < static_cast<uint64_t>(count); ++i) {
+    std::string bytes = seed;
+    const uint64_t h = hash64(i, random_use("flip"));
+    // Half of the damage goes to the header, where it hurts.
+    const size_t within = i % 2 ? seed.size() : std::min<size_t>(seed.size(), 400);
+    bytes[(h >> 8) % within] = static_cast<char>(bytes[(h >> 8) % within] ^ (1 << (h % 8)));
+    feed(bytes);
+  }
+  const uint32_t words[] = {0,          1,          0xffffffff, 0x7fffffff, 0x80000000, 0x40000000,
+                            0x7fc00000, 0x7f800000, 0xff800000, 0x7f7fffff, 65535,      1u << 24};
+  for (uint64_t i = 0; i < static_cast<uint64_t>(count); ++i) {
+    std::string bytes = seed;
+    if (bytes.size() < 8) continue;
+    const uint64_t h = hash64(i, random_use("word"));
+    const size_t within = (i % 2 ? seed.size() : std::min<size_t>(seed.size(), 400)) - 4;
+    std::memcpy(&bytes[(h >> 8) % within], &words[h % std::size(words)], 4);
+    feed(bytes);
+  }
+  for (uint64_t i = 0; i < static_cast<uint64_t>(count); ++i) {
+    const uint64_t h = hash64(i, random_use("move"));
+    const size_t from = (h >> 4) % seed.size(), to = (h >> 24) % seed.size(), length = h % 97;
+    std::string bytes = seed;
+    bytes.insert(to, seed.substr(from, length));
+    if (i % 2) bytes.erase(from, length);
+    feed(bytes);
+  }
+}
+
+std::vector<std::string> hair_corpus() {
+  std::vector<std::string> corpus{strand_bytes(".hair")};
+  // A few bytes that claim everything.
+  for (uint32_t arrays : {2u, 3u, 31u, 0xffffffffu}) {
+    for (uint32_t segments : {0u, 1u, 0xfffffffeu, 0xffffffffu}) {
+      std::string bytes = "HAIR";
+      for (uint32_t word : {0xffffffffu, 0xffffffffu, arrays, segments}) append(bytes, word);
+      corpus.push_back(bytes.append(200, '\xff'));
+    }
+  }
+  return corpus;
+}
+
+std::vector<std::string> tfx_corpus() {
+  std::vector<std::string> corpus{strand_bytes(".tfx")};
+  for (uint32_t strands : {1u, 0x10000u, 0xffffffffu}) {
+    for (uint32_t offset : {160u, 161u, 0xffffffffu}) {
+      std::string bytes;
+      append(bytes, 4.0f);
+      for (uint32_t word : {strands, 0xffffu, offset, offset, offset, offset, offset}) append(bytes, word);
+      corpus.push_back(bytes.append(400, '\x41'));
+    }
+  }
+  return corpus;
+}
+
+std::vector<std::string> obj_corpus() {
+  std::string cube =
+      "v -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 -1\nv 1 -1 -1\n"
+      "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\ng top\nf 1/1 2/2 4/4 3/3\nf 3/1 4/2 6/4 5/3\nf 5/1 6/2 8/4 7/3\n"
+      "g rest\nf 7/1 8/2 2/4 1/3\nf 2/1 8/2 6/4 4/3\nf 7/1 1/2 3/4 5/3\n"
+      "t crease 2/1/0 0 1 2.5\nt corner 1/1/0 5 3.0\nt hole 1/0/0 2\n";
+  std::vector<std::string> corpus{cube};
+  std::string polygon, vertices;
+  for (int i = 1; i <= 300; ++i) {
+    vertices += "v " + std::to_string(std::cos(i / 50.0)) + " " + std::to_string(std::sin(i / 50.0)) + " 0\n";
+    polygon += " " + std::to_string(i);
+  }
+  corpus.push_back(vertices + "f" + polygon + "\n");
+  corpus.push_back("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9 -2 -1\n");
+  corpus.push_back("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4294967297\n");
+  corpus.push_back("v nan inf -inf\nv 1e999 0 0\nv 0 1e-999 0\nf 1 2 3\n");
+  corpus.push_back("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 1 1\nf 1 2 1 2\nf 1 2 3\nf 1 2 3\nf 3 2 1\n");
+  corpus.push_back("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt crease 99999999/1/0\nt hole -1/0/0 5\nt\n");
+  corpus.push_back("f" + std::string(100000, ' ') + "\n");
+  corpus.push_back(std::string(100000, 'v'));
+  corpus.push_back("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/2/3/4 2//3/ /3\n");
+  return corpus;
+}
+
+std::vector<std::string> hdr_corpus() {
+  const auto header = [](const std::string& size) {
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n";
+  };
+  std::string flat = header("-Y 4 +X 4");
+  for (int i = 0; i < 64; ++i) flat += static_cast<char>(i % 4 == 3 ? 128 : 40 + i);
+  std::string runs = header("-Y 3 +X 16");
+  for (int y = 0; y < 3; ++y) {
+    runs += std::string("\2\2\0\20", 4);
+    for (int c = 0; c < 4; ++c) runs += std::string("\210\x80\x08", 3) + "abcdefgh";
+  }
+  std::vector<std::string> corpus{flat, runs};
+  for (const char* size : {"-Y 65536 +X 65536", "-Y 2147483647 +X 2147483647", "-Y -4 +X 4", "+X 4 -Y 4",
+                           "-Y 0 +X 0", "-Y 99999999999999999999 +X 1", "-Y 30000 +X 32767", ""}) {
+    corpus.push_back(header(size) + std::string(100, '\2'));
+  }
+  corpus.push_back("#?RADIANCE\n" + std::string(100000, 'x'));
+  corpus.push_back("#?RADIANCE\nEXPOSURE=nan\nGAMMA=0\n" + flat.substr(11));
+  return corpus;
+}
+
+std::vector<std::string> exr_corpus() { return {exr_bytes(5, 40), exr_bytes(1, 1)}; }
+
+}  // namespace pelage

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace pelage {
+
+// One function per reader: takes any bytes, and returns when the reader has accepted them or refused them
+// with a pelage::Error. Everything else (another exception, a crash, what a sanitizer finds, an accepted
+// input that breaks a promise) ends the program. The same functions serve coverage-guided fuzzing
+// (PELAGE_FUZZ) and the replay of a generated corpus in plain ctest (replay_test.cpp).
+
+void fuzz_hair(std::span<const uint8_t> bytes);
+void fuzz_tfx(std::span<const uint8_t> bytes);
+void fuzz_obj(std::span<const uint8_t> bytes);
+void fuzz_hdr(std::span<const uint8_t> bytes);
+void fuzz_exr(std::span<const uint8_t> bytes);
+
+/// A file of this process that holds `bytes`; its name ends in `ending`.
+std::filesystem::path fuzz_file(std::span<const uint8_t> bytes, const std::string& ending);
+
+}  // namespace pelage
