@@ -72,7 +72,7 @@ void Clump::prepare(const PrepareContext& context) {
       for (const auto& op : context.preceding) {
         if (op->reads_rest_only()) op->apply(batch);
       }
-      for (size_t i = 0; i < levels_.size(); ++i) apply_level(levels_[i], hash64(seed_, i), batch);
+      draw(batch, levels_.size());
     };
     auto centres = std::make_shared<const ClumpCentres>(context, spacing, level_seed, grow);
     levels_.push_back({spacing, amount.with_textures(context.textures), std::move(centres)});
@@ -81,92 +81,112 @@ void Clump::prepare(const PrepareContext& context) {
   for (const ClumpLevelParams& level : params_.levels) add(level.spacing, level.amount);
 }
 
-void Clump::apply(StrandBatch& batch) const {
-  for (size_t i = 0; i < levels_.size(); ++i) apply_level(levels_[i], hash64(seed_, i), batch);
+void Clump::apply(StrandBatch& batch) const { draw(batch, levels_.size()); }
+
+void Clump::draw(StrandBatch& batch, size_t level_count) const {
+  if (level_count == 0) return;
+  const size_t points = batch.points.size();
+  std::vector<StrandRow> arcs(points);  // of the strands as they come
+  arcs[0].fill(0.0f);
+  for (size_t p = 1; p < points; ++p) {
+    for (size_t s = 0; s < batch.count; ++s) {
+      const auto point = static_cast<int>(p);
+      arcs[p][s] = arcs[p - 1][s] + (batch.offset(point, s) - batch.offset(point - 1, s)).length();
+    }
+  }
+  Drawn drawn;
+  drawn.stays.fill(1.0f);
+  drawn.roots.fill(0.0f);
+  for (size_t i = 0; i < level_count; ++i) draw_level(levels_[i], hash64(seed_, i), arcs, batch, drawn);
+
+  // Strands that have become longer are scaled back about their roots.
+  StrandRow length;
+  arc_lengths(batch, length);
+  for (size_t s = 0; s < batch.count; ++s) {
+    const float before = arcs.back()[s];
+    if (length[s] <= before || drawn.stays[s] >= 1) continue;
+    const float limit = kStretch * (1 - drawn.stays[s]) * (drawn.roots[s] + 2.0f * before);
+    const float factor = before / std::min(length[s], before + limit);
+    const V3f base = batch.offset(0, s);
+    for (int p = 1; p < batch.point_count(); ++p) {
+      batch.set_offset(p, s, base + (batch.offset(p, s) - base) * factor);
+    }
+  }
 }
 
-void Clump::apply_level(const Level& level, uint64_t level_seed, StrandBatch& batch) const {
-  const int points = batch.point_count();
+void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
+                       StrandBatch& batch, Drawn& drawn) const {
   const ClumpCentres& centres = *level.centres;
   std::array<RootGrid::Neighbour, kBlockStrands> centre;
-  StrandRow strength, arc, longer;  // longer: arc length after drawing
+  StrandRow strength;
   for (size_t s = 0; s < batch.count; ++s) {
-    const bool joins = centres.roots().nearest(vector_at(batch.rest.position, s),
-                                               vector_at(batch.rest.normal, s), centre[s]) &&
-                       unit_float(hash64(level_seed, batch.ids[s], random_use("stray"))) >= params_.strays;
     strength[s] = 0;
-    arc[s] = longer[s] = 0;
-    if (!joins) continue;
+    if (unit_float(hash64(level_seed, batch.ids[s], random_use("stray"))) < params_.strays) continue;
+    if (!centres.roots().nearest(vector_at(batch.rest.position, s), vector_at(batch.rest.normal, s),
+                                 centre[s])) {
+      continue;
+    }
     const uint64_t of_clump = hash64(level_seed, centre[s].index, random_use("clump"));
     strength[s] = 1.0f - params_.variation * unit_float(of_clump);
     batch.clump[s] = unit_float(mix64(of_clump));
+    drawn.roots[s] += centre[s].distance * batch.scale;
   }
 
   StrandField amount(level.amount, batch);
   std::array<int, kBlockStrands> segment{};
   StrandRow most{};  // largest amount along each strand
-  VectorRow before = batch.points[0].offset;
-  for (int p = 1; p < points; ++p) {
+  for (int p = 1; p < batch.point_count(); ++p) {
     const float along = batch.along(p);
     const float profile = params_.root + (params_.tip - params_.root) * std::pow(along, params_.profile);
     const StrandRow& row = amount.at(along);
+    const StrandRow& arc = arcs[static_cast<size_t>(p)];
     for (size_t s = 0; s < batch.count; ++s) {
       if (strength[s] <= 0) continue;
-      const V3f here = batch.offset(p, s);
-      arc[s] += (here - vector_at(before, s)).length();
-      set_vector(before, s, here);
       const float k = std::clamp(row[s], 0.0f, 1.0f) * profile * strength[s];
       most[s] = std::max(most[s], k);
       // Centres live in rest space, at the scale of the rest skin.
       const V3f rest =
           centres.at(centre[s].index, arc[s] / batch.scale, segment[s]) - vector_at(batch.rest.position, s);
+      const V3f here = batch.offset(p, s);
       batch.set_offset(p, s, here + (batch.from_rest(s, rest) * batch.scale - here) * k);
     }
   }
-  arc_lengths(batch, longer);
-  for (size_t s = 0; s < batch.count; ++s) {
-    if (strength[s] <= 0 || longer[s] <= arc[s]) continue;
-    const float limit = kStretch * most[s] * (centre[s].distance * batch.scale + 2.0f * arc[s]);
-    longer[s] = arc[s] / std::min(longer[s], arc[s] + limit);
-    const V3f base = batch.offset(0, s);
-    for (int p = 1; p < points; ++p) batch.set_offset(p, s, base + (batch.offset(p, s) - base) * longer[s]);
-  }
+  for (size_t s = 0; s < batch.count; ++s) drawn.stays[s] *= 1.0f - most[s];
 }
 
 float Clump::strongest(const Level& level) const {
   return std::clamp(level.amount.value_range().second, 0.0f, 1.0f) * std::max(params_.root, params_.tip);
 }
 
-float Clump::displacement_bound(const StrandReach& before) const {
-  // A point P and its place C on the centre strand lie within D = distance of the roots + reach of P + arc of
-  // C of each other. All levels together move P by K D with 1 - K = product of (1 - k), plus the way that
-  // scaling back takes.
-  float stays = 1, roots = 0, back = 0;
+Clump::Pull Clump::pull() const {
+  Pull result{1, 0};
   for (const Level& level : levels_) {
-    const float k = strongest(level);
-    stays *= 1 - k;
-    roots += ClumpCentres::kReach * level.spacing;
-    back += k;
+    result.amount *= 1 - strongest(level);
+    result.roots += ClumpCentres::kReach * level.spacing;
   }
-  const float apart = roots + before.distance + before.length;
-  const float drawn = (1 - stays) * apart;
-  // Scaling back moves P' = P + d towards the root: never further from P than the longer of |P| and |d|.
-  const bool drawn_further = levels_.size() == 1 && drawn >= before.distance;
-  const float moved = drawn_further ? drawn : drawn + kStretch * back * apart;
+  result.amount = 1 - result.amount;
+  return result;
+}
+
+float Clump::displacement_bound(const StrandReach& before) const {
+  // A point P and its places on the centre strands lie within D = distances of the roots + reach of P + arc
+  // of the centres of each other. All levels together move P by d <= K D, with 1 - K the product of their (1
+  // - k).
+  const auto [amount, roots] = pull();
+  const float drawn = amount * (roots + before.distance + before.length);
+  // Scaling back moves P + d towards the root: never further from P than the longer of |P| and |d|.
+  const float moved = drawn >= before.distance ? drawn : drawn * (1 + kStretch);
   return std::min(moved, before.distance + reach_after(before).distance);
 }
 
 StrandReach Clump::reach_after(const StrandReach& before) const {
+  const auto [amount, roots] = pull();
   StrandReach after = before;
-  for (const Level& level : levels_) {
-    const float k = strongest(level);
-    if (k <= 0) continue;
-    const float root = ClumpCentres::kReach * level.spacing;
-    const float stretch = k * (root + 2 * after.length);
-    after.distance += k * (root + after.length - after.distance);
-    after.length *= (after.length + stretch) / (after.length + kStretch * stretch);
-    after.lean = std::numbers::pi_v<float>;
-  }
+  if (amount <= 0) return after;
+  after.distance += amount * (roots + before.length - before.distance);
+  const float stretch = amount * (roots + 2 * before.length);
+  after.length *= (before.length + stretch) / (before.length + kStretch * stretch);
+  after.lean = std::numbers::pi_v<float>;
   return after;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/schema.h"
 #include "groom/operator.h"
+#include "groom/strand_batch.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -59,8 +60,21 @@ class Clump final : public Operator {
     Field amount;
     std::shared_ptr<const ClumpCentres> centres;
   };
-  void apply_level(const Level& level, uint64_t level_seed, StrandBatch& batch) const;
+  /// How far strands have been drawn, for scaling them back.
+  struct Drawn {
+    StrandRow stays;  // product over levels of 1 - largest amount along the strand
+    StrandRow roots;  // sum of the distances of their centres' roots
+  };
+  /// All levels together: K with 1 - K = product of (1 - k), and the distances at which centres stand.
+  struct Pull {
+    float amount = 0;
+    float roots = 0;
+  };
+  void draw(StrandBatch& batch, size_t level_count) const;
+  void draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
+                  StrandBatch& batch, Drawn& drawn) const;
   float strongest(const Level& level) const;
+  Pull pull() const;
 
   Params params_;
   uint64_t seed_ = 0;
