@@ -1,104 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one page where everything meets: a checked scene becomes a world of skins, coats, materials, lights and a camera.
+// The one page where everything meets: what the scene describes becomes the world of one frame.
 #include "cli/compose.h"
 
-#include "base/check.h"
-#include "cli/transform.h"
-#include "geom/io/obj_file.h"
+#include <cmath>
+
+#include "cli/character_transform.h"
 #include "procedurals/fur.h"
 
 namespace pelage {
 
 namespace {
 
-Assets::Skin load_skin(const SkinParams& params, std::map<std::string, std::shared_ptr<const SurfaceTopology>>& shared) {
-  const ControlMesh cage = read_obj(params.mesh.path);
-  auto topology = SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string());
-  // Characters of identical topology share one refiner and one set of patches.
-  const ContentHash hash = topology->hash();
-  topology = shared.emplace(std::to_string(hash.high) + ":" + std::to_string(hash.low), topology).first->second;
-
-  Assets::Skin skin;
-  skin.rest = std::make_shared<LimitSurface>(topology, cage.positions);
-  skin.rest_positions = cage.positions;
-  if (params.poses) skin.poses.emplace(params.poses->sequence(), cage.positions.size());
-  return skin;
+/// A moment of the frame, in frames; several when something moves while the shutter is open.
+std::vector<double> motion_times(const CameraParams& camera, double frame, bool moves) {
+  const float length = camera.shutter.y - camera.shutter.x;
+  if (!moves || !(length > 0)) return {frame};
+  std::vector<double> times;
+  for (int key = 0; key < camera.motion_keys; ++key) {
+    times.push_back(frame + camera.shutter.x + double(length) * key / (camera.motion_keys - 1));
+  }
+  return times;
 }
 
-MaterialParams with_textures(MaterialParams material, TextureLibrary& textures) {
-  std::visit([&](auto& params) { params.load_textures(textures); }, material);
-  return material;
+LimitSurface posed_surface(const Assets::Skin& skin, const CharacterParams& character, double time) {
+  std::vector<V3f> cage = skin.poses ? skin.poses->positions(time + character.frame_offset) : skin.cage;
+  const M44f to_world = character_matrix(character.transform, time);
+  for (V3f& point : cage) point *= to_world;
+  return LimitSurface(skin.rest->shared_topology(), cage);
 }
 
-// Cage positions of a skin at a time in frames, in world space.
-std::vector<V3f> posed_positions(const Assets::Skin& skin, const CharacterParams& character, double frame) {
-  std::vector<V3f> positions =
-      skin.poses ? skin.poses->positions(frame + character.frame_offset) : skin.rest_positions;
-  const M44f to_world = character.transform.matrix(frame);
-  for (V3f& p : positions) p = p * to_world;
-  return positions;
-}
-
-std::shared_ptr<PosedCharacterSkin> pose_skin(const Assets::Skin& skin, const CharacterParams& character,
-                                              const CameraParams& camera, const View& view, double frame,
-                                              bool needs_inside, const Workers& workers) {
+std::shared_ptr<const PosedCharacterSkin> pose_skin(const Assets::Skin& skin,
+                                                    const CharacterParams& character,
+                                                    const CameraParams& camera, const View& view,
+                                                    double frame, bool needs_trees, const Workers& workers) {
   auto posed = std::make_shared<PosedCharacterSkin>();
-  const bool moves = (skin.poses || character.transform.moves()) && camera.shutter.x < camera.shutter.y;
-  const int keys = moves ? camera.motion_keys : 1;
-  for (int key = 0; key < keys; ++key) {
-    const double t = keys > 1 ? double(key) / (keys - 1) : 0.0;
-    const double offset = moves ? camera.shutter.x + t * (camera.shutter.y - camera.shutter.x) : 0.0;
-    posed->keys.emplace_back(skin.rest->shared_topology(), posed_positions(skin, character, frame + offset));
+  for (double time : motion_times(camera, frame, skin.poses || moves(character.transform))) {
+    posed->keys.push_back(posed_surface(skin, character, time));
   }
   posed->mesh = std::make_shared<SkinMesh>(tessellate(posed->keys, view, {}, workers));
-  posed->scale = character.transform.uniform_scale(frame);
-  for (int key = 0; needs_inside && key < keys; ++key) posed->trees.emplace_back(*posed->mesh, key);
+  for (size_t key = 0; needs_trees && key < posed->keys.size(); ++key) {
+    posed->trees.emplace_back(*posed->mesh, static_cast<int>(key));
+  }
+  posed->scale = character.transform.scale.at(frame);
   return posed;
+}
+
+size_t material_index(const SceneDescription& scene, const NameReference& material) {
+  size_t index = 0;
+  while (scene.materials.items[index].name != material.name) ++index;  // load_scene checked that it exists
+  return index;
+}
+
+void add_part(World& world, const SceneDescription& scene, const Assets& assets, const std::string& name,
+              const CharacterParams& character, const PartParams& part, double frame, const Workers& workers,
+              MemoryLedger& ledger) {
+  const Assets::Skin& skin = assets.skins.at(part.skin.name);
+  bool needs_trees = false;
+  for (const auto& groom : part.grooms.items)
+    needs_trees |= assets.grooms.at(groom.name)->needs_closest_point();
+  const auto posed =
+      pose_skin(skin, character, scene.camera, world.scene.camera.view(), frame, needs_trees, workers);
+  world.charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(posed->bytes()));
+  world.scene.skins.push_back(
+      {name + "." + part.skin.name, posed->mesh, skin.rest, material_index(scene, part.material)});
+
+  for (const auto& groom : part.grooms.items) {
+    FurPart fur{name + "." + groom.name, {}, material_index(scene, groom.value), skin.rest};
+    fur.procedurals.push_back(std::make_unique<FurProcedural>(assets.grooms.at(groom.name), posed));
+    world.strands_described += static_cast<int64_t>(assets.grooms.at(groom.name)->follicles().size());
+    world.scene.fur.push_back(std::move(fur));
+  }
 }
 
 }  // namespace
 
-Assets load_assets(const SceneDescription& description, const Workers& workers, MemoryLedger& ledger) {
-  Assets assets;
-  assets.textures = std::make_unique<TextureLibrary>(ledger);
-  std::map<std::string, std::shared_ptr<const SurfaceTopology>> topologies;
-  for (const auto& [name, position, params] : description.skins.items) {
-    assets.skins.emplace(name, load_skin(params, topologies));
-  }
-  for (const auto& [name, position, params] : description.grooms.items) {
-    const auto skin = assets.skins.find(params.skin);
-    assets.grooms[name] = Groom::create(name, params, skin == assets.skins.end() ? nullptr : skin->second.rest,
-                                        *assets.textures, workers, ledger);
-  }
-  for (const auto& [name, position, params] : description.materials.items) {
-    assets.materials.push_back(with_textures(params, *assets.textures));
-  }
-  return assets;
-}
-
-World compose(const SceneDescription& description, Assets& assets, double frame, const Workers& workers,
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Workers& workers,
               MemoryLedger& ledger) {
-  const Camera camera(description.camera, frame, description.image.width, description.image.height);
   std::vector<std::unique_ptr<Light>> lights;
-  for (const auto& [name, position, params] : description.lights.items) {
-    lights.push_back(make_light(name, params, frame, *assets.textures, ledger));
+  for (const auto& [name, position, params] : scene.lights.items) {
+    lights.push_back(make_light(name, params, frame, assets.textures, ledger));
   }
-  World world{{{}, {}, assets.materials, LightSet(std::move(lights)), camera, description.image, description.render}};
-
-  for (const auto& [name, position, character] : description.characters.items) {
+  World world{{{},
+               {},
+               assets.materials,
+               LightSet(std::move(lights)),
+               Camera(scene.camera, frame, scene.image.width, scene.image.height),
+               scene.image,
+               scene.render}};
+  for (const auto& [name, position, character] : scene.characters.items) {
     for (const PartParams& part : character.parts) {
-      const Assets::Skin& skin = assets.skins.at(part.skin);
-      bool needs_inside = false;
-      for (const auto& groom : part.grooms.items) needs_inside |= assets.grooms.at(groom.name)->needs_closest_point();
-      const auto posed = pose_skin(skin, character, description.camera, camera.view(), frame, needs_inside, workers);
-      world.scene.skins.push_back({name + "." + part.skin, posed->mesh, skin.rest, description.material_index(part.material)});
-      for (const auto& groom : part.grooms.items) {
-        const std::shared_ptr<const Groom>& coat = assets.grooms.at(groom.name);
-        FurPart fur{name + "." + groom.name, {}, description.material_index(groom.value)};
-        fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed));
-        world.scene.fur.push_back(std::move(fur));
-        world.strands_described += static_cast<int64_t>(coat->strand_count());
-      }
+      add_part(world, scene, assets, name, character, part, frame, workers, ledger);
     }
     ++world.characters;
   }

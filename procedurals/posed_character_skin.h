@@ -20,6 +20,12 @@ struct PosedCharacterSkin {
   float scale = 1;
 
   PosedSkin pose() const { return {keys, trees, scale}; }
+  size_t bytes() const {
+    size_t sum = mesh->bytes();
+    for (const LimitSurface& key : keys) sum += key.bytes();
+    for (const ClosestPointTree& tree : trees) sum += tree.bytes();
+    return sum;
+  }
 };
 
 }  // namespace pelage

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/assets.h"
+
+#include "geom/io/obj_file.h"
+
+namespace pelage {
+
+namespace {
+
+using SharedTopologies = std::vector<std::shared_ptr<const SurfaceTopology>>;
+
+// Cages of identical topology share one refiner and one set of patches.
+std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopology> topology,
+                                             SharedTopologies& known) {
+  for (const auto& other : known) {
+    if (other->hash() == topology->hash()) return other;
+  }
+  known.push_back(topology);
+  return topology;
+}
+
+Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies) {
+  const ControlMesh cage = read_obj(params.mesh.path);
+  const auto topology = share(
+      SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
+  Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage.positions, {}};
+  if (const auto& poses = params.poses) {
+    skin.poses.emplace(poses->files.path, poses->first, poses->count, poses->cycle, cage.positions.size());
+  }
+  return skin;
+}
+
+}  // namespace
+
+std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
+                                    MemoryLedger& ledger) {
+  auto assets = std::make_unique<Assets>(ledger);
+  SharedTopologies topologies;
+  for (const auto& [name, position, params] : scene.skins.items) {
+    const Assets::Skin& skin = assets->skins.emplace(name, load_skin(params, topologies)).first->second;
+    assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(skin.rest->bytes()));
+  }
+  for (const auto& topology : topologies) {
+    assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
+  }
+  for (const auto& [name, position, params] : scene.grooms.items) {
+    const auto skin = assets->skins.find(params.skin.name);
+    const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
+    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger);
+  }
+  for (const auto& [name, position, params] : scene.materials.items) {
+    assets->materials.push_back(with_textures(params, assets->textures));
+  }
+  return assets;
+}
+
+}  // namespace pelage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/ledger.h"
+#include "base/parallel.h"
+#include "cli/scene_schema.h"
+#include "geom/limit_surface.h"
+#include "geom/pose_sequence.h"
+#include "groom/groom.h"
+#include "image/texture.h"
+
+namespace pelage {
+
+/// What all frames of a scene share: cages on shared topologies, grooms, materials with their textures.
+struct Assets {
+  struct Skin {
+    std::shared_ptr<const LimitSurface> rest;  ///< object space
+    std::vector<V3f> cage;                     ///< control points of the rest pose
+    std::optional<PoseSequence> poses;
+  };
+
+  explicit Assets(MemoryLedger& ledger) : textures(ledger) {}
+
+  TextureLibrary textures;
+  std::map<std::string, Skin> skins;
+  std::map<std::string, std::shared_ptr<const Groom>> grooms;
+  std::vector<MaterialParams> materials;  ///< in the order of the scene
+  std::vector<MemoryCharge> charges;
+};
+
+/// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
+/// operators. Throws Error (kInput).
+std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
+                                    MemoryLedger& ledger);
+
+}  // namespace pelage

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "base/nearest_name.h"
+#include "cli/commands.h"
+#include "cli/compose.h"
+#include "cli/run.h"
+#include "geom/io/strand_file.h"
+#include "geom/strand_merge.h"
+
+namespace pelage {
+
+namespace {
+
+struct Growth {
+  std::vector<Strands> leaves;
+  double seconds = 0;
+  size_t strands = 0, points = 0, bytes = 0;
+};
+
+// All leaves of one coat, grown in parallel.
+Growth grow(const FurPart& part, Run& run) {
+  std::vector<std::unique_ptr<Procedural>> leaves;
+  for (const auto& procedural : part.procedurals) {
+    for (auto& leaf : procedural->split()) leaves.push_back(std::move(leaf));
+  }
+  Growth growth;
+  growth.leaves.resize(leaves.size());
+  const double began = run.seconds();
+  run.display().begin("grow " + part.name, static_cast<double>(leaves.size()));
+  run.workers().for_each(leaves.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end && !run.display().cancelled(); ++i) {
+      growth.leaves[i] = leaves[i]->generate();
+      run.display().advance(1);
+    }
+  });
+  run.display().end();
+  growth.seconds = run.seconds() - began;
+  for (const Strands& strands : growth.leaves) {
+    growth.strands += strands.strand_count();
+    growth.points += strands.point_count();
+    growth.bytes += strands.bytes();
+  }
+  return growth;
+}
+
+void report(const std::string& name, const Growth& growth, int threads) {
+  const double rate = growth.seconds > 0 ? static_cast<double>(growth.strands) / growth.seconds : 0;
+  std::cout << fmt::format(
+      "{}: {} strands, {} points, {:.1f} MiB ({:.0f} bytes per strand), {:.0f} strands/s on {} {}\n", name,
+      growth.strands, growth.points, static_cast<double>(growth.bytes) / (1 << 20),
+      growth.strands ? static_cast<double>(growth.bytes) / static_cast<double>(growth.strands) : 0.0, rate,
+      threads, threads == 1 ? "thread" : "threads");
+}
+
+// A strand file has one basis.
+void write_grown(const std::string& path, const std::vector<Strands>& grown) {
+  for (const Strands& strands : grown) {
+    if (strands.basis() != grown.front().basis()) {
+      throw Error(ErrorKind::kArguments, "the grooms have curves of different bases: choose one with --groom");
+    }
+  }
+  write_strands(path, merge(grown));
+  std::cout << path << "\n";
+}
+
+std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rfind('.') + 1); }
+
+}  // namespace
+
+int run_grow(const Options& options) {
+  Run run(options);
+  const SceneDescription scene = load_scene(options.input, options.overrides);
+  if (!options.groom.empty() && !scene.grooms.find(options.groom)) {
+    throw Error(ErrorKind::kArguments, "there is no groom '" + options.groom + "'" +
+                                           did_you_mean(options.groom, scene.grooms.names()));
+  }
+  const int frame = scene.frames.frames.front();
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
+  World world =
+      run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
+  run.statistics().strands_described = run.statistics().strands_unique = world.strands_described;
+  run.statistics().characters_in_frame = world.characters;
+
+  std::vector<Strands> grown;
+  for (const FurPart& part : world.scene.fur) {
+    if (!options.groom.empty() && groom_of(part) != options.groom) continue;
+    Growth growth = grow(part, run);
+    if (run.display().cancelled()) return kInterruptedExitCode;
+    report(part.name, growth, run.workers().thread_count());
+    run.statistics().strands_generated += static_cast<int64_t>(growth.strands);
+    run.statistics().chunks += static_cast<int64_t>(growth.leaves.size());
+    run.statistics().expansions += static_cast<int64_t>(growth.leaves.size());
+    run.statistics().stages_s["grow"] += growth.seconds;
+    if (!options.output.empty())
+      std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
+  }
+  if (!options.output.empty()) write_grown(options.output, grown);
+  run.finish(options);
+  return 0;
+}
+
+}  // namespace pelage

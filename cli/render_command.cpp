@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/compose.h"
+#include "cli/frame_metadata.h"
+#include "cli/progress_display.h"
+#include "cli/run.h"
+#include "render/path/path_integrator.h"
+
+namespace pelage {
+
+namespace {
+
+std::string output_name(const Options& options, const FrameList& frames) {
+  if (!options.output.empty()) return options.output;
+  const std::string stem = std::filesystem::path(options.input).stem().string();
+  return frames.frames.size() > 1 ? stem + ".%04d.exr" : stem + ".exr";
+}
+
+// An hour of rendering must not end with "permission denied".
+void check_writable(const std::string& path) { const AtomicFile probe(path); }
+
+// Renders and writes one frame; returns whether all of it was done.
+bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
+  const double began = run.seconds();
+  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
+  run.statistics().strands_described += world.strands_described;
+  run.statistics().strands_unique += world.strands_described;
+  run.statistics().characters_in_frame += world.characters;
+  const FrameResult result =
+      render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
+
+  const double seconds = run.seconds() - began;
+  const FrameFacts facts{frame, result.samples, result.partial, seconds, peak_rss_bytes()};
+  run.stage("write",
+            [&] { write_exr(path, result.film.to_exr(frame_metadata(scene, world.scene.camera, facts))); });
+  run.display().note(fmt::format("{}  {} x {}, {} samples{}, {}", path, scene.image.width, scene.image.height,
+                                 result.samples, result.partial ? " (partial)" : "", duration_text(seconds)));
+  return !result.partial;
+}
+
+}  // namespace
+
+int run_render(const Options& options) {
+  Run run(options);
+  const SceneDescription scene = load_scene(options.input, options.overrides);
+  const std::string output = output_name(options, scene.frames);
+  check_output_pattern(output, scene.frames);
+  check_writable(frame_file_name(output, scene.frames.frames.front()));
+
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
+  bool complete = true;
+  for (int frame : scene.frames.frames) {
+    complete = render_one(scene, *assets, frame, frame_file_name(output, frame), run);
+    if (!complete) break;
+  }
+  run.finish(options);
+  return complete ? 0 : kInterruptedExitCode;
+}
+
+}  // namespace pelage

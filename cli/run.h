@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <string_view>
+
+#include "base/ledger.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "cli/options.h"
+#include "cli/progress_display.h"
+#include "cli/signals.h"
+
+namespace pelage {
+
+/// What a command that works for a while has in hand: threads, accounts, progress, and a clock.
+class Run {
+ public:
+  explicit Run(const Options& options);
+
+  Workers& workers() { return workers_; }
+  MemoryLedger& ledger() { return ledger_; }
+  Statistics& statistics() { return statistics_; }
+  ProgressDisplay& display() { return display_; }
+  double seconds() const;
+
+  /// Runs `work`, shows it as a stage of unknown length and adds its wall time to stages_s.
+  template <class Work>
+  auto stage(std::string_view name, Work&& work) {
+    const StageTimer timer(*this, name);
+    return work();
+  }
+
+  /// Completes the statistics and writes them where `--stats` says.
+  void finish(const Options& options);
+
+ private:
+  class StageTimer {
+   public:
+    StageTimer(Run& run, std::string_view name);
+    ~StageTimer();
+
+   private:
+    Run& run_;
+    std::string name_;
+    double began_;
+  };
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  SignalGuard signals_;
+  MemoryLedger ledger_;
+  Statistics statistics_;
+  Workers workers_;
+  ProgressDisplay display_;
+};
+
+}  // namespace pelage
