@@ -6,9 +6,10 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
-#include "cli/frame_metadata.h"
 #include "cli/progress_display.h"
 #include "cli/run.h"
+#include "cli/version.h"
+#include "render/film/frame_header.h"
 #include "render/path/path_integrator.h"
 
 namespace pelage {
@@ -35,9 +36,17 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
       render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
 
   const double seconds = run.seconds() - began;
-  const FrameFacts facts{frame, result.samples, result.partial, seconds, peak_rss_bytes()};
-  run.stage("write",
-            [&] { write_exr(path, result.film.to_exr(frame_metadata(scene, world.scene.camera, facts))); });
+  FrameHeader header;
+  header.frame = frame;
+  header.frames_per_second = scene.units.fps;
+  header.meters_per_unit = scene.units.meters_per_unit;
+  header.seed = scene.render.seed;
+  header.samples = result.samples;
+  header.partial = result.partial;
+  header.render_seconds = seconds;
+  header.peak_memory_bytes = peak_rss_bytes();
+  header.program_version = version();
+  run.stage("write", [&] { write_exr(path, result.film.to_exr(exr_attributes(header, world.scene.camera))); });
   run.display().note(fmt::format("{}  {} x {}, {} samples{}, {}", path, scene.image.width, scene.image.height,
                                  result.samples, result.partial ? " (partial)" : "", duration_text(seconds)));
   return !result.partial;

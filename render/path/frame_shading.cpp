@@ -33,7 +33,10 @@ FrameShading::FrameShading(const RenderScene& scene, const FrameGeometry& geomet
     if (const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[i])) {
       fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color)};
     } else if (const auto* skin = std::get_if<LambertParams>(&scene.materials[i])) {
-      skins_[i] = Skin{skin->color, constant_of(skin->color), skin->color.dependence().surface};
+      skins_[i] = Skin{skin->color, constant_of(skin->color), skin->color.dependence().surface, {}};
+    } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
+      skins_[i] =
+          Skin{glossy->color, constant_of(glossy->color), glossy->color.dependence().surface, *glossy};
     }
   }
   for (const SkinPart& part : scene.skins) {
@@ -86,8 +89,13 @@ Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& 
 ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit) const {
   const SkinPart& part = scene_.skins[hit.object];
   const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
-  return {point.position, point.start,
-          LambertBsdf(skin_color(part, *skins_[part.material], hit), point.normal)};
+  const Skin& skin = *skins_[part.material];
+  const Rgb color = skin_color(part, skin, hit);
+  if (skin.coat) {
+    return {point.position, point.start,
+            GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
+  }
+  return {point.position, point.start, LambertBsdf(color, point.normal)};
 }
 
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit) const {

@@ -31,6 +31,7 @@ class FrameShading {
     Field color;
     std::optional<Rgb> constant_color;
     bool needs_rest = false;
+    std::optional<GlossyParams> coat;
   };
 
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit) const;

@@ -24,13 +24,21 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Lambert skins have the first lobe group only.
+int lobe_groups(const RenderScene& scene) {
+  for (const MaterialParams& material : scene.materials) {
+    if (!std::holds_alternative<LambertParams>(material)) return kLobeGroups;
+  }
+  return 1;
+}
+
 FilmLayers film_layers(const RenderScene& scene) {
   if (!scene.image.light_layers) return {};
   std::vector<FilmLayers::LightInfo> lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
   }
-  return FilmLayers::make(lights, scene.fur.empty() ? 1 : kLobeGroups);
+  return FilmLayers::make(lights, lobe_groups(scene));
 }
 
 /// Traces passes of samples over a film.

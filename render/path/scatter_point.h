@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "render/fibre/cone_shell_bsdf.h"
+#include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
 
 namespace pelage {
@@ -19,6 +20,8 @@ class ScatterPoint {
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
       : position_(position), surface_(start), bsdf_(bsdf) {}
+  ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
+      : position_(position), surface_(start), bsdf_(bsdf) {}
 
   /// Where light sampling looks from.
   const V3f& position() const { return position_; }
@@ -27,14 +30,14 @@ class ScatterPoint {
 
   FibreValue eval(const V3f& wi) const {
     if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->eval(wi);
+    if (const auto* glossy = std::get_if<GlossyBsdf>(&bsdf_)) return as_fibre(glossy->eval(wi));
     return as_fibre(std::get_if<LambertBsdf>(&bsdf_)->eval(wi));
   }
 
   std::optional<FibreSample> sample(const V3f& u) const {
     if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->sample(u);
-    const auto drawn = std::get_if<LambertBsdf>(&bsdf_)->sample({u.x, u.y});
-    if (!drawn) return std::nullopt;
-    return FibreSample{drawn->wi, as_fibre(drawn->value)};
+    if (const auto* glossy = std::get_if<GlossyBsdf>(&bsdf_)) return as_fibre(glossy->sample(u));
+    return as_fibre(std::get_if<LambertBsdf>(&bsdf_)->sample({u.x, u.y}));
   }
 
   /// Origin of a ray towards `wi`. Light enters and leaves a fibre at one point of its axis; the ray begins
@@ -56,12 +59,24 @@ class ScatterPoint {
     result.pdf = value.pdf;
     return result;
   }
+  static FibreValue as_fibre(const GlossyValue& value) {
+    FibreValue result;
+    result.lobes[static_cast<int>(LobeGroup::kDiffuse)] = value.diffuse;
+    result.lobes[static_cast<int>(LobeGroup::kPrimary)] = Rgb(value.specular);
+    result.pdf = value.pdf;
+    return result;
+  }
+  template <class SurfaceDraw>
+  static std::optional<FibreSample> as_fibre(const std::optional<SurfaceDraw>& drawn) {
+    if (!drawn) return std::nullopt;
+    return FibreSample{drawn->wi, as_fibre(drawn->value)};
+  }
 
   V3f position_;
   V3f tangent_{0};
   V3f surface_;
   float radius_ = 0;
-  std::variant<ConeShellBsdf, LambertBsdf> bsdf_;
+  std::variant<ConeShellBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 
 }  // namespace pelage
