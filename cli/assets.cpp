@@ -19,13 +19,22 @@ std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopolo
   return topology;
 }
 
+std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < poses.count; ++i) {
+    files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
+  }
+  return files;
+}
+
 Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies) {
   const ControlMesh cage = read_obj(params.mesh.path);
   const auto topology = share(
       SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
   Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage.positions, {}};
-  if (const auto& poses = params.poses) {
-    skin.poses.emplace(poses->files.path, poses->first, poses->count, poses->cycle, cage.positions.size());
+  if (params.poses) {
+    skin.poses.emplace(pose_files(*params.poses), params.poses->first, params.poses->cycle,
+                       cage.positions.size());
   }
   return skin;
 }

@@ -36,6 +36,7 @@ std::shared_ptr<const PosedCharacterSkin> pose_skin(const Assets::Skin& skin,
   auto posed = std::make_shared<PosedCharacterSkin>();
   for (double time : motion_times(camera, frame, skin.poses || moves(character.transform))) {
     posed->keys.push_back(posed_surface(skin, character, time));
+    posed->transforms.push_back(character_matrix(character.transform, time));
   }
   posed->mesh = std::make_shared<SkinMesh>(tessellate(posed->keys, view, {}, workers));
   for (size_t key = 0; needs_trees && key < posed->keys.size(); ++key) {
@@ -86,7 +87,10 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
                LightSet(std::move(lights)),
                Camera(scene.camera, frame, scene.image.width, scene.image.height),
                scene.image,
-               scene.render}};
+               scene.render},
+              0,
+              0,
+              {}};
   for (const auto& [name, position, character] : scene.characters.items) {
     for (const PartParams& part : character.parts) {
       add_part(world, scene, assets, name, character, part, frame, workers, ledger);

@@ -18,8 +18,9 @@ struct PosedCharacterSkin {
   std::shared_ptr<const SkinMesh> mesh;  ///< the frame's one tessellation
   std::vector<ClosestPointTree> trees;  ///< over `mesh`; empty unless a groom asks for the inside of the skin
   float scale = 1;
+  std::vector<M44f> transforms;  ///< of the character, per key: for strands that grow on no skin
 
-  PosedSkin pose() const { return {keys, trees, scale}; }
+  PosedSkin pose() const { return {keys, trees, scale, transforms}; }
   size_t bytes() const {
     size_t sum = mesh->bytes();
     for (const LimitSurface& key : keys) sum += key.bytes();

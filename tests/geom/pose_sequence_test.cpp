@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/pose_sequence.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+// Three poses of a triangle that rises by one unit per pose.
+class PoseSequenceTest : public ::testing::Test {
+ protected:
+  PoseSequenceTest() {
+    for (int i = 0; i < 3; ++i) {
+      files_.push_back(folder_.path() / ("pose" + std::to_string(i) + ".obj"));
+      std::ofstream(files_.back()) << "v 0 " << i << " 0\nv 1 " << i << " 0\nv 0 " << i << " 1\nf 1 2 3\n";
+    }
+  }
+  float height(const PoseSequence& poses, double pose) const { return poses.positions(pose)[2].y; }
+
+  TemporaryFolder folder_;
+  std::vector<std::filesystem::path> files_;
+};
+
+TEST_F(PoseSequenceTest, BlendsBetweenPosesAndHoldsTheEnds) {
+  const PoseSequence poses(files_, 1, false, 3);
+  EXPECT_EQ(height(poses, 1), 0);
+  EXPECT_FLOAT_EQ(height(poses, 2.25), 1.25f);
+  EXPECT_EQ(height(poses, -7.5), 0);
+  EXPECT_EQ(height(poses, 3.5), 2);
+}
+
+TEST_F(PoseSequenceTest, CyclesInBothDirections) {
+  const PoseSequence poses(files_, 1, true, 3);
+  EXPECT_EQ(height(poses, 4), 0);
+  EXPECT_FLOAT_EQ(height(poses, 3.5), 1.0f);  // halfway from the last pose to the first
+  EXPECT_EQ(height(poses, 0), 2);
+  EXPECT_EQ(height(poses, -300), 2);
+}
+
+TEST_F(PoseSequenceTest, NamesTheFileThatIsMissingOrDoesNotFit) {
+  files_[1] = folder_.path() / "nowhere.obj";
+  try {
+    PoseSequence(files_, 1, false, 3).positions(2);
+    FAIL() << "a missing pose was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("nowhere.obj"), std::string::npos);
+  }
+  EXPECT_THROW(PoseSequence(files_, 1, false, 4).positions(1), Error);
+}
+
+}  // namespace
+}  // namespace pelage
