@@ -7,38 +7,54 @@
 
 namespace pelage {
 
+namespace {
+
+/// A complex number whose argument is an angle, not normalised: angles add without trigonometry.
+struct Phase {
+  double re, im;
+  Phase operator*(const Phase& b) const { return {re * b.re - im * b.im, re * b.im + im * b.re}; }
+};
+
+}  // namespace
+
 SphericalRectangle::SphericalRectangle(double center_x, double center_y, double z, double half_width,
                                        double half_height)
     : x0_(center_x - half_width),
       x1_(center_x + half_width),
       y0_(center_y - half_height),
       y1_(center_y + half_height),
-      z_(-std::abs(z)) {
-  const double zz = z_ * z_;
-  // z components of the inward normals of the four side planes; neighbours are perpendicular in x and y, so
-  // that the interior angle between them is acos(-b b').
-  b0_ = -y0_ / std::sqrt(y0_ * y0_ + zz);
-  b1_ = x1_ / std::sqrt(x1_ * x1_ + zz);
-  const double b2 = y1_ / std::sqrt(y1_ * y1_ + zz);
-  const double b3 = -x0_ / std::sqrt(x0_ * x0_ + zz);
-  // The sum of the interior angles minus 2 pi, with acos(-t) - pi/2 = asin(t).
-  const auto angle = [](double t) { return std::asin(std::clamp(t, -1.0, 1.0)); };
-  solid_angle_ =
-      zz > 0 ? std::max(0.0, angle(b0_ * b1_) + angle(b1_ * b2) + angle(b2 * b3) + angle(b3 * b0_)) : 0;
-  first_angles_ = std::numbers::pi - angle(b2 * b3) - angle(b3 * b0_);
+      z_(z) {
+  // The interior angle at a corner (x, y) is pi/2 plus an angle whose tangent is +-x y / (|z| distance): the
+  // solid angle, the sum of the interior angles minus 2 pi, is the sum of the latter.
+  const double depth = std::abs(z);
+  const auto corner = [&](double x, double y, double sign) {
+    return Phase{depth * std::sqrt(x * x + y * y + z * z), sign * x * y};
+  };
+  const Phase start = corner(x0_, y1_, -1) * corner(x0_, y0_, 1);
+  const Phase whole = start * corner(x1_, y0_, -1) * corner(x1_, y1_, 1);
+  solid_angle_ = depth > 0 ? std::atan2(whole.im, whole.re) : 0.0;
+  if (solid_angle_ < 0) {
+    // More than half the sphere of arguments is possible only for a point in front of the rectangle itself;
+    // elsewhere a negative sum is rounding.
+    const bool in_front = x0_ < 0 && x1_ > 0 && y0_ < 0 && y1_ > 0;
+    solid_angle_ = in_front ? solid_angle_ + 2 * std::numbers::pi : 0.0;
+  }
   small_ = solid_angle_ < kSmall;
-  // Keeps the sign of z for sample(): z_ was made negative for the formulas of the paper.
-  z_ = z;
+  const double length = std::sqrt(start.re * start.re + start.im * start.im);
+  cos_start_ = length > 0 ? -start.re / length : -1;
+  sin_start_ = length > 0 ? start.im / length : 0;
 }
 
 V3d SphericalRectangle::sample(double u, double v) const {
   if (small_) return {x0_ + u * (x1_ - x0_), y0_ + v * (y1_ - y0_), z_};
   const double depth = std::abs(z_);
-  const double a = u * solid_angle_ + first_angles_;
-  // [Urena13, section 3]; n0.z = b0, n2.z = b2. cot(a) comes in through f.
+  const double step_cos = std::cos(u * solid_angle_), step_sin = std::sin(u * solid_angle_);
+  const double cos_a = step_cos * cos_start_ - step_sin * sin_start_;
+  const double sin_a = step_sin * cos_start_ + step_cos * sin_start_;
+  const double b0 = -y0_ / std::sqrt(y0_ * y0_ + z_ * z_);
   const double b2 = y1_ / std::sqrt(y1_ * y1_ + z_ * z_);
-  const double f = (std::cos(a) * b0_ - b2) / std::sin(a);
-  const double cu = std::clamp(std::copysign(1.0, f) / std::sqrt(f * f + b0_ * b0_), -1.0, 1.0);
+  const double f = (cos_a * b0 - b2) / sin_a;
+  const double cu = std::copysign(std::min(1.0, 1 / std::sqrt(f * f + b0 * b0)), f);
   const double xu = std::clamp(cu * depth / std::sqrt(std::max((1 - cu) * (1 + cu), 1e-300)), x0_, x1_);
   const double d = std::sqrt(xu * xu + z_ * z_);
   const double h0 = y0_ / std::sqrt(d * d + y0_ * y0_);

@@ -23,8 +23,7 @@ class SphericalRectangle {
   static constexpr double kSmall = 1e-6;
 
   double x0_, x1_, y0_, y1_, z_;
-  double b0_, b1_;  ///< z of the normals of the planes through y0 and x1
-  double first_angles_;
+  double cos_start_, sin_start_;  ///< of the angle k in [Urena13, section 3]: 2 pi minus two interior angles
   double solid_angle_;
   bool small_;
 };
