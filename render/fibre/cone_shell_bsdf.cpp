@@ -95,8 +95,9 @@ std::optional<FibreSample> ConeShellBsdf::sample(const V3f& u) const {
     z = WignerTable::instance().sample(xi);
     across = toward_viewer_;
     beside = across.cross(tangent);
-    // Turning half of a uniform azimuth around with this probability gives 1 + balance cos(phi) exactly.
-    if (u.z < 0.5f * (1.0f - balance_ * c)) {
+    // Turning directions around from the weak side with this probability gives 1 + balance cos(phi) exactly,
+    // and leaves a uniform azimuth, stratified as it came, alone.
+    if (u.z < -balance_ * c) {
       c = -c;
       s = -s;
     }
