@@ -10,7 +10,7 @@ namespace {
 
 /// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
 enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
-enum VertexDraw : uint32_t { kLightChoice = 0, kLightPoint = 1, kLobe = 2, kRoulette = 4, kVertexDraws = 5 };
+enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kVertexDraws = 4 };
 
 /// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
 constexpr float kJustBefore = 1 - 1e-4f;
@@ -95,11 +95,13 @@ void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch
 
 /// Direct light by a point on one light.
 void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
-  path.seek(kLightChoice);
-  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, path.stream.next1d());
+  path.seek(kLight);
+  // One pair for the choice and the point on the light: what the choice leaves of x keeps points stratified.
+  const V2f u = path.stream.next2d();
+  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
   if (!(choice.probability > 0)) return;
   const Light& light = scene_.lights.light(choice.light);
-  const auto sample = light.sample(point.position(), path.stream.next2d());
+  const auto sample = light.sample(point.position(), {choice.remapped, u.y});
   if (!sample || !(sample->pdf > 0)) return;
   const FibreValue value = point.eval(sample->direction);
   const float pdf = choice.probability * sample->pdf;

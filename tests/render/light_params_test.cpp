@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "image/texture.h"
+#include "render/light/environment_map.h"
 #include "render/surface/material.h"
+#include "tests/render/random.h"
+#include "tests/support/data.h"
 
 namespace pelage {
 namespace {
@@ -76,6 +79,38 @@ TEST(LightParams, EnvironmentsWithoutFileAreConstant) {
   const auto light = light_of(block({{"type", text("environment")}, {"radiance", number(0.25f)}}));
   EXPECT_TRUE(light->visible());
   EXPECT_EQ(light->intersect(V3f(0), V3f(0, 1, 0))->radiance, Rgb(0.25f));
+}
+
+TEST(LightParams, RealStudiosAreSampledAtFullResolution) {
+  PELAGE_REQUIRE_DATA();
+  for (const char* name : {"studio_small_03_1k.hdr", "venice_sunset_1k.hdr"}) {
+    const std::string path = (data_folder() / "env" / name).string();
+    const auto light =
+        light_of(block({{"type", text("environment")}, {"file", text(path)}, {"intensity", number(2)}}));
+    MemoryLedger ledger;
+    TextureLibrary textures(ledger);
+    const auto texture = textures.load({path, {}});
+    const EnvironmentMap map(texture->image(), Rgb(2));
+    double sum = 0;
+    for (int y = 0; y < texture->image().height; ++y) {
+      for (int x = 0; x < texture->image().width; ++x) {
+        const float pdf = map.pdf({x, y});
+        sum += pdf * map.texel_solid_angle(y);
+        ASSERT_EQ(pdf > 0, luminance(map.radiance({x, y})) > 0);
+      }
+    }
+    EXPECT_NEAR(sum, 1, 1e-5) << name;
+    EXPECT_GT(map.power(), 0.1) << name;
+    TestRandom random(6);
+    int astray = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const std::optional<LightSample> s = light->sample(V3f(0), random.unit2());
+      ASSERT_TRUE(s);
+      ASSERT_NEAR(luminance(s->radiance) / s->pdf / map.power(), 1, 1e-4) << name;
+      astray += light->pdf(V3f(0), s->direction) != s->pdf;
+    }
+    EXPECT_LE(astray, 20) << name;
+  }
 }
 
 TEST(LightParams, MistakesAreErrors) {
