@@ -13,6 +13,7 @@
 
 namespace pelage {
 
+class EmbreeScene;
 class Workers;
 
 /// A batch of strands to be met by rays. Both are kept alive by the caller.
@@ -25,7 +26,7 @@ struct AccelStrands {
 struct EmbreeOptions {
   CurveShape shape = CurveShape::kFlat;
   bool compact = false;  ///< a third of the tree's memory for 10 to 27 % of the speed of incoherent rays
-  /// Pieces that a flat segment is tested in, see embree_curves.h for why 8.
+  /// Pieces that a flat segment is tested in: even, 2 to 16. See embree_curves.h for why 8.
   int tessellation_rate = 8;
   uint64_t memory_limit = 0;  ///< bytes that the whole ledger may reach while the tree is built; 0 = no limit
 };
@@ -47,9 +48,7 @@ class EmbreeAccel final : public Accel {
   Box3f bounds() const override;
 
  private:
-  friend struct EmbreeFilters;
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<EmbreeScene> scene_;
 };
 
 }  // namespace pelage

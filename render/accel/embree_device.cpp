@@ -57,12 +57,13 @@ void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcep
   }
 }
 
-bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool) noexcept {
+bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool post) noexcept {
   auto& device = *static_cast<EmbreeDevice*>(self);
   device.ledger_.charge(MemoryTag::kChunks, bytes);
   if (bytes <= 0 || device.memory_limit_ == 0) return true;
   if (budgeted_bytes(device.ledger_) <= static_cast<int64_t>(device.memory_limit_)) return true;
   device.over_limit_ = true;
+  if (!post) device.ledger_.charge(MemoryTag::kChunks, -bytes);  // refused before it was allocated
   return false;
 }
 

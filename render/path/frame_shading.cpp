@@ -32,11 +32,10 @@ FrameShading::FrameShading(const RenderScene& scene, const FrameGeometry& geomet
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[i])) {
       fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color)};
-    } else if (const auto* skin = std::get_if<LambertParams>(&scene.materials[i])) {
-      skins_[i] = Skin{skin->color, constant_of(skin->color), skin->color.dependence().surface, {}};
+    } else if (const auto* lambert = std::get_if<LambertParams>(&scene.materials[i])) {
+      skins_[i] = Skin{lambert->color, constant_of(lambert->color), std::nullopt};
     } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
-      skins_[i] =
-          Skin{glossy->color, constant_of(glossy->color), glossy->color.dependence().surface, *glossy};
+      skins_[i] = Skin{glossy->color, constant_of(glossy->color), *glossy};
     }
   }
   for (const SkinPart& part : scene.skins) {
@@ -81,21 +80,19 @@ Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& 
     const V2f uv = part.rest->topology().texture_coordinates(face, place.x, place.y);
     point.u = uv.x;
     point.v = uv.y;
-    if (skin.needs_rest) point.rest = part.rest->evaluate(face, place.x, place.y).position;
+    if (skin.color.dependence().surface) point.rest = part.rest->evaluate(face, place.x, place.y).position;
   }
   return skin.color.color(point);
 }
 
 ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit) const {
   const SkinPart& part = scene_.skins[hit.object];
-  const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
   const Skin& skin = *skins_[part.material];
+  const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
   const Rgb color = skin_color(part, skin, hit);
-  if (skin.coat) {
-    return {point.position, point.start,
-            GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
-  }
-  return {point.position, point.start, LambertBsdf(color, point.normal)};
+  if (!skin.coat) return {point.position, point.start, LambertBsdf(color, point.normal)};
+  return {point.position, point.start,
+          GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
 }
 
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit) const {

@@ -30,8 +30,7 @@ class FrameShading {
   struct Skin {
     Field color;
     std::optional<Rgb> constant_color;
-    bool needs_rest = false;
-    std::optional<GlossyParams> coat;
+    std::optional<GlossyParams> coat;  // none: Lambert
   };
 
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit) const;

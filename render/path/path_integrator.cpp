@@ -24,12 +24,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Lambert skins have the first lobe group only.
-int lobe_groups(const RenderScene& scene) {
-  for (const MaterialParams& material : scene.materials) {
-    if (!std::holds_alternative<LambertParams>(material)) return kLobeGroups;
-  }
-  return 1;
+/// How many lobe groups a material uses, from the first.
+int lobe_groups(const MaterialParams& material) {
+  if (std::holds_alternative<LambertParams>(material)) return 1;
+  return std::holds_alternative<GlossyParams>(material) ? 2 : kLobeGroups;
 }
 
 FilmLayers film_layers(const RenderScene& scene) {
@@ -38,7 +36,9 @@ FilmLayers film_layers(const RenderScene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
   }
-  return FilmLayers::make(lights, lobe_groups(scene));
+  int groups = 1;
+  for (const MaterialParams& material : scene.materials) groups = std::max(groups, lobe_groups(material));
+  return FilmLayers::make(lights, groups);
 }
 
 /// Traces passes of samples over a film.

@@ -30,14 +30,14 @@ class ScatterPoint {
 
   FibreValue eval(const V3f& wi) const {
     if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->eval(wi);
-    if (const auto* glossy = std::get_if<GlossyBsdf>(&bsdf_)) return as_fibre(glossy->eval(wi));
-    return as_fibre(std::get_if<LambertBsdf>(&bsdf_)->eval(wi));
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->eval(wi));
   }
 
   std::optional<FibreSample> sample(const V3f& u) const {
     if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->sample(u);
-    if (const auto* glossy = std::get_if<GlossyBsdf>(&bsdf_)) return as_fibre(glossy->sample(u));
-    return as_fibre(std::get_if<LambertBsdf>(&bsdf_)->sample({u.x, u.y}));
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->sample({u.x, u.y}));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
   /// Origin of a ray towards `wi`. Light enters and leaves a fibre at one point of its axis; the ray begins
@@ -53,23 +53,15 @@ class ScatterPoint {
  private:
   static constexpr float kJustOutside = 1.001f;
 
-  static FibreValue as_fibre(const SurfaceValue& value) {
-    FibreValue result;
-    result.lobes[static_cast<int>(LobeGroup::kDiffuse)] = value.rho;
-    result.pdf = value.pdf;
-    return result;
-  }
+  /// Surfaces in the groups of fibres: what skin scatters is diffuse, its coat the primary highlight.
+  static FibreValue as_fibre(const SurfaceValue& value) { return {{value.rho, Rgb(0), Rgb(0)}, value.pdf}; }
   static FibreValue as_fibre(const GlossyValue& value) {
-    FibreValue result;
-    result.lobes[static_cast<int>(LobeGroup::kDiffuse)] = value.diffuse;
-    result.lobes[static_cast<int>(LobeGroup::kPrimary)] = Rgb(value.specular);
-    result.pdf = value.pdf;
-    return result;
+    return {{value.diffuse, Rgb(value.specular), Rgb(0)}, value.pdf};
   }
-  template <class SurfaceDraw>
-  static std::optional<FibreSample> as_fibre(const std::optional<SurfaceDraw>& drawn) {
-    if (!drawn) return std::nullopt;
-    return FibreSample{drawn->wi, as_fibre(drawn->value)};
+  template <class Sample>
+  static std::optional<FibreSample> as_fibre(const std::optional<Sample>& sample) {
+    if (!sample) return std::nullopt;
+    return FibreSample{sample->wi, as_fibre(sample->value)};
   }
 
   V3f position_;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "render/accel/crossings.h"
+#include "render/accel/embree_curves.h"
+#include "render/accel/embree_device.h"
+
+namespace pelage {
+
+/// The Embree scene of an EmbreeAccel, and what its geometry numbers mean: strand batches first, then skins,
+/// in the order given.
+class EmbreeScene {
+ public:
+  EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
+              const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  RTCScene get() const { return scene_; }
+  bool opaque() const { return opaque_; }
+  bool is_round() const { return options_.shape == CurveShape::kRound; }
+  bool is_skin(uint32_t geometry) const { return geometry >= curves_.size(); }
+  uint32_t skin(uint32_t geometry) const { return geometry - static_cast<uint32_t>(curves_.size()); }
+  const EmbreeCurves& curves(uint32_t geometry) const { return curves_[geometry]; }
+
+  /// The order that decides between equal distances: strands before skins, then by strand id, part and
+  /// segment.
+  bool stands_before(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b,
+                     uint32_t primitive_b) const;
+  CrossingPlace crossing(const EmbreeCurves& batch, EmbreeCurves::Place place, float u) const;
+
+ private:
+  void attach(RTCGeometry geometry, uint32_t id);
+  void add_curves(uint32_t id);
+  void add_skin(const SkinMesh& mesh, uint32_t id);
+
+  EmbreeOptions options_;
+  EmbreeDevice device_;
+  RTCScene scene_ = nullptr;
+  std::vector<EmbreeCurves> curves_;
+  bool opaque_ = true;
+  MemoryCharge charge_;
+};
+
+}  // namespace pelage

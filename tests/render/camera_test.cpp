@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/camera/camera.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 180;
+
+float random(uint64_t a, uint64_t b) { return unit_float(hash64(a, b, random_use("camera test"))); }
+
+CameraParams moving_camera() {
+  CameraParams params;
+  params.position = Keyed<V3f>({{1.0, V3f(3, 4, 9)}, {2.0, V3f(5, 3, 8)}});
+  params.look_at = Keyed<V3f>({{1.0, V3f(0, 1, 0)}, {2.0, V3f(1, 1, 0)}});
+  params.fov = Keyed<float>({{1.0, 30.0f}, {2.0, 40.0f}});
+  params.shutter = V2f(-0.25f, 0.5f);
+  params.motion_keys = 3;
+  return params;
+}
+
+TEST(Camera, ProjectUndoesRay) {
+  const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
+  for (uint64_t i = 0; i < 300; ++i) {
+    const float x = random(i, 0) * kWidth, y = random(i, 1) * kHeight, time = random(i, 2);
+    const CameraRay ray = camera.ray(x, y, V2f(0.5f), time);
+    const float distance = 1 + 20 * random(i, 3);
+    const auto raster = camera.project(ray.origin + distance * ray.direction, time);
+    ASSERT_TRUE(raster);
+    EXPECT_NEAR(raster->x, x, 2e-3f);
+    EXPECT_NEAR(raster->y, y, 2e-3f);
+    EXPECT_NEAR(raster->z, distance * ray.direction.dot(camera.axis(time)), 1e-4f * distance);
+    EXPECT_FALSE(camera.project(ray.origin - distance * ray.direction, time));
+  }
+}
+
+TEST(Camera, LooksAlongMinusZWithYDown) {
+  const Camera camera(CameraParams{}, 1, kWidth, kHeight);
+  const auto middle = camera.project({0, 0, 0}, 0), right = camera.project({1, 0, 0}, 0),
+             above = camera.project({0, 1, 0}, 0);
+  EXPECT_FLOAT_EQ(middle->x, 0.5f * kWidth);
+  EXPECT_FLOAT_EQ(middle->y, 0.5f * kHeight);
+  EXPECT_GT(right->x, middle->x);
+  EXPECT_LT(above->y, middle->y);
+  // Half the vertical field of view reaches the upper edge.
+  EXPECT_NEAR(camera.project({0, 10 * std::tan(20 * 3.14159265f / 180), 0}, 0)->y, 0.0f, 1e-3f);
+}
+
+TEST(Camera, LensRaysMeetInThePlaneOfFocus) {
+  CameraParams params = moving_camera();
+  params.lens = LensParams{2.0f, 0.5f, 7.0f};
+  const Camera camera(params, 1.5, kWidth, kHeight);
+  CameraParams pinhole_params = params;
+  pinhole_params.lens.reset();
+  const Camera pinhole(pinhole_params, 1.5, kWidth, kHeight);
+  float widest = 0;
+  for (uint64_t i = 0; i < 300; ++i) {
+    const float x = random(i, 0) * kWidth, y = random(i, 1) * kHeight, time = random(i, 2);
+    const CameraRay ray = camera.ray(x, y, V2f(random(i, 4), random(i, 5)), time);
+    const float along = ray.direction.dot(camera.axis(time));
+    const V3f focus = ray.origin + (7.0f / along) * ray.direction;
+    const auto raster = pinhole.project(focus, time);
+    EXPECT_NEAR(raster->x, x, 3e-3f);
+    EXPECT_NEAR(raster->y, y, 3e-3f);
+    EXPECT_NEAR((ray.origin - camera.position(time)).dot(camera.axis(time)), 0, 1e-5f);
+    widest = std::max(widest, (ray.origin - camera.position(time)).length());
+  }
+  EXPECT_LE(widest, 0.125f + 1e-5f);  // focal length / (2 f-stop)
+  EXPECT_GT(widest, 0.115f);
+}
+
+TEST(Camera, MovesOverTheShutterAsItsKeysSay) {
+  const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
+  const CameraParams params = moving_camera();
+  for (float time : {0.0f, 0.5f, 1.0f}) {
+    EXPECT_LT((camera.position(time) - params.position.at(1.25 + 0.75 * double{time})).length(), 1e-5f);
+  }
+  EXPECT_FLOAT_EQ(camera.frame_time(), 1.0f / 3);
+  EXPECT_FLOAT_EQ(camera.shutter_frames(), 0.75f);
+  EXPECT_LT((camera.view().position - params.position.at(1.5)).length(), 1e-6f);
+}
+
+TEST(Camera, HeaderMatricesAgreeWithProjection) {
+  const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
+  for (uint64_t i = 0; i < 100; ++i) {
+    const V3f p(2 * random(i, 6) - 1, 2 * random(i, 7) - 1, 2 * random(i, 8) - 1);
+    const auto raster = camera.project_at_frame(p, 0);
+    V3f ndc, local;
+    camera.world_to_ndc().multVecMatrix(p, ndc);  // divides by w
+    camera.world_to_camera().multVecMatrix(p, local);
+    EXPECT_NEAR(ndc.x * kWidth, raster->x, 1e-2f);
+    EXPECT_NEAR(ndc.y * kHeight, raster->y, 1e-2f);
+    EXPECT_NEAR(local.z, raster->z, 1e-4f);
+    EXPECT_EQ(local.x > 0, raster->x > 0.5f * kWidth);
+    EXPECT_EQ(local.y > 0, raster->y < 0.5f * kHeight);
+  }
+}
+
+TEST(Camera, ImpossiblePosesAreErrors) {
+  CameraParams on_target;
+  on_target.look_at = on_target.position;
+  EXPECT_THROW(Camera(on_target, 1, kWidth, kHeight), Error);
+  CameraParams upward;
+  upward.look_at = V3f(0, 5, 10);
+  EXPECT_THROW(Camera(upward, 1, kWidth, kHeight), Error);
+}
+
+}  // namespace
+}  // namespace pelage
