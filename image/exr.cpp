@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
@@ -17,6 +18,7 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
@@ -55,7 +57,13 @@ struct AttributeWriter {
   Imf::Header& header;
   const char* name;
   void operator()(int v) const { header.insert(name, Imf::IntAttribute(v)); }
-  void operator()(float v) const { header.insert(name, Imf::FloatAttribute(v)); }
+  void operator()(float v) const {
+    if (std::string_view(name) == "framesPerSecond") {  // a standard attribute, of a type of its own
+      header.insert(name, Imf::RationalAttribute(Imf::Rational(static_cast<double>(v))));
+    } else {
+      header.insert(name, Imf::FloatAttribute(v));
+    }
+  }
   void operator()(const std::string& v) const { header.insert(name, Imf::StringAttribute(v)); }
   void operator()(const V2f& v) const { header.insert(name, Imf::V2fAttribute(v)); }
   void operator()(const V3f& v) const { header.insert(name, Imf::V3fAttribute(v)); }
@@ -66,6 +74,12 @@ template <class Attribute>
 bool read_attribute(const Imf::Header& header, const std::string& name, ExrImage& image) {
   const auto* attribute = header.findTypedAttribute<Attribute>(name);
   if (attribute) image.attributes[name] = attribute->value();
+  return attribute != nullptr;
+}
+
+bool read_rational(const Imf::Header& header, const std::string& name, ExrImage& image) {
+  const auto* attribute = header.findTypedAttribute<Imf::RationalAttribute>(name);
+  if (attribute) image.attributes[name] = static_cast<float>(static_cast<double>(attribute->value()));
   return attribute != nullptr;
 }
 
@@ -140,7 +154,7 @@ void read_header(const Imf::Header& header, const std::filesystem::path& path, E
         read_attribute<Imf::StringAttribute>(header, name, image) ||
         read_attribute<Imf::V2fAttribute>(header, name, image) ||
         read_attribute<Imf::V3fAttribute>(header, name, image) ||
-        read_attribute<Imf::M44fAttribute>(header, name, image);
+        read_attribute<Imf::M44fAttribute>(header, name, image) || read_rational(header, name, image);
   }
 }
 
