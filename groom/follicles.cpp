@@ -42,17 +42,22 @@ void split(std::span<const V3f> positions, std::vector<uint32_t>& ids, uint32_t 
 }  // namespace
 
 FollicleTree FollicleTree::over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
-                                int leaf_strands) {
-  PELAGE_CHECK(leaf_strands > 0 && rest_positions.size() == roots.size());
+                                std::span<const uint32_t> ids, int leaf_strands,
+                                std::vector<uint32_t>& order) {
+  PELAGE_CHECK(leaf_strands > 0 && rest_positions.size() == roots.size() && ids.size() == roots.size());
   FollicleTree tree;
+  order.resize(roots.size());
+  std::iota(order.begin(), order.end(), 0u);
   if (roots.empty()) return tree;
-  tree.ids_.resize(roots.size());
-  std::iota(tree.ids_.begin(), tree.ids_.end(), 0u);
-  split(rest_positions, tree.ids_, 0, static_cast<uint32_t>(roots.size()),
-        static_cast<uint32_t>(leaf_strands), tree.leaves_);
+  split(rest_positions, order, 0, static_cast<uint32_t>(roots.size()), static_cast<uint32_t>(leaf_strands),
+        tree.leaves_);
   tree.leaves_.shrink_to_fit();
+  tree.ids_.reserve(roots.size());
   tree.roots_.reserve(roots.size());
-  for (uint32_t id : tree.ids_) tree.roots_.push_back(roots[id]);
+  for (uint32_t i : order) {
+    tree.ids_.push_back(ids[i]);
+    tree.roots_.push_back(roots[i]);
+  }
   return tree;
 }
 
@@ -85,7 +90,10 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
     roots.push_back(candidates[i].root);
   }
   candidates = {};
-  return over(positions, roots, options.leaf_strands);
+  std::vector<uint32_t> ids(order.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  std::vector<uint32_t> places;
+  return over(positions, roots, ids, options.leaf_strands, places);
 }
 
 size_t FollicleTree::bytes() const {

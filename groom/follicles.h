@@ -51,9 +51,9 @@ class FollicleTree {
   /// Empty where the density is 0 everywhere. Throws Error (kInput) when more than kMaxFollicles are asked
   /// for.
   static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Workers& workers);
-  /// The same hierarchy over given places: follicle i has id i.
+  /// The same hierarchy over given places with ascending ids. `order` receives the place of each follicle.
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
-                           int leaf_strands);
+                           std::span<const uint32_t> ids, int leaf_strands, std::vector<uint32_t>& order);
 
   size_t size() const { return ids_.size(); }
   std::span<const Leaf> leaves() const { return leaves_; }

@@ -45,17 +45,19 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
       }
     });
   }
-  follicles_ = FollicleTree::over(positions, roots, params.leaf_strands);
+  std::vector<uint32_t> ids;
+  for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
+  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_strands, place_);
 
   for (const FollicleTree::Leaf& leaf : follicles_.leaves()) {
     StrandReach reach{0, 0, 0, std::numbers::pi_v<float>, 1};
     for (uint32_t f = leaf.begin; f < leaf.end; ++f) {
-      const auto id = static_cast<size_t>(follicles_.id(f));
-      const V3f& root = positions[id];
-      V3f previous = strands.point(strands.first_point(id));
+      const size_t place = place_[f];
+      const V3f& root = positions[place];
+      V3f previous = strands.point(strands.first_point(place));
       float arc = (previous - root).length();
-      for (uint32_t p = 0; p < strands.strand_points(id); ++p) {
-        const size_t index = strands.first_point(id) + p;
+      for (uint32_t p = 0; p < strands.strand_points(place); ++p) {
+        const size_t index = strands.first_point(place) + p;
         const V3f point = strands.point(index);
         arc += (point - previous).length();
         previous = point;
@@ -63,7 +65,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
         reach.radius = std::max(reach.radius, strands.radius(index));
       }
       reach.length = std::max(reach.length, arc);
-      reach.segments = std::max(reach.segments, static_cast<int>(strands.strand_points(id)) - 1);
+      reach.segments = std::max(reach.segments, static_cast<int>(strands.strand_points(place)) - 1);
     }
     reach_.push_back(reach);
   }
@@ -78,9 +80,8 @@ size_t ImportedStrands::run_length(size_t begin, size_t end) const {
 
 void ImportedStrands::place_free(StrandBatch& batch, size_t begin) const {
   for (size_t s = 0; s < batch.count; ++s) {
-    const auto id = static_cast<size_t>(follicles_.id(begin + s));
-    batch.ids[s] = id;
-    batch.rest.set(s, file_.strands.point(file_.strands.first_point(id)), Frame{});
+    batch.ids[s] = follicles_.id(begin + s);
+    batch.rest.set(s, file_.strands.point(file_.strands.first_point(place_[begin + s])), Frame{});
     batch.u[s] = batch.v[s] = 0;
     batch.clump[s] = 0;
   }
@@ -92,7 +93,7 @@ void ImportedStrands::start(StrandBatch& batch, size_t begin) const {
   for (int p = 0; p < batch.point_count(); ++p) {
     StrandRow& radius = batch.points[static_cast<size_t>(p)].radius;
     for (size_t s = 0; s < batch.count; ++s) {
-      const size_t index = strands.first_point(static_cast<size_t>(batch.ids[s])) + static_cast<size_t>(p);
+      const size_t index = strands.first_point(place_[begin + s]) + static_cast<size_t>(p);
       batch.set_offset(p, s, strands.point(index) - vector_at(batch.rest.position, s));
       radius[s] = strands.radius(index);
     }
@@ -115,10 +116,10 @@ std::vector<StrandAttribute> ImportedStrands::attributes(size_t begin, size_t en
       to.values = from.values;
     } else {
       for (size_t f = begin; f < end; ++f) {
-        const auto id = static_cast<size_t>(follicles_.id(f));
-        if (from.frequency == AttributeClass::kPerStrand) copy(id, 1);
+        const size_t place = place_[f];
+        if (from.frequency == AttributeClass::kPerStrand) copy(place, 1);
         if (from.frequency == AttributeClass::kPerPoint)
-          copy(strands.first_point(id), strands.strand_points(id));
+          copy(strands.first_point(place), strands.strand_points(place));
       }
     }
     result.push_back(std::move(to));

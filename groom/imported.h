@@ -20,7 +20,7 @@ class ImportedStrands {
   CurveBasis basis() const { return file_.strands.basis(); }
   const StrandRepairs& repairs() const { return file_.repairs; }
   int strand_points(size_t follicle) const {
-    return static_cast<int>(file_.strands.strand_points(follicles_.id(follicle)));
+    return static_cast<int>(file_.strands.strand_points(place_[follicle]));
   }
 
   /// How many of the follicles from `begin`, at most to `end`, can share a batch: as many as have equally
@@ -34,11 +34,14 @@ class ImportedStrands {
   const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
   /// Attributes of the file for follicles [begin, end), all but `except`.
   std::vector<StrandAttribute> attributes(size_t begin, size_t end, std::string_view except) const;
-  size_t bytes() const { return file_.strands.bytes() + follicles_.bytes(); }
+  size_t bytes() const {
+    return file_.strands.bytes() + follicles_.bytes() + place_.capacity() * sizeof(uint32_t);
+  }
 
  private:
   StrandFile file_;
   FollicleTree follicles_;
+  std::vector<uint32_t> place_;     // in the file's strands, of each follicle
   std::vector<StrandReach> reach_;  // per leaf
 };
 

@@ -14,6 +14,9 @@
 namespace pelage {
 namespace {
 
+/// How far the tip may come from the root, in lengths of the strand: pushing stretches it a little.
+constexpr float kReach = 1.02f;
+
 /// One strand while it is pushed, in the space of the pose.
 class PushedStrand {
  public:
@@ -34,19 +37,34 @@ class PushedStrand {
 
   const std::vector<V3f>& points() const { return points_; }
 
-  /// Moves control points that are inside or nearer than their clearance; whether any moved.
-  bool push_points(float offset) {
-    bool moved = false;
-    for (size_t p = 1; p < points_.size(); ++p) moved |= push(points_[p], clearance(p, offset));
-    return moved;
+  /// Lays the strand out again from the root, segment by segment: each keeps its length and its direction
+  /// unless that leads into the skin; then it slides along it.
+  void slide(float offset, int rounds, const V3f& tangent) {
+    const std::vector<V3f> before = points_;
+    for (size_t p = 1; p < points_.size(); ++p) {
+      const V3f& from = points_[p - 1];
+      V3f direction = unit_or(before[p] - before[p - 1], normal_);
+      points_[p] = from + direction * lengths_[p];
+      for (int round = 0; round < rounds; ++round) {
+        V3f target = points_[p];
+        V3f out;
+        // `from` is outside, so nothing on the way from it is deeper than the segment is long.
+        if (!push(target, clearance(p, offset), lengths_[p] + offset, &out)) break;
+        if (round == 0) {
+          direction -= out * std::min(direction.dot(out), 0.0f);
+          if (direction.dot(direction) < 0.01f) direction = tangent - out * tangent.dot(out);
+        } else {
+          direction = target - from;
+        }
+        points_[p] = from + unit_or(direction, out) * lengths_[p];
+      }
+    }
   }
 
-  /// Gives segments their lengths back, from the root outwards.
-  void restore_lengths() {
-    for (size_t p = 1; p < points_.size(); ++p) {
-      const V3f direction = unit_or(points_[p] - points_[p - 1], normal_);
-      points_[p] = points_[p - 1] + direction * lengths_[p];
-    }
+  /// Moves control points that are still inside or nearer than their clearance.
+  void push_points(float offset) {
+    for (size_t p = 1; p < points_.size(); ++p)
+      push(points_[p], clearance(p, offset), depth_limit(points_[p]) + offset);
   }
 
   /// Where the curve between control points is inside, moves the control points beside; whether any moved.
@@ -56,7 +74,7 @@ class PushedStrand {
       for (float t : {0.25f, 0.5f, 0.75f, 1.0f}) {
         const V3f on_curve = curve(segment, t);
         V3f out = on_curve;
-        if (!push(out, 0.0f)) continue;
+        if (!push(out, 0.0f, depth_limit(out))) continue;
         moved = true;
         // The two nearest control points carry two thirds or more of the weight here.
         const V3f step = (out - on_curve) * 1.6f;
@@ -67,8 +85,8 @@ class PushedStrand {
     return moved;
   }
 
-  /// Last resort: keeps the part of the strand that is outside and within its own length of the root,
-  /// stretched over all points.
+  /// Last resort: keeps the part of the strand that is outside and within kReach of its length, stretched
+  /// over all points.
   void draw_back() {
     size_t good = 0;
     while (good + 1 < points_.size() && is_outside(good)) ++good;
@@ -93,22 +111,26 @@ class PushedStrand {
   /// The root stands on the skin, so points near it cannot keep the whole distance.
   float clearance(size_t p, float offset) const { return std::min(offset, 0.5f * arcs_[p]); }
 
-  bool push(V3f& point, float distance) const {
+  /// The root is on the skin: nothing is deeper than its distance from it.
+  float depth_limit(const V3f& point) const { return (point - root_).length(); }
+
+  /// Moves a point that is inside, or outside but nearer than `distance`, to that distance; whether it had
+  /// to. `out_of` receives the way out. Looks no further than `limit`.
+  bool push(V3f& point, float distance, float limit, V3f* out_of = nullptr) const {
     ClosestPoint nearest;
-    // The root is on the skin: nothing is deeper than its distance from it.
-    const float limit = (point - points_[0]).length() + (points_[0] - root_).length() + distance;
     if (!skin_.closest(point, limit * 1.001f + 1e-6f, nearest)) return false;
     if (!nearest.inside && nearest.distance >= distance * 0.999f) return false;
     const V3f way = nearest.inside ? nearest.position - point : point - nearest.position;
     const V3f out = nearest.distance > 1e-6f * limit ? unit_or(way, nearest.normal) : nearest.normal;
     // A hair's breadth more, so that rounding does not leave the point on the inner side.
     point = nearest.position + out * (distance + 1e-4f * limit);
+    if (out_of) *out_of = out;
     return true;
   }
 
   bool is_outside(size_t segment) const {
     const V3f& end = points_[segment + 1];
-    if ((end - points_[0]).length() > arcs_.back() * 1.0001f) return false;
+    if ((end - points_[0]).length() > arcs_.back() * kReach) return false;
     for (float t : {0.25f, 0.5f, 0.75f, 1.0f}) {
       ClosestPoint nearest;
       const V3f at = curve(segment, t);
@@ -149,7 +171,7 @@ const Schema<PushOutParams>& PushOutParams::schema() {
            .help = "Distance that strands keep from the skin, away from their roots",
            .min = 0});
     s.key("iterations", &PushOutParams::iterations,
-          {.help = "Rounds of pushing and giving segments their lengths back", .min = 1, .max = 64});
+          {.help = "Rounds in which each point looks for its way out", .min = 1, .max = 64});
     return s;
   }();
   return table;
@@ -166,12 +188,10 @@ void PushOut::apply(StrandBatch& batch) const {
   for (size_t s = 0; s < batch.count; ++s) {
     const float distance = std::max(offset[s], 0.0f) * batch.scale;
     PushedStrand strand(batch, s);
-    bool moved = strand.push_points(distance);
-    for (int i = 1; moved && i < params_.iterations; ++i) {
-      strand.restore_lengths();
-      moved = strand.push_points(distance);
+    strand.slide(distance, params_.iterations, vector_at(batch.here.tangent, s));
+    strand.push_points(distance);
+    for (int i = 0; i < params_.iterations && strand.push_curve(); ++i) {
     }
-    for (int i = 0; i < params_.iterations && strand.push_curve(); ++i) moved = true;
     strand.draw_back();
     const V3f root = vector_at(batch.here.position, s);
     for (int p = 1; p < batch.point_count(); ++p) {
@@ -181,13 +201,14 @@ void PushOut::apply(StrandBatch& batch) const {
 }
 
 float PushOut::displacement_bound(const StrandReach& before) const {
-  // A strand that points straight in comes to lie along the skin; none leaves the ball of its length.
-  return before.distance + before.length;
+  // A strand that points straight in comes to lie along the skin; none leaves the ball of its length by more
+  // than pushing stretches it.
+  return before.distance + before.length * kReach;
 }
 
 StrandReach PushOut::reach_after(const StrandReach& before) const {
   StrandReach after = before;
-  after.distance = std::max(before.distance, before.length * 1.0001f);
+  after.distance = std::max(before.distance, before.length * kReach);
   after.length = 2.0f * before.length * static_cast<float>(before.segments);
   after.lean = std::numbers::pi_v<float>;
   return after;
