@@ -5,11 +5,13 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/file.h"
 #include "base/module.h"
 #include "base/statistics.h"
 #include "image/exr_check.h"
 #include "image/reader_module.h"
 #include "image/texture.h"
+#include "image/truncation.h"
 
 namespace pelage {
 namespace {
@@ -43,6 +45,8 @@ void check_is_readable(const AssetPath& asset) {
   if (stream.gcount() == 0) fail(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
   if (beginning.starts_with("version https://git-lfs"))
     fail(asset, "is a git-lfs pointer, not the image itself");
+  const bool ends_with_marker = beginning.starts_with("\x89PNG") || beginning.starts_with("\xff\xd8\xff");
+  if (ends_with_marker && is_cut_short(read_file(asset.path))) fail(asset, "is cut short");
   if (beginning.starts_with("v/1\x01")) {
     try {
       check_exr_headers(asset.path);
