@@ -151,9 +151,14 @@ void fill_ptex_faces(SurfaceTopology::Impl& impl, const Far::TopologyLevel& base
   }
 }
 
+// The library's own StencilTableFactory casts what it makes to a type that it is not: its base is used
+// instead.
+using Stencils = Far::StencilTableReal<float>;
+using StencilsFactory = Far::StencilTableFactoryReal<float>;
+
 /// Appends `count` stencils, whose sources count from point `origin`, and whose terms begin at `term`.
-void append_rules(const Far::StencilTable& stencils, size_t first, size_t count, uint32_t origin,
-                  size_t& term, PointRules& rules) {
+void append_rules(const Stencils& stencils, size_t first, size_t count, uint32_t origin, size_t& term,
+                  PointRules& rules) {
   for (size_t i = first; i < first + count; ++i) {
     for (int k = 0; k < stencils.GetSizes()[i]; ++k, ++term) {
       rules.source.push_back(origin + static_cast<uint32_t>(stencils.GetControlIndices()[term]));
@@ -169,10 +174,10 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
   rules.first_term.push_back(0);
   // Not multiplied out: the stencils of a level take their points from the level before it, counted from its
   // start.
-  Far::StencilTableFactory::Options options;
+  StencilsFactory::Options options;
   options.factorizeIntermediateLevels = false;
-  const std::unique_ptr<const Far::StencilTable> refined(Far::StencilTableFactory::Create(refiner, options));
-  const Far::StencilTable* local = patches.GetLocalPointStencilTable();
+  const std::unique_ptr<const Stencils> refined(StencilsFactory::Create(refiner, options));
+  const Stencils* local = patches.GetLocalPointStencilTable<float>();
   const size_t terms = refined->GetWeights().size() + (local ? local->GetWeights().size() : 0);
   rules.source.reserve(terms);
   rules.weight.reserve(terms);
