@@ -2,6 +2,7 @@
 #include "groom/skin_binding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/check.h"
@@ -22,7 +23,9 @@ SkinMesh tessellate_evenly(const LimitSurface& rest, const Workers& workers) {
   View everywhere;
   everywhere.focal_pixels = 1e12f;  // every edge wants more than the largest rate
   TessellationOptions options;
-  options.max_rate = 8;
+  // About a hundred thousand quads, whatever the cage.
+  const double faces = std::max(1.0, static_cast<double>(rest.topology().face_count()));
+  options.max_rate = std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
   return tessellate(std::span(&rest, 1), everywhere, options, workers);
 }
 
