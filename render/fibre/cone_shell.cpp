@@ -24,7 +24,7 @@ ShellShape::ShellShape(float half_width_degrees, float tilt_degrees)
       sin_tilt(std::sin(tilt_degrees * kRadians)) {}
 
 ConeShell::ConeShell(const ShellShape& shape, ShellVariant variant, float sin_theta_o)
-    : variant_(variant), half_width_(shape.half_width), below_(shape.half_width), above_(shape.half_width) {
+    : variant_(variant), below_(shape.half_width), above_(shape.half_width) {
   const float mirror_cos = -std::clamp(sin_theta_o, -1.0f, 1.0f);
   const float mirror_sin = std::sqrt((1.0f - mirror_cos) * (1.0f + mirror_cos));
   cos_mid_ = mirror_cos * shape.cos_tilt - mirror_sin * shape.sin_tilt;
@@ -56,7 +56,7 @@ ConeShell::ConeShell(const ShellShape& shape, ShellVariant variant, float sin_th
   } else {
     half_range_ = sin_mid_ * shape.sin_width;
     center_ = cos_mid_ * shape.cos_width;
-    weight_integral = sin_mid_ * (half_width_ + shape.sin_width * shape.cos_width);
+    weight_integral = sin_mid_ * (shape.half_width + shape.sin_width * shape.cos_width);
   }
   inverse_half_range_ = 1.0f / half_range_;
   scale_ = literal ? 1.0f / (2.0f * kPi * weight_integral) : inverse_half_range_ / (kPi * kPi);

@@ -71,7 +71,6 @@ class ConeShell {
 
   ShellVariant variant_;
   float cos_mid_, sin_mid_;
-  float half_width_;
   float below_, above_;  ///< how far the shell reaches to smaller and larger Theta, radians (literal only)
   float center_, half_range_, inverse_half_range_;
   float scale_;  ///< normalises the weight
