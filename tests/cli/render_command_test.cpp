@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/signals.h"
+#include "image/exr.h"
+#include "tests/cli/small_scene.h"
+
+namespace pelage {
+namespace {
+
+class RenderCommandTest : public testing::Test {
+ protected:
+  Options options(const std::string& output) const {
+    Options result;
+    result.command = Command::kRender;
+    result.input = scene_.path("scene.yaml");
+    result.output = scene_.path(output);
+    result.progress = ProgressStyle::kQuiet;
+    return result;
+  }
+  SmallScene scene_;
+};
+
+TEST_F(RenderCommandTest, WritesLayersHeaderAndStatistics) {
+  Options o = options("out/frame.exr");
+  o.stats = scene_.path("stats.json");
+  ASSERT_EQ(run_render(o), 0);
+
+  const ExrImage image = read_exr(o.output);
+  EXPECT_EQ(image.width, 24);
+  EXPECT_EQ(image.height, 16);
+  for (const char* name :
+       {"R", "G", "B", "A", "Z", "N.X", "tangent.Z", "forward.u", "forward.v", "id", "root.u",
+        "key.diffuse.R", "key.primary.G", "key.secondary.B", "sky.diffuse.R", "sky.emission.B"}) {
+    EXPECT_NE(image.find(name), nullptr) << name;
+  }
+  for (const char* name :
+       {"worldToCamera", "worldToNDC", "pelage:seed", "pelage:samples", "pelage:version"}) {
+    EXPECT_TRUE(image.attributes.contains(name)) << name;
+  }
+  EXPECT_EQ(std::get<int>(image.attributes.at("pelage:samples")), 4);
+
+  const auto stats = nlohmann::json::parse(read_file(*o.stats));
+  EXPECT_EQ(stats["strands_described"], 400);
+  EXPECT_EQ(stats["strands_generated"], 400);
+  EXPECT_EQ(stats["characters_in_frame"], 2);
+  EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 4);
+  EXPECT_GT(stats["memory_bytes"]["chunks"], 0);
+  EXPECT_EQ(stats["samples_rejected"], 0);
+}
+
+TEST_F(RenderCommandTest, SamePixelsForAnyNumberOfThreads) {
+  Options one = options("one.exr"), three = options("three.exr");
+  one.threads = 1;
+  three.threads = 3;
+  ASSERT_EQ(run_render(one), 0);
+  ASSERT_EQ(run_render(three), 0);
+  const ExrImage a = read_exr(one.output), b = read_exr(three.output);
+  ASSERT_EQ(a.channels.size(), b.channels.size());
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    EXPECT_EQ(a.channels[i].pixels, b.channels[i].pixels) << a.channels[i].name;
+    EXPECT_EQ(a.channels[i].ids, b.channels[i].ids) << a.channels[i].name;
+  }
+}
+
+TEST_F(RenderCommandTest, FramesGoToFilesOfTheirOwn) {
+  Options o = options("walk.%04d.exr");
+  o.overrides = {{"frames", "1-2"}, {"render.samples", "1"}};
+  ASSERT_EQ(run_render(o), 0);
+  EXPECT_NE(read_exr(scene_.path("walk.0001.exr")).find("R")->pixels,
+            read_exr(scene_.path("walk.0002.exr")).find("R")->pixels);
+
+  o.output = scene_.path("one.exr");
+  EXPECT_THROW(run_render(o), Error);  // two frames, one name
+}
+
+TEST_F(RenderCommandTest, OutputThatCannotBeWrittenIsFoundBeforeRendering) {
+  Options o = options("x.exr");
+  o.output = "/proc/none/x.exr";
+  o.overrides = {{"render.samples", "1000000"}};  // would take for ever
+  try {
+    run_render(o);
+    FAIL() << "wrote into /proc";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+  }
+}
+
+TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysWhatIsNeeded) {
+  Options o = options("x.exr");
+  o.overrides = {{"render.memory", "64K"}};
+  try {
+    run_render(o);
+    FAIL() << "rendered in 64 KiB";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_FALSE(std::filesystem::exists(o.output));
+  }
+}
+
+}  // namespace
+}  // namespace pelage
