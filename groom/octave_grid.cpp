@@ -10,6 +10,9 @@
 namespace pelage {
 namespace {
 
+/// A candidate this near a follicle, in radii, need not know how near it is: it waits for many levels anyway.
+constexpr float kNearEnough = 0.6f;
+
 int32_t cell_of(float coordinate) {
   return static_cast<int32_t>(std::floor(std::clamp(coordinate, -1e9f, 1e9f)));
 }
@@ -60,6 +63,7 @@ float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius) cons
         for (int32_t x = x0; x <= x1; ++x) {
           if (x != x0 && (x & 15) == 0) heads = row(x, y, z, octave);
           best = nearest_in(heads_[heads + static_cast<size_t>(x & 15)], candidate, normal, best);
+          if (best < kNearEnough * radius) return best;
         }
       }
     }
