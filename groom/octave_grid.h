@@ -20,8 +20,8 @@ class OctaveGrid {
   void insert(const FollicleCandidate& follicle);
 
   /// Distance from a candidate to the nearest follicle whose normal lies within 60 degrees of its own, in
-  /// units of the smaller of both spacings, or `radius` when none is nearer. Once a follicle much nearer than that is found,
-  /// its distance will do, although there may be a nearer one.
+  /// units of the smaller of both spacings, or `radius` when none is nearer. Once a follicle much nearer than
+  /// that is found, its distance will do, although there may be a nearer one.
   float nearest(const FollicleCandidate& candidate, float radius) const;
 
  private:

@@ -2,6 +2,7 @@
 #include "groom/operator_stack.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/hash.h"
@@ -13,6 +14,16 @@ uint64_t hash_name(std::string_view name) {
   uint64_t h = random_use("operator");
   for (char c : name) h = hash64(h, static_cast<unsigned char>(c));
   return h;
+}
+
+/// Bounds need the largest value of every field; attributes of strands have none.
+void check_bounded(const Operator& op, const SourcePosition& position) {
+  const StrandReach after = op.reach_after({});
+  if (std::isfinite(after.length) && std::isfinite(after.distance) && std::isfinite(after.radius)) return;
+  throw Error(
+      ErrorKind::kInput, position,
+      "a number of '" + std::string(op.name()) +
+          "' has no largest value, because it reads an attribute that has none: only random and clump have");
 }
 
 /// The frame at a point already evaluated; only where it is ill defined is the surface asked again.
@@ -37,6 +48,7 @@ OperatorStack::OperatorStack(const OperatorList& list, const PrepareContext& con
     own.seed = hash64(context.seed, hash_name(item.name), seen[item.name]++);
     own.position = item.position;
     op->prepare(own);
+    check_bounded(*op, item.position);
     operators_.push_back(std::move(op));
   }
   live_ = static_cast<size_t>(std::find_if(operators_.begin(), operators_.end(),

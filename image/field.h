@@ -61,7 +61,8 @@ class Field {
   FieldDependence dependence() const;
   bool is_constant() const;
   /// Bounds of the values that the field can take in the first channel. Maps: of what they hold, or of their
-  /// `range` until they are read. Attributes have none: infinite, but for the limits of the key.
+  /// `range` until they are read. Attributes have none: infinite, but for the limits of the key; `random` and
+  /// `clump` are numbers in [0, 1] wherever they are given.
   std::pair<float, float> value_range() const;
   /// Names of the attributes it reads.
   std::vector<std::string> attribute_names() const;

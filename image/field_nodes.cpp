@@ -156,7 +156,10 @@ struct AttributeNode final : Field::Node {
     return Rgb(0);
   }
   FieldDependence dependence() const override { return {.attributes = true}; }
-  std::pair<float, float> range() const override { return {-kInfinity, kInfinity}; }
+  std::pair<float, float> range() const override {
+    if (name == "random" || name == "clump") return {0.0f, 1.0f};
+    return {-kInfinity, kInfinity};
+  }
   std::string print() const override { return fmt::format("{{attribute: {}}}", name); }
   void collect_attributes(std::vector<std::string>& names) const override {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

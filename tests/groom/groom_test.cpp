@@ -199,6 +199,31 @@ TEST_F(GroomTest, CombinationsThatMakeNoSenseAreRefused) {
   EXPECT_NE(refused("strands_file: nowhere.hair\n", nullptr).find("nowhere.hair"), std::string::npos);
 }
 
+TEST_F(GroomTest, FieldsMayReadTheRandomNumbersOfStrandsAndClumps) {
+  const auto groom = grow_coat(
+      "- length: {value: {product: [0.5, {attribute: random}]}}\n- clump: {spacing: 0.2}\n"
+      "- width: {root: {product: [0.1, {attribute: clump}]}}\n");
+  const PosedSkin skin{{rest_.get(), 1}, {}, 1, {}};
+  const Strands strands = groom->grow(0, skin);
+  float longest = 0, widest = 0;
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    longest = std::max(longest, (strands.point(8 * s + 7) - strands.point(8 * s)).length());
+    widest = std::max(widest, strands.radius(8 * s));
+  }
+  EXPECT_GT(longest, 0.4f);
+  EXPECT_LE(longest, 0.5f);
+  EXPECT_GT(widest, 0.04f);
+  EXPECT_LE(widest, 0.05f);
+  EXPECT_LT(groom->conservative_bound(0, skin).size().x, 10);
+  try {
+    grow_coat("- color:\n- width: {root: {attribute: color}}\n");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("'width' has no largest value"), std::string::npos);
+    EXPECT_EQ(error.problems().front().position.line, 3);
+  }
+}
+
 TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   // A coat written to a file and read back grows as itself, on the rest skin and, to the rounding of the
   // binding to triangles, in a pose.
