@@ -59,7 +59,8 @@ void report(const std::string& name, const Growth& growth, int threads) {
 void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   for (const Strands& strands : grown) {
     if (strands.basis() != grown.front().basis()) {
-      throw Error(ErrorKind::kArguments, "the grooms have curves of different bases: choose one with --groom");
+      throw Error(ErrorKind::kArguments,
+                  "the grooms have curves of different bases: choose one with --groom");
     }
   }
   write_strands(path, merge(grown));

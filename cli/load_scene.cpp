@@ -3,8 +3,11 @@
 #include <map>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "base/nearest_name.h"
 #include "cli/scene_schema.h"
+#include "scene/document_hash.h"
 
 namespace pelage {
 namespace {
@@ -78,6 +81,8 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   Problems problems;
   SceneDescription scene;
   if (const std::optional<Value> document = load_document(path, overrides, problems)) {
+    const ContentHash hash = document_hash(*document);
+    scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // A name that is missing because its block could not be read would be blamed twice.
     if (SceneDescription::schema().read(*document, scene, problems)) check_references(scene, problems);
   }

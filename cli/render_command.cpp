@@ -46,7 +46,9 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.render_seconds = seconds;
   header.peak_memory_bytes = peak_rss_bytes();
   header.program_version = version();
-  run.stage("write", [&] { write_exr(path, result.film.to_exr(exr_attributes(header, world.scene.camera))); });
+  header.scene_hash = scene.hash;
+  run.stage("write",
+            [&] { write_exr(path, result.film.to_exr(exr_attributes(header, world.scene.camera))); });
   run.display().note(fmt::format("{}  {} x {}, {} samples{}, {}", path, scene.image.width, scene.image.height,
                                  result.samples, result.partial ? " (partial)" : "", duration_text(seconds)));
   return !result.partial;
@@ -62,6 +64,10 @@ int run_render(const Options& options) {
   check_writable(frame_file_name(output, scene.frames.frames.front()));
 
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
+  for (const auto& [name, groom] : assets->grooms) {
+    run.statistics().strands_dropped += groom->strands_dropped();
+    run.statistics().strands_repaired += groom->strands_repaired();
+  }
   bool complete = true;
   for (int frame : scene.frames.frames) {
     complete = render_one(scene, *assets, frame, frame_file_name(output, frame), run);

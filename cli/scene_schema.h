@@ -102,6 +102,7 @@ struct SceneDescription {
   CrowdsParams crowds;
   Named<LightParams> lights;
   RenderParams render;
+  std::string hash;  ///< of the document with its overrides, not of the files it names
   static const Schema<SceneDescription>& schema();
 };
 

@@ -69,11 +69,15 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   if (progress.cancelled()) return nullptr;
 
   std::vector<AccelStrands> strands;
+  int64_t working_set = 0;
   for (const FurBatch& batch : geometry->batches_) {
     strands.push_back({&batch.strands, batch.part, batch.opacity});
     statistics.strands_generated += static_cast<int64_t>(batch.strands.strand_count());
+    working_set += static_cast<int64_t>(batch.strands.bytes());
   }
   statistics.chunks += static_cast<int64_t>(leaves.size());
+  statistics.expansions += static_cast<int64_t>(leaves.size());
+  statistics.working_set_bytes = std::max(statistics.working_set_bytes, working_set);
   std::vector<const SkinMesh*> skins;
   for (const SkinPart& skin : scene.skins) skins.push_back(skin.mesh.get());
 

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/hash.h"
+#include "base/value.h"
+
+namespace pelage {
+
+/// Hash of what a document says after includes and overrides: keys and values in their order, without
+/// positions, comments and spelling of white space.
+ContentHash document_hash(const Value& document);
+
+}  // namespace pelage
