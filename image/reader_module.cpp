@@ -25,11 +25,11 @@ std::string one_line(std::string text) {
   return text.empty() ? "cannot be decoded" : text;
 }
 
-/// Once per process: no threads of its own, which would compete with a renderer's, bounded memory, and only the format
-/// that the name states (a damaged file is else offered to readers of movies and camera raws, at 200 MB each time).
+/// Once per process: no threads of its own, which would compete with a renderer's, bounded memory, and only
+/// the format that the name states (a damaged file is else offered to readers of movies and camera raws, at
+/// 200 MB each time).
 void configure() {
   static const bool done = [] {
-    OIIO::attribute("threads", 1);
     OIIO::attribute("exr_threads", 1);
     OIIO::attribute("limits:imagesize_MB", 4096);
     OIIO::attribute("try_all_readers", 0);
@@ -45,6 +45,8 @@ class Source {
     configuration["oiio:UnassociatedAlpha"] = 1;
     input_ = OIIO::ImageInput::open(path, &configuration);
     if (!input_) throw std::runtime_error(one_line(OIIO::geterror()));
+    // Asked of the library as a whole, this would start the very threads that it is to do without.
+    input_->threads(1);
   }
 
   PelageImageInfo info() const {
