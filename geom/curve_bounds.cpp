@@ -71,6 +71,31 @@ void extend_exactly(Box3f& box, const CubicSegment& s) {
   }
 }
 
+/// Whether the hull of the strand's points at all motion keys lies inside `box`, and with it the strand:
+/// Bezier points of linear and B-spline segments, pinned ends included, are convex combinations of points of
+/// the strand.
+bool is_hull_inside(const Box3f& box, const Strands& strands, size_t strand) {
+  if (strands.basis() == CurveBasis::kCatmullRom || box.isEmpty()) return false;
+  float low[3], high[3];
+  std::copy_n(&box.max[0], 3, low);
+  std::copy_n(&box.min[0], 3, high);
+  for (int key = 0; key < strands.motion_keys(); ++key) {
+    const float* p = &strands.points(key)[size_t(strands.first_point(strand)) * 4];
+    const float* end = p + size_t(strands.strand_points(strand)) * 4;
+    for (; p != end; p += 4) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], p[axis] - std::max(p[3], 0.0f));
+        high[axis] = std::max(high[axis], p[axis] + std::max(p[3], 0.0f));
+      }
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float slack = kRounding * std::max(std::abs(low[axis]), std::abs(high[axis]));
+    if (!(low[axis] - slack >= box.min[axis] && high[axis] + slack <= box.max[axis])) return false;
+  }
+  return true;
+}
+
 /// The ends of the shutter and the keys between them: positions and radii are linear in between.
 std::vector<float> extreme_times(int motion_keys, float open, float close) {
   std::vector<float> times{open};
@@ -107,6 +132,7 @@ Box3f exact_bounds(const Strands& strands, float open, float close) {
   const std::vector<float> times = extreme_times(strands.motion_keys(), open, close);
   for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
     const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+    if (segments == 0 || is_hull_inside(box, strands, strand)) continue;
     for (uint32_t segment = 0; segment < segments; ++segment) {
       for (float time : times) extend_exactly(box, bezier_segment_at(strands, strand, segment, time));
     }
