@@ -25,7 +25,7 @@ def write_grid(name, comment, columns, rows, place):
 
 # ---- the sweep under and behind the rat ----
 
-SWEEP_HALF_WIDTH, SWEEP_FRONT, SWEEP_BACK, SWEEP_BEND, SWEEP_HEIGHT = 140.0, 110.0, -45.0, 40.0, 110.0
+SWEEP_HALF_WIDTH, SWEEP_FRONT, SWEEP_BACK, SWEEP_BEND, SWEEP_HEIGHT = 260.0, 120.0, -60.0, 70.0, 160.0
 
 
 def sweep(s, t):

@@ -28,7 +28,7 @@ def main():
         for name, points in shapes.items():
             mesh.write_obj(HERE / "poses" / ("%s.%04d.obj" % ({"rat": "walk"}.get(name, name), pose)),
                            skins[name], points, COMMENT + ["Pose %d of the walk." % pose], atlases[name].uv)
-    maps.write(HERE / "maps", skins["rat"], atlases["rat"], skins["eyes"], atlases["eyes"])
+    maps.write(HERE / "maps", skins["rat"], atlases["rat"])
 
 
 if __name__ == "__main__":

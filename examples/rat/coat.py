@@ -20,7 +20,8 @@ HIP, SHOULDER = (2.8, 2.6, -5.0), (2.0, 2.4, 2.0)
 # Hair length, 1 = the longest, over z along the trunk and head
 LENGTH_ALONG = [(-10.4, 0.30), (-9.0, 0.80), (-6.0, 1.00), (-2.0, 0.95), (1.5, 0.85), (3.5, 0.68), (5.0, 0.44),
                 (6.5, 0.30), (8.0, 0.19), (9.5, 0.12), (10.4, 0.08)]
-NAKED_HAIR = 0.085     # the short hair of hands, feet and tail
+NAKED_HAIR = 0.13      # the short hair of hands, feet and tail
+EAR_FUZZ = 0.10
 
 
 def curve(knots, x):
@@ -46,8 +47,7 @@ def hand(p, part):
     """1 on hands and feet, 0 up the leg."""
     if not is_limb(part):
         return 0.0
-    high = 1.55 if p[2] < 0 else 1.35
-    return vec.smoothstep(high, 0.75, p[1])
+    return vec.smoothstep(1.05, 0.45, p[1])
 
 
 def tail(p):
@@ -95,7 +95,7 @@ def length(p, n, part):
     if is_limb(part):
         value *= 0.30 + 0.70 * vec.smoothstep(0.8, 3.0, p[1])
     in_ear, inside = ear(p, n, part)
-    value += in_ear * (0.085 - 0.04 * inside - value)
+    value += in_ear * (EAR_FUZZ - 0.03 * inside - value)
     value += max(hand(p, part), tail(p)) * (NAKED_HAIR - value)
     near_eye = vec.smoothstep(1.15, 0.45, vec.distance(p, EYE))
     value *= 1 - 0.55 * near_eye
@@ -110,7 +110,7 @@ def density(p, n, part):
     in_ear, inside = ear(p, n, part)
     furred = (1 - in_ear) * (1 - hand(p, part)) * (1 - tail(p)) * (1 - max(nose(p), eyelid(p)))
     guard = furred * under
-    under += in_ear * (0.30 - 0.18 * inside - under)
+    under += in_ear * (0.55 - 0.25 * inside - under)
     under += hand(p, part) * (0.15 - under)
     under += tail(p) * (0.12 - under)
     return under * (1 - max(nose(p), eyelid(p))), guard, 0.0
@@ -171,24 +171,30 @@ def whisker_roots():
 
 
 ROOTS = list(whisker_roots())
+BROW_WHISKERS = [(6.02, 7.30), (5.98, 7.02), (6.05, 6.78)]     # y and z
+BROW_REACH = 0.42
 
 
 def whiskers(p, part):
     """(density, relative length, 0): the rear ones are the longest."""
     p = left(p)
-    if part != "head" or p[0] < 0.45 or not 8.0 < p[2] < 10.0:
+    if part != "head" or p[0] < 0.45:
         return 0.0, 0.0, 0.0
-    best = min(((p[1] - y) ** 2 + (p[2] - z) ** 2, k) for y, z, k in ROOTS)
-    reach = 0.35 + 0.65 * best[1] / (WHISKERS_PER_ROW - 1)
-    return vec.smoothstep(1.6 * WHISKER_DOT, 0.6 * WHISKER_DOT, best[0] ** 0.5), reach, 0.0
+    if p[2] < 8.0:
+        nearest, reach, share = min(math.hypot(p[1] - y, p[2] - z) for y, z in BROW_WHISKERS), BROW_REACH, 0.4
+    else:
+        nearest, k = min((math.hypot(p[1] - y, p[2] - z), k) for y, z, k in ROOTS)
+        reach, share = 0.35 + 0.65 * k / (WHISKERS_PER_ROW - 1), 1.0
+    return share * vec.smoothstep(1.6 * WHISKER_DOT, 0.6 * WHISKER_DOT, nearest), reach, 0.0
 
 
 # ---- colours ----
 
 BACK, FLANK, BELLY = (0.80, 0.78, 0.76), (1.0, 1.0, 1.0), (1.70, 1.72, 1.74)
 MUZZLE, PAW = (1.10, 1.04, 1.00), (1.60, 1.55, 1.50)
-SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.36, 0.27, 0.24), (0.80, 0.53, 0.48), (0.82, 0.47, 0.43)
-SKIN_TAIL, SKIN_INNER_EAR = (0.62, 0.44, 0.40), (0.78, 0.50, 0.46)
+SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.34, 0.25, 0.21), (0.66, 0.39, 0.33), (0.60, 0.33, 0.29)
+SKIN_TAIL, SKIN_EAR, SKIN_INNER_EAR, SKIN_RIM = (0.50, 0.34, 0.30), (0.52, 0.34, 0.28), (0.60, 0.33, 0.27), (0.72, 0.40, 0.31)
+TAIL_RING = 0.26       # centimetres from scale ring to scale ring
 
 
 def tint(p, n, part):
@@ -197,7 +203,7 @@ def tint(p, n, part):
     height = vec.smoothstep(5.2, 8.2, p[1] + 1.6 * vec.smoothstep(3.0, 8.0, p[2]))
     color = vec.mix(FLANK, BACK, height)
     color = vec.mix(color, MUZZLE, vec.smoothstep(7.5, 9.5, p[2]))
-    low = vec.smoothstep(0.10, -0.50, n[1]) * vec.smoothstep(4.8, 2.8, p[1])
+    low = vec.smoothstep(0.30, -0.45, n[1]) * vec.smoothstep(5.0, 2.8, p[1])
     chin = vec.smoothstep(3.45, 3.10, p[1]) * vec.smoothstep(8.0, 9.0, p[2])
     color = vec.mix(color, BELLY, max(low, chin))
     color = vec.mix(color, PAW, ear(p, n, part)[0])
@@ -208,28 +214,38 @@ def tint(p, n, part):
     return color
 
 
+def ear_skin(p, inside):
+    """Paler and thinner toward the rim, veins from the root, darker down in the cup."""
+    from_root = vec.sub(p, EAR_ROOT)
+    height = vec.dot(from_root, EAR_AXIS)
+    across = vec.dot(from_root, vec.unit(vec.cross(EAR_AXIS, EAR_FACING)))
+    color = vec.mix(SKIN_EAR, SKIN_INNER_EAR, inside)
+    rim = vec.smoothstep(0.55, 1.10, math.hypot(across, height - 1.0))
+    color = vec.mix(color, SKIN_RIM, 0.8 * rim)
+    color = vec.scale(color, 1 - 0.35 * inside * vec.smoothstep(1.2, 0.1, height))
+    spoke = 7.0 * math.atan2(across, height + 0.5) + 0.7 * math.sin(4.0 * height) + 1.1
+    vein = vec.smoothstep(0.90, 1.0, math.cos(spoke)) * vec.smoothstep(1.9, 0.8, height)
+    return vec.mix(color, vec.mix(color, (0.45, 0.16, 0.15), 0.5), vein)
+
+
+def tail_skin(p):
+    """Rings of scales, grey toward the tip and on top."""
+    along = TAIL_STARTS - p[2]
+    groove = 0.5 + 0.5 * math.cos(2 * math.pi * along / TAIL_RING)
+    top = vec.smoothstep(-0.2, 0.4, p[1] - tail_centre((p[2] + 9.5) / -17.0)[1])
+    color = vec.scale(SKIN_TAIL, 1 - 0.22 * top)
+    return vec.scale(color, 1 - 0.34 * groove ** 2)
+
+
 def skin(p, n, part):
     """Colour of the bare hide."""
     p, n = left(p), left(n)
     color = SKIN_UNDER_FUR
     in_ear, inside = ear(p, n, part)
-    color = vec.mix(color, vec.mix(SKIN_PINK, SKIN_INNER_EAR, inside), in_ear)
+    if in_ear > 0:
+        color = vec.mix(color, ear_skin(p, inside), in_ear)
     color = vec.mix(color, SKIN_PINK, hand(p, part))
-    color = vec.mix(color, SKIN_TAIL, tail(p))
+    if tail(p) > 0:
+        color = vec.mix(color, tail_skin(p), tail(p))
     color = vec.mix(color, SKIN_NOSE, nose(p))
     return vec.mix(color, (0.10, 0.07, 0.07), eyelid(p))
-
-
-# Catchlights painted on the eyes, as if lamps stood there: direction on the left eye, size in degrees, colour
-CATCHLIGHTS = [((0.62, 0.58, 0.52), 13.0, (0.95, 0.95, 0.95)), ((0.55, -0.55, 0.62), 16.0, (0.05, 0.04, 0.04))]
-EYE_COLOR, EYE_SKY = (0.012, 0.009, 0.009), (0.05, 0.055, 0.065)
-
-
-def eye(p, _):
-    """Colour of an eye: black, lighter on top, with catchlights."""
-    facing = vec.unit(vec.sub(left(p), EYE))
-    color = vec.mix(EYE_COLOR, EYE_SKY, vec.smoothstep(0.35, 1.0, facing[1]))
-    for direction, size, light in CATCHLIGHTS:
-        away = math.degrees(math.acos(min(vec.dot(facing, vec.unit(direction)), 1.0)))
-        color = vec.mix(color, light, vec.smoothstep(1.25 * size, 0.75 * size, away))
-    return color

@@ -10,20 +10,23 @@ DILATION = 8     # texels by which every chart is widened, so that filtered look
 TINT_RANGE = 2.0
 
 # map: first channel and number of channels, in the row of values of a texel
-RAT_MAPS = {"length": (0, 1), "density": (1, 3), "direction": (4, 3), "tint": (7, 3), "skin": (10, 3),
-            "whiskers": (13, 3)}
-EYE_MAPS = {"eyes": (0, 3)}
+MAPS = {"length": (0, 1), "density": (1, 3), "direction": (4, 3), "tint": (7, 3), "skin": (10, 3), "whiskers": (13, 3)}
 
 
 def smooth_values(p, n, part):
     """What may be interpolated between the points of the subdivided skin, each 0 .. 1."""
     direction = [0.5 + 0.5 * x for x in coat.flow(p, n, part)]
     tint = [x / TINT_RANGE for x in coat.tint(p, n, part)]
-    return (coat.length(p, n, part), *coat.density(p, n, part), *direction, *tint, *coat.skin(p, n, part))
+    return (coat.length(p, n, part), *coat.density(p, n, part), *direction, *tint)
+
+
+def fine_values(p, n, part):
+    """What has finer detail than the subdivided skin."""
+    return (*coat.skin(p, n, part), *coat.whiskers(p, part))
 
 
 def patches(mesh, atlas, smooth, steps=2):
-    """The subdivided skin: yields (part, texel corners, values and positions at the corners) of each small quad."""
+    """The subdivided skin: yields (part, texel corners, values, positions and normals at the corners) of each small quad."""
     points, quads = mesh.points, [f.vertices for f in mesh.faces]
     texels = [[atlas.texel(f.chart, c) for c in f.corners] for f in mesh.faces]
     for _ in range(steps):
@@ -36,7 +39,7 @@ def patches(mesh, atlas, smooth, steps=2):
         values = []
         for v in quad:
             if (v, part) not in known:
-                known[v, part] = smooth(points[v], normals[v], part) + points[v]
+                known[v, part] = smooth(points[v], normals[v], part) + points[v] + normals[v]
             values.append(known[v, part])
         yield part, corners, values
 
@@ -51,7 +54,8 @@ def split_quad(corners):
 def bake(mesh, atlas, smooth, fine):
     """A row of values per texel, bottom row first; None outside the charts and their surroundings.
 
-    `smooth(point, normal, part)` is asked at the points of the subdivided skin, `fine(point, part)` per texel.
+    `smooth(point, normal, part)` is asked at the points of the subdivided skin, `fine(point, normal, part)`
+    per texel.
     """
     image = [None] * (SIZE * SIZE)
     for part, corners, values in patches(mesh, atlas, smooth):
@@ -69,7 +73,7 @@ def bake(mesh, atlas, smooth, fine):
                     if near_values is None:
                         near_values, far_values = vec.mix(values[0], values[1], s), vec.mix(values[3], values[2], s)
                     value = vec.mix(near_values, far_values, t)
-                    image[at] = value[:-3] + fine(value[-3:], part)
+                    image[at] = value[:-6] + fine(value[-6:-3], vec.unit(value[-3:]), part)
     dilate(image)
     return image
 
@@ -88,15 +92,11 @@ def dilate(image):
         front = reached
 
 
-def write(folder, rat, rat_atlas, eyes, eye_atlas):
+def write(folder, mesh, atlas):
     folder.mkdir(exist_ok=True)
-    write_maps(folder, RAT_MAPS, bake(rat, rat_atlas, smooth_values, coat.whiskers))
-    write_maps(folder, EYE_MAPS, bake(eyes, eye_atlas, lambda p, n, part: (), coat.eye))
-
-
-def write_maps(folder, layout, image):
+    image = bake(mesh, atlas, smooth_values, fine_values)
     rows = [image[y * SIZE:(y + 1) * SIZE] for y in range(SIZE - 1, -1, -1)]
-    for name, (first, channels) in layout.items():
+    for name, (first, channels) in MAPS.items():
         pixels = bytearray()
         for row in rows:
             for values in row:

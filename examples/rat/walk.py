@@ -17,7 +17,7 @@ LIFT = {"hind": 0.60, "fore": 0.85}
 HEEL = 24.0           # degrees the heel has risen when the toes leave the ground
 PHASE = {("hind", 1): 0.00, ("fore", -1): 0.05, ("hind", -1): 0.50, ("fore", 1): 0.55}
 REACH_AHEAD = {"hind": 0.55, "fore": 0.25}    # how far the middle of the step lies ahead of the rest pose
-TAIL_PITCH = (3.5, 2.5, 1.5, -0.5, -1.5, -1.5, -1.0, -0.5)     # lifts the tail off the ground, bone by bone
+TAIL_YAW = (-18.0, -24.0, -26.0, -26.0, -24.0, -20.0, -14.0, -8.0)   # lays it aside in an arc
 SINK = 0.12           # the walking animal stands a little lower than at rest
 
 
@@ -52,18 +52,24 @@ def trunk_motions(t):
         "head": (wave(t, 2.0, 0.12), 4.0 + wave(t, 1.5, 0.25, 2), wave(t, 0.8)),
     }
     motions = {}
-    parent = translation((wave(t, 0.16, 0.05), bob, 0.0))
+    sway = wave(t, 0.16, 0.05)
+    parent = translation((sway, bob, 0.0))
     for name, pivot, _ in skeleton.TRUNK:
         yaw, pitch, roll = turns[name]
         parent = chain(parent, rotation(1, yaw, pivot), rotation(0, pitch, pivot), rotation(2, roll, pivot))
         motions[name] = parent
-    parent = motions["pelvis"]
+    motions.update(tail_motions(t, sway, bob, turns["pelvis"][0]))
+    return motions
+
+
+def tail_motions(t, sway, bob, pelvis_yaw):
+    """Follows the rump at its root, and slides over the ground further on."""
+    motions = {}
+    parent = chain(translation((sway, 0.0, 0.0)), rotation(1, pelvis_yaw, skeleton.TRUNK[0][1]))
     for i, z in enumerate(skeleton.TAIL_PIVOTS):
-        pivot = tail_centre((z + 9.5) / -17.0)
-        yaw = wave(t, 1.6 + 0.35 * i, 0.10 + 0.075 * i)
-        pitch = TAIL_PITCH[i] + wave(t, 0.8, 0.05 * i, 2)
-        parent = chain(parent, rotation(1, yaw, pivot), rotation(0, pitch, pivot))
-        motions["tail%d" % i] = parent
+        yaw = TAIL_YAW[i] + wave(t, 1.6 + 0.35 * i, 0.10 + 0.075 * i)
+        parent = chain(parent, rotation(1, yaw, tail_centre((z + 9.5) / -17.0)))
+        motions["tail%d" % i] = chain(translation((0.0, bob * vec.smoothstep(4.0, 0.0, i), 0.0)), parent)
     return motions
 
 
