@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 
+#include <algorithm>
+
 namespace pelage {
 
 std::string to_string(const SourcePosition& position) {
@@ -16,6 +18,11 @@ Error::Error(ErrorKind kind, std::vector<Problem> problems) : kind_(kind), probl
     const std::string where = to_string(problem.position);
     text_ += where.empty() ? problem.message : where + ": " + problem.message;
   }
+}
+
+void Problems::sort_by_line() {
+  std::stable_sort(list_.begin(), list_.end(),
+                   [](const Problem& a, const Problem& b) { return a.position.line < b.position.line; });
 }
 
 void Problems::throw_if_any(ErrorKind kind) const {

@@ -68,6 +68,8 @@ class Problems {
     }
   }
   bool empty() const { return list_.empty(); }
+  /// Into file order, for a reader of one file that finds some mistakes only at its end.
+  void sort_by_line();
   const std::vector<Problem>& list() const { return list_; }
   /// Throws an Error of `kind` with all problems, if there are any, and says how many were only counted.
   void throw_if_any(ErrorKind kind = ErrorKind::kInput) const;

@@ -26,18 +26,17 @@ bool normal_of(const V3f& du, const V3f& dv, V3f& normal) {
   return true;
 }
 
+/// Any unit vector across `n`: the axis that is farthest from it, made perpendicular.
+V3d across(const V3d& n) {
+  V3d axis(0);
+  axis[std::abs(n.x) < 0.6 ? 0 : 1] = 1;
+  return (axis - n * n.dot(axis)).normalized();
+}
+
+/// `along` lies in the plane of which `normal` is the normal, but for rounding.
 Frame frame_around(const V3f& normal, const V3f& along) {
-  const V3d n(normal);
-  V3d tangent = V3d(along) - n * n.dot(V3d(along));
-  const double length = tangent.length();
-  if (length > 0 && std::isfinite(length)) {
-    tangent /= length;
-  } else {
-    // Any direction across the normal: the axis that is farthest from it, made perpendicular.
-    V3d axis(0);
-    axis[std::abs(n.x) < 0.6 ? 0 : 1] = 1;
-    tangent = (axis - n * n.dot(axis)).normalized();
-  }
+  const V3d n(normal), a(along);
+  const V3d tangent = (a - n * n.dot(a)).normalized();
   return {V3f(tangent), V3f(n.cross(tangent)), normal};
 }
 
@@ -47,10 +46,12 @@ LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std:
     : topology_(std::move(topology)) {
   const SurfaceTopology::Impl& impl = topology_->impl();
   PELAGE_CHECK(positions.size() == impl.control_count);
+  for (const V3f& p : positions) bounds_.extendBy(p);
+  origin_ = bounds_.center();
   points_.resize(impl.rules.point_count() * 3);
   for (size_t i = 0; i < positions.size(); ++i) {
-    std::copy_n(&positions[i].x, 3, &points_[i * 3]);
-    bounds_.extendBy(positions[i]);
+    const V3f p = positions[i] - origin_;
+    std::copy_n(&p.x, 3, &points_[i * 3]);
   }
   impl.rules.apply(points_.data());
 }
@@ -68,29 +69,35 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   float weights[20], du_weights[20], dv_weights[20];
   impl.patches->EvaluateBasis(*handle, u, v, weights, du_weights, dv_weights);
   const Far::ConstIndexArray vertices = impl.patches->GetPatchVertices(*handle);
-  // Relative to one of the points, so that a surface far from the origin keeps its derivatives.
-  const float* origin = &points_[static_cast<size_t>(vertices[0]) * 3];
+  // From the first of them, so that small patches of a large surface keep their derivatives.
+  const float* first = &points_[static_cast<size_t>(vertices[0]) * 3];
   SurfacePoint result;
-  for (int i = 0; i < vertices.size(); ++i) {
-    const float* p = &points_[static_cast<size_t>(vertices[i]) * 3];
-    const V3f offset(p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]);
-    result.position += weights[i] * offset;
-    result.du += du_weights[i] * offset;
-    result.dv += dv_weights[i] * offset;
+  for (int i = 1; i < vertices.size(); ++i) {
+    const float* xyz = &points_[static_cast<size_t>(vertices[i]) * 3];
+    const V3f p(xyz[0] - first[0], xyz[1] - first[1], xyz[2] - first[2]);
+    result.position += weights[i] * p;
+    result.du += du_weights[i] * p;
+    result.dv += dv_weights[i] * p;
   }
-  result.position += V3f(origin[0], origin[1], origin[2]);
+  result.position += V3f(first[0], first[1], first[2]);
+  result.position += origin_;
+  if (impl.part[face]) {
+    // OpenSubdiv's derivatives are by the parameters of a quad of which this ptex face would be a quarter.
+    result.du *= 0.5f;
+    result.dv *= 0.5f;
+  }
   return result;
 }
 
 Frame LimitSurface::frame_of(const SurfacePoint& point) {
   V3f normal;
   if (normal_of(point.du, point.dv, normal)) return frame_around(normal, point.du);
-  // No plane: across du, or across dv, or the axes.
-  const bool has_du = point.du.length() > 0;
-  const V3f along = has_du ? point.du : point.dv;
-  if (!(along.length() > 0) || !std::isfinite(along.length())) return {};
-  const Frame across = frame_around(along.normalized(), V3f(0));
-  return {along.normalized(), across.bitangent, across.normal};
+  // No plane, perhaps a line.
+  const V3d du(point.du), dv(point.dv);
+  const V3d longer = du.length2() >= dv.length2() ? du : dv;
+  if (!(longer.length() > 0) || !std::isfinite(longer.length())) return {};
+  const V3d tangent = longer.normalized(), n = across(tangent);
+  return {V3f(tangent), V3f(n.cross(tangent)), V3f(n)};
 }
 
 Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, float v) const {

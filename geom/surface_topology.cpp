@@ -119,6 +119,7 @@ void fill_ptex_faces(SurfaceTopology::Impl& impl, const Far::TopologyLevel& base
     const uint32_t first = cage.first_ptex[face];
     const bool whole = cage.first_ptex[face + 1] - first == 1;
     impl.cage_face.insert(impl.cage_face.end(), whole ? 1 : n, face);
+    impl.part.insert(impl.part.end(), whole ? 1 : n, whole ? 0 : 1);
     if (whole) {
       for (uint32_t i = 0; i < n; ++i) impl.neighbours.push_back(across(base, cage, face, i, i));
     } else {
@@ -205,11 +206,14 @@ size_t CageConnectivity::bytes() const {
 }
 
 void PointRules::apply(float* points) const {
-  float* made = points + size_t(control_count) * 3;
+  // In double: rounding at one level would add to that at the next.
+  std::vector<double> all(points, points + size_t(control_count) * 3);
+  all.resize(point_count() * 3);
+  double* made = all.data() + size_t(control_count) * 3;
   for (size_t i = 0; i + 1 < first_term.size(); ++i, made += 3) {
-    float x = 0, y = 0, z = 0;
+    double x = 0, y = 0, z = 0;
     for (uint32_t term = first_term[i]; term < first_term[i + 1]; ++term) {
-      const float* p = points + size_t(source[term]) * 3;
+      const double* p = all.data() + size_t(source[term]) * 3;
       x += weight[term] * p[0];
       y += weight[term] * p[1];
       z += weight[term] * p[2];
@@ -218,6 +222,7 @@ void PointRules::apply(float* points) const {
     made[1] = y;
     made[2] = z;
   }
+  std::copy(all.begin() + std::ptrdiff_t(control_count) * 3, all.end(), points + size_t(control_count) * 3);
 }
 
 size_t PointRules::bytes() const { return heap_bytes(first_term) + heap_bytes(source) + heap_bytes(weight); }
@@ -275,7 +280,7 @@ size_t SurfaceTopology::bytes() const {
   const Far::PatchTable& patches = *i.patches;
   const size_t patch_count = patches.GetPatchParamTable().size();
   size_t bytes = sizeof(Impl) + i.cage.bytes() + heap_bytes(i.cage_face) + heap_bytes(i.hole) +
-                 heap_bytes(i.neighbours) + heap_bytes(i.uv);
+                 heap_bytes(i.part) + heap_bytes(i.neighbours) + heap_bytes(i.uv);
   bytes +=
       patches.GetPatchControlVerticesTable().size() * sizeof(int) + patch_count * sizeof(Far::PatchParam);
   // The map: a handle per patch, and a third as many tree nodes as patches beside one per ptex face.

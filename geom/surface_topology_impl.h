@@ -59,6 +59,7 @@ struct SurfaceTopology::Impl {
   // One entry per ptex face; of neighbours and uv one per corner as well.
   std::vector<uint32_t> cage_face;
   std::vector<uint8_t> hole;
+  std::vector<uint8_t> part;  // one of the n ptex faces of an n-gon
   std::vector<int32_t> neighbours;
   std::vector<V2f> uv;  // empty when the cage has none
 

@@ -130,4 +130,9 @@ void ObjScanner::report_line(int line, std::string message) {
   problems_.add({file_, line, 0}, std::move(message));
 }
 
+void ObjScanner::throw_if_any() {
+  problems_.sort_by_line();
+  problems_.throw_if_any();
+}
+
 }  // namespace pelage

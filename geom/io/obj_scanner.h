@@ -40,8 +40,8 @@ class ObjScanner {
   /// Reports a problem at the token that was read last, or at a line that was passed before.
   void report(std::string message);
   void report_line(int line, std::string message);
-  /// Throws an Error (kInput) with everything that was reported.
-  void throw_if_any() const { problems_.throw_if_any(); }
+  /// Throws an Error (kInput) with everything that was reported, in order of lines.
+  void throw_if_any();
 
  private:
   void skip_blanks();

@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/limit_surface.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "tests/geom/cages.h"
+#include "tests/geom/far_oracle.h"
+
+namespace pelage {
+namespace {
+
+constexpr auto kCatmull = SubdivisionScheme::kCatmullClark;
+constexpr auto kCorners = BoundaryRule::kEdgeAndCorner;
+
+LimitSurface surface_of(const ControlMesh& cage, SubdivisionScheme scheme = kCatmull,
+                        BoundaryRule rule = kCorners) {
+  return LimitSurface(SurfaceTopology::create(cage, scheme, rule, "test"), cage.positions);
+}
+
+/// Shaken, so that nothing holds by symmetry alone.
+ControlMesh shaken(ControlMesh cage, float amount = 0.15f) {
+  for (size_t i = 0; i < cage.positions.size(); ++i) {
+    cage.positions[i] +=
+        V3f(signed_float(hash64(i, 1)), signed_float(hash64(i, 2)), signed_float(hash64(i, 3))) * amount;
+  }
+  return cage;
+}
+
+ControlMesh with_creases(ControlMesh cage) {
+  cage.creases = {{cage.face_vertices[0], cage.face_vertices[1], 2.0f},
+                  {cage.face_vertices[1], cage.face_vertices[2], 10.0f},
+                  {cage.face_vertices[2], cage.face_vertices[3], 0.7f}};
+  cage.corners = {{cage.face_vertices[5], 1.5f}, {cage.face_vertices[7], 10.0f}};
+  return cage;
+}
+
+struct CageCase {
+  const char* name;
+  ControlMesh cage;
+  SubdivisionScheme scheme = kCatmull;
+  BoundaryRule rule = kCorners;
+  uint32_t valence = 5;  // at most
+};
+
+std::vector<CageCase> all_cages() {
+  ControlMesh chaikin = with_creases(shaken(torus_cage(6, 5)));
+  chaikin.chaikin_creases = true;
+  ControlMesh smooth = shaken(poles_cage(6));
+  smooth.smooth_triangles = true;
+  return {{"cube", cube_cage()},
+          {"shaken cube", shaken(cube_cage())},
+          {"creased cube", with_creases(shaken(cube_cage()))},
+          {"torus", shaken(torus_cage(7, 5))},
+          {"creased torus", with_creases(shaken(torus_cage(7, 5)))},
+          {"chaikin torus", chaikin},
+          {"pentagons", shaken(prism_cage(5))},
+          {"triangles", shaken(prism_cage(3))},
+          {"polygon of 40", prism_cage(40), kCatmull, kCorners, 40},
+          {"poles", shaken(poles_cage(9)), kCatmull, kCorners, 9},
+          {"smooth triangles", smooth, kCatmull, kCorners, 6},
+          {"border", shaken(grid_cage(3, 2)), kCatmull, kCorners},
+          {"round border", shaken(grid_cage(3, 2)), kCatmull, BoundaryRule::kEdgeOnly},
+          {"loop", shaken(octahedron_cage(), 0.1f), SubdivisionScheme::kLoop},
+          {"bilinear", shaken(prism_cage(5)), SubdivisionScheme::kBilinear}};
+}
+
+void expect_frame(const Frame& f) {
+  EXPECT_NEAR(f.normal.length(), 1, 1e-5);
+  EXPECT_NEAR(f.tangent.length(), 1, 1e-5);
+  EXPECT_LT((f.bitangent - f.normal.cross(f.tangent)).length(), 1e-5);
+  EXPECT_NEAR(f.normal.dot(f.tangent), 0, 1e-5);
+}
+
+TEST(LimitSurface, EqualsTheLimitOfUniformRefinement) {
+  for (const CageCase& c : all_cages()) {
+    SCOPED_TRACE(c.name);
+    const LimitSurface surface = surface_of(c.cage, c.scheme, c.rule);
+    const double size = surface.control_bounds().size().length();
+    for (int levels : {1, 3}) {
+      if (levels == 1 && !c.cage.creases.empty()) continue;  // not smooth yet, so that there are no masks
+      for (const LimitVertex& vertex : uniform_limit(c.cage, c.scheme, c.rule, levels)) {
+        const SurfacePoint p = surface.evaluate(vertex.face, vertex.u, vertex.v);
+        ASSERT_LT((V3d(p.position) - vertex.position).length(), 1e-6 * size)
+            << "face " << vertex.face << " at " << vertex.u << " " << vertex.v << " level " << levels;
+      }
+    }
+    if (!c.cage.creases.empty()) continue;  // where normals jump, there is no distance along them
+    // Between the corners of the last patches a Gregory patch stands in for the limit.
+    for (const LimitVertex& vertex : uniform_limit(c.cage, c.scheme, c.rule, 5)) {
+      const SurfacePoint p = surface.evaluate(vertex.face, vertex.u, vertex.v);
+      const V3d off = V3d(p.position) - vertex.position;
+      ASSERT_LT(std::abs(off.dot(vertex.normal.normalized())), (c.valence > 5 ? 1e-3 : 1e-4) * size);
+    }
+  }
+}
+
+TEST(LimitSurface, NormalsEqualTheLimitOfUniformRefinement) {
+  for (const CageCase& c : all_cages()) {
+    // On sharp edges each face has its own normal, and bilinear faces have no other.
+    if (!c.cage.creases.empty() || c.scheme == SubdivisionScheme::kBilinear) continue;
+    SCOPED_TRACE(c.name);
+    const LimitSurface surface = surface_of(c.cage, c.scheme, c.rule);
+    for (const LimitVertex& vertex : uniform_limit(c.cage, c.scheme, c.rule, 3)) {
+      const bool at_corner = (vertex.u == 0 || vertex.u == 1) && (vertex.v == 0 || vertex.v == 1);
+      // At a rounded corner of the border u and v run along one line, and there is no normal to speak of.
+      if (at_corner && c.rule == BoundaryRule::kEdgeOnly) continue;
+      const Frame frame = surface.frame(vertex.face, vertex.u, vertex.v);
+      const double tolerance = at_corner ? 4e-3 : 1e-4;
+      ASSERT_LT(angle_between(V3d(frame.normal), vertex.normal), tolerance)
+          << "face " << vertex.face << " at " << vertex.u << " " << vertex.v;
+    }
+  }
+}
+
+TEST(LimitSurface, RegularPartsAreBicubicBSplines) {
+  const uint32_t nu = 7, nv = 5;
+  const ControlMesh cage = shaken(torus_cage(nu, nv));
+  const LimitSurface surface = surface_of(cage);
+  const auto basis = [](double t, double b[4], double d[4]) {
+    b[0] = (1 - t) * (1 - t) * (1 - t) / 6, b[3] = t * t * t / 6;
+    b[1] = 2.0 / 3 - t * t * (2 - t) / 2, b[2] = 1 - b[0] - b[1] - b[3];
+    d[0] = -(1 - t) * (1 - t) / 2, d[3] = t * t / 2;
+    d[1] = t * (3 * t - 4) / 2, d[2] = -d[0] - d[1] - d[3];
+  };
+  for (uint64_t k = 0; k < 500; ++k) {
+    const uint32_t face = static_cast<uint32_t>(hash64(k, 4) % (nu * nv)), i = face / nv, j = face % nv;
+    const float u = unit_float(hash64(k, 5)), v = unit_float(hash64(k, 6));
+    double bu[4], bv[4], du[4], dv[4];
+    basis(u, bu, du);
+    basis(v, bv, dv);
+    V3d p(0), pu(0), pv(0);
+    for (uint32_t a = 0; a < 4; ++a) {
+      for (uint32_t b = 0; b < 4; ++b) {
+        const V3d q(cage.positions[(i + a + nu - 1) % nu * nv + (j + b + nv - 1) % nv]);
+        p += bu[a] * bv[b] * q, pu += du[a] * bv[b] * q, pv += bu[a] * dv[b] * q;
+      }
+    }
+    const SurfacePoint s = surface.evaluate(face, u, v);
+    EXPECT_LT((V3d(s.position) - p).length(), 2e-6);
+    EXPECT_LT((V3d(s.du) - pu).length(), 5e-6);
+    EXPECT_LT((V3d(s.dv) - pv).length(), 5e-6);
+  }
+}
+
+TEST(LimitSurface, DerivativesAreSlopes) {
+  for (const CageCase& c : all_cages()) {
+    SCOPED_TRACE(c.name);
+    const LimitSurface surface = surface_of(c.cage, c.scheme, c.rule);
+    for (uint64_t k = 0; k < 200; ++k) {
+      const auto face = static_cast<uint32_t>(hash64(k, 7) % surface.topology().face_count());
+      // Off the borders between patches, where there may be a kink.
+      const float u = 0.26f + 0.1f * unit_float(hash64(k, 8)), v = 0.26f + 0.1f * unit_float(hash64(k, 9)),
+                  h = 2e-3f;
+      const SurfacePoint p = surface.evaluate(face, u, v);
+      const V3f du =
+          (surface.evaluate(face, u + h, v).position - surface.evaluate(face, u - h, v).position) / (2 * h);
+      const V3f dv =
+          (surface.evaluate(face, u, v + h).position - surface.evaluate(face, u, v - h).position) / (2 * h);
+      EXPECT_LT((p.du - du).length(), 2e-3f * (0.1f + du.length()));
+      EXPECT_LT((p.dv - dv).length(), 2e-3f * (0.1f + dv.length()));
+    }
+  }
+}
+
+TEST(LimitSurface, NeighboursMeet) {
+  for (const CageCase& c : all_cages()) {
+    SCOPED_TRACE(c.name);
+    const LimitSurface surface = surface_of(c.cage, c.scheme, c.rule);
+    const SurfaceTopology& topology = surface.topology();
+    const int sides = c.scheme == SubdivisionScheme::kLoop ? 3 : 4;
+    const auto along = [&](int side, float t) {
+      if (sides == 3) return side == 0 ? V2f(t, 0) : side == 1 ? V2f(1 - t, t) : V2f(0, 1 - t);
+      return side == 0 ? V2f(t, 0) : side == 1 ? V2f(1, t) : side == 2 ? V2f(1 - t, 1) : V2f(0, 1 - t);
+    };
+    // Whether a ptex face is a part of a cage face: those are joined to whole ones by halves of edges.
+    const auto is_part = [&](uint32_t face) {
+      return c.cage.face_sizes[topology.cage_face(face)] != uint32_t(sides);
+    };
+    size_t joints = 0;
+    for (uint32_t face = 0; face < topology.face_count(); ++face) {
+      for (int side = 0; side < sides; ++side) {
+        const int other = topology.neighbour(face, side);
+        if (other < 0) continue;
+        int back = 0;
+        while (back < sides &&
+               topology.neighbour(static_cast<uint32_t>(other), back) != static_cast<int>(face))
+          ++back;
+        if (is_part(face) != is_part(static_cast<uint32_t>(other))) continue;
+        ASSERT_LT(back, sides) << face << " knows " << other << ", which does not know it";
+        for (float t : {0.0f, 0.3f, 0.77f, 1.0f}) {
+          const V2f here = along(side, t), there = along(back, 1 - t);
+          const SurfacePoint a = surface.evaluate(face, here.x, here.y);
+          const SurfacePoint b = surface.evaluate(static_cast<uint32_t>(other), there.x, there.y);
+          ASSERT_LT((a.position - b.position).length(), 3e-6f)
+              << face << " " << side << " to " << other << " " << back;
+        }
+        ++joints;
+      }
+    }
+    EXPECT_GT(joints, 4u);
+  }
+}
+
+TEST(LimitSurface, FramesAreOrthonormalEverywhere) {
+  std::vector<CageCase> cages = all_cages();
+  ControlMesh collapsed = cube_cage();
+  for (int i : {0, 1, 2, 3}) collapsed.positions[static_cast<size_t>(i)] = V3f(0, 0, -1);
+  ControlMesh point = cube_cage(), line = cube_cage(), huge = cube_cage(), tiny = cube_cage();
+  for (V3f& p : point.positions) p = V3f(3, 4, 5);
+  for (V3f& p : line.positions) p = V3f(p.x, 0, 0);
+  for (V3f& p : huge.positions) p *= 1e18f;
+  for (V3f& p : tiny.positions) p *= 1e-25f;
+  ControlMesh degenerate_quads = make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                           {{0, 2, 1, 1}, {0, 1, 3, 3}, {1, 2, 3, 3}, {2, 0, 3, 3}});
+  for (auto& [name, cage] : {std::pair("a face at a point", collapsed),
+                             {"all at a point", point},
+                             {"a line", line},
+                             {"huge", huge},
+                             {"tiny", tiny},
+                             {"corners twice", degenerate_quads},
+                             {"poles of 360", poles_cage(360)}}) {
+    cages.push_back({name, cage});
+  }
+  for (const CageCase& c : cages) {
+    SCOPED_TRACE(c.name);
+    const LimitSurface surface = surface_of(c.cage, c.scheme, c.rule);
+    const uint32_t step = std::max(1u, surface.topology().face_count() / 40);
+    for (uint32_t face = 0; face < surface.topology().face_count(); face += step) {
+      for (float u : {0.0f, 1e-7f, 0.3f, 0.5f, 1.0f}) {
+        for (float v : {0.0f, 0.25f, 0.999999f, 1.0f}) expect_frame(surface.frame(face, u, v));
+      }
+    }
+  }
+  // Size and place change no frame.
+  EXPECT_LT(
+      (surface_of(huge).frame(2, 0.2f, 0.7f).normal - surface_of(cube_cage()).frame(2, 0.2f, 0.7f).normal)
+          .length(),
+      1e-5f);
+  EXPECT_LT(
+      (surface_of(tiny).frame(2, 0.2f, 0.7f).normal - surface_of(cube_cage()).frame(2, 0.2f, 0.7f).normal)
+          .length(),
+      1e-5f);
+  expect_frame(LimitSurface::frame_of({V3f(0), V3f(0), V3f(0)}));
+  expect_frame(LimitSurface::frame_of({V3f(0), V3f(0, 2, 0), V3f(0, 4, 0)}));
+  expect_frame(LimitSurface::frame_of({V3f(0), V3f(0), V3f(0, 4, 0)}));
+}
+
+TEST(LimitSurface, OutwardNormals) {
+  const LimitSurface cube = surface_of(cube_cage());
+  for (uint32_t face = 0; face < 6; ++face) {
+    const SurfacePoint p = cube.evaluate(face, 0.4f, 0.7f);
+    EXPECT_GT(cube.frame(face, 0.4f, 0.7f).normal.dot(p.position), 0);
+    // At the corner of valence 3, by symmetry.
+    const V3f corner = cube.evaluate(face, 0, 0).position;
+    EXPECT_LT((cube.frame(face, 0, 0).normal - corner.normalized()).length(), 1e-5f);
+  }
+}
+
+TEST(LimitSurface, ParametersOutsideTheFaceAreMovedToItsBorder) {
+  const LimitSurface quads = surface_of(cube_cage()),
+                     triangles = surface_of(octahedron_cage(), SubdivisionScheme::kLoop);
+  EXPECT_EQ(quads.evaluate(1, -3, 0.5f).position, quads.evaluate(1, 0, 0.5f).position);
+  EXPECT_EQ(quads.evaluate(1, 0.5f, 7).position, quads.evaluate(1, 0.5f, 1).position);
+  EXPECT_EQ(quads.evaluate(1, NAN, 0.5f).position, quads.evaluate(1, 0, 0.5f).position);
+  EXPECT_LT((triangles.evaluate(1, 3, 3).position - triangles.evaluate(1, 0.5f, 0.5f).position).length(),
+            1e-6f);
+}
+
+TEST(LimitSurface, FarFromTheOriginNothingIsLost) {
+  ControlMesh cage = shaken(prism_cage(5));
+  const V3f away(1024, -512, 2048);
+  // Positions that can be moved without rounding.
+  for (V3f& p : cage.positions) p = (p + away) - away;
+  ControlMesh moved = cage;
+  for (V3f& p : moved.positions) p += away;
+  const LimitSurface near = surface_of(cage), far = surface_of(moved);
+  for (uint64_t k = 0; k < 300; ++k) {
+    const auto face = static_cast<uint32_t>(hash64(k, 1) % near.topology().face_count());
+    const float u = unit_float(hash64(k, 2)), v = unit_float(hash64(k, 3));
+    EXPECT_LT(angle_between(V3d(near.frame(face, u, v).normal), V3d(far.frame(face, u, v).normal)), 2e-5);
+    EXPECT_LT((near.evaluate(face, u, v).position + away - far.evaluate(face, u, v).position).length(),
+              2e-4f);
+  }
+}
+
+TEST(SurfaceTopology, PosesShareIt) {
+  const ControlMesh cage = shaken(prism_cage(5));
+  const auto topology = SurfaceTopology::create(cage, kCatmull, kCorners, "test");
+  const LimitSurface rest(topology, cage.positions);
+  std::vector<V3f> turned = cage.positions;
+  for (V3f& p : turned) p = V3f(-p.y, p.x, p.z + 3);
+  const LimitSurface pose(topology, turned);
+  EXPECT_EQ(&rest.topology(), &pose.topology());
+  for (uint32_t face = 0; face < topology->face_count(); ++face) {
+    const V3f p = rest.evaluate(face, 0.3f, 0.6f).position;
+    EXPECT_LT((pose.evaluate(face, 0.3f, 0.6f).position - V3f(-p.y, p.x, p.z + 3)).length(), 2e-6f);
+  }
+  EXPECT_GT(topology->bytes(), 10000u);
+  EXPECT_LT(rest.bytes(), topology->bytes());
+}
+
+TEST(SurfaceTopology, HashesTellTopologiesApart) {
+  const ControlMesh cage = with_creases(grid_cage(3, 3));
+  const auto hash_of = [](const ControlMesh& mesh, SubdivisionScheme scheme = kCatmull,
+                          BoundaryRule rule = kCorners) {
+    return SurfaceTopology::create(mesh, scheme, rule, "test")->hash();
+  };
+  const ContentHash hash = hash_of(cage);
+  ControlMesh moved = shaken(cage);
+  moved.groups = {"other"};
+  EXPECT_EQ(hash_of(moved), hash);
+  const std::function<void(ControlMesh&)> changes[] = {
+      [](ControlMesh& m) { m.creases[0].sharpness = 2.1f; },
+      [](ControlMesh& m) { m.corners[0].sharpness += 0.1f; },
+      [](ControlMesh& m) { m.corners.pop_back(); },
+      [](ControlMesh& m) { std::swap(m.creases[0].a, m.creases[0].b); },
+      [](ControlMesh& m) { m.holes.push_back(2); },
+      [](ControlMesh& m) { m.uv[3].x += 0.5f; },
+      [](ControlMesh& m) { m.face_uv[3] = 0; },
+      [](ControlMesh& m) { m.chaikin_creases = true; },
+      [](ControlMesh& m) { m.smooth_triangles = true; },
+      [](ControlMesh& m) { m.positions.emplace_back(0.0f); },
+      [](ControlMesh& m) { std::rotate(&m.face_vertices[0], &m.face_vertices[1], &m.face_vertices[4]); }};
+  for (const auto& change : changes) {
+    ControlMesh changed = cage;
+    change(changed);
+    EXPECT_FALSE(hash_of(changed) == hash);
+  }
+  EXPECT_FALSE(hash_of(cage, SubdivisionScheme::kBilinear) == hash);
+  EXPECT_FALSE(hash_of(cage, kCatmull, BoundaryRule::kEdgeOnly) == hash);
+}
+
+TEST(SurfaceTopology, TextureCoordinates) {
+  ControlMesh cage = grid_cage(2, 1);
+  const auto quads = SurfaceTopology::create(cage, kCatmull, kCorners, "test");
+  EXPECT_LT((quads->texture_coordinates(1, 0.5f, 0.25f) - V2f(0.75f, 0.25f)).length(), 1e-6f);
+  // A pentagon whose texture coordinates are its positions: on its ptex faces corner, middles and centre.
+  ControlMesh pentagon = prism_cage(5);
+  for (const V3f& p : pentagon.positions) pentagon.uv.emplace_back(p.x, p.y);
+  pentagon.face_uv = pentagon.face_vertices;
+  const auto parts = SurfaceTopology::create(pentagon, kCatmull, kCorners, "test");
+  ASSERT_EQ(parts->face_count(), 15u);
+  for (uint32_t face = 5; face < 10; ++face) {
+    const V2f a = pentagon.uv[pentagon.face_vertices[face]];
+    const V2f b = pentagon.uv[pentagon.face_vertices[5 + (face - 4) % 5]];
+    EXPECT_EQ(parts->cage_face(face), 1u);
+    EXPECT_LT((parts->texture_coordinates(face, 0, 0) - a).length(), 1e-6f);
+    EXPECT_LT((parts->texture_coordinates(face, 1, 0) - 0.5f * (a + b)).length(), 1e-6f);
+    EXPECT_LT(parts->texture_coordinates(face, 1, 1).length(), 1e-6f);
+  }
+  cage.uv.clear();
+  cage.face_uv.clear();
+  EXPECT_EQ(SurfaceTopology::create(cage, kCatmull, kCorners, "test")->texture_coordinates(1, 0.25f, 0.5f),
+            V2f(0.25f, 0.5f));
+}
+
+TEST(SurfaceTopology, HolesAndBorders) {
+  ControlMesh cage = grid_cage(3, 3);
+  cage.holes = {4};
+  const auto topology = SurfaceTopology::create(cage, kCatmull, kCorners, "test");
+  EXPECT_TRUE(topology->is_hole(4));
+  EXPECT_FALSE(topology->is_hole(3));
+  EXPECT_EQ(topology->neighbour(0, 0), -1);
+  EXPECT_EQ(topology->neighbour(0, 1), 1);
+  EXPECT_EQ(topology->neighbour(0, 2), 3);
+  EXPECT_EQ(topology->neighbour(0, 3), -1);
+  EXPECT_EQ(topology->neighbour(3, 1), 4);
+  // A hole changes nothing around it.
+  const LimitSurface with(topology, cage.positions), without = surface_of(grid_cage(3, 3));
+  EXPECT_EQ(with.evaluate(3, 0.9f, 0.5f).position, without.evaluate(3, 0.9f, 0.5f).position);
+  // The corner of the border is met, or rounded.
+  EXPECT_LT(without.evaluate(0, 0, 0).position.length(), 1e-6f);
+  EXPECT_GT(
+      surface_of(grid_cage(3, 3), kCatmull, BoundaryRule::kEdgeOnly).evaluate(0, 0, 0).position.length(),
+      0.1f);
+}
+
+TEST(SurfaceTopology, RefusesWhatHasNoSurface) {
+  const auto message = [](const ControlMesh& mesh, SubdivisionScheme scheme = kCatmull) -> std::string {
+    try {
+      SurfaceTopology::create(mesh, scheme, kCorners, "cage.obj");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message(ControlMesh()), "cage.obj: the cage has no faces");
+  EXPECT_EQ(message(make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1}})),
+            "cage.obj: face 2 has 2 corners, 3 to 1000 are possible");
+  EXPECT_EQ(message(make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 1}})),
+            "cage.obj: face 2 uses vertex 4 of 3\ncage.obj: face 3 has fewer than 3 different vertices");
+  EXPECT_NE(message(cube_cage(), SubdivisionScheme::kLoop)
+                .find("the loop scheme takes triangles only, face 1 has 4 corners"),
+            std::string::npos);
+  EXPECT_EQ(message(prism_cage(1001)).substr(0, 30), "cage.obj: face 1 has 1001 corn");
+  EXPECT_EQ(message(poles_cage(1001)).substr(0, 40), "cage.obj: 1001 faces meet at vertex 1, a");
+  ControlMesh cage = cube_cage();
+  cage.creases = {{0, 7, 1}};
+  EXPECT_EQ(message(cage), "cage.obj: a crease joins vertices 1 and 8, which no face does");
+  cage = cube_cage();
+  cage.corners = {{8, 1}};
+  EXPECT_EQ(message(cage), "cage.obj: corner at vertex 9: no such vertex");
+  cage = cube_cage();
+  cage.holes = {6};
+  EXPECT_EQ(message(cage), "cage.obj: hole 7: no such face");
+  cage = cube_cage();
+  cage.face_sizes.pop_back();
+  EXPECT_EQ(message(cage), "cage.obj: the faces of the cage have 20 corners, 24 are given");
+}
+
+/// Random faces over few vertices: edges of many faces, faces both ways round, vertices twice in a face.
+TEST(SurfaceTopology, SurvivesAnyCage) {
+  int accepted = 0;
+  for (uint64_t trial = 0; trial < 200; ++trial) {
+    const uint32_t vertices = 4 + static_cast<uint32_t>(hash64(trial, 1) % 9);
+    std::vector<V3f> p;
+    for (uint32_t i = 0; i < vertices; ++i) {
+      p.emplace_back(signed_float(hash64(trial, i, 2)), signed_float(hash64(trial, i, 3)),
+                     signed_float(hash64(trial, i, 4)));
+    }
+    std::vector<std::vector<uint32_t>> faces(1 + hash64(trial, 5) % 10);
+    for (size_t f = 0; f < faces.size(); ++f) {
+      for (uint64_t i = 0; i < 3 + hash64(trial, f, 6) % 4; ++i) {
+        faces[f].push_back(static_cast<uint32_t>(hash64(trial, f, i, 7) % vertices));
+      }
+    }
+    ControlMesh cage = make_cage(p, faces);
+    if (trial % 2) cage.corners = {{cage.face_vertices[0], 3}};
+    try {
+      const LimitSurface surface = surface_of(cage, trial % 5 == 0 ? SubdivisionScheme::kBilinear : kCatmull);
+      ++accepted;
+      for (uint32_t face = 0; face < surface.topology().face_count(); ++face) {
+        expect_frame(
+            surface.frame(face, unit_float(hash64(trial, face)), unit_float(hash64(trial, face, 1))));
+        expect_frame(surface.frame(face, 0, 0));
+      }
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.problems().empty());
+    }
+  }
+  EXPECT_GT(accepted, 20);
+}
+
+}  // namespace
+}  // namespace pelage
