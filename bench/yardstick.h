@@ -2,14 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <ctime>
 
 #include <benchmark/benchmark.h>
 
-namespace pelage {
+#include "base/statistics.h"
 
-/// Processor seconds of this process so far.
-inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+namespace pelage {
 
 /// Processor seconds that one call of `work(i)` takes, the best of several runs in this very process.
 template <class Work>

@@ -117,7 +117,7 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
   if (result.partial) return result;
 
   const Stopwatch rendering;
-  const PathTracer tracer(scene, *geometry, result.film.layers(), options);
+  const PathTracer tracer(scene, *geometry, geometry->accel(), result.film.layers(), options);
   FrameLoop loop(tracer, workers, progress, result.film);
   const auto samples = static_cast<uint32_t>(scene.render.samples);
   progress.begin("render", static_cast<double>(result.film.width()) * result.film.height() * samples);

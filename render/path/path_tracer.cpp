@@ -57,10 +57,10 @@ struct PathTracer::Path {
   Rgb throughput{1};       // of the vertices after the first
 };
 
-PathTracer::PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const FilmLayers& layers,
-                       const PathOptions& options)
+PathTracer::PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const Accel& accel,
+                       const FilmLayers& layers, const PathOptions& options)
     : scene_(scene),
-      geometry_(geometry),
+      accel_(accel),
       layers_(layers),
       options_(options),
       shading_(scene, geometry),
@@ -115,7 +115,7 @@ void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
   ray.far = sample->distance * kJustBefore;
   ray.time = path.time;
   ++path.scratch.rays.shadow;
-  const float through = geometry_.accel().transmittance(ray);
+  const float through = accel_.transmittance(ray);
   if (through > 0) path.add_scattered(choice.light, value, light_in * through);
 }
 
@@ -136,7 +136,7 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
       Ray shadow = ray;
       shadow.far = hit->distance * kJustBefore;
       ++path.scratch.rays.shadow;
-      weight *= geometry_.accel().transmittance(shadow);
+      weight *= accel_.transmittance(shadow);
     }
     if (weight > 0) path.add(i, path.first, path.throughput * hit->radiance * weight);
   }
@@ -174,7 +174,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   }
   ray.random = ++path.random;
   ++path.scratch.rays.indirect;
-  const Hit hit = geometry_.accel().closest(ray);
+  const Hit hit = accel_.closest(ray);
   if (options_.direct != DirectLight::kLightsOnly) {
     gather_lights(point.position(), ray, hit.distance, value.pdf, false, path);
   }
@@ -193,12 +193,12 @@ void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) cons
   Path path(layers_, SampleStream(seed, px, py, sample), scratch);
   path.ray = camera_ray(x, y, path.stream, scratch);
   path.time = path.ray.time;
-  if (!geometry_.accel().opaque()) {
+  if (!accel_.opaque()) {
     path.random = static_cast<uint32_t>(hash64(seed, px, py, sample, random_use("crossings")));
     path.ray.random = path.random;
   }
   ++scratch.rays.camera;
-  path.hit = geometry_.accel().closest(path.ray);
+  path.hit = accel_.closest(path.ray);
   see_lights(path.ray, path.hit.distance, scratch);
   if (!path.hit) return;
   scratch.sample.alpha = 1;

@@ -43,8 +43,9 @@ struct PathScratch {
 /// end early, with the probability of losing their weight, by roulette.
 class PathTracer {
  public:
-  PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const FilmLayers& layers,
-             const PathOptions& options);
+  /// `accel` is that of the geometry, or something that stands in front of it.
+  PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const Accel& accel,
+             const FilmLayers& layers, const PathOptions& options);
 
   /// Leaves the result in `scratch.sample` and `scratch.by_layer`.
   void trace(int x, int y, uint32_t sample, PathScratch& scratch) const;
@@ -59,7 +60,7 @@ class PathTracer {
                      Path& path) const;
 
   const RenderScene& scene_;
-  const FrameGeometry& geometry_;
+  const Accel& accel_;
   const FilmLayers& layers_;
   PathOptions options_;
   FrameShading shading_;

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `path` costs beyond its rays: processor time of a render of the bumpy ball over the time in which bare
+// Embree answers the very same rays, in the same order, on one thread.
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include "base/parallel.h"
+#include "bench/bumpy_ball.h"
+#include "image/texture.h"
+#include "render/accel/embree_scene.h"
+#include "render/accel/flush_denormals.h"
+#include "render/light/light_params.h"
+#include "render/path/path_integrator.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kWidth = 192, kHeight = 108;
+constexpr int kRuns = 3;
+
+class BallStrands final : public Procedural {
+ public:
+  explicit BallStrands(const Strands& strands) : strands_(strands) {}
+  Box3f bound() const override { return {V3f(-2), V3f(2)}; }
+  Strands generate() const override { return strands_; }
+
+ private:
+  const Strands& strands_;
+};
+
+/// The scene of the peers: two rectangle lights and a constant sky.
+RenderScene ball_scene(const BumpyBall& ball, int bounces, int samples, MemoryLedger& ledger) {
+  TextureLibrary textures(ledger);
+  RectangleLightParams key, rim;
+  key.position = V3f(2.4f, 2.2f, 2.3f);
+  key.look_at = V3f(0);
+  key.size = V2f(2, 2);
+  key.radiance = Rgb(14, 13, 12);
+  rim.position = V3f(-2.2f, 1.8f, -2.8f);
+  rim.look_at = V3f(0);
+  rim.size = V2f(1.5f, 1.4f);
+  rim.radiance = Rgb(16, 18, 22);
+  EnvironmentLightParams sky;
+  sky.radiance = Rgb(0.25f, 0.28f, 0.33f);
+  std::vector<std::unique_ptr<Light>> lights;
+  lights.push_back(make_light("key", key, 1, textures, ledger));
+  lights.push_back(make_light("rim", rim, 1, textures, ledger));
+  lights.push_back(make_light("sky", sky, 1, textures, ledger));
+
+  CameraParams camera;
+  camera.position = V3f(0, 0, 4.7f);
+  camera.fov = 36.0f;
+  ImageParams image;
+  image.width = kWidth;
+  image.height = kHeight;
+  image.filter = PixelFilter::kBox;
+  RenderParams render;
+  render.bounces = bounces;
+  render.samples = samples;
+  LambertParams skin;
+  skin.color = Field(Rgb(0.45f, 0.30f, 0.22f));
+  RenderScene scene{{},
+                    {},
+                    {ConeShellParams{}, skin},
+                    LightSet(std::move(lights)),
+                    Camera(camera, 1, kWidth, kHeight),
+                    image,
+                    render};
+  scene.fur.push_back({"ball.fur", {}, 0, nullptr});
+  scene.fur[0].procedurals.push_back(std::make_unique<BallStrands>(ball.strands));
+  scene.skins.push_back({"ball.skin", std::make_shared<SkinMesh>(ball.skin), nullptr, 1});
+  return scene;
+}
+
+struct RecordedRay {
+  Ray ray;
+  bool shadow;
+};
+
+/// Notes every ray on its way to the real accelerator.
+class Recorder final : public Accel {
+ public:
+  explicit Recorder(const Accel& accel) : accel_(accel) {}
+  Hit closest(const Ray& ray) const override {
+    rays_.push_back({ray, false});
+    return accel_.closest(ray);
+  }
+  float transmittance(const Ray& ray) const override {
+    rays_.push_back({ray, true});
+    return accel_.transmittance(ray);
+  }
+  bool opaque() const override { return accel_.opaque(); }
+  Box3f bounds() const override { return accel_.bounds(); }
+  const std::vector<RecordedRay>& rays() const { return rays_; }
+
+ private:
+  const Accel& accel_;
+  mutable std::vector<RecordedRay> rays_;
+};
+
+/// Processor seconds of all paths of the picture.
+double trace_paths(const RenderScene& scene, const PathTracer& tracer, Film& film) {
+  PathScratch scratch;
+  const double start = cpu_seconds();
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      for (int sample = 0; sample < scene.render.samples; ++sample) {
+        tracer.trace(x, y, static_cast<uint32_t>(sample), scratch);
+        film.add(x, y, scratch.sample, scratch.by_layer);
+      }
+    }
+  }
+  return cpu_seconds() - start;
+}
+
+/// Processor seconds of Embree alone, without filter functions, for the same rays.
+double replay(const EmbreeScene& bare, const std::vector<RecordedRay>& rays) {
+  float sum = 0;
+  const double start = cpu_seconds();
+  for (const RecordedRay& recorded : rays) {
+    const Ray& ray = recorded.ray;
+    RTCRayHit r{};
+    r.ray = {ray.origin.x,
+             ray.origin.y,
+             ray.origin.z,
+             ray.near,
+             ray.direction.x,
+             ray.direction.y,
+             ray.direction.z,
+             ray.time,
+             ray.far,
+             ~0u,
+             0,
+             0};
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    EmbreeQuery query(nullptr);
+    if (recorded.shadow) {
+      embree_occluded(bare.get(), query, r.ray);
+    } else {
+      embree_intersect(bare.get(), query, r);
+    }
+    sum += r.ray.tfar;
+  }
+  const double seconds = cpu_seconds() - start;
+  benchmark::DoNotOptimize(sum);
+  return seconds;
+}
+
+void path_over_bare_rays(benchmark::State& state) {
+  const FlushDenormals flush;
+  const Workers workers;
+  MemoryLedger ledger;
+  NoProgress progress;
+  Statistics statistics;
+  const BumpyBall ball = make_bumpy_ball(static_cast<size_t>(state.range(0)));
+  const RenderScene scene = ball_scene(ball, static_cast<int>(state.range(1)), 16, ledger);
+  const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
+  const EmbreeScene bare({{&ball.strands, 0, {}}}, {scene.skins[0].mesh.get()}, {}, ledger, workers);
+
+  const FilmLayers layers = FilmLayers::make({{"key", false}, {"rim", false}, {"sky", true}}, kLobeGroups);
+  const Recorder recorder(geometry->accel());
+  const PathTracer direct(scene, *geometry, geometry->accel(), layers, {});
+  const PathTracer recording(scene, *geometry, recorder, layers, {});
+  Film film(kWidth, kHeight, layers, ledger);
+  trace_paths(scene, recording, film);
+
+  double paths = 1e30, rays = 1e30;
+  for (auto _ : state) {
+    for (int run = 0; run < kRuns; ++run) {
+      paths = std::min(paths, trace_paths(scene, direct, film));
+      rays = std::min(rays, replay(bare, recorder.rays()));
+    }
+  }
+  const double samples = double{kWidth} * kHeight * scene.render.samples;
+  state.counters["path/bare"] = paths / rays;
+  state.counters["us/path"] = 1e6 * paths / samples;
+  state.counters["us/ray"] = 1e6 * rays / static_cast<double>(recorder.rays().size());
+  state.counters["rays/path"] = static_cast<double>(recorder.rays().size()) / samples;
+}
+BENCHMARK(path_over_bare_rays)
+    ->Name("path over bare rays")
+    ->ArgNames({"strands", "bounces"})
+    ->Args({100000, 0})
+    ->Args({100000, 4})
+    ->Args({1000000, 4})
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond);
+
+}  // namespace
+}  // namespace pelage
