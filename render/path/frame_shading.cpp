@@ -6,14 +6,12 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "geom/curve.h"
+#include "geom/strand_point.h"
 #include "render/path/skin_point.h"
 #include "render/path/strand_fields.h"
 
 namespace pelage {
 namespace {
-
-V3f unit(const V3f& v) { return v * (1 / std::sqrt(v.length2())); }
 
 /// Place over the whole strand of a place in one of its segments.
 float along_strand(const Strands& strands, const Hit& hit) {
@@ -54,20 +52,17 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit) const {
   const FurBatch& batch = geometry_.batch(hit.object);
   const Strands& strands = batch.strands;
   const Fibre& fibre = *fibres_[scene_.fur[batch.part].material];
-  const CubicSegment segment = bezier_segment_at(strands, hit.primitive, hit.segment, ray.time);
+  const StrandPoint point = strand_point(strands, hit.primitive, hit.segment, hit.u, ray.time);
   const float v = along_strand(strands, hit);
 
   LobeTangents tangents;
-  tangents[0] = unit(curve_tangent(segment, hit.u));
+  tangents[0] = point.tangent;
   for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
     const float place = fibre.shells.tangent_place(lobe, v, strands.id(hit.primitive), 0);
-    float t = 0;
-    const CubicSegment shifted = segment_at(strands, hit.primitive, place, ray.time, t);
-    tangents[static_cast<size_t>(lobe)] = unit(curve_tangent(shifted, t));
+    tangents[static_cast<size_t>(lobe)] = strand_tangent(strands, hit.primitive, place, ray.time);
   }
   const Rgb color = fibre_color(fibre, batch, hit, v);
-  return {curve_position(segment, hit.u), tangents[0], curve_radius(segment, hit.u),
-          ray.origin + hit.distance * ray.direction,
+  return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
           ConeShellBsdf(fibre.shells, color, tangents, -ray.direction)};
 }
 
@@ -130,8 +125,7 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit) con
     return surface;
   }
   const Strands& strands = geometry_.batch(hit.object).strands;
-  const CubicSegment segment = bezier_segment_at(strands, hit.primitive, hit.segment, ray.time);
-  surface.tangent = unit(curve_tangent(segment, hit.u));
+  surface.tangent = strand_point(strands, hit.primitive, hit.segment, hit.u, ray.time).tangent;
   // The normal of a circular fibre at h, from the frame of the fibre and the ray.
   const V3f across = surface.tangent.cross(-ray.direction);
   const float length = across.length();
@@ -144,9 +138,8 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit) con
   }
   V3f motion(0);
   if (strands.motion_keys() > 1) {
-    motion = curve_position(bezier_segment(strands, hit.primitive, hit.segment, strands.motion_keys() - 1),
-                            hit.u) -
-             curve_position(bezier_segment(strands, hit.primitive, hit.segment, 0), hit.u);
+    motion = strand_point(strands, hit.primitive, hit.segment, hit.u, 1).position -
+             strand_point(strands, hit.primitive, hit.segment, hit.u, 0).position;
   }
   surface.forward = motion_in_image(position, motion, ray.time);
   surface.root_uv = strands.root_uv(hit.primitive);
