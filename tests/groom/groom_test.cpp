@@ -10,6 +10,7 @@
 #include "geom/tessellation.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {
@@ -227,7 +228,8 @@ TEST_F(GroomTest, FieldsMayReadTheRandomNumbersOfStrandsAndClumps) {
 TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   // A coat written to a file and read back grows as itself, on the rest skin and, to the rounding of the
   // binding to triangles, in a pose.
-  const auto path = std::filesystem::path(testing::TempDir()) / "pelage_groom_test.hair";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "coat.hair";
   const auto original = grow_coat("- length: {value: 0.4}\n- comb:\n- width:\n", 400, 400);
   const LimitSurface pose = posed(0.9f, 0.2f);
   const LimitSurface keys[] = {*rest_, pose};
@@ -237,7 +239,6 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   GroomParams params = scene_text::read<GroomParams>("skin: ball\nleaf_strands: 60");
   params.strands_file = {path, {}};
   const auto imported = Groom::create("imported", params, rest_, textures_, workers_, ledger_);
-  std::filesystem::remove(path);
   ASSERT_EQ(imported->follicles().size(), 400u);
   EXPECT_GT(imported->follicles().leaves().size(), 5u);
   for (size_t leaf = 0; leaf < imported->follicles().leaves().size(); ++leaf) {
@@ -255,14 +256,14 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
 }
 
 TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "pelage_groom_free_test.hair";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "coat.hair";
   const auto original = grow_coat("- length: {value: 0.4}\n- width:\n", 100, 400);
   const Strands expected = original->grow(0, {{rest_.get(), 1}, {}, 1, {}});
   write_strands(path, expected);
   GroomParams params;
   params.strands_file = {path, {}};
   const auto free = Groom::create("free", params, nullptr, textures_, workers_, ledger_);
-  std::filesystem::remove(path);
   const Strands still = free->grow(0, {});
   EXPECT_FALSE(still.has_roots());
   M44f transform;

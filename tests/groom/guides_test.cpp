@@ -7,15 +7,13 @@
 #include "geom/io/strand_file.h"
 #include "groom/resample.h"
 #include "tests/groom/operator_harness.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {
 
 class GuidesTest : public OperatorTest {
  protected:
-  GuidesTest() : file_(std::filesystem::path(testing::TempDir()) / "pelage_guides_test.hair") {}
-  ~GuidesTest() override { std::filesystem::remove(file_); }
-
   /// Writes a guide on every `step`-th follicle: straight along the normal, of the length that `length(root)`
   /// gives.
   template <class Length>
@@ -43,7 +41,8 @@ class GuidesTest : public OperatorTest {
     return p;
   }
 
-  std::filesystem::path file_;
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "guides.hair";
   std::vector<V3f> roots_;
 };
 

@@ -43,6 +43,10 @@ class Files(unittest.TestCase):
     def test_headers_are_guarded(self):
         self.assert_none([p for p in our_code() if p.suffix == ".h" and "#pragma once" not in p.read_text()])
 
+    def test_tests_share_no_files(self):
+        """CTest runs them side by side: a fixed name in a shared folder is a race. tests/support has a folder each."""
+        self.assert_none([p for p in our_code() if p.suffix == ".cpp" and "testing::TempDir" in p.read_text()])
+
     def test_sources_are_built(self):
         """A .cpp that no CMakeLists.txt names is never compiled, so nothing says when it rots."""
         listed = "".join(p.read_text() for p in our_code() if p.name == "CMakeLists.txt")
