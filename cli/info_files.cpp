@@ -8,7 +8,7 @@
 
 #include "base/value_readers.h"
 #include "cli/info.h"
-#include "groom/groom.h"
+#include "groom/curve_basis_names.h"
 
 namespace pelage {
 namespace {

@@ -12,7 +12,7 @@
 #include "base/nearest_name.h"
 #include "cli/frames.h"
 #include "cli/version.h"
-#include "groom/groom.h"
+#include "groom/curve_basis_names.h"
 
 namespace pelage {
 namespace {
@@ -193,6 +193,7 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
   } catch (const CLI::ExtrasError&) {
     fail_extras(*chosen);
   } catch (const CLI::ParseError& error) {
+    if (chosen == &app && app.remaining_size() > 0) fail_extras(app);
     std::string message = error.what();
     std::replace(message.begin(), message.end(), '\n', ' ');
     fail(message + (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));

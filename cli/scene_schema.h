@@ -10,7 +10,7 @@
 #include "base/value_readers.h"
 #include "cli/frames.h"
 #include "geom/limit_surface.h"
-#include "groom/groom.h"
+#include "groom/groom_params.h"
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_params.h"

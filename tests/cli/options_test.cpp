@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/options.h"
+
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "cli/version.h"
+
+namespace pelage {
+namespace {
+
+Options parsed(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  const auto options = parse_options(arguments, out);
+  EXPECT_TRUE(options) << out.str();
+  return options.value_or(Options{});
+}
+
+std::string printed(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  EXPECT_FALSE(parse_options(arguments, out));
+  return out.str();
+}
+
+std::string problem(const std::vector<std::string>& arguments) {
+  std::ostringstream out;
+  try {
+    parse_options(arguments, out);
+    return "";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kArguments);
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+}
+
+TEST(Options, OfRender) {
+  const Options options = parsed({"render", "rat.yaml", "-o", "rat.%04d.exr", "--frames", "1-48x2", "--set",
+                                  "render.samples=8", "--set", "a=b=c", "--stats", "s.json", "--threads", "3",
+                                  "--memory", "4G", "--progress", "plain"});
+  EXPECT_EQ(options.command, Command::kRender);
+  EXPECT_EQ(options.input, "rat.yaml");
+  EXPECT_EQ(options.output, "rat.%04d.exr");
+  EXPECT_EQ(options.stats, "s.json");
+  EXPECT_EQ(options.threads, 3);
+  EXPECT_EQ(options.progress, ProgressStyle::kPlain);
+  ASSERT_EQ(options.overrides.size(), 4u);
+  EXPECT_EQ(options.overrides[0].key, "render.samples");
+  EXPECT_EQ(options.overrides[1].value, "b=c");
+  EXPECT_EQ(options.overrides[2].key, "render.memory");
+  EXPECT_EQ(options.overrides[3].key, "frames");
+  EXPECT_EQ(options.overrides[3].value, "'1-48x2'");
+}
+
+TEST(Options, SetTakesOneValueOnly) {
+  const Options options = parsed({"render", "--set", "a=1", "rat.yaml", "--set", "b=2"});
+  EXPECT_EQ(options.input, "rat.yaml");
+  EXPECT_EQ(options.overrides.size(), 2u);
+}
+
+TEST(Options, NegativeFrames) {
+  EXPECT_EQ(parsed({"render", "s", "--frames=-5--1"}).overrides[0].value, "'-5--1'");
+  EXPECT_EQ(parsed({"render", "s", "--frames", "-5--1"}).overrides[0].value, "'-5--1'");
+  EXPECT_EQ(parsed({"render", "--frames", "-5", "s"}).overrides[0].value, "'-5'");
+}
+
+TEST(Options, HaveDefaults) {
+  const Options options = parsed({"render", "s"});
+  EXPECT_EQ(options.output, "");
+  EXPECT_FALSE(options.stats);
+  EXPECT_EQ(options.threads, 0);
+  EXPECT_EQ(options.progress, ProgressStyle::kAuto);
+  EXPECT_EQ(parsed({"render", "s", "--quiet"}).progress, ProgressStyle::kQuiet);
+}
+
+TEST(Options, OfTheOtherCommands) {
+  EXPECT_EQ(parsed({"grow", "s", "-o", "a.hair", "--groom", "under"}).groom, "under");
+  EXPECT_EQ(parsed({"info", "a.tfx", "--basis", "linear"}).basis, CurveBasis::kLinear);
+  EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx", "--default-width", "0.01"}).default_width, 0.01f);
+  EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx"}).output, "b.tfx");
+  EXPECT_EQ(parsed({"manual", "curl"}).section, "curl");
+  EXPECT_TRUE(parsed({"manual", "--markdown"}).markdown);
+}
+
+TEST(Options, MistakesNameWhatWasMeant) {
+  EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
+  EXPECT_EQ(problem({"rendr", "s"}), "there is no command 'rendr'; did you mean 'render'?");
+  EXPECT_EQ(problem({"zebra"}),
+            "there is no command 'zebra'; expected one of convert, grow, info, manual, render");
+  EXPECT_EQ(problem({"render", "s", "--fraems", "1"}),
+            "there is no flag '--fraems'; did you mean '--frames'?");
+  EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "there is no flag '--memroy'; did you mean '--memory'?");
+  EXPECT_EQ(problem({"render", "s", "--zebra"}), "there is no flag '--zebra'; see 'pelage render --help'");
+  EXPECT_EQ(problem({"render", "s", "t"}), "did not expect the argument 't'");
+  EXPECT_EQ(problem({"--zebra"}), "there is no flag '--zebra'; see 'pelage --help'");
+  EXPECT_EQ(problem({"render"}), "SCENE is required; see 'pelage render --help'");
+  EXPECT_EQ(problem({"convert", "a"}), "OUT is required; see 'pelage convert --help'");
+  EXPECT_EQ(problem({"render", "s", "--set", "a"}), "--set a: expected a key and a value, a.b.c=value");
+  EXPECT_EQ(problem({"render", "s", "--memory", "lots"}),
+            "--memory: expected bytes such as 512M or 4G, got 'lots'");
+  EXPECT_EQ(problem({"render", "s", "--progress", "bra"}),
+            "--progress 'bra' is not known; did you mean 'bar'?");
+  EXPECT_EQ(problem({"info", "s", "--basis", "bezier"}),
+            "--basis 'bezier' is not known; expected one of linear, pinned-b-spline, b-spline, catmull-rom");
+  EXPECT_NE(problem({"render", "s", "--threads", "many"}), "");
+  EXPECT_NE(problem({"render", "s", "--threads", "-1"}), "");
+  EXPECT_NE(problem({"render", "s", "--frames"}), "");
+  EXPECT_NE(problem({"render", "s", "--quiet", "--progress", "bar"}), "");
+  EXPECT_NE(problem({"convert", "a", "b", "--default-width", "0"}), "");
+}
+
+TEST(Options, HelpEverywhere) {
+  for (const char* flag : {"--help", "-h"}) {
+    EXPECT_NE(printed({flag}).find("render"), std::string::npos);
+    for (const char* command : {"render", "grow", "info", "convert", "manual"}) {
+      const std::string help = printed({command, flag});
+      EXPECT_NE(help.find(std::string("pelage ") + command), std::string::npos) << help;
+    }
+  }
+  EXPECT_NE(printed({"render", "--help"}).find("--frames"), std::string::npos);
+  EXPECT_EQ(printed({"--version"}), std::string("pelage ") + version() + "\n");
+}
+
+}  // namespace
+}  // namespace pelage

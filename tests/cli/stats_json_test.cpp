@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/stats_json.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+TEST(StatsJson, HoldsWhatIsPromised) {
+  Statistics statistics;
+  statistics.wall_s = 1.5;
+  statistics.peak_rss_bytes = int64_t(1) << 40;
+  statistics.rays = {{"camera", 3}, {"shadow", 5}};
+  statistics.memory_bytes = {{"film", 7}};
+  statistics.stages_s = {{"grow", 0.25}};
+  const auto json = nlohmann::json::parse(statistics_json(statistics));
+  EXPECT_EQ(json.at("schema"), 1);
+  EXPECT_EQ(json.at("wall_s"), 1.5);
+  EXPECT_EQ(json.at("peak_rss_bytes"), int64_t(1) << 40);
+  EXPECT_EQ(json.at("rays").at("shadow"), 5);
+  EXPECT_EQ(json.at("memory_bytes").at("film"), 7);
+  EXPECT_EQ(json.at("stages_s").at("grow"), 0.25);
+  for (const char* name :
+       {"cpu_s", "baseline_rss_bytes", "working_set_bytes", "strands_described", "strands_unique",
+        "strands_generated", "characters_in_frame", "chunks", "expansions", "reexpansions",
+        "false_expansions", "samples_rejected", "strands_dropped", "strands_repaired", "version"}) {
+    EXPECT_TRUE(json.contains(name)) << name;
+  }
+}
+
+TEST(StatsJson, IsWrittenWhole) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "deep" / "stats.json";
+  write_statistics(path, {});
+  EXPECT_EQ(read_file(path), statistics_json({}));
+}
+
+}  // namespace
+}  // namespace pelage
