@@ -120,6 +120,11 @@ std::vector<std::string> flag_names(const CLI::App& app) {
   return names;
 }
 
+// As it is typed: "pelage", "pelage render".
+std::string command_name(const CLI::App& app) {
+  return app.get_parent() ? app.get_parent()->get_name() + " " + app.get_name() : app.get_name();
+}
+
 [[noreturn]] void fail_extras(const CLI::App& app) {
   for (const std::string& extra : app.remaining(true)) {
     if (!extra.starts_with("-")) fail("did not expect the argument " + quote(extra));
@@ -127,7 +132,7 @@ std::vector<std::string> flag_names(const CLI::App& app) {
     const std::vector<std::string> names = flag_names(app);
     const std::string near = did_you_mean(flag, names);
     fail("there is no flag " + quote(flag) +
-         (near.empty() ? "; see 'pelage " + app.get_name() + " --help'" : near));
+         (near.empty() ? "; see '" + command_name(app) + " --help'" : near));
   }
   fail("the arguments were not understood; see 'pelage --help'");
 }

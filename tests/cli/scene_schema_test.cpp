@@ -128,7 +128,7 @@ TEST_F(SceneSchema, MistakesOfAllKindsComeInFileOrder) {
       "image: {width: 0}\n";
   EXPECT_EQ(problems(text), (Lines{"s:1:9: this program reads scenes of format 1, got '2'",
                                    "s:2:1: unknown key 'camra' in scene; did you mean 'camera'?",
-                                   "s:3:15: expected a number > 0, <= 179, got 400",
+                                   "s:3:15: expected a number 0.01 .. 170, got 400",
                                    "s:3:20: duplicate key 'fov', first on line 3",
                                    "s:4:9: crowds are not built yet; place characters one by one",
                                    "s:6:8: the block needs the key 'type': rectangle | sphere | environment",
