@@ -53,7 +53,7 @@ def patch(s, t):
 # ---- a pebble with hair of its own for imported.yaml ----
 
 RADIUS = 2.0
-STRANDS, POINTS = 2500, 6
+STRANDS, POINTS = 4000, 6
 SEGMENTS_FLAG, POINTS_FLAG, THICKNESS_FLAG, COLOR_FLAG = 1, 2, 4, 16
 
 
@@ -86,7 +86,7 @@ def cube_sphere(path, steps):
 
 def swirl(generator):
     """One strand of the ball: it stands up, then turns about the pole."""
-    y = generator.uniform(-0.55, 1.0)
+    y = generator.uniform(-0.75, 1.0)
     turn = generator.uniform(0, 2 * math.pi)
     around = math.sqrt(1 - y * y)
     size = 0.9 + 0.5 * generator.random()
@@ -106,11 +106,11 @@ def write_hair(path):
     strands = [swirl(generator) for _ in range(STRANDS)]
     count = STRANDS * POINTS
     flags = POINTS_FLAG | THICKNESS_FLAG | COLOR_FLAG
-    information = b"Pelage example: 2500 strands on a ball of radius 2".ljust(88, b"\0")
+    information = b"Pelage example: 4000 strands on a ball of radius 2".ljust(88, b"\0")
     header = struct.pack("<4sIIII", b"HAIR", STRANDS, count, flags, POINTS - 1)
     header += struct.pack("<ff3f", 0.016, 0.0, 0.4, 0.3, 0.2) + information
     assert len(header) == 128
-    thickness = [0.018 * (1 - 0.8 * k / (POINTS - 1)) for _ in strands for k in range(POINTS)]
+    thickness = [0.030 * (1 - 0.8 * k / (POINTS - 1)) for _ in strands for k in range(POINTS)]
     shade = [0.75 + 0.5 * generator.random() for _ in strands]
     colors = [c * s * (0.5 + 0.5 * k / (POINTS - 1)) for s in shade for k in range(POINTS) for c in (0.55, 0.36, 0.2)]
     flat = [c for strand in strands for p in strand for c in p]

@@ -15,13 +15,14 @@ NOSE = (0.0, 4.50, 10.25)
 MOUTH = [(0.0, 4.00, 10.05), (0.0, 3.42, 9.76), (0.40, 3.30, 9.62), (0.78, 3.20, 9.15), (0.98, 3.34, 8.65)]
 WHISKER_PAD = (1.10, 4.10, 9.25)
 TAIL_STARTS = -9.7
+CHEEK = (2.0, 4.2, 4.9)
 HIP, SHOULDER = (2.8, 2.6, -5.0), (2.0, 2.4, 2.0)
 
 # Hair length, 1 = the longest, over z along the trunk and head
-LENGTH_ALONG = [(-10.4, 0.30), (-9.0, 0.80), (-6.0, 1.00), (-2.0, 0.95), (1.5, 0.85), (3.5, 0.68), (5.0, 0.44),
-                (6.5, 0.30), (8.0, 0.19), (9.5, 0.12), (10.4, 0.08)]
+LENGTH_ALONG = [(-10.4, 0.30), (-9.0, 0.80), (-6.0, 1.00), (-2.0, 0.95), (1.5, 0.88), (3.5, 0.74), (5.0, 0.54),
+                (6.5, 0.38), (8.0, 0.24), (9.5, 0.14), (10.4, 0.08)]
 NAKED_HAIR = 0.13      # the short hair of hands, feet and tail
-EAR_FUZZ = 0.10
+EAR_FUZZ = 0.16
 
 
 def curve(knots, x):
@@ -65,11 +66,11 @@ def ear(p, n, part):
 
 
 def nose(p):
-    return vec.smoothstep(0.62, 0.42, vec.distance(p, NOSE))
+    return vec.smoothstep(0.58, 0.36, vec.distance(p, NOSE))
 
 
 def eyelid(p):
-    return vec.smoothstep(0.62, 0.46, vec.distance(p, EYE))
+    return vec.smoothstep(0.58, 0.47, vec.distance(p, EYE))
 
 
 def mouth(p):
@@ -92,28 +93,29 @@ def length(p, n, part):
     p, n = left(p), left(n)
     value = curve(LENGTH_ALONG, p[2])
     value *= 1 - 0.30 * belly(p, n)
+    value *= 1 + 0.45 * vec.bump(p, CHEEK, 1.5)
     if is_limb(part):
         value *= 0.30 + 0.70 * vec.smoothstep(0.8, 3.0, p[1])
     in_ear, inside = ear(p, n, part)
     value += in_ear * (EAR_FUZZ - 0.03 * inside - value)
     value += max(hand(p, part), tail(p)) * (NAKED_HAIR - value)
-    near_eye = vec.smoothstep(1.15, 0.45, vec.distance(p, EYE))
-    value *= 1 - 0.55 * near_eye
+    near_eye = vec.smoothstep(0.95, 0.45, vec.distance(p, EYE))
+    value *= 1 - 0.45 * near_eye
     value *= 1 - 0.5 * mouth(p)
     return value * (1 - max(nose(p), eyelid(p)))
 
 
 def density(p, n, part):
-    """Relative density of (undercoat, guard hair, 0)."""
+    """Relative density of (undercoat, guard hair, down on bare skin)."""
     p, n = left(p), left(n)
     under = 0.55 + 0.45 * vec.smoothstep(3.0, 8.0, p[2])
     in_ear, inside = ear(p, n, part)
     furred = (1 - in_ear) * (1 - hand(p, part)) * (1 - tail(p)) * (1 - max(nose(p), eyelid(p)))
     guard = furred * under
-    under += in_ear * (0.55 - 0.25 * inside - under)
-    under += hand(p, part) * (0.15 - under)
-    under += tail(p) * (0.12 - under)
-    return under * (1 - max(nose(p), eyelid(p))), guard, 0.0
+    under *= (1 - in_ear) * (1 - hand(p, part)) * (1 - tail(p))
+    down = max(in_ear, 0.35 * hand(p, part), 0.45 * tail(p), 0.4 * nose(p))
+    bald = 1 - max(nose(p), eyelid(p))
+    return under * bald, guard, down * (1 - 0.4 * inside)
 
 
 def flow(p, n, part):
@@ -190,10 +192,12 @@ def whiskers(p, part):
 
 # ---- colours ----
 
-BACK, FLANK, BELLY = (0.80, 0.78, 0.76), (1.0, 1.0, 1.0), (1.70, 1.72, 1.74)
+BACK, FLANK, BELLY = (0.74, 0.70, 0.66), (1.08, 1.05, 1.0), (1.75, 1.80, 1.86)
+WARM = (1.22, 1.08, 0.92)
 MUZZLE, PAW = (1.10, 1.04, 1.00), (1.60, 1.55, 1.50)
-SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.34, 0.25, 0.21), (0.66, 0.39, 0.33), (0.60, 0.33, 0.29)
-SKIN_TAIL, SKIN_EAR, SKIN_INNER_EAR, SKIN_RIM = (0.50, 0.34, 0.30), (0.52, 0.34, 0.28), (0.60, 0.33, 0.27), (0.72, 0.40, 0.31)
+SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.22, 0.16, 0.13), (0.66, 0.39, 0.33), (0.60, 0.33, 0.29)
+SKIN_TAIL, SKIN_EAR, SKIN_INNER_EAR, SKIN_RIM = (0.45, 0.32, 0.29), (0.33, 0.22, 0.19), (0.38, 0.21, 0.18), (0.56, 0.33, 0.27)
+SKIN_EYELID = (0.06, 0.045, 0.04)
 TAIL_RING = 0.26       # centimetres from scale ring to scale ring
 
 
@@ -205,6 +209,7 @@ def tint(p, n, part):
     color = vec.mix(color, MUZZLE, vec.smoothstep(7.5, 9.5, p[2]))
     low = vec.smoothstep(0.30, -0.45, n[1]) * vec.smoothstep(5.0, 2.8, p[1])
     chin = vec.smoothstep(3.45, 3.10, p[1]) * vec.smoothstep(8.0, 9.0, p[2])
+    color = vec.mix(color, WARM, 0.8 * vec.bump(p, CHEEK, 1.7))
     color = vec.mix(color, BELLY, max(low, chin))
     color = vec.mix(color, PAW, ear(p, n, part)[0])
     color = vec.mix(color, vec.scale(color, 0.35), mouth(p))
@@ -222,10 +227,10 @@ def ear_skin(p, inside):
     color = vec.mix(SKIN_EAR, SKIN_INNER_EAR, inside)
     rim = vec.smoothstep(0.55, 1.10, math.hypot(across, height - 1.0))
     color = vec.mix(color, SKIN_RIM, 0.8 * rim)
-    color = vec.scale(color, 1 - 0.35 * inside * vec.smoothstep(1.2, 0.1, height))
+    color = vec.scale(color, 1 - 0.65 * inside * vec.smoothstep(1.3, 0.2, height))
     spoke = 7.0 * math.atan2(across, height + 0.5) + 0.7 * math.sin(4.0 * height) + 1.1
-    vein = vec.smoothstep(0.90, 1.0, math.cos(spoke)) * vec.smoothstep(1.9, 0.8, height)
-    return vec.mix(color, vec.mix(color, (0.45, 0.16, 0.15), 0.5), vein)
+    vein = vec.smoothstep(0.75, 1.0, math.cos(spoke)) * vec.smoothstep(1.9, 0.8, height)
+    return vec.mix(color, (0.70 * color[0], 0.56 * color[1], 0.56 * color[2]), 0.7 * vein)
 
 
 def tail_skin(p):
@@ -248,4 +253,4 @@ def skin(p, n, part):
     if tail(p) > 0:
         color = vec.mix(color, tail_skin(p), tail(p))
     color = vec.mix(color, SKIN_NOSE, nose(p))
-    return vec.mix(color, (0.10, 0.07, 0.07), eyelid(p))
+    return vec.mix(color, SKIN_EYELID, vec.smoothstep(0.85, 0.60, vec.distance(p, EYE)))
