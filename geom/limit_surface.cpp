@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/check.h"
+#include "geom/four_lanes.h"
 #include "geom/surface_topology_impl.h"
 
 namespace pelage {
@@ -13,6 +15,15 @@ namespace {
 
 // Below this sine of the angle between du and dv there is no plane to speak of.
 constexpr double kFlatSine = 1e-4;
+
+/// A point and what happens to stand behind it.
+Four load(const std::vector<float>& points, int index) {
+  Four p;
+  std::memcpy(&p, &points[static_cast<size_t>(index) * 3], sizeof p);
+  return p;
+}
+
+V3f xyz_of(Four p) { return {p[0], p[1], p[2]}; }
 
 float into_unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }  // NaN becomes 0
 
@@ -48,7 +59,7 @@ LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std:
   PELAGE_CHECK(positions.size() == impl.control_count);
   for (const V3f& p : positions) bounds_.extendBy(p);
   origin_ = bounds_.center();
-  points_.resize(impl.rules.point_count() * 3);
+  points_.resize(impl.rules.point_count() * 3 + 1);  // a vector of four may be loaded everywhere
   for (size_t i = 0; i < positions.size(); ++i) {
     const V3f p = positions[i] - origin_;
     std::copy_n(&p.x, 3, &points_[i * 3]);
@@ -70,17 +81,16 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   impl.patches->EvaluateBasis(*handle, u, v, weights, du_weights, dv_weights);
   const Far::ConstIndexArray vertices = impl.patches->GetPatchVertices(*handle);
   // From the first of them, so that small patches of a large surface keep their derivatives.
-  const float* first = &points_[static_cast<size_t>(vertices[0]) * 3];
-  SurfacePoint result;
+  const Four first = load(points_, vertices[0]);
+  Four position = four(0), du = four(0), dv = four(0);
   for (int i = 1; i < vertices.size(); ++i) {
-    const float* xyz = &points_[static_cast<size_t>(vertices[i]) * 3];
-    const V3f p(xyz[0] - first[0], xyz[1] - first[1], xyz[2] - first[2]);
-    result.position += weights[i] * p;
-    result.du += du_weights[i] * p;
-    result.dv += dv_weights[i] * p;
+    const Four p = load(points_, vertices[i]) - first;
+    position += four(weights[i]) * p;
+    du += four(du_weights[i]) * p;
+    dv += four(dv_weights[i]) * p;
   }
-  result.position += V3f(first[0], first[1], first[2]);
-  result.position += origin_;
+  position += first;
+  SurfacePoint result{xyz_of(position) + origin_, xyz_of(du), xyz_of(dv)};
   if (impl.part[face]) {
     // OpenSubdiv's derivatives are by the parameters of a quad of which this ptex face would be a quarter.
     result.du *= 0.5f;

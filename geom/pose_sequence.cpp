@@ -15,20 +15,19 @@ PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, 
   PELAGE_CHECK(!files_.empty());
 }
 
-const std::filesystem::path& PoseSequence::file(int64_t pose) const {
-  const auto count = static_cast<int64_t>(files_.size());
-  int64_t index = pose - first_;
-  index = cycle_ ? ((index % count) + count) % count : std::clamp<int64_t>(index, 0, count - 1);
-  return files_[static_cast<size_t>(index)];
-}
-
 std::vector<V3f> PoseSequence::positions(double pose) const {
-  const double below = std::floor(pose);
-  const auto number = static_cast<int64_t>(below);
-  const auto t = static_cast<float>(pose - below);
-  std::vector<V3f> result = read_obj_positions(file(number), cage_points_);
-  if (t > 0 && file(number) != file(number + 1)) {
-    const std::vector<V3f> next = read_obj_positions(file(number + 1), cage_points_);
+  const auto count = static_cast<double>(files_.size());
+  double at = pose - first_;
+  if (cycle_) at -= std::floor(at / count) * count;
+  // Rounding may leave a cycle at its end; what is not finite becomes the first pose.
+  at = at > 0 ? std::min(at, cycle_ ? count : count - 1) : 0;
+  const double below = std::floor(at);
+  const auto t = static_cast<float>(at - below);
+  const size_t from = static_cast<size_t>(below) % files_.size();
+  const size_t to = t > 0 ? (from + 1) % files_.size() : from;
+  std::vector<V3f> result = read_obj_positions(files_[from], cage_points_);
+  if (to != from) {
+    const std::vector<V3f> next = read_obj_positions(files_[to], cage_points_);
     for (size_t i = 0; i < result.size(); ++i) result[i] = result[i] * (1 - t) + next[i] * t;
   }
   return result;

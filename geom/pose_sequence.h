@@ -20,8 +20,6 @@ class PoseSequence {
   std::vector<V3f> positions(double pose) const;
 
  private:
-  const std::filesystem::path& file(int64_t pose) const;
-
   std::vector<std::filesystem::path> files_;
   int first_;
   bool cycle_;

@@ -206,23 +206,31 @@ size_t CageConnectivity::bytes() const {
 }
 
 void PointRules::apply(float* points) const {
-  // In double: rounding at one level would add to that at the next.
-  std::vector<double> all(points, points + size_t(control_count) * 3);
-  all.resize(point_count() * 3);
-  double* made = all.data() + size_t(control_count) * 3;
-  for (size_t i = 0; i + 1 < first_term.size(); ++i, made += 3) {
-    double x = 0, y = 0, z = 0;
-    for (uint32_t term = first_term[i]; term < first_term[i + 1]; ++term) {
-      const double* p = all.data() + size_t(source[term]) * 3;
-      x += weight[term] * p[0];
-      y += weight[term] * p[1];
-      z += weight[term] * p[2];
-    }
-    made[0] = x;
-    made[1] = y;
-    made[2] = z;
+  // In double: rounding at one level would add to that at the next. Two to a vector, the last one idle.
+  using Pair = double __attribute__((vector_size(16)));
+  struct Point {
+    Pair xy, z;
+  };
+  std::vector<Point> all(point_count());
+  for (size_t i = 0; i < control_count; ++i) {
+    const float* p = points + i * 3;
+    all[i] = {Pair{p[0], p[1]}, Pair{p[2], 0}};
   }
-  std::copy(all.begin() + std::ptrdiff_t(control_count) * 3, all.end(), points + size_t(control_count) * 3);
+  uint32_t term = 0;
+  for (size_t i = 0; i < made_count(); ++i) {
+    Pair xy{}, z{};
+    for (const uint32_t end = first_term[i + 1]; term < end; ++term) {
+      const Point& p = all[source[term]];
+      const double w = weight[term];
+      xy += p.xy * Pair{w, w};
+      z += p.z * Pair{w, w};
+    }
+    all[control_count + i] = {xy, z};
+    float* made = points + (control_count + i) * 3;
+    made[0] = static_cast<float>(xy[0]);
+    made[1] = static_cast<float>(xy[1]);
+    made[2] = static_cast<float>(z[0]);
+  }
 }
 
 size_t PointRules::bytes() const { return heap_bytes(first_term) + heap_bytes(source) + heap_bytes(weight); }

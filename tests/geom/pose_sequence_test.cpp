@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geom/pose_sequence.h"
 
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -40,6 +41,17 @@ TEST_F(PoseSequenceTest, CyclesInBothDirections) {
   EXPECT_FLOAT_EQ(height(poses, 3.5), 1.0f);  // halfway from the last pose to the first
   EXPECT_EQ(height(poses, 0), 2);
   EXPECT_EQ(height(poses, -300), 2);
+}
+
+TEST_F(PoseSequenceTest, TakesAnyNumber) {
+  for (bool cycle : {false, true}) {
+    const PoseSequence poses(files_, 1, cycle, 3);
+    for (double pose :
+         {1e18, -1e18, 1e300, -1e300, 1 - 1e-17, double(INFINITY), -double(INFINITY), double(NAN)}) {
+      const float y = height(poses, pose);
+      EXPECT_TRUE(y >= 0 && y <= 2) << pose;
+    }
+  }
 }
 
 TEST_F(PoseSequenceTest, NamesTheFileThatIsMissingOrDoesNotFit) {

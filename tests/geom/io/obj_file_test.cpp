@@ -15,6 +15,7 @@ namespace {
 
 /// The mesh of a file with these contents.
 ControlMesh read_text(const std::string& contents, const TemporaryFolder& folder = {}) {
+  std::filesystem::remove(folder.path() / "cage.obj");  // some file systems flush what overwrites a file
   std::ofstream(folder.path() / "cage.obj", std::ios::binary) << contents;
   return read_obj(folder.path() / "cage.obj");
 }
