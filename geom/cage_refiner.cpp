@@ -44,6 +44,7 @@ class CageChecker {
     for (size_t face = 0; face < mesh_.face_sizes.size(); first += mesh_.face_sizes[face], ++face) {
       check_face(face, std::span(mesh_.face_vertices).subspan(first, mesh_.face_sizes[face]), valence);
     }
+    check_weights(valence);
     for (size_t v = 0; v < valence.size(); ++v) {
       if (valence[v] > SurfaceTopology::kMaxValence) {
         complain(fmt::format("{} faces meet at vertex {}, at most {} may", valence[v], v + 1,
@@ -53,6 +54,22 @@ class CageChecker {
     for (uint32_t index : mesh_.face_uv) {
       if (index >= mesh_.uv.size())
         return complain(fmt::format("texture coordinate {} does not exist", index + 1));
+    }
+  }
+
+  /// About 200 bytes are needed for the square of each of these numbers: a file of megabytes could ask for
+  /// terabytes.
+  void check_weights(const std::vector<uint32_t>& valence) {
+    constexpr uint64_t kFew = 16, kMostSquares = 10'000'000;
+    uint64_t squares = 0;
+    for (const auto* counts : {&valence, &mesh_.face_sizes}) {
+      for (uint64_t n : *counts) squares += n > kFew ? n * n : 0;
+    }
+    if (squares > kMostSquares) {
+      complain(fmt::format(
+          "too many vertices of many faces and faces of many corners: their squares add up to {}, at "
+          "most {} may",
+          squares, kMostSquares));
     }
   }
 

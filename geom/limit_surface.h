@@ -36,6 +36,7 @@ class SurfaceTopology {
   ~SurfaceTopology();
 
   /// Most faces around a vertex and corners around a face: weights around it grow with the square of this.
+  /// Ten of the largest may stand in one cage.
   static constexpr uint32_t kMaxValence = 1000;
 
   /// Ptex faces: one per quad, n per n-gon (Catmull-Clark); one per triangle (Loop).

@@ -399,7 +399,17 @@ TEST(SurfaceTopology, RefusesWhatHasNoSurface) {
             std::string::npos);
   EXPECT_EQ(message(prism_cage(1001)).substr(0, 30), "cage.obj: face 1 has 1001 corn");
   EXPECT_EQ(message(poles_cage(1001)).substr(0, 40), "cage.obj: 1001 faces meet at vertex 1, a");
-  ControlMesh cage = cube_cage();
+  // Each allowed by itself, together tens of gigabytes.
+  ControlMesh cage;
+  for (uint32_t copy = 0; copy < 100; ++copy) {
+    const ControlMesh poles = poles_cage(1000);
+    const auto first = static_cast<uint32_t>(cage.positions.size());
+    cage.positions.insert(cage.positions.end(), poles.positions.begin(), poles.positions.end());
+    cage.face_sizes.insert(cage.face_sizes.end(), poles.face_sizes.begin(), poles.face_sizes.end());
+    for (uint32_t v : poles.face_vertices) cage.face_vertices.push_back(first + v);
+  }
+  EXPECT_EQ(message(cage).substr(0, 46), "cage.obj: too many vertices of many faces and ");
+  cage = cube_cage();
   cage.creases = {{0, 7, 1}};
   EXPECT_EQ(message(cage), "cage.obj: a crease joins vertices 1 and 8, which no face does");
   cage = cube_cage();
