@@ -67,6 +67,8 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   query.distance = distance;
   query.geometry = report.geometry;
   query.primitive = report.primitive;
+  if (!query.scene.is_skin(report.geometry))
+    query.scene.curves(report.geometry).fetch_ahead(report.primitive);
 }
 
 /// The same where strands are semi-transparent.

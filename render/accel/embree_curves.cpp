@@ -31,6 +31,7 @@ EmbreeCurves::EmbreeCurves(const AccelStrands& source) : source_(source) {
   first_vertex_.reserve(total);
   if (uniform && count > 0) {
     segments_per_strand_ = static_cast<uint32_t>(total / count);
+    points_per_strand_ = strands.strand_points(0);
   } else {
     strand_of_segment_.reserve(total);
     first_segment_.reserve(count);
@@ -86,6 +87,19 @@ float EmbreeCurves::opacity(Place place, float u) const {
   const size_t before = strands().basis() == CurveBasis::kBSpline ? 1 : 0;
   const float* o = &source_.opacity[strands().first_point(place.strand) + place.segment + before];
   return o[0] * (1 - u) + o[1] * u;
+}
+
+void EmbreeCurves::fetch_ahead(uint32_t primitive) const {
+#if defined(__GNUC__)
+  if (segments_per_strand_ == 0) return;
+  const size_t strand = primitive / segments_per_strand_;
+  const StrandArrays& arrays = strands().arrays();
+  const float* points = &arrays.points[4 * strand * points_per_strand_];
+  for (uint32_t i = 0; i < points_per_strand_; i += 4) __builtin_prefetch(points + 4 * i);
+  __builtin_prefetch(points + 4 * (points_per_strand_ - 1));
+  __builtin_prefetch(&arrays.first_point[strand]);
+  __builtin_prefetch(&arrays.ids[strand]);
+#endif
 }
 
 size_t EmbreeCurves::bytes() const {

@@ -58,7 +58,8 @@ class Camera {
   /// At the frame itself: for tessellation and LOD.
   View view() const;
   V3f position(float time) const { return pose_at(time).position; }
-  V3f axis(float time) const { return pose_at(time).forward; }      ///< unit view direction
+  V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
+  bool has_lens() const { return lens_radius_ > 0; }
   float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
   /// Time of the frame itself on the scale of the shutter; outside [0, 1] when the shutter does not contain
   /// it.

@@ -69,8 +69,16 @@ PathTracer::PathTracer(const RenderScene& scene, const FrameGeometry& geometry, 
 Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const {
   stream.seek(kFilm);
   const V2f offset = filter_.offset(stream.next2d());
-  const V2f lens = stream.next2d();
-  const float time = stream.next1d();
+  V2f lens(0.5f);
+  float time = 0;
+  if (scene_.camera.has_lens()) {
+    stream.seek(kLens);
+    lens = stream.next2d();
+  }
+  if (scene_.camera.shutter_frames() > 0) {
+    stream.seek(kTime);
+    time = stream.next1d();
+  }
   scratch.sample.inside_pixel = std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f;
   const CameraRay from = scene_.camera.ray(static_cast<float>(x) + 0.5f + offset.x,
                                            static_cast<float>(y) + 0.5f + offset.y, lens, time);
