@@ -25,6 +25,15 @@ std::string reason() { return std::strerror(errno); }
   throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, "cannot write: " + why);
 }
 
+// A rename would put a file where a device, a pipe or a link stood: links are followed, the others refused.
+void replace_only_files(std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return;
+  if (!std::filesystem::is_regular_file(status)) fail_write(path, "it is not a regular file");
+  if (std::filesystem::is_symlink(path, error)) path = std::filesystem::canonical(path);
+}
+
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -59,6 +68,7 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
 }
 
 AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+  replace_only_files(path_);
   std::error_code ignored;
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
   // Beside the target, so that the rename stays on one file system; the ending is kept for libraries that

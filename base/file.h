@@ -14,7 +14,8 @@ namespace pelage {
 std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
 
 /// A file that appears whole or not at all (law 6): written under a temporary name beside `path`, synced and
-/// renamed by commit(). Without commit() the temporary is removed. Creates missing folders. Throws Error
+/// renamed by commit(). Without commit() the temporary is removed. Creates missing folders, follows links,
+/// and refuses to stand in for a device or pipe. Throws Error
 /// (kFailed).
 class AtomicFile {
  public:

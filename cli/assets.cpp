@@ -19,15 +19,25 @@ std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopolo
   return topology;
 }
 
+// A missing file is a mistake of the scene, at the place that names it.
+void require_file(const std::filesystem::path& file, const SourcePosition& named_at) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) {
+    throw Error(ErrorKind::kInput, named_at, "there is no file " + file.string());
+  }
+}
+
 std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
   std::vector<std::filesystem::path> files;
   for (int i = 0; i < poses.count; ++i) {
     files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
+    require_file(files.back(), poses.files.position);
   }
   return files;
 }
 
 Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies) {
+  require_file(params.mesh.path, params.mesh.position);
   const ControlMesh cage = read_obj(params.mesh.path);
   const auto topology = share(
       SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);

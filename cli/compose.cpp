@@ -14,7 +14,8 @@ namespace {
 /// A moment of the frame, in frames; several when something moves while the shutter is open.
 std::vector<double> motion_times(const CameraParams& camera, double frame, bool moves) {
   const float length = camera.shutter.y - camera.shutter.x;
-  if (!moves || !(length > 0)) return {frame};
+  if (!moves) return {frame};
+  if (!(length > 0)) return {frame + camera.shutter.x};
   std::vector<double> times;
   for (int key = 0; key < camera.motion_keys; ++key) {
     times.push_back(frame + camera.shutter.x + double(length) * key / (camera.motion_keys - 1));

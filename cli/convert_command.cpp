@@ -7,6 +7,9 @@
 namespace pelage {
 
 int run_convert(const Options& options) {
+  if (!is_strand_file(options.output)) {
+    throw Error(ErrorKind::kArguments, options.output + ": strands are written as .hair or .tfx");
+  }
   const StrandFile file = read_strands(options.input, {options.basis, options.default_width});
   write_strands(options.output, file.strands);
   std::cout << options.output << ": " << file.strands.strand_count() << " strands";

@@ -78,6 +78,9 @@ int run_grow(const Options& options) {
     throw Error(ErrorKind::kArguments, "there is no groom '" + options.groom + "'" +
                                            did_you_mean(options.groom, scene.grooms.names()));
   }
+  if (!options.output.empty() && !is_strand_file(options.output)) {
+    throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
+  }
   const int frame = scene.frames.frames.front();
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
   World world =

@@ -34,7 +34,8 @@ std::string describe_file(const Options& options) {
 }  // namespace
 
 int run_info(const Options& options) {
-  std::cout << options.input << ": " << describe_file(options);
+  const std::string text = describe_file(options);  // before anything is printed: it may throw
+  std::cout << options.input << ": " << text;
   return 0;
 }
 

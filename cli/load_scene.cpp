@@ -70,12 +70,24 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     } else if (groom.strands_file.empty()) {
       problems.add(position, "groom " + quote(name) + " needs a skin to grow on, or a strands_file");
     }
+    if (groom.cache)
+      problems.add(position,
+                   "groom " + quote(name) + ": the operator cache is not built yet; leave out 'cache'");
   }
   for (const auto& [name, position, character] : scene.characters.items) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
     for (const PartParams& part : character.parts) check_part(scene, part, problems);
   }
 }
+
+namespace {
+
+void check_shutter(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (scene.camera.shutter.x <= scene.camera.shutter.y) return;
+  problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
+}
+
+}  // namespace
 
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
   Problems problems;
@@ -84,7 +96,10 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     const ContentHash hash = document_hash(*document);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // A name that is missing because its block could not be read would be blamed twice.
-    if (SceneDescription::schema().read(*document, scene, problems)) check_references(scene, problems);
+    if (SceneDescription::schema().read(*document, scene, problems)) {
+      check_references(scene, problems);
+      check_shutter(scene, *document, problems);
+    }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
   return scene;

@@ -60,6 +60,9 @@ int run_render(const Options& options) {
   Run run(options);
   const SceneDescription scene = load_scene(options.input, options.overrides);
   const std::string output = output_name(options, scene.frames);
+  if (std::filesystem::path(output).extension() != ".exr") {
+    throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");
+  }
   check_output_pattern(output, scene.frames);
   check_writable(frame_file_name(output, scene.frames.frames.front()));
 

@@ -11,6 +11,7 @@
 #include "groom/imported.h"
 #include "groom/operator_stack.h"
 #include "groom/strand_writer.h"
+#include "groom/width.h"
 
 namespace pelage {
 
@@ -53,6 +54,16 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
   }
 }
 
+/// Grown strands have a width even when nothing gives them one.
+OperatorList with_width(const GroomParams& params) {
+  OperatorList list = params.operators;
+  const bool has_width =
+      std::any_of(list.items.begin(), list.items.end(),
+                  [](const OperatorList::Item& item) { return item.name == Width::kName; });
+  if (!has_width && params.strands_file.empty()) list.items.push_back(default_operator(Width::kName));
+  return list;
+}
+
 }  // namespace
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
@@ -64,10 +75,12 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->role = params.role;
   impl->points = params.points;
 
-  const auto seed = static_cast<uint64_t>(params.seed);
+  // Two coats of one skin must not grow from the same places because neither was given a seed.
+  const uint64_t name_hash = content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
+  const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
   PrepareContext context{impl->rest.get(), textures, workers, {}, hash64(seed, random_use("groom")),
                          params.points,    {}};
-  impl->stack.emplace(params.operators, context);
+  impl->stack.emplace(with_width(params), context);
   const OperatorStack& stack = *impl->stack;
   if (stack.needs_closest_point() && !impl->rest) {
     throw Error(ErrorKind::kInput, "groom '" + name + "' keeps clear of a skin but grows on none");

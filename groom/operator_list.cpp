@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/check.h"
 #include "base/nearest_name.h"
 #include "groom/bend.h"
 #include "groom/clump.h"
@@ -71,6 +72,14 @@ bool read_item(const Value& value, OperatorList::Item& item, Problems& problems)
 }
 
 }  // namespace
+
+OperatorList::Item default_operator(std::string_view name) {
+  const auto& table = kinds();
+  const auto kind = std::find_if(table.begin(), table.end(), [&](const auto& k) { return k.name == name; });
+  PELAGE_CHECK(kind != table.end());
+  Problems problems;
+  return {kind->name, {}, kind->read(Value(), problems), kind->clone};
+}
 
 bool ValueReader<OperatorList>::read(const Value& value, const KeyOptions&, OperatorList& out,
                                      Problems& problems) {

@@ -22,6 +22,9 @@ struct OperatorList {
   std::vector<Item> items;
 };
 
+/// An operator with all its defaults; `name` is one that exists.
+OperatorList::Item default_operator(std::string_view name);
+
 template <>
 struct ValueReader<OperatorList> {
   static bool read(const Value&, const KeyOptions&, OperatorList& out, Problems&);

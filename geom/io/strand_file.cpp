@@ -21,19 +21,26 @@ struct Format {
 };
 constexpr Format kFormats[] = {{".hair", read_hair, write_hair}, {".tfx", read_tfx, write_tfx}};
 
-const Format& format_of(const std::filesystem::path& path, ErrorKind kind) {
+const Format* find_format(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   for (const Format& format : kFormats) {
-    if (ending == format.ending) return format;
+    if (ending == format.ending) return &format;
   }
+  return nullptr;
+}
+
+const Format& format_of(const std::filesystem::path& path, ErrorKind kind) {
+  if (const Format* format = find_format(path)) return *format;
   throw Error(kind, {path.string(), 0, 0}, "expected a strand file ending in .hair or .tfx");
 }
 
 constexpr size_t kChunk = 4096;
 
 }  // namespace
+
+bool is_strand_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options) {
   return format_of(path, ErrorKind::kInput).read(path, options);

@@ -28,6 +28,9 @@ struct StrandReadOptions {
   std::optional<float> default_width;  ///< diameter for files without widths, scene units
 };
 
+/// Whether the ending of a name is one that strands are read from and written to.
+bool is_strand_file(const std::filesystem::path& path);
+
 /// Reads strands by the format of the name's ending: Cem Yuksel's .hair, TressFX 4's .tfx. Ids are the
 /// strands' places in the file. Degenerate strands are repaired or dropped and counted. Throws Error (kInput)
 /// with a reason for files that are damaged, are not what they say, or claim more than they hold; memory

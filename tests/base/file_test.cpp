@@ -68,6 +68,23 @@ TEST(ReadFile, RefusesMoreThanTheLimitWithoutReadingIt) {
   EXPECT_THROW(read_file(folder.path() / "five", 4), Error);
 }
 
+TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFileAlone) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "target", link = folder.path() / "link", pipe = folder.path() / "pipe";
+  std::ofstream(target) << "old";
+  std::filesystem::create_symlink(target, link);
+  AtomicFile file(link);
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(read_file(target), "new");
+
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(AtomicFile{pipe}, Error);
+  EXPECT_THROW(AtomicFile{folder.path()}, Error);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
 TEST(AtomicFile, AppearsWholeAtCommitAndReplacesWhatWasThere) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "new" / "folders" / "out.exr";
