@@ -139,9 +139,10 @@ TEST(AtomicFile, WhatCannotBeWrittenIsAFailureWithThePath) {
   EXPECT_EQ(error.problems().front().position.file, "/proc/none/x.exr");
 
   const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path() / "taken");
-  std::ofstream(folder.path() / "taken" / "inside") << "x";
   AtomicFile over_a_folder(folder.path() / "taken");
+  std::filesystem::create_directory(folder.path() /
+                                    "taken");  // only now: a folder there before is refused at once
+  std::ofstream(folder.path() / "taken" / "inside") << "x";
   EXPECT_EQ(error_of([&] { over_a_folder.commit(); }).kind(), ErrorKind::kFailed);
 }
 
