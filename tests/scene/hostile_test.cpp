@@ -7,8 +7,8 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "scene/document.h"
-#include "tests/support/allocation_meter.h"
 #include "tests/scene/document_text.h"
+#include "tests/support/allocation_meter.h"
 
 // No text may crash the reader, hang it or make it allocate much. A hang is caught by the time limit of
 // CTest.
