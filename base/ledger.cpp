@@ -45,6 +45,15 @@ int64_t MemoryLedger::peak(MemoryTag tag) const {
   return accounts_[static_cast<size_t>(tag)].peak.load(std::memory_order_relaxed);
 }
 
+int64_t MemoryLedger::budgeted() const {
+  int64_t bytes = 0;
+  for (MemoryTag tag : {MemoryTag::kChunks, MemoryTag::kSkins, MemoryTag::kOperatorCache,
+                        MemoryTag::kReflectionCache, MemoryTag::kFilm}) {
+    bytes += current(tag);
+  }
+  return bytes;
+}
+
 MemoryCharge::MemoryCharge(MemoryLedger& ledger, MemoryTag tag, int64_t bytes)
     : ledger_(&ledger), tag_(tag), bytes_(bytes) {
   ledger_->charge(tag_, bytes_);

@@ -28,6 +28,8 @@ class MemoryLedger {
   void charge(MemoryTag tag, int64_t bytes);
   int64_t current(MemoryTag tag) const;
   int64_t peak(MemoryTag tag) const;
+  /// Bytes in use of what `render.memory` covers: chunks, skins, caches and film (law 5).
+  int64_t budgeted() const;
 
  private:
   struct Account {

@@ -4,22 +4,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/memory_budget.h"
 
 namespace pelage {
-namespace {
-
-/// What `render.memory` covers (law 5).
-int64_t budgeted_bytes(const MemoryLedger& ledger) {
-  int64_t bytes = 0;
-  for (MemoryTag tag : {MemoryTag::kChunks, MemoryTag::kSkins, MemoryTag::kOperatorCache,
-                        MemoryTag::kReflectionCache, MemoryTag::kFilm}) {
-    bytes += ledger.current(tag);
-  }
-  return bytes;
-}
-
-}  // namespace
-
 EmbreeDevice::EmbreeDevice(int threads, uint64_t memory_limit, MemoryLedger& ledger)
     : ledger_(ledger), memory_limit_(memory_limit) {
   device_ = rtcNewDevice(fmt::format("threads={}", threads).c_str());
@@ -37,8 +24,7 @@ void EmbreeDevice::rethrow() const {
   std::lock_guard lock(mutex_);
   if (code_ == RTC_ERROR_NONE) return;
   if (over_limit_) {
-    throw Error(ErrorKind::kMemory, fmt::format("the geometry and its tree do not fit render.memory ({} MiB)",
-                                                memory_limit_ >> 20));
+    throw Error(ErrorKind::kMemory, budget_text("the tree over the geometry", memory_limit_));
   }
   if (code_ == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ErrorKind::kMemory, "out of memory while building the tree");
@@ -61,7 +47,7 @@ bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool post) noexcept {
   auto& device = *static_cast<EmbreeDevice*>(self);
   device.ledger_.charge(MemoryTag::kChunks, bytes);
   if (bytes <= 0 || device.memory_limit_ == 0) return true;
-  if (budgeted_bytes(device.ledger_) <= static_cast<int64_t>(device.memory_limit_)) return true;
+  if (device.ledger_.budgeted() <= static_cast<int64_t>(device.memory_limit_)) return true;
   device.over_limit_ = true;
   if (!post) device.ledger_.charge(MemoryTag::kChunks, -bytes);  // refused before it was allocated
   return false;

@@ -16,12 +16,16 @@ bool is_finite(const Rgb& c) { return std::isfinite(c.x + c.y + c.z); }
 Film::Film(int width, int height, FilmLayers layers, MemoryLedger& ledger)
     : width_(width), height_(height), layers_(std::move(layers)), stride_(4 + 3 * layers_.size()) {
   const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
-  charge_ = MemoryCharge(
-      ledger, MemoryTag::kFilm,
-      static_cast<int64_t>(pixels * (stride_ * sizeof(float) + sizeof(uint32_t) + sizeof(Surface))));
+  charge_ = MemoryCharge(ledger, MemoryTag::kFilm, bytes_needed(width, height, layers_));
   sums_.resize(pixels * stride_);
   counts_.resize(pixels);
   surfaces_.resize(pixels);
+}
+
+int64_t Film::bytes_needed(int width, int height, const FilmLayers& layers) {
+  const size_t stride = 4 + 3 * layers.size();
+  const size_t pixel = stride * sizeof(float) + sizeof(uint32_t) + sizeof(Surface);
+  return static_cast<int64_t>(width) * height * static_cast<int64_t>(pixel);
 }
 
 bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer) {

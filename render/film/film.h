@@ -43,6 +43,8 @@ struct FilmSample {
 class Film {
  public:
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
+  /// What a film of this size takes.
+  static int64_t bytes_needed(int width, int height, const FilmLayers& layers);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "render/accel/embree_accel.h"
+#include "render/memory_budget.h"
 #include "render/path/strand_fields.h"
 
 namespace pelage {
@@ -62,6 +63,7 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
       batch = grow(leaves[i], scene);
       const size_t bytes = batch.strands.bytes() + batch.opacity.capacity() * sizeof(float);
       geometry->charges_[i] = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
+      require_room(ledger, scene.render.memory.bytes, 0, "the fur of " + scene.fur[batch.part].name);
       progress.advance(1);
     }
   });

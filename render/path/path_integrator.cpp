@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "render/accel/flush_denormals.h"
+#include "render/memory_budget.h"
 
 namespace pelage {
 namespace {
@@ -110,7 +111,10 @@ class FrameLoop {
 FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progress& progress,
                          MemoryLedger& ledger, Statistics& statistics, const PathOptions& options) {
   const Stopwatch preparing;
-  FrameResult result{Film(scene.image.width, scene.image.height, film_layers(scene), ledger)};
+  const FilmLayers layers = film_layers(scene);
+  require_room(ledger, scene.render.memory.bytes,
+               Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
+  FrameResult result{Film(scene.image.width, scene.image.height, layers, ledger)};
   const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
   statistics.stages_s["prepare"] += preparing.seconds();
   result.partial = geometry == nullptr;

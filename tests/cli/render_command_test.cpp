@@ -91,15 +91,32 @@ TEST_F(RenderCommandTest, OutputThatCannotBeWrittenIsFoundBeforeRendering) {
   }
 }
 
-TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysWhatIsNeeded) {
-  Options o = options("x.exr");
-  o.overrides = {{"render.memory", "64K"}};
+TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
+  const auto refused = [&](const Override& memory, const Override& what) -> std::string {
+    Options o = options("x.exr");
+    o.overrides = {memory, what};
+    try {
+      run_render(o);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+      EXPECT_FALSE(std::filesystem::exists(o.output));
+      return error.what();
+    }
+    return "rendered";
+  };
+  EXPECT_NE(refused({"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}).find("the film"),
+            std::string::npos);
+  EXPECT_NE(
+      refused({"render.memory", "2M"}, {"grooms.coat.strands", "100000"}).find("the fur of walker.coat"),
+      std::string::npos);
+}
+
+TEST_F(RenderCommandTest, PicturesAreExr) {
   try {
-    run_render(o);
-    FAIL() << "rendered in 64 KiB";
+    run_render(options("x.png"));
+    FAIL() << "wrote an EXR named .png";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-    EXPECT_FALSE(std::filesystem::exists(o.output));
+    EXPECT_EQ(error.kind(), ErrorKind::kArguments);
   }
 }
 
