@@ -105,8 +105,14 @@ std::string print_vector(const Vector& v, int size) {
 template <class Number>
 std::string shortest(Number number) {
   char buffer[64];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
-  return std::string(buffer, result.ptr);
+  char* const end = buffer + sizeof buffer;
+  if constexpr (std::is_floating_point_v<Number>) {
+    // 1000000, not 1e+06.
+    if (std::abs(number) < Number(1e15) && number == std::floor(number)) {
+      return std::string(buffer, std::to_chars(buffer, end, number, std::chars_format::fixed).ptr);
+    }
+  }
+  return std::string(buffer, std::to_chars(buffer, end, number).ptr);
 }
 
 }  // namespace

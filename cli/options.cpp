@@ -21,6 +21,7 @@ namespace {
 struct Texts {
   std::string frames, memory, progress, basis, stats;
   std::vector<std::string> set;
+  std::vector<std::string> section;  // its words
   bool quiet = false;
 };
 
@@ -88,7 +89,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_strand_flags(*convert, options, texts);
 
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
-  manual->add_option("SECTION", options.section, "Only this section, such as camera or curl");
+  manual->add_option("SECTION", texts.section, "Only this section, such as camera, curl or map field");
   manual->add_flag("--markdown", options.markdown, "Write Markdown");
 }
 
@@ -166,6 +167,8 @@ void interpret(const Texts& texts, Options& options) {
     parse_frames(texts.frames);  // throws here, where the flag can be named
     options.overrides.push_back({"frames", "'" + texts.frames + "'"});
   }
+  for (const std::string& word : texts.section)
+    options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;
   if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
   options.progress = parse_progress(texts);

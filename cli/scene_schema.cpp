@@ -103,12 +103,11 @@ const Schema<SceneDescription>& SceneDescription::schema() {
     Schema<SceneDescription> s(
         "scene",
         "A scene is a YAML file: right-handed, y up, the camera looks along -z of its own space. Relative "
-        "paths are "
-        "relative to the file that names them. `include: base.yaml`, or a list of files, reads other scene "
-        "files "
-        "first; maps are merged and the including file wins. Any number or vector marked \"or keys\" may be "
-        "{keys: {1: a, 48: b}}, linear between frames. `--set a.b.c=value` on the command line overrides any "
-        "value.");
+        "paths are relative to the file that names them. `include: base.yaml`, or a list of files, reads "
+        "other scene files first; maps are merged and the including file wins. A number or vector marked "
+        "\"or keys\" may be `{keys: {1: a, 48: b}}`, linear between frames. A field is a number, a colour or "
+        "one of the blocks that end in \"field\". `--set a.b.c=value` on the command line overrides any "
+        "value; an item of a list is addressed by its index from 0 or by its only key.");
     s.key("pelage", &SceneDescription::pelage, {.help = "Version of the scene format", .required = true});
     s.key("units", &SceneDescription::units,
           {.help = "What a scene unit and a frame are", .default_text = "cm, 24 fps"});

@@ -217,7 +217,7 @@ const Schema<MapForm>& MapForm::schema() {
 
 const Schema<Ramp>& Ramp::schema() {
   static const Schema<Ramp> table = [] {
-    Schema<Ramp> s("ramp", "Piecewise linear between knots, constant outside them.");
+    Schema<Ramp> s("ramp of a field", "Piecewise linear between knots, constant outside them.");
     s.key(
         "along", &Ramp::along,
         {.help = "strand: 0 at the root, 1 at the tip; x, y, z: the root in the skin's rest space; u, v: its "
@@ -234,7 +234,8 @@ const Schema<Ramp>& Ramp::schema() {
 
 const Schema<Noise>& Noise::schema() {
   static const Schema<Noise> table = [] {
-    Schema<Noise> s("noise", "offset + amplitude * gradient noise in [-1, 1] of the root's rest position.");
+    Schema<Noise> s("noise of a field",
+                    "offset + amplitude * gradient noise in [-1, 1] of the root's rest position.");
     s.key("frequency", &Noise::frequency,
           {.unit = "per scene unit", .help = "Cells of the noise per unit", .min = 0});
     s.key("amplitude", &Noise::amplitude, {.help = "Farthest from the offset"});

@@ -107,6 +107,12 @@ std::string escape_cell(const std::string& text) {
   return escaped;
 }
 
+// As GitHub makes it from a heading.
+std::string anchor(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '-');
+  return "#" + name;
+}
+
 std::string markdown_section(const SchemaInfo& table) {
   std::string text = "## " + table.name() + "\n\n" + table.help() + "\n\n";
   if (table.keys().empty()) return text;
@@ -114,7 +120,7 @@ std::string markdown_section(const SchemaInfo& table) {
   for (const KeyInfo& key : table.keys()) {
     std::vector<std::string> sections;
     for (const SchemaInfo* block : key.blocks) {
-      sections.push_back("[" + block->name() + "](#" + block->name() + ")");
+      sections.push_back("[" + block->name() + "](" + anchor(block->name()) + ")");
     }
     const std::string see = sections.empty() ? "" : "See " + join(sections, ", ") + ".";
     std::string help = key.options.help;

@@ -55,6 +55,17 @@ TEST(ValueReaders, Numbers) {
   EXPECT_EQ(problem_of<float>(scalar("1e39")), "expected a number, got 1e39");
 }
 
+TEST(ValueReaders, NumbersArePrintedToBeReadBack) {
+  EXPECT_EQ(ValueReader<double>::print(1e6), "1000000");
+  EXPECT_EQ(ValueReader<float>::print(16777216.0f), "16777216");
+  EXPECT_EQ(ValueReader<double>::print(1e300), "1e+300");
+  EXPECT_EQ(ValueReader<float>::print(0.1f), "0.1");
+  EXPECT_EQ(ValueReader<double>::print(-2), "-2");
+  for (const double number : {0.1, 1.0 / 3, 1e15, 123456789012345.0, -1e-7, 5e-324}) {
+    EXPECT_EQ(parse_number(ValueReader<double>::print(number)), number);
+  }
+}
+
 TEST(ValueReaders, Ranges) {
   const KeyOptions unit{.min = 0, .max = 1};
   EXPECT_EQ(read<float>(scalar("0"), unit), 0.0f);

@@ -156,4 +156,40 @@ std::vector<std::string> hdr_corpus() {
 
 std::vector<std::string> exr_corpus() { return {exr_bytes(5, 40), exr_bytes(1, 1)}; }
 
+std::vector<std::string> scene_corpus() {
+  const std::filesystem::path examples = std::filesystem::path(PELAGE_SOURCE_DIR) / "examples";
+  std::vector<std::string> corpus;
+  for (const char* name : {"tuft.yaml", "rat.yaml", "imported.yaml"})
+    corpus.push_back(read_file(examples / name));
+  // What the schemas take for numbers, fields, keys and names, all of it wrong.
+  corpus.push_back(
+      "pelage: 1\nframes: 1-999999999x0\ncamera: {fov: {keys: {1: 1e999, x: 2, 1.0: 3}}, lens: {f_stop: "
+      "-0}}\n"
+      "image: {width: 99999999999999999999, height: -1}\nrender: {memory: -4G, samples: 1e300, bounces: "
+      "0x7}\n"
+      "grooms: {g: {strands: .nan, density: {product: [{product: []}, {ramp: {along: w, knots: [[1, 0], [0, "
+      "1]]}},"
+      " {noise: {frequency: []}}, {map: \"\", range: [1]}, {attribute: }]}, operators: [clump, {}, {a: 1, b: "
+      "2},"
+      " {curl: }, {curl: {turns: [1]}}, 5, [length]]}}\ncharacters: {c: {parts: [{skin: g, grooms: [g]}, "
+      "5]}}\n"
+      "lights: {l: {type: [sphere]}, m: {}, n: sphere}\nmaterials: {m: {model: cone-shell, color: [1, "
+      "2]}}\n");
+  std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 12; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    bomb += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last + ", " + last + ", " + last +
+            "]\n";
+  }
+  corpus.push_back(bomb);
+  corpus.push_back("a: &a [*a, *a]\n");
+  for (const char* piece :
+       {"[", "{a: ", "[ #]\n", "- ", "? ", "&a ", "!", "a: 1\n", "---\n", "a:", "\"", "%"}) {
+    std::string text = "pelage: ";
+    while (text.size() < 20000) text += piece;
+    corpus.push_back(text);
+  }
+  return corpus;
+}
+
 }  // namespace pelage

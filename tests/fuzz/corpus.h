@@ -20,5 +20,6 @@ std::vector<std::string> tfx_corpus();
 std::vector<std::string> obj_corpus();
 std::vector<std::string> hdr_corpus();
 std::vector<std::string> exr_corpus();
+std::vector<std::string> scene_corpus();
 
 }  // namespace pelage

@@ -30,7 +30,8 @@ INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
                                          Replay{"tfx", fuzz_tfx, tfx_corpus, 400, 4 << 20},
                                          Replay{"obj", fuzz_obj, obj_corpus, 400, 64 << 20},
                                          Replay{"hdr", fuzz_hdr, hdr_corpus, 200, 256 << 20},
-                                         Replay{"exr", fuzz_exr, exr_corpus, 200, 256 << 20}),
+                                         Replay{"exr", fuzz_exr, exr_corpus, 200, 256 << 20},
+                                         Replay{"scene", fuzz_scene, scene_corpus, 400, 16 << 20}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Fuzz, SurvivesItsCorpus) {

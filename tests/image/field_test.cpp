@@ -212,7 +212,7 @@ TEST(Field, NamesWhatWasExpected) {
   EXPECT_EQ(error_of(map({entry("map", scalar("f.png")), entry("channel", scalar("x", 7))})),
             "s.yaml:1:7: expected r | g | b | a, got 'x'; did you mean 'r'?");
   EXPECT_EQ(error_of(map({entry("noise", map({entry("ampiltude", scalar("1"))}))})),
-            "s.yaml:1:3: unknown key 'ampiltude' in noise; did you mean 'amplitude'?");
+            "s.yaml:1:3: unknown key 'ampiltude' in noise of a field; did you mean 'amplitude'?");
   EXPECT_EQ(error_of(map({entry("product", list({}, 5))})), "s.yaml:1:5: a product needs at least 1 factor");
   EXPECT_EQ(error_of(map({entry("attribute", scalar("", 6))})),
             "s.yaml:1:6: expected the name of an attribute, got ''");

@@ -73,6 +73,32 @@ TEST(Manual, IsMarkdown) {
             "\n");
 }
 
+TEST(Manual, MarkdownLinksLeadToHeadings) {
+  struct Named {
+    Lens spare;
+    static const Schema<Named>& schema() {
+      static const Schema<Named> table = [] {
+        Schema<Named> s("two words", "");
+        s.key("self", &Named::spare, {});
+        return s;
+      }();
+      return table;
+    }
+  };
+  struct Root {
+    Named block;
+    static const Schema<Root>& schema() {
+      static const Schema<Root> table = [] {
+        Schema<Root> s("root", "");
+        s.key("block", &Root::block, {});
+        return s;
+      }();
+      return table;
+    }
+  };
+  EXPECT_NE(manual_text(Root::schema(), "root", true).find("[two words](#two-words)"), std::string::npos);
+}
+
 TEST(Manual, FindsSectionsByNameOrByKey) {
   const std::string lens = manual_text(Camera::schema(), "lens");
   EXPECT_EQ(lens.substr(0, 5), "lens\n");
