@@ -12,12 +12,12 @@
 
 #include <sched.h>
 
+#include <tbb/task_arena.h>
 #ifdef PELAGE_STD_THREADS
 #include <thread>
 #include <vector>
 #else
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 #endif
 
 namespace pelage {
@@ -95,6 +95,11 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 Workers::Workers(int threads) : team_(new Team{threads > 0 ? threads : available_processors()}) {}
 int Workers::thread_count() const { return team_->threads; }
 
+void Workers::lend_to_library(const std::function<void()>& body) const {
+  tbb::task_arena alone(1);
+  alone.execute(body);
+}
+
 #else
 
 struct Workers::Team {
@@ -115,6 +120,8 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 
 Workers::Workers(int threads) : team_(new Team(threads > 0 ? threads : available_processors())) {}
 int Workers::thread_count() const { return team_->threads; }
+
+void Workers::lend_to_library(const std::function<void()>& body) const { team_->arena.execute(body); }
 
 #endif
 

@@ -33,6 +33,10 @@ class Workers {
   /// Calls `body` for ranges of at most `grain` indices that together cover 0 .. count-1 once each.
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 
+  /// Calls `body` once, where a library that is parallel through TBB by itself has this team's threads and no
+  /// others; in the thread-sanitizer build it has only the calling one.
+  void lend_to_library(const std::function<void()>& body) const;
+
  private:
   struct Team;
   std::unique_ptr<Team> team_;

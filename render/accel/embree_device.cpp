@@ -7,9 +7,9 @@
 #include "render/memory_budget.h"
 
 namespace pelage {
-EmbreeDevice::EmbreeDevice(int threads, uint64_t memory_limit, MemoryLedger& ledger)
+EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger)
     : ledger_(ledger), memory_limit_(memory_limit) {
-  device_ = rtcNewDevice(fmt::format("threads={}", threads).c_str());
+  device_ = rtcNewDevice(nullptr);
   if (!device_) {
     throw Error(ErrorKind::kFailed, fmt::format("Embree does not start (error {})",
                                                 static_cast<int>(rtcGetDeviceError(nullptr))));

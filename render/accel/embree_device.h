@@ -14,9 +14,9 @@ namespace pelage {
 /// somebody asks: nothing may be thrown through Embree's C frames.
 class EmbreeDevice {
  public:
-  /// `threads`: that Embree may build with. `memory_limit`: bytes that the ledger's budgeted tags may reach,
+  /// `memory_limit`: bytes that the ledger's budgeted tags may reach,
   /// 0 for no limit. Throws Error (kFailed) when Embree does not start.
-  EmbreeDevice(int threads, uint64_t memory_limit, MemoryLedger& ledger);
+  EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger);
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;

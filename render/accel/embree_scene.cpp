@@ -24,19 +24,11 @@ RTCGeometryType geometry_type(CurveBasis basis, CurveShape shape) {
   return flat ? RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE : RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE;
 }
 
-int build_threads([[maybe_unused]] const Workers& workers) {
-#if defined(PELAGE_STD_THREADS)
-  return 1;  // Embree's own tasks run on TBB, which the thread sanitizer cannot follow
-#else
-  return workers.thread_count();
-#endif
-}
-
 }  // namespace
 
 EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
                          const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers)
-    : options_(options), device_(build_threads(workers), options.memory_limit, ledger) {
+    : options_(options), device_(options.memory_limit, ledger) {
   PELAGE_CHECK(options_.tessellation_rate >= 2 && options_.tessellation_rate <= 16 &&
                options_.tessellation_rate % 2 == 0);
   curves_.reserve(strands.size());
@@ -58,7 +50,7 @@ EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::ve
     for (uint32_t i = 0; i < skins.size(); ++i) {
       add_skin(*skins[i], static_cast<uint32_t>(curves_.size()) + i);
     }
-    rtcCommitScene(scene_);
+    workers.lend_to_library([&] { rtcCommitScene(scene_); });
     device_.rethrow();
   } catch (...) {
     rtcReleaseScene(scene_);
