@@ -192,11 +192,12 @@ def whiskers(p, part):
 
 # ---- colours ----
 
-BACK, FLANK, BELLY = (0.74, 0.70, 0.66), (1.08, 1.05, 1.0), (1.75, 1.80, 1.86)
+BACK, FLANK, BELLY = (0.70, 0.66, 0.62), (1.14, 1.11, 1.06), (1.80, 1.85, 1.90)
 WARM = (1.22, 1.08, 0.92)
 MUZZLE, PAW = (1.10, 1.04, 1.00), (1.60, 1.55, 1.50)
 SKIN_UNDER_FUR, SKIN_PINK, SKIN_NOSE = (0.22, 0.16, 0.13), (0.66, 0.39, 0.33), (0.60, 0.33, 0.29)
-SKIN_TAIL, SKIN_EAR, SKIN_INNER_EAR, SKIN_RIM = (0.45, 0.32, 0.29), (0.33, 0.22, 0.19), (0.38, 0.21, 0.18), (0.56, 0.33, 0.27)
+SKIN_TAIL, SKIN_RIM = (0.40, 0.28, 0.25), (0.56, 0.33, 0.27)
+SKIN_EAR, SKIN_INNER_EAR = (0.33, 0.22, 0.19), (0.38, 0.21, 0.18)
 SKIN_EYELID = (0.06, 0.045, 0.04)
 TAIL_RING = 0.26       # centimetres from scale ring to scale ring
 

@@ -26,7 +26,7 @@ def fine_values(p, n, part):
 
 
 def patches(mesh, atlas, smooth, steps=2):
-    """The subdivided skin: yields (part, texel corners, values, positions and normals at the corners) of each small quad."""
+    """The subdivided skin: yields (part, texel corners, values + positions + normals there) of each small quad."""
     points, quads = mesh.points, [f.vertices for f in mesh.faces]
     texels = [[atlas.texel(f.chart, c) for c in f.corners] for f in mesh.faces]
     for _ in range(steps):
