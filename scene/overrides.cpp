@@ -62,14 +62,29 @@ Value* find_item(Value& list, const std::string& name, const SourcePosition& whe
   return nullptr;
 }
 
-// The value under a name, made when there is none.
-Value* find_entry(Value& block, const std::string& name, const SourcePosition& where, Problems& problems) {
+// Blocks of a block whose name is near: a path through none of them is more likely a slip than a new block.
+std::string near_block(const Value& block, const std::string& name) {
+  std::vector<std::string> blocks;
+  for (const Value::Entry& entry : block.entries()) {
+    if (entry.value.is_map() || entry.value.is_list()) blocks.push_back(entry.key);
+  }
+  return did_you_mean(name, blocks);
+}
+
+// The value under a name, made when there is none. `leads_on`: more names follow.
+Value* find_entry(Value& block, const std::string& name, bool leads_on, const SourcePosition& where,
+                  Problems& problems) {
   if (block.is_null()) block = Value::map(where, {});
   if (!block.is_map()) {
     problems.add(where, quote(name) + " is sought in " + block.describe() + ", which is no block");
     return nullptr;
   }
   if (Value* value = block.find(name)) return value;
+  if (const std::string near = leads_on ? near_block(block, name) : ""; !near.empty()) {
+    problems.add(where, "there is no " + quote(name) + near + " (what is new must be given whole, as " +
+                            name + "={...})");
+    return nullptr;
+  }
   block.entries().push_back({name, where, Value()});
   block.entries().back().value.set_position(where);
   return &block.entries().back().value;
@@ -85,9 +100,9 @@ void apply_override(const Override& override, Value& document, DocumentLimits& l
     return;
   }
   Value* target = &document;
-  for (const std::string& name : names) {
-    target = target->is_list() ? find_item(*target, name, where, problems)
-                               : find_entry(*target, name, where, problems);
+  for (size_t i = 0; i < names.size(); ++i) {
+    target = target->is_list() ? find_item(*target, names[i], where, problems)
+                               : find_entry(*target, names[i], i + 1 < names.size(), where, problems);
     if (!target) return;
   }
   std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);

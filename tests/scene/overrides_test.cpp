@@ -59,6 +59,8 @@ TEST(Overrides, ReplaceAndAdd) {
   EXPECT_EQ(with_one("render.bounces=2", "render"), "{samples: 64, bounces: 2}");
   EXPECT_EQ(with_one("render={x: [1, 2]}", "render"), "{x: [1, 2]}");
   EXPECT_EQ(with_one("a.b.c=1", "a"), "{b: {c: 1}}");
+  EXPECT_EQ(with_one("rendr={a: 1}", "rendr"), "{a: 1}");
+  EXPECT_EQ(with_one("rendr=5", "rendr"), "5");
   EXPECT_EQ(with_one("lens.f_stop=4", "lens"), "{f_stop: 4}");
   EXPECT_EQ(with_one("render=null", "render"), "null");
   EXPECT_EQ(with_one("render=", "render"), "null");
@@ -90,6 +92,10 @@ TEST(Overrides, MistakesNameTheFlag) {
             Lines{"--set operators.4: there is no item 4 in a list of 4 (the first is 0)"});
   EXPECT_EQ(with({"render.samples.x=1"}).problems,
             Lines{"--set render.samples.x: 'x' is sought in '64', which is no block"});
+  EXPECT_EQ(
+      with({"rendr.samples=1"}).problems,
+      Lines{"--set rendr.samples: there is no 'rendr'; did you mean 'render'? (what is new must be given "
+            "whole, as rendr={...})"});
   EXPECT_EQ(with({"render..x=1", ".=1"}).problems,
             (Lines{"--set render..x: expected names separated by single dots",
                    "--set .: expected names separated by single dots"}));
