@@ -11,7 +11,6 @@
 #include <string>
 
 #include <sched.h>
-
 #include <tbb/task_arena.h>
 #ifdef PELAGE_STD_THREADS
 #include <thread>
