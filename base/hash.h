@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace pelage {
 
@@ -47,5 +50,38 @@ struct ContentHash {
   friend bool operator==(const ContentHash&, const ContentHash&) = default;
 };
 ContentHash content_hash(std::span<const std::byte> bytes, uint64_t seed = 0);
+/// 32 hexadecimal digits.
+std::string to_string(const ContentHash& hash);
+
+/// The content hash of many pieces, one after the other. Texts and lists are preceded by their length, so
+/// that "ab", "c" and "a", "bc" differ. Numbers enter as their bytes: 1.0f, 1.0 and 1 differ, as do 0 and -0.
+class ContentHasher {
+ public:
+  ContentHasher();
+  ~ContentHasher();
+  ContentHasher(ContentHasher&&) noexcept;
+  ContentHasher& operator=(ContentHasher&&) noexcept;
+
+  /// Bytes alone, without their number.
+  ContentHasher& add_bytes(std::span<const std::byte> bytes);
+  ContentHasher& add(std::string_view text);
+  ContentHasher& add(const char* text) { return add(std::string_view(text)); }
+  ContentHasher& add(const ContentHash& hash) { return add(hash.low).add(hash.high); }
+  template <class Number>
+  requires std::is_arithmetic_v<Number> || std::is_enum_v<Number> ContentHasher& add(Number value) {
+    return add_bytes(std::as_bytes(std::span(&value, 1)));
+  }
+  /// Elements without padding: their bytes are hashed.
+  template <class T>
+  requires std::is_trivially_copyable_v<T> ContentHasher& add(std::span<const T> values) {
+    return add(static_cast<uint64_t>(values.size())).add_bytes(std::as_bytes(values));
+  }
+  /// Of everything added so far; more may follow.
+  ContentHash digest() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace pelage

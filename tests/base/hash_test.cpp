@@ -104,5 +104,26 @@ TEST(ContentHash, DependsOnEveryByteTheLengthAndTheSeed) {
   }
 }
 
+TEST(ContentHasher, HashesTheSameBytesAsOneCallDoes) {
+  std::vector<std::byte> bytes(100'000);
+  for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(mix64(i));
+  ContentHasher pieces;
+  for (size_t at = 0, size = 1; at < bytes.size(); at += size, size = size * 3 % 1009) {
+    pieces.add_bytes(std::span(bytes).subspan(at, std::min(size, bytes.size() - at)));
+  }
+  EXPECT_EQ(pieces.digest(), content_hash(bytes));
+  EXPECT_EQ(pieces.digest(), content_hash(bytes)) << "asking changes nothing";
+}
+
+TEST(ContentHasher, TellsWhereOnePieceEnds) {
+  EXPECT_NE(ContentHasher().add("ab").add("c").digest(), ContentHasher().add("a").add("bc").digest());
+  EXPECT_NE(ContentHasher().add("").digest(), ContentHasher().digest());
+  EXPECT_NE(ContentHasher().add(1.0f).digest(), ContentHasher().add(1).digest());
+  const std::array<float, 2> list{1, 2};
+  EXPECT_NE(ContentHasher().add(std::span<const float>(list)).digest(),
+            ContentHasher().add(1.0f).add(2.0f).digest());
+  EXPECT_EQ(to_string(ContentHash{0xabcull, 0x12ull}), "00000000000000120000000000000abc");
+}
+
 }  // namespace
 }  // namespace pelage

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/content_store.h"
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/stored_file_format.h"
+
+namespace pelage {
+
+namespace format = stored_file_format;
+
+std::filesystem::path ContentStore::file(const std::string& kind, const ContentHash& key) const {
+  return folder_ / (kind + "-" + to_string(key) + format::kEnding);
+}
+
+std::optional<StoredFile> ContentStore::open(const std::string& kind, const ContentHash& key,
+                                             const WarningSink& warn) const {
+  const std::filesystem::path path = file(kind, key);
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) return {};
+  try {
+    StoredFile stored(path);
+    if (stored.kind() != kind || stored.key() != key) {
+      warn(path.string() + ": holds something else than its name says; made again");
+      return {};
+    }
+    return stored;
+  } catch (const Error& e) {
+    // Removed by another process between the question and the opening: as good as never there.
+    if (std::filesystem::exists(path, error)) warn(std::string(e.what()) + "; made again");
+    return {};
+  }
+}
+
+ContentStore::Writer::Writer(const std::filesystem::path& path, const std::string& kind,
+                             const ContentHash& key) {
+  PELAGE_CHECK(kind.size() <= sizeof(format::Header::kind));
+  attempt([&] { file_.emplace(path); });
+  format::Header header;
+  std::memcpy(header.kind, kind.data(), kind.size());
+  header.key_low = key.low;
+  header.key_high = key.high;
+  put(std::as_bytes(std::span(&header, 1)));
+}
+
+void ContentStore::Writer::attempt(const std::function<void()>& step) {
+  if (!failure_.empty()) return;
+  try {
+    step();
+  } catch (const Error& e) {
+    failure_ = e.what();
+    file_.reset();
+  }
+}
+
+void ContentStore::Writer::put(std::span<const std::byte> bytes) {
+  written_ += bytes.size();
+  attempt([&] { file_->write(bytes); });
+}
+
+void ContentStore::Writer::add(std::span<const std::byte> section) {
+  static constexpr std::byte kZeros[format::kAlignment] = {};
+  put(std::span(kZeros).first((format::kAlignment - written_ % format::kAlignment) % format::kAlignment));
+  sections_.push_back({written_, section.size(), content_hash(section)});
+  put(section);
+}
+
+bool ContentStore::Writer::commit(const WarningSink& warn) {
+  std::vector<format::Section> table;
+  for (const Section& s : sections_) table.push_back({s.offset, s.bytes, s.hash.low, s.hash.high});
+  static constexpr std::byte kZeros[format::kAlignment] = {};
+  put(std::span(kZeros).first((format::kAlignment - written_ % format::kAlignment) % format::kAlignment));
+  format::Trailer trailer;
+  trailer.table_offset = written_;
+  trailer.section_count = table.size();
+  trailer.file_bytes = written_ + table.size() * sizeof(format::Section) + sizeof(format::Trailer);
+  const ContentHash hash = content_hash(std::as_bytes(std::span(table)));
+  trailer.table_low = hash.low;
+  trailer.table_high = hash.high;
+  put(std::as_bytes(std::span(table)));
+  put(std::as_bytes(std::span(&trailer, 1)));
+  attempt([&] { file_->commit(); });
+  file_.reset();
+  if (!failure_.empty()) warn(failure_ + "; going on without storing it");
+  return failure_.empty();
+}
+
+ContentStore::Writer ContentStore::writer(const std::string& kind, const ContentHash& key) const {
+  return Writer(file(kind, key), kind, key);
+}
+
+bool ContentStore::store(const std::string& kind, const ContentHash& key,
+                         std::span<const std::span<const std::byte>> sections,
+                         const WarningSink& warn) const {
+  Writer entry = writer(kind, key);
+  for (const std::span<const std::byte>& section : sections) entry.add(section);
+  return entry.commit(warn);
+}
+
+ContentStore::Lock::Lock(Lock&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
+
+ContentStore::Lock::~Lock() {
+  if (descriptor_ < 0) return;
+  // While it is still locked: who waits for it sees that its name is gone, and begins again.
+  ::unlink(path_.c_str());
+  ::close(descriptor_);
+}
+
+ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash& key,
+                                      std::chrono::milliseconds patience) const {
+  const auto give_up = std::chrono::steady_clock::now() + patience;
+  Lock lock;
+  lock.path_ = folder_ / ("." + kind + "-" + to_string(key) + format::kLockEnding);
+  std::error_code ignored;
+  std::filesystem::create_directories(folder_, ignored);
+  for (;;) {
+    const int descriptor = ::open(lock.path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0) return lock;
+    bool mine = false;
+    while (!(mine = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) &&
+           (errno == EWOULDBLOCK || errno == EINTR) && std::chrono::steady_clock::now() < give_up) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    struct stat held {
+    }, named{};
+    const bool current = mine && ::fstat(descriptor, &held) == 0 && ::stat(lock.path_.c_str(), &named) == 0 &&
+                         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+    if (current) {
+      lock.descriptor_ = descriptor;
+      return lock;
+    }
+    ::close(descriptor);
+    if (!mine || std::chrono::steady_clock::now() >= give_up) return lock;
+  }
+}
+
+void ContentStore::sweep(std::chrono::seconds age) const {
+  std::error_code error;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (!name.starts_with('.') || !(name.ends_with(format::kEnding) || name.ends_with(format::kLockEnding)))
+      continue;
+    std::error_code gone;
+    const auto written = std::filesystem::last_write_time(at->path(), gone);
+    if (!gone && now - written > age) std::filesystem::remove(at->path(), gone);
+  }
+}
+
+}  // namespace pelage

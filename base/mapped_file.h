@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace pelage {
+
+/// A whole file in the address space, read only. Its pages come from the file when they are touched and may
+/// leave again, so they are not charged to the ledger (law 5). The file must not be made shorter meanwhile:
+/// for files that are only ever replaced by a rename. Thread safety: as an array of constants.
+class MappedFile {
+ public:
+  MappedFile() = default;
+  /// Throws Error (kInput) when `path` cannot be read or is not a regular file.
+  explicit MappedFile(const std::filesystem::path& path);
+  ~MappedFile();
+  MappedFile(MappedFile&& other) noexcept;
+  MappedFile& operator=(MappedFile&& other) noexcept;
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+// Layout of a file of ContentStore: header, sections (each at a multiple of kAlignment), table of sections,
+// trailer at the very end. Numbers are those of the machine that wrote it; the byte order is stated.
+namespace pelage::stored_file_format {
+
+inline constexpr uint64_t kMagic = 0x686361436c65500aull;  // "\nPelCach"
+inline constexpr uint64_t kEndMagic = 0x656c6f6857736910ull;
+inline constexpr uint32_t kVersion = 1;
+inline constexpr uint32_t kByteOrder = 0x01020304;
+inline constexpr uint64_t kAlignment = 64;
+inline constexpr const char* kEnding = ".cache";
+inline constexpr const char* kLockEnding = ".lock";
+
+struct Header {
+  uint64_t magic = kMagic;
+  uint32_t version = kVersion;
+  uint32_t byte_order = kByteOrder;
+  char kind[16] = {};  // padded with zeros
+  uint64_t key_low = 0, key_high = 0;
+  uint64_t reserved[2] = {};
+};
+static_assert(sizeof(Header) == kAlignment);
+
+struct Section {
+  uint64_t offset = 0, bytes = 0;
+  uint64_t hash_low = 0, hash_high = 0;
+};
+static_assert(sizeof(Section) == 32);
+
+struct Trailer {
+  uint64_t table_offset = 0;
+  uint64_t section_count = 0;
+  uint64_t table_low = 0, table_high = 0;
+  uint64_t file_bytes = 0;
+  uint64_t magic = kEndMagic;
+};
+static_assert(sizeof(Trailer) == 48);
+
+}  // namespace pelage::stored_file_format

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/content_store.h"
+
+#include <atomic>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+constexpr ContentHash kKey{0x1234, 0x5678};
+
+struct Warnings {
+  std::vector<std::string> lines;
+  WarningSink sink() {
+    return [this](const std::string& line) { lines.push_back(line); };
+  }
+};
+
+std::string text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+bool store_texts(const ContentStore& store, const std::vector<std::string>& texts, Warnings& warnings,
+                 const ContentHash& key = kKey) {
+  std::vector<std::span<const std::byte>> sections;
+  for (const std::string& t : texts) sections.push_back(std::as_bytes(std::span(t.data(), t.size())));
+  return store.store("test", key, sections, warnings.sink());
+}
+
+size_t entries(const std::filesystem::path& folder) {
+  return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+TEST(ContentStore, GivesBackWhatWasStored) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path() / "not" / "there yet");
+  Warnings warnings;
+  EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+  const std::vector<std::string> texts{"one", "", std::string(100'000, 'x'), "four"};
+  ASSERT_TRUE(store_texts(store, texts, warnings));
+  const auto stored = store.open("test", kKey, warnings.sink());
+  ASSERT_TRUE(stored);
+  ASSERT_EQ(stored->section_count(), texts.size());
+  for (size_t i = 0; i < texts.size(); ++i) {
+    EXPECT_EQ(text(stored->section(i)), texts[i]);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(stored->section(i).data()) % 64, 0u);
+  }
+  EXPECT_FALSE(store.open("test", {1, 2}, warnings.sink()));
+  EXPECT_FALSE(store.open("other", kKey, warnings.sink()));
+  EXPECT_TRUE(is_stored_file(store.file("test", kKey)));
+  EXPECT_TRUE(warnings.lines.empty());
+}
+
+TEST(ContentStore, BelievesNoFileWithAChangedByte) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  Warnings warnings;
+  const std::vector<std::string> texts{"offsets of strands", "widths", ""};
+  ASSERT_TRUE(store_texts(store, texts, warnings));
+  const std::filesystem::path path = store.file("test", kKey);
+  const std::string whole = read_file(path);
+  size_t refused = 0;
+  for (size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ (1 << (i % 8)));
+    std::ofstream(path, std::ios::binary) << damaged;
+    warnings.lines.clear();
+    if (const auto stored = store.open("test", kKey, warnings.sink())) {
+      // Only in the gaps between sections.
+      ASSERT_EQ(stored->section_count(), texts.size());
+      for (size_t s = 0; s < texts.size(); ++s) EXPECT_EQ(text(stored->section(s)), texts[s]) << i;
+      EXPECT_TRUE(warnings.lines.empty());
+    } else {
+      EXPECT_EQ(warnings.lines.size(), 1u) << i;
+      ++refused;
+    }
+  }
+  EXPECT_GE(refused, 64 - 16 + texts[0].size() + texts[1].size() + 3 * 32 + 48);
+}
+
+TEST(ContentStore, TakesCutForeignAndEmptyFilesForAbsent) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  Warnings warnings;
+  ASSERT_TRUE(store_texts(store, {"something", "more"}, warnings));
+  const std::filesystem::path path = store.file("test", kKey);
+  const std::string whole = read_file(path);
+  std::vector<std::string> wrong{"", "a text", whole + "x", std::string(whole.size(), '\0'), whole + whole};
+  for (size_t length = 1; length < whole.size(); length += 7) wrong.push_back(whole.substr(0, length));
+  for (const std::string& bytes : wrong) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    warnings.lines.clear();
+    EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+    ASSERT_EQ(warnings.lines.size(), 1u);
+    EXPECT_NE(warnings.lines[0].find(path.string()), std::string::npos) << warnings.lines[0];
+  }
+  // The right bytes under another name.
+  std::ofstream(path, std::ios::binary) << whole;
+  std::filesystem::copy_file(path, store.file("test", {7, 7}));
+  warnings.lines.clear();
+  EXPECT_FALSE(store.open("test", {7, 7}, warnings.sink()));
+  EXPECT_EQ(warnings.lines.size(), 1u);
+  // A folder where the entry should be.
+  std::filesystem::create_directory(store.file("test", {8, 8}));
+  warnings.lines.clear();
+  EXPECT_FALSE(store.open("test", {8, 8}, warnings.sink()));
+  EXPECT_EQ(warnings.lines.size(), 1u);
+}
+
+TEST(ContentStore, GoesOnWithoutAFolderThatTakesFiles) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a file") << "x";
+  const ContentStore store(folder.path() / "a file" / "cache");
+  Warnings warnings;
+  EXPECT_FALSE(store.lock("test", kKey).held());
+  EXPECT_FALSE(store_texts(store, {"something", "more"}, warnings));
+  EXPECT_EQ(warnings.lines.size(), 1u);
+  EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+  EXPECT_EQ(warnings.lines.size(), 1u);
+}
+
+// A child process that may write no file longer than 4 KiB, as on a disk that is full.
+TEST(ContentStore, AFullDiskLeavesNothing) {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{4096, 4096};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    Warnings warnings;
+    const ContentStore store(folder.path());
+    const bool stored = store_texts(store, {std::string(3000, 'a'), std::string(3000, 'b')}, warnings);
+    ::_exit(!stored && warnings.lines.size() == 1 ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(entries(folder.path()), 0u);
+}
+
+TEST(ContentStore, AKillInTheMiddleLeavesNoEntryAndGivesTheLockBack) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    const ContentStore::Lock lock = store.lock("test", kKey);
+    ContentStore::Writer writer = store.writer("test", kKey);
+    writer.add(std::as_bytes(std::span("half of it", 10)));
+    (void)!::write(ready[1], "x", 1);
+    for (;;) ::pause();
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_FALSE(store.lock("test", kKey, std::chrono::milliseconds(30)).held());
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+  ::close(ready[0]);
+  ::close(ready[1]);
+
+  Warnings warnings;
+  EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+  EXPECT_TRUE(warnings.lines.empty());
+  EXPECT_GE(entries(folder.path()), 1u) << "the temporary file of the dead";
+  store.sweep(std::chrono::hours(1));
+  EXPECT_GE(entries(folder.path()), 1u) << "might be of a living one";
+  {
+    const ContentStore::Lock lock = store.lock("test", kKey);
+    EXPECT_TRUE(lock.held());
+  }
+  store.sweep(std::chrono::seconds(-1));
+  EXPECT_EQ(entries(folder.path()), 0u);
+}
+
+TEST(ContentStore, OneComputesWhileTheOthersWait) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  std::atomic<int> computed{0}, inside{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] {
+      Warnings warnings;
+      const ContentStore::Lock lock = store.lock("test", kKey);
+      EXPECT_TRUE(lock.held());
+      EXPECT_EQ(++inside, 1);
+      if (!store.open("test", kKey, warnings.sink())) {
+        ++computed;
+        EXPECT_TRUE(store_texts(store, {"the one"}, warnings));
+      }
+      --inside;
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(computed, 1);
+  EXPECT_EQ(entries(folder.path()), 1u) << "no lock is left";
+}
+
+TEST(MappedFile, HoldsEveryByteAndRefusesWhatIsNoFile) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "f";
+  std::ofstream(path) << "all of it";
+  MappedFile file(path);
+  EXPECT_EQ(text(file.bytes()), "all of it");
+  const MappedFile moved = std::move(file);
+  EXPECT_EQ(text(moved.bytes()), "all of it");
+  std::ofstream(folder.path() / "empty") << "";
+  EXPECT_TRUE(MappedFile(folder.path() / "empty").bytes().empty());
+  EXPECT_THROW(MappedFile(folder.path()), Error);
+  EXPECT_THROW(MappedFile(folder.path() / "none"), Error);
+}
+
+}  // namespace
+}  // namespace pelage
