@@ -79,51 +79,63 @@ int available_processors() {
 #ifdef PELAGE_STD_THREADS
 
 struct Workers::Team {
+  explicit Team(int count) : threads(count) {}
+
+  void run(RangeDealer& dealer, const std::function<void(WorkRange)>& body) {
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back([&, i] { dealer.work(i, body); });
+    dealer.work(0, body);
+    for (std::thread& thread : others) thread.join();
+  }
+
   int threads;
 };
-
-void Workers::for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const {
-  RangeDealer dealer(count, grain);
-  std::vector<std::thread> threads;
-  for (int i = 1; i < team_->threads; ++i) threads.emplace_back([&, i] { dealer.work(i, body); });
-  dealer.work(0, body);
-  for (std::thread& thread : threads) thread.join();
-  dealer.rethrow();
-}
-
-Workers::Workers(int threads) : team_(new Team{threads > 0 ? threads : available_processors()}) {}
-int Workers::thread_count() const { return team_->threads; }
-
-void Workers::lend_to_library(const std::function<void()>& body) const {
-  tbb::task_arena alone(1);
-  alone.execute(body);
-}
 
 #else
 
 struct Workers::Team {
   explicit Team(int count) : threads(count), arena(count) {}
+
+  void run(RangeDealer& dealer, const std::function<void(WorkRange)>& body) {
+    arena.execute([&] {
+      tbb::parallel_for(
+          0, threads, [&](int) { dealer.work(tbb::this_task_arena::current_thread_index(), body); },
+          tbb::simple_partitioner());
+    });
+  }
+
   int threads;
   tbb::task_arena arena;
 };
 
+#endif
+
+Workers::Workers(int threads)
+    : Workers(std::make_unique<Team>(threads > 0 ? threads : available_processors())) {}
+Workers::Workers(std::unique_ptr<Team> team) : team_(std::move(team)) {}
+Workers Workers::alone() { return Workers(std::unique_ptr<Team>()); }
+Workers::~Workers() = default;
+Workers::Workers(Workers&&) noexcept = default;
+Workers& Workers::operator=(Workers&&) noexcept = default;
+
+int Workers::thread_count() const { return team_ ? team_->threads : 1; }
+
 void Workers::for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const {
   RangeDealer dealer(count, grain);
-  team_->arena.execute([&] {
-    tbb::parallel_for(
-        0, team_->threads, [&](int) { dealer.work(tbb::this_task_arena::current_thread_index(), body); },
-        tbb::simple_partitioner());
-  });
+  if (team_) {
+    team_->run(dealer, body);
+  } else {
+    dealer.work(0, body);
+  }
   dealer.rethrow();
 }
 
-Workers::Workers(int threads) : team_(new Team(threads > 0 ? threads : available_processors())) {}
-int Workers::thread_count() const { return team_->threads; }
-
-void Workers::lend_to_library(const std::function<void()>& body) const { team_->arena.execute(body); }
-
+void Workers::lend_to_library(const std::function<void()>& body) const {
+#ifndef PELAGE_STD_THREADS
+  if (team_) return team_->arena.execute(body);
 #endif
-
-Workers::~Workers() = default;
+  tbb::task_arena alone(1);
+  alone.execute(body);
+}
 
 }  // namespace pelage

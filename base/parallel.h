@@ -25,8 +25,13 @@ class Workers {
   /// `threads` = 0: as many as the process may use (affinity and cgroup limits respected).
   explicit Workers(int threads = 0);
   ~Workers();
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
+  Workers(Workers&&) noexcept;
+  Workers& operator=(Workers&&) noexcept;
+
+  /// The calling thread alone: loops run in place, so that it works inside a loop of another team, on many
+  /// threads at once. What is lent to a library keeps to that thread too: while it waits, it does not take
+  /// on work of anybody else, which could need what this thread is about to make.
+  static Workers alone();
 
   int thread_count() const;
 
@@ -39,7 +44,8 @@ class Workers {
 
  private:
   struct Team;
-  std::unique_ptr<Team> team_;
+  explicit Workers(std::unique_ptr<Team> team);
+  std::unique_ptr<Team> team_;  // null: the calling thread alone
 };
 
 /// Processors this process may run on: the smaller of affinity mask and cgroup quota.

@@ -13,6 +13,7 @@
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
 #include "render/light/light_params.h"
+#include "render/path/frame_geometry.h"
 #include "render/path/path_integrator.h"
 
 namespace pelage {
@@ -84,13 +85,13 @@ struct RecordedRay {
 class Recorder final : public Accel {
  public:
   explicit Recorder(const Accel& accel) : accel_(accel) {}
-  Hit closest(const Ray& ray) const override {
+  Hit closest(const Ray& ray, TraceThread& thread) const override {
     rays_.push_back({ray, false});
-    return accel_.closest(ray);
+    return accel_.closest(ray, thread);
   }
-  float transmittance(const Ray& ray) const override {
+  float transmittance(const Ray& ray, TraceThread& thread) const override {
     rays_.push_back({ray, true});
-    return accel_.transmittance(ray);
+    return accel_.transmittance(ray, thread);
   }
   bool opaque() const override { return accel_.opaque(); }
   Box3f bounds() const override { return accel_.bounds(); }
@@ -162,8 +163,8 @@ void path_over_bare_rays(benchmark::State& state) {
 
   const FilmLayers layers = FilmLayers::make({{"key", false}, {"rim", false}, {"sky", true}}, kLobeGroups);
   const Recorder recorder(geometry->accel());
-  const PathTracer direct(scene, *geometry, geometry->accel(), layers, {});
-  const PathTracer recording(scene, *geometry, recorder, layers, {});
+  const PathTracer direct(scene, geometry->accel(), layers, {});
+  const PathTracer recording(scene, recorder, layers, {});
   Film film(kWidth, kHeight, layers, ledger);
   trace_paths(scene, recording, film);
 

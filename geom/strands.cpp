@@ -51,6 +51,38 @@ const StrandAttribute* Strands::find_attribute(std::string_view name) const {
   return nullptr;
 }
 
+void Strands::assign_strand(const Strands& source, size_t strand) {
+  const StrandArrays& from = source.a_;
+  const size_t first = from.first_point[strand], count = from.first_point[strand + 1] - first;
+  a_.basis = from.basis;
+  a_.motion_keys = from.motion_keys;
+  a_.points.clear();
+  for (int key = 0; key < from.motion_keys; ++key) {
+    const float* points = source.points(key).data() + 4 * first;
+    a_.points.insert(a_.points.end(), points, points + 4 * count);
+  }
+  a_.first_point.assign({0, static_cast<uint32_t>(count)});
+  a_.ids.assign({from.ids[strand]});
+  a_.roots.clear();
+  a_.root_uv.clear();
+  if (!from.roots.empty()) a_.roots.push_back(from.roots[strand]);
+  if (!from.root_uv.empty()) a_.root_uv.push_back(from.root_uv[strand]);
+  a_.attributes.resize(from.attributes.size());
+  for (size_t i = 0; i < from.attributes.size(); ++i) {
+    const StrandAttribute& attribute = from.attributes[i];
+    const size_t begin = attribute.frequency == AttributeClass::kConstant    ? 0
+                         : attribute.frequency == AttributeClass::kPerStrand ? strand
+                                                                             : first;
+    const size_t values = attribute.frequency == AttributeClass::kPerPoint ? count : 1;
+    const auto components = static_cast<size_t>(attribute.components);
+    const float* value = attribute.values.data() + begin * components;
+    a_.attributes[i].name = attribute.name;
+    a_.attributes[i].frequency = attribute.frequency;
+    a_.attributes[i].components = attribute.components;
+    a_.attributes[i].values.assign(value, value + values * components);
+  }
+}
+
 size_t Strands::bytes() const {
   size_t total = heap_bytes(a_.points) + heap_bytes(a_.first_point) + heap_bytes(a_.ids) +
                  heap_bytes(a_.roots) + heap_bytes(a_.root_uv) + heap_bytes(a_.attributes);

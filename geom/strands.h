@@ -88,6 +88,10 @@ class Strands {
   const std::vector<StrandAttribute>& attributes() const { return a_.attributes; }
   const StrandAttribute* find_attribute(std::string_view name) const;
 
+  /// Becomes the one strand `strand` of `source`, with all its motion keys and attributes. Memory is reused:
+  /// once it is large enough, nothing is allocated.
+  void assign_strand(const Strands& source, size_t strand);
+
   const StrandArrays& arrays() const { return a_; }
   /// Heap bytes of all arrays.
   size_t bytes() const;

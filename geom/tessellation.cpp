@@ -62,6 +62,24 @@ size_t SkinMesh::bytes() const {
          (triangles.capacity() + faces.capacity()) * sizeof(uint32_t) + vertex_uv.capacity() * sizeof(V2f);
 }
 
+void SkinMesh::assign_triangle(const SkinMesh& source, size_t triangle) {
+  motion_keys = source.motion_keys;
+  positions.clear();
+  normals.clear();
+  for (int key = 0; key < motion_keys; ++key) {
+    const size_t first = static_cast<size_t>(key) * source.vertex_count();
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const size_t at = 3 * (first + source.triangles[3 * triangle + corner]);
+      positions.insert(positions.end(), &source.positions[at], &source.positions[at] + 3);
+      normals.insert(normals.end(), &source.normals[at], &source.normals[at] + 3);
+    }
+  }
+  triangles.assign({0, 1, 2});
+  faces.assign({source.faces[triangle]});
+  const auto uv = source.vertex_uv.begin() + static_cast<std::ptrdiff_t>(3 * triangle);
+  vertex_uv.assign(uv, uv + 3);
+}
+
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers) {
   PELAGE_CHECK(!keys.empty());

@@ -34,6 +34,9 @@ struct SkinMesh {
     const float* p = &normals[(static_cast<size_t>(key) * vertex_count() + vertex) * 3];
     return {p[0], p[1], p[2]};
   }
+  /// Becomes the one triangle `triangle` of `source`, over all motion keys, its corners vertices 0, 1, 2.
+  /// Memory is reused.
+  void assign_triangle(const SkinMesh& source, size_t triangle);
   size_t bytes() const;
 };
 

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/vector.h"
+#include "geom/strands.h"
+#include "geom/tessellation.h"
 
 namespace pelage {
 
@@ -25,13 +27,33 @@ enum class HitKind : uint8_t { kNone, kStrand, kSkin };
 struct Hit {
   HitKind kind = HitKind::kNone;
   float distance = std::numeric_limits<float>::infinity();
-  uint32_t object = 0;     ///< which of the strand batches or of the skins, in the order they were given
-  uint32_t primitive = 0;  ///< strand of the batch, or triangle of the skin
+  uint32_t part = 0;       ///< which coat of which character, or which skin
+  uint64_t strand_id = 0;  ///< within the part
   uint32_t segment = 0;    ///< of the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
 
   explicit operator bool() const { return kind != HitKind::kNone; }
+};
+
+/// What a hit met, copied out of geometry that may be gone by the time the hit is shaded: the one strand with
+/// its attributes, or the one triangle, each over all motion keys.
+struct HitGeometry {
+  Strands strand;
+  SkinMesh triangle;
+};
+
+/// What tracing costs.
+struct TraceCounts {
+  int64_t box_tests = 0;     ///< rays against boxes above the chunks
+  int64_t chunk_visits = 0;  ///< rays against what a chunk holds
+};
+
+/// What one thread needs while it traces.
+struct TraceThread {
+  int worker = 0;   ///< no two threads that trace at once have the same
+  HitGeometry met;  ///< of the last hit that closest() gave this thread
+  TraceCounts counts;
 };
 
 /// Rays against all strands and skins of a frame.
@@ -46,10 +68,11 @@ class Accel {
   virtual ~Accel() = default;
   /// The nearest hit in (near, far). Semi-transparent crossings are passed with probability 1 - opacity, each
   /// crossing deciding once by a hash of `ray.random`, the strand and the place on it.
-  virtual Hit closest(const Ray& ray) const = 0;
+  /// What is hit is left in `thread.met`.
+  virtual Hit closest(const Ray& ray, TraceThread& thread) const = 0;
   /// The part of light that comes through between near and far: the product of 1 - opacity over all
   /// crossings.
-  virtual float transmittance(const Ray& ray) const = 0;
+  virtual float transmittance(const Ray& ray, TraceThread& thread) const = 0;
   /// Whether everything is opaque; then transmittance() is 0 or 1.
   virtual bool opaque() const = 0;
   virtual Box3f bounds() const = 0;

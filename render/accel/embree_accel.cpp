@@ -125,8 +125,8 @@ RTCRay embree_ray(const Ray& ray) {
 
 /// h of a hit whose v does not say it: from the surface normal of a round curve, or, where Embree gives none
 /// (flat linear segments), from the place of the hit beside the axis.
-float offset_across(const Strands& strands, bool round, const Ray& ray, const Hit& hit, const V3f& normal) {
-  const CubicSegment segment = bezier_segment_at(strands, hit.primitive, hit.segment, ray.time);
+float offset_across(const Strands& strand, bool round, const Ray& ray, const Hit& hit, const V3f& normal) {
+  const CubicSegment segment = bezier_segment_at(strand, 0, hit.segment, ray.time);
   const V3f tangent = curve_tangent(segment, hit.u).normalized();
   const V3f ez = tangent.cross(-ray.direction).normalized();
   float h = 0;
@@ -148,7 +148,7 @@ EmbreeAccel::EmbreeAccel(std::vector<AccelStrands> strands, std::vector<const Sk
 
 EmbreeAccel::~EmbreeAccel() = default;
 
-Hit EmbreeAccel::closest(const Ray& ray) const {
+Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   Hit hit;
   if (!is_finite(ray)) return hit;
   RTCRayHit r;
@@ -162,26 +162,27 @@ Hit EmbreeAccel::closest(const Ray& ray) const {
   hit.u = r.hit.u;
   if (scene_->is_skin(r.hit.geomID)) {
     hit.kind = HitKind::kSkin;
-    hit.object = scene_->skin(r.hit.geomID);
-    hit.primitive = r.hit.primID;
+    hit.part = scene_->skin(r.hit.geomID);
     hit.v = r.hit.v;
+    thread.met.triangle.assign_triangle(scene_->skin_mesh(r.hit.geomID), r.hit.primID);
     return hit;
   }
   const EmbreeCurves& batch = scene_->curves(r.hit.geomID);
   const EmbreeCurves::Place place = batch.locate(r.hit.primID);
   hit.kind = HitKind::kStrand;
-  hit.object = r.hit.geomID;
-  hit.primitive = place.strand;
+  hit.part = batch.part();
+  hit.strand_id = batch.strands().id(place.strand);
   hit.segment = place.segment;
   hit.v = -r.hit.v;  // Embree counts from the other edge
+  thread.met.strand.assign_strand(batch.strands(), place.strand);
   if (scene_->is_round() || batch.strands().basis() == CurveBasis::kLinear) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
-    hit.v = offset_across(batch.strands(), scene_->is_round(), ray, hit, normal);
+    hit.v = offset_across(thread.met.strand, scene_->is_round(), ray, hit, normal);
   }
   return hit;
 }
 
-float EmbreeAccel::transmittance(const Ray& ray) const {
+float EmbreeAccel::transmittance(const Ray& ray, TraceThread&) const {
   if (!is_finite(ray)) return 1;
   RTCRay r = embree_ray(ray);
   if (scene_->opaque()) {

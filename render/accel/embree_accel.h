@@ -19,7 +19,7 @@ class Workers;
 /// A batch of strands to be met by rays. Both are kept alive by the caller.
 struct AccelStrands {
   const Strands* strands = nullptr;
-  uint32_t part = 0;               ///< which groom of which character: strand ids are unique within a part
+  uint32_t part = 0;               ///< what hits call it: strand ids are unique within a part
   std::span<const float> opacity;  ///< one in [0, 1] per point, or empty: opaque
 };
 
@@ -42,8 +42,8 @@ class EmbreeAccel final : public Accel {
               const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers);
   ~EmbreeAccel() override;
 
-  Hit closest(const Ray& ray) const override;
-  float transmittance(const Ray& ray) const override;
+  Hit closest(const Ray& ray, TraceThread& thread) const override;
+  float transmittance(const Ray& ray, TraceThread& thread) const override;
   bool opaque() const override;
   Box3f bounds() const override;
 

@@ -28,7 +28,7 @@ RTCGeometryType geometry_type(CurveBasis basis, CurveShape shape) {
 
 EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
                          const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers)
-    : options_(options), device_(options.memory_limit, ledger) {
+    : options_(options), device_(options.memory_limit, ledger), skins_(skins) {
   PELAGE_CHECK(options_.tessellation_rate >= 2 && options_.tessellation_rate <= 16 &&
                options_.tessellation_rate % 2 == 0);
   curves_.reserve(strands.size());

@@ -24,6 +24,7 @@ class EmbreeScene {
   bool is_round() const { return options_.shape == CurveShape::kRound; }
   bool is_skin(uint32_t geometry) const { return geometry >= curves_.size(); }
   uint32_t skin(uint32_t geometry) const { return geometry - static_cast<uint32_t>(curves_.size()); }
+  const SkinMesh& skin_mesh(uint32_t geometry) const { return *skins_[skin(geometry)]; }
   const EmbreeCurves& curves(uint32_t geometry) const { return curves_[geometry]; }
 
   /// The order that decides between equal distances: strands before skins, then by strand id, part and
@@ -41,6 +42,7 @@ class EmbreeScene {
   EmbreeDevice device_;
   RTCScene scene_ = nullptr;
   std::vector<EmbreeCurves> curves_;
+  std::vector<const SkinMesh*> skins_;
   bool opaque_ = true;
   MemoryCharge charge_;
 };

@@ -36,7 +36,7 @@ FurBatch grow(const Leaf& leaf, const RenderScene& scene) {
   if (batch.strands.strand_count() == 0) return batch;
   const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[part.material]);
   if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not one for fibres");
-  batch.color_attributes = find_attributes(fibre->color, batch.strands, part.name);
+  find_attributes(fibre->color, batch.strands, part.name);  // throws for one that is missing
   batch.opacity = point_opacities(fibre->opacity, batch.strands, part);
   return batch;
 }

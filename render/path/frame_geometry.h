@@ -19,9 +19,8 @@ class Workers;
 /// One grown leaf of a fur part.
 struct FurBatch {
   Strands strands;
-  std::vector<float> opacity;                            ///< per point, or empty: opaque
-  uint32_t part = 0;                                     ///< of RenderScene::fur
-  std::vector<const StrandAttribute*> color_attributes;  ///< those that the material's colour reads
+  std::vector<float> opacity;  ///< per point, or empty: opaque
+  uint32_t part = 0;           ///< of RenderScene::fur
 };
 
 /// All fur of a frame, grown, and the tree over fur and skins. Immutable once made.
@@ -35,8 +34,6 @@ class FrameGeometry {
                                                    Statistics& statistics);
 
   const Accel& accel() const { return *accel_; }
-  const FurBatch& batch(size_t i) const { return batches_[i]; }
-  size_t batch_count() const { return batches_.size(); }
 
  private:
   std::vector<FurBatch> batches_;

@@ -2,6 +2,7 @@
 #include "render/path/frame_shading.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/check.h"
@@ -14,8 +15,8 @@ namespace pelage {
 namespace {
 
 /// Place over the whole strand of a place in one of its segments.
-float along_strand(const Strands& strands, const Hit& hit) {
-  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(hit.primitive));
+float along_strand(const Strands& strand, const Hit& hit) {
+  const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   return (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
 }
 
@@ -25,11 +26,12 @@ std::optional<Rgb> constant_of(const Field& field) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene, const FrameGeometry& geometry)
-    : scene_(scene), geometry_(geometry), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+FrameShading::FrameShading(const RenderScene& scene)
+    : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[i])) {
-      fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color)};
+      fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color),
+                         fibre->color.attribute_names()};
     } else if (const auto* lambert = std::get_if<LambertParams>(&scene.materials[i])) {
       skins_[i] = Skin{lambert->color, constant_of(lambert->color), std::nullopt};
     } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
@@ -42,36 +44,38 @@ FrameShading::FrameShading(const RenderScene& scene, const FrameGeometry& geomet
   }
 }
 
-Rgb FrameShading::fibre_color(const Fibre& fibre, const FurBatch& batch, const Hit& hit, float v) const {
+Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const {
   if (fibre.constant_color) return *fibre.constant_color;
-  return strand_color(fibre.color, batch.strands, batch.color_attributes, scene_.fur[batch.part].rest.get(),
-                      {hit.primitive, hit.segment, hit.u, v});
+  std::array<const StrandAttribute*, kMaxFieldAttributes> attributes;
+  for (size_t i = 0; i < fibre.attributes.size(); ++i)
+    attributes[i] = strand.find_attribute(fibre.attributes[i]);
+  return strand_color(fibre.color, strand, std::span(attributes).first(fibre.attributes.size()),
+                      scene_.fur[hit.part].rest.get(), {0, hit.segment, hit.u, v});
 }
 
-ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit) const {
-  const FurBatch& batch = geometry_.batch(hit.object);
-  const Strands& strands = batch.strands;
-  const Fibre& fibre = *fibres_[scene_.fur[batch.part].material];
-  const StrandPoint point = strand_point(strands, hit.primitive, hit.segment, hit.u, ray.time);
-  const float v = along_strand(strands, hit);
+ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const {
+  const Fibre& fibre = *fibres_[scene_.fur[hit.part].material];
+  const StrandPoint point = strand_point(strand, 0, hit.segment, hit.u, ray.time);
+  const float v = along_strand(strand, hit);
 
   LobeTangents tangents;
   tangents[0] = point.tangent;
   for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
-    const float place = fibre.shells.tangent_place(lobe, v, strands.id(hit.primitive), 0);
-    tangents[static_cast<size_t>(lobe)] = strand_tangent(strands, hit.primitive, place, ray.time);
+    const float place = fibre.shells.tangent_place(lobe, v, hit.strand_id, 0);
+    tangents[static_cast<size_t>(lobe)] = strand_tangent(strand, 0, place, ray.time);
   }
-  const Rgb color = fibre_color(fibre, batch, hit, v);
+  const Rgb color = fibre_color(fibre, strand, hit, v);
   return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
           ConeShellBsdf(fibre.shells, color, tangents, -ray.direction)};
 }
 
-Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit) const {
+Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,
+                             const SkinMesh& triangle) const {
   if (skin.constant_color) return *skin.constant_color;
   FieldPoint point;
   if (part.rest) {
-    const uint32_t face = part.mesh->faces[hit.primitive];
-    const V2f place = skin_parameters(*part.mesh, hit);
+    const uint32_t face = triangle.faces[0];
+    const V2f place = skin_parameters(triangle, hit);
     const V2f uv = part.rest->topology().texture_coordinates(face, place.x, place.y);
     point.u = uv.x;
     point.v = uv.y;
@@ -80,18 +84,19 @@ Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& 
   return skin.color.color(point);
 }
 
-ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit) const {
-  const SkinPart& part = scene_.skins[hit.object];
+ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const {
+  const SkinPart& part = scene_.skins[hit.part];
   const Skin& skin = *skins_[part.material];
-  const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
-  const Rgb color = skin_color(part, skin, hit);
+  const SkinPoint point = pelage::skin_point(triangle, ray, hit);
+  const Rgb color = skin_color(part, skin, hit, triangle);
   if (!skin.coat) return {point.position, point.start, LambertBsdf(color, point.normal)};
   return {point.position, point.start,
           GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
 }
 
-ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit) const {
-  return hit.kind == HitKind::kStrand ? fibre_point(ray, hit) : skin_point(ray, hit);
+ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+  return hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand)
+                                      : skin_point(ray, hit, met.triangle);
 }
 
 /// Pixels from the frame to the next one for a point seen at `time` of the shutter, which goes on moving as
@@ -107,25 +112,24 @@ V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion
   return {to->x - from->x, to->y - from->y};
 }
 
-VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit) const {
+VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
   VisibleSurface surface;
   const V3f position = ray.origin + hit.distance * ray.direction;
   const Camera& camera = scene_.camera;
   surface.depth = (position - camera.position(ray.time)).dot(camera.axis(ray.time));
   if (hit.kind == HitKind::kSkin) {
-    const SkinPart& part = scene_.skins[hit.object];
-    const SkinPoint point = pelage::skin_point(*part.mesh, ray, hit);
+    const SkinPart& part = scene_.skins[hit.part];
+    const SkinPoint point = pelage::skin_point(met.triangle, ray, hit);
     surface.normal = point.normal;
     if (part.rest) {
-      const V2f place = skin_parameters(*part.mesh, hit);
-      surface.root_uv =
-          part.rest->topology().texture_coordinates(part.mesh->faces[hit.primitive], place.x, place.y);
+      const V2f place = skin_parameters(met.triangle, hit);
+      surface.root_uv = part.rest->topology().texture_coordinates(met.triangle.faces[0], place.x, place.y);
     }
     surface.forward = motion_in_image(position, point.shutter_motion, ray.time);
     return surface;
   }
-  const Strands& strands = geometry_.batch(hit.object).strands;
-  surface.tangent = strand_point(strands, hit.primitive, hit.segment, hit.u, ray.time).tangent;
+  const Strands& strand = met.strand;
+  surface.tangent = strand_point(strand, 0, hit.segment, hit.u, ray.time).tangent;
   // The normal of a circular fibre at h, from the frame of the fibre and the ray.
   const V3f across = surface.tangent.cross(-ray.direction);
   const float length = across.length();
@@ -137,13 +141,13 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit) con
     surface.normal = -ray.direction;
   }
   V3f motion(0);
-  if (strands.motion_keys() > 1) {
-    motion = strand_point(strands, hit.primitive, hit.segment, hit.u, 1).position -
-             strand_point(strands, hit.primitive, hit.segment, hit.u, 0).position;
+  if (strand.motion_keys() > 1) {
+    motion = strand_point(strand, 0, hit.segment, hit.u, 1).position -
+             strand_point(strand, 0, hit.segment, hit.u, 0).position;
   }
   surface.forward = motion_in_image(position, motion, ray.time);
-  surface.root_uv = strands.root_uv(hit.primitive);
-  surface.id = static_cast<uint32_t>(strands.id(hit.primitive));
+  surface.root_uv = strand.root_uv(0);
+  surface.id = static_cast<uint32_t>(hit.strand_id);
   return surface;
 }
 

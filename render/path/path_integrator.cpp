@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "render/accel/flush_denormals.h"
 #include "render/memory_budget.h"
+#include "render/path/frame_geometry.h"
 
 namespace pelage {
 namespace {
@@ -52,7 +53,9 @@ class FrameLoop {
         film_(film),
         columns_((film.width() + kTileSide - 1) / kTileSide),
         rows_((film.height() + kTileSide - 1) / kTileSide),
-        scratch_(static_cast<size_t>(workers.thread_count())) {}
+        scratch_(static_cast<size_t>(workers.thread_count())) {
+    for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
+  }
 
   /// Adds samples `first` .. `last` - 1 to every pixel. Returns false when cancelled on the way.
   bool pass(uint32_t first, uint32_t last) {
@@ -121,7 +124,7 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
   if (result.partial) return result;
 
   const Stopwatch rendering;
-  const PathTracer tracer(scene, *geometry, geometry->accel(), result.film.layers(), options);
+  const PathTracer tracer(scene, geometry->accel(), result.film.layers(), options);
   FrameLoop loop(tracer, workers, progress, result.film);
   const auto samples = static_cast<uint32_t>(scene.render.samples);
   progress.begin("render", static_cast<double>(result.film.width()) * result.film.height() * samples);

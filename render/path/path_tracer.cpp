@@ -57,13 +57,13 @@ struct PathTracer::Path {
   Rgb throughput{1};       // of the vertices after the first
 };
 
-PathTracer::PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const Accel& accel,
-                       const FilmLayers& layers, const PathOptions& options)
+PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
+                       const PathOptions& options)
     : scene_(scene),
       accel_(accel),
       layers_(layers),
       options_(options),
-      shading_(scene, geometry),
+      shading_(scene),
       filter_(scene.image.filter) {}
 
 Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const {
@@ -123,7 +123,7 @@ void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
   ray.far = sample->distance * kJustBefore;
   ray.time = path.time;
   ++path.scratch.rays.shadow;
-  const float through = accel_.transmittance(ray);
+  const float through = accel_.transmittance(ray, path.scratch.thread);
   if (through > 0) path.add_scattered(choice.light, value, light_in * through);
 }
 
@@ -144,7 +144,7 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
       Ray shadow = ray;
       shadow.far = hit->distance * kJustBefore;
       ++path.scratch.rays.shadow;
-      weight *= accel_.transmittance(shadow);
+      weight *= accel_.transmittance(shadow, path.scratch.thread);
     }
     if (weight > 0) path.add(i, path.first, path.throughput * hit->radiance * weight);
   }
@@ -182,7 +182,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   }
   ray.random = ++path.random;
   ++path.scratch.rays.indirect;
-  const Hit hit = accel_.closest(ray);
+  const Hit hit = accel_.closest(ray, path.scratch.thread);
   if (options_.direct != DirectLight::kLightsOnly) {
     gather_lights(point.position(), ray, hit.distance, value.pdf, false, path);
   }
@@ -206,14 +206,14 @@ void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) cons
     path.ray.random = path.random;
   }
   ++scratch.rays.camera;
-  path.hit = accel_.closest(path.ray);
+  path.hit = accel_.closest(path.ray, scratch.thread);
   see_lights(path.ray, path.hit.distance, scratch);
   if (!path.hit) return;
   scratch.sample.alpha = 1;
-  scratch.sample.surface = shading_.visible_surface(path.ray, path.hit);
+  scratch.sample.surface = shading_.visible_surface(path.ray, path.hit, scratch.thread.met);
 
   for (;; ++path.vertex) {
-    const ScatterPoint point = shading_.scatter_point(path.ray, path.hit);
+    const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
     scene_.lights.probabilities(point.position(), point.tangent(), scratch.light_probabilities);
     if (options_.direct != DirectLight::kLobesOnly) sample_lights(point, path);
     if (!sample_lobes(point, path)) return;

@@ -32,6 +32,7 @@ struct PathScratch {
   std::vector<Rgb> by_layer;
   std::vector<float> light_probabilities;
   RayCounts rays;
+  TraceThread thread;
 };
 
 /// Traces one path after another through a frame. A path is a function of (scene, pixel, number of the
@@ -43,9 +44,8 @@ struct PathScratch {
 /// end early, with the probability of losing their weight, by roulette.
 class PathTracer {
  public:
-  /// `accel` is that of the geometry, or something that stands in front of it.
-  PathTracer(const RenderScene& scene, const FrameGeometry& geometry, const Accel& accel,
-             const FilmLayers& layers, const PathOptions& options);
+  PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
+             const PathOptions& options);
 
   /// Leaves the result in `scratch.sample` and `scratch.by_layer`.
   void trace(int x, int y, uint32_t sample, PathScratch& scratch) const;

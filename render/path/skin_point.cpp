@@ -23,18 +23,17 @@ Corner corner(const SkinMesh& mesh, uint32_t vertex, float time) {
 
 }  // namespace
 
-SkinPoint skin_point(const SkinMesh& mesh, const Ray& ray, const Hit& hit) {
-  const uint32_t* vertices = &mesh.triangles[size_t(3) * hit.primitive];
+SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit) {
   const float weights[3] = {1 - hit.u - hit.v, hit.u, hit.v};
   std::array<Corner, 3> corners;
   SkinPoint point;
-  for (int c = 0; c < 3; ++c) {
-    corners[c] = corner(mesh, vertices[c], ray.time);
+  for (uint32_t c = 0; c < 3; ++c) {
+    corners[c] = corner(triangle, c, ray.time);
     point.position += weights[c] * corners[c].position;
     point.normal += weights[c] * corners[c].normal;
-    if (mesh.motion_keys > 1) {
+    if (triangle.motion_keys > 1) {
       point.shutter_motion +=
-          weights[c] * (mesh.position(vertices[c], mesh.motion_keys - 1) - mesh.position(vertices[c], 0));
+          weights[c] * (triangle.position(c, triangle.motion_keys - 1) - triangle.position(c, 0));
     }
   }
   V3f facet = (corners[1].position - corners[0].position)
@@ -59,8 +58,8 @@ SkinPoint skin_point(const SkinMesh& mesh, const Ray& ray, const Hit& hit) {
   return point;
 }
 
-V2f skin_parameters(const SkinMesh& mesh, const Hit& hit) {
-  const V2f* corners = &mesh.vertex_uv[size_t(3) * hit.primitive];
+V2f skin_parameters(const SkinMesh& triangle, const Hit& hit) {
+  const V2f* corners = triangle.vertex_uv.data();
   return corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;
 }
 

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// A hit on a skin's triangles, evaluated at the time of the ray.
+/// A hit on a skin's triangle, evaluated at the time of the ray.
 struct SkinPoint {
   V3f position{0};
   V3f normal{0};  ///< unit limit normal, interpolated; on the side that the ray came from
@@ -16,9 +16,10 @@ struct SkinPoint {
   V3f shutter_motion{0};  ///< how far the point travels while the shutter is open
 };
 
-SkinPoint skin_point(const SkinMesh& mesh, const Ray& ray, const Hit& hit);
+/// `triangle`: HitGeometry::triangle of the hit.
+SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit);
 
 /// Parameters in its ptex face of a hit.
-V2f skin_parameters(const SkinMesh& mesh, const Hit& hit);
+V2f skin_parameters(const SkinMesh& triangle, const Hit& hit);
 
 }  // namespace pelage

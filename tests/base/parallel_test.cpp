@@ -101,6 +101,24 @@ TEST(Workers, TeamsNest) {
   EXPECT_EQ(sum, 40);
 }
 
+TEST(Workers, AloneWorksInPlaceInsideAnotherTeam) {
+  const Workers outer(3);
+  std::atomic<int> sum = 0, elsewhere = 0;
+  outer.for_each(30, 1, [&](WorkRange) {
+    const std::thread::id here = std::this_thread::get_id();
+    const Workers alone = Workers::alone();
+    EXPECT_EQ(alone.thread_count(), 1);
+    alone.for_each(10, 3, [&](WorkRange range) {
+      sum += static_cast<int>(range.end - range.begin);
+      elsewhere += std::this_thread::get_id() != here || range.worker != 0;
+    });
+    alone.lend_to_library([&] { elsewhere += std::this_thread::get_id() != here; });
+    EXPECT_THROW(alone.for_each(1, 1, [](WorkRange) { throw 7; }), int);
+  });
+  EXPECT_EQ(sum, 300);
+  EXPECT_EQ(elsewhere, 0);
+}
+
 TEST(AvailableProcessors, FollowTheAffinityOfTheThread) {
   EXPECT_GE(available_processors(), 1);
   int restricted = 0;

@@ -69,6 +69,41 @@ TEST(Strands, UnpinnedSegmentsLieBetweenTheirMiddlePoints) {
   EXPECT_EQ(out, 36);
 }
 
+TEST(Strands, OneStrandCanBeCopiedOut) {
+  StrandArrays arrays = two_strands();
+  arrays.motion_keys = 2;
+  for (int i = 0; i < 9; ++i) arrays.points.insert(arrays.points.end(), {float(i), 1, 0, 0.25f});
+  arrays.roots = {{1, 0.1f, 0.2f}, {2, 0.3f, 0.4f}};
+  arrays.root_uv = {V2f(0.1f, 0.2f), V2f(0.3f, 0.4f)};
+  const Strands strands(std::move(arrays));
+  Strands one;
+  for (size_t s : {1, 0, 1}) {
+    one.assign_strand(strands, s);
+    ASSERT_EQ(one.strand_count(), 1u);
+    ASSERT_EQ(one.strand_points(0), strands.strand_points(s));
+    EXPECT_EQ(one.motion_keys(), 2);
+    EXPECT_EQ(one.id(0), strands.id(s));
+    EXPECT_EQ(one.root(0).face, strands.root(s).face);
+    EXPECT_EQ(one.root_uv(0), strands.root_uv(s));
+    for (uint32_t i = 0; i < one.strand_points(0); ++i) {
+      for (int key = 0; key < 2; ++key) {
+        EXPECT_EQ(one.point(i, key), strands.point(strands.first_point(s) + i, key));
+        EXPECT_EQ(one.radius(i, key), strands.radius(strands.first_point(s) + i, key));
+      }
+    }
+    for (const char* name : {"hue", "tint", "age"}) {
+      float expected[2] = {}, copied[2] = {};
+      interpolate_attribute(strands, *strands.find_attribute(name), s, 2, 0.3f, expected);
+      interpolate_attribute(one, *one.find_attribute(name), 0, 2, 0.3f, copied);
+      EXPECT_EQ(copied[0], expected[0]) << name;
+      EXPECT_EQ(copied[1], expected[1]) << name;
+    }
+  }
+  const float* points = one.points().data();
+  one.assign_strand(strands, 0);
+  EXPECT_EQ(one.points().data(), points) << "memory is reused";
+}
+
 TEST(StrandsDeathTest, RefusesArraysThatDoNotFit) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   StrandArrays ids = two_strands();

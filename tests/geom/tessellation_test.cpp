@@ -202,6 +202,28 @@ TEST(Tessellation, MotionKeysShareTrianglesAndThreadsChangeNothing) {
   }
 }
 
+TEST(Tessellation, OneTriangleCanBeCopiedOut) {
+  const ControlMesh cage = prism_cage(5);
+  std::vector<V3f> moved = cage.positions;
+  for (V3f& p : moved) p += V3f(0, 0.1f * p.x, 0);
+  const LimitSurface first = surface_of(cage);
+  const std::vector<LimitSurface> keys{first, LimitSurface(first.shared_topology(), moved)};
+  const SkinMesh mesh = tessellate(keys, close_view(), {1, 4}, Workers(1));
+  SkinMesh one;
+  for (size_t t = 0; t < mesh.triangle_count(); t += 7) {
+    one.assign_triangle(mesh, t);
+    ASSERT_EQ(one.triangle_count(), 1u);
+    EXPECT_EQ(one.faces[0], mesh.faces[t]);
+    for (uint32_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(one.vertex_uv[c], mesh.vertex_uv[3 * t + c]);
+      for (int key = 0; key < 2; ++key) {
+        EXPECT_EQ(one.position(one.triangles[c], key), mesh.position(mesh.triangles[3 * t + c], key));
+        EXPECT_EQ(one.normal(one.triangles[c], key), mesh.normal(mesh.triangles[3 * t + c], key));
+      }
+    }
+  }
+}
+
 TEST(Tessellation, RealCages) {
   PELAGE_REQUIRE_DATA();
   for (const char* name : {"spot_control_mesh.obj", "penguin_control_mesh.obj", "sintel_bust.obj"}) {

@@ -53,6 +53,7 @@ TEST_P(AccelAgainstReference, NearestHitsAgreeAwayFromEdges) {
   options.shape = c.shape;
   options.tessellation_rate = 16;
   MemoryLedger ledger;
+  TraceThread thread;
   const EmbreeAccel accel({{&strands, 0, {}}}, {}, options, ledger, Workers(2));
 
   int compared = 0, hits = 0;
@@ -76,16 +77,16 @@ TEST_P(AccelAgainstReference, NearestHitsAgreeAwayFromEdges) {
     }
     if (marginal) continue;
     ++compared;
-    const Hit hit = accel.closest(ray);
+    const Hit hit = accel.closest(ray, thread);
     ASSERT_EQ(static_cast<bool>(hit), expected) << "ray " << i;
-    EXPECT_EQ(accel.transmittance(ray), hit ? 0.0f : 1.0f);
+    EXPECT_EQ(accel.transmittance(ray, thread), hit ? 0.0f : 1.0f);
     if (!hit) continue;
     ++hits;
     const Passage& p = passages[first];
-    EXPECT_EQ(hit.primitive, p.strand);
+    EXPECT_EQ(hit.strand_id, p.strand);
     EXPECT_NEAR(hit.distance, p.distance, 2 * p.radius + 1e-4) << "ray " << i;
     EXPECT_NEAR(hit.v, p.h, 0.1) << "ray " << i;
-    const float segments = static_cast<float>(segment_count(c.basis, strands.strand_points(hit.primitive)));
+    const float segments = static_cast<float>(segment_count(c.basis, strands.strand_points(hit.strand_id)));
     EXPECT_NEAR((static_cast<float>(hit.segment) + hit.u) / segments, p.v, 0.03) << "ray " << i;
   }
   EXPECT_GT(hits, 60);
@@ -111,6 +112,7 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
   EmbreeOptions options;
   options.tessellation_rate = 16;
   MemoryLedger ledger;
+  TraceThread thread;
   const EmbreeAccel accel({{&strands, 0, opacity}}, {}, options, ledger, Workers(2));
   EXPECT_FALSE(accel.opaque());
 
@@ -133,7 +135,8 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
     if (marginal) continue;
     ++compared;
     stacked += crossings > 1;
-    EXPECT_NEAR(accel.transmittance(ray), expected, 0.02) << "ray " << i << ", crossings " << crossings;
+    EXPECT_NEAR(accel.transmittance(ray, thread), expected, 0.02)
+        << "ray " << i << ", crossings " << crossings;
   }
   EXPECT_GT(compared, 300);
   EXPECT_GT(stacked, 40);

@@ -23,6 +23,7 @@ class EmbreeAccelTest : public testing::Test {
   }
 
   MemoryLedger ledger_;
+  TraceThread thread_;
   Workers workers_{2};
   FlushDenormals flush_;
 };
@@ -35,10 +36,10 @@ TEST_F(EmbreeAccelTest, StrandsTaperToTheirEnds) {
   a.ids = {0};
   const Strands strands(std::move(a));
   const EmbreeAccel accel = make({{&strands, 0, {}}});
-  EXPECT_TRUE(accel.closest(along_z(0.05f, 0.05f)));
-  EXPECT_TRUE(accel.closest(along_z(1.95f)));
-  EXPECT_FALSE(accel.closest(along_z(2.05f)));
-  EXPECT_FALSE(accel.closest(along_z(-0.05f)));
+  EXPECT_TRUE(accel.closest(along_z(0.05f, 0.05f), thread_));
+  EXPECT_TRUE(accel.closest(along_z(1.95f), thread_));
+  EXPECT_FALSE(accel.closest(along_z(2.05f), thread_));
+  EXPECT_FALSE(accel.closest(along_z(-0.05f), thread_));
 }
 
 TEST_F(EmbreeAccelTest, StackedStrandsMultiply) {
@@ -50,11 +51,11 @@ TEST_F(EmbreeAccelTest, StackedStrandsMultiply) {
     const EmbreeAccel accel = make({{&strands, 0, opacity}}, {}, options);
     // Everywhere, also where two segments meet: each crossing counts once.
     for (float x = 0.5f; x <= 6.5f; x += 0.0625f) {
-      EXPECT_NEAR(accel.transmittance(along_z(x)), std::pow(0.75f, 6.0f), 1e-5f) << x;
+      EXPECT_NEAR(accel.transmittance(along_z(x), thread_), std::pow(0.75f, 6.0f), 1e-5f) << x;
     }
     Ray part = along_z(2.5f);
     part.far = 3.5f;  // past z = 0, 1 and 2
-    EXPECT_NEAR(accel.transmittance(part), std::pow(0.75f, 3.0f), 1e-5f);
+    EXPECT_NEAR(accel.transmittance(part, thread_), std::pow(0.75f, 3.0f), 1e-5f);
   }
 }
 
@@ -62,7 +63,7 @@ TEST_F(EmbreeAccelTest, ManyCrossingsMultiplyToo) {
   const Strands strands = ladder(60);  // more than fit the list that needs no memory
   const std::vector<float> opacity(strands.point_count(), 0.05f);
   const EmbreeAccel accel = make({{&strands, 0, opacity}});
-  EXPECT_NEAR(accel.transmittance(along_z(2.3f)), std::pow(0.95f, 60.0f), 1e-5f);
+  EXPECT_NEAR(accel.transmittance(along_z(2.3f), thread_), std::pow(0.95f, 60.0f), 1e-5f);
 }
 
 TEST_F(EmbreeAccelTest, CrossingsStopRaysAsOftenAsTheirOpacitySays) {
@@ -75,9 +76,9 @@ TEST_F(EmbreeAccelTest, CrossingsStopRaysAsOftenAsTheirOpacitySays) {
   for (int i = 0; i < kRays; ++i) {
     Ray ray = along_z(3.0f);  // at a joint
     ray.random = static_cast<uint32_t>(i);
-    const Hit hit = accel.closest(ray);
+    const Hit hit = accel.closest(ray, thread_);
     ASSERT_TRUE(hit);
-    ++stops[hit.kind == HitKind::kSkin ? 3 : hit.primitive];
+    ++stops[hit.kind == HitKind::kSkin ? 3 : hit.strand_id];
   }
   double reach = 1;
   for (int k = 0; k < 4; ++k) {
@@ -85,7 +86,7 @@ TEST_F(EmbreeAccelTest, CrossingsStopRaysAsOftenAsTheirOpacitySays) {
     EXPECT_NEAR(stops[k], kRays * p, 4.5 * std::sqrt(kRays * p * (1 - p))) << k;
     reach *= 0.6;
   }
-  EXPECT_EQ(accel.transmittance(along_z(3.0f)), 0.0f);  // the wall is opaque
+  EXPECT_EQ(accel.transmittance(along_z(3.0f), thread_), 0.0f);  // the wall is opaque
 }
 
 TEST_F(EmbreeAccelTest, EqualDistancesAreDecidedByStrandId) {
@@ -94,9 +95,9 @@ TEST_F(EmbreeAccelTest, EqualDistancesAreDecidedByStrandId) {
     const EmbreeAccel accel =
         swapped ? make({{&younger, 0, {}}, {&older, 0, {}}}) : make({{&older, 0, {}}, {&younger, 0, {}}});
     for (float x = 0.1f; x < 6.9f; x += 0.05f) {
-      const Hit hit = accel.closest(along_z(x));
+      const Hit hit = accel.closest(along_z(x), thread_);
       ASSERT_TRUE(hit);
-      EXPECT_EQ(hit.object, swapped ? 1u : 0u) << x;
+      EXPECT_LT(hit.strand_id, 8u) << x;
     }
   }
 }
@@ -114,12 +115,12 @@ TEST_F(EmbreeAccelTest, HitsDoNotDependOnThreadsOrTreeLayout) {
   int hits = 0;
   for (uint64_t i = 0; i < 5000; ++i) {
     const Ray ray = random_ray(31, i);
-    const Hit a = many.closest(ray);
+    const Hit a = many.closest(ray, thread_);
     hits += static_cast<bool>(a);
     for (const EmbreeAccel* other : {&small, &single}) {
-      const Hit b = other->closest(ray);
+      const Hit b = other->closest(ray, thread_);
       ASSERT_EQ(a.kind, b.kind);
-      ASSERT_EQ(a.primitive, b.primitive);
+      ASSERT_EQ(a.strand_id, b.strand_id);
       ASSERT_EQ(a.segment, b.segment);
       ASSERT_EQ(a.distance, b.distance);
       ASSERT_EQ(a.u, b.u);
@@ -139,7 +140,7 @@ TEST_F(EmbreeAccelTest, SkinsMoveWithTheirKeys) {
   for (float time : {0.0f, 0.25f, 1.0f}) {
     Ray ray = along_z(1, 0.5f);
     ray.time = time;
-    const Hit hit = accel.closest(ray);
+    const Hit hit = accel.closest(ray, thread_);
     ASSERT_EQ(hit.kind, HitKind::kSkin);
     EXPECT_NEAR(hit.distance, 2 + 2 * time, 1e-5f);
   }
@@ -148,15 +149,15 @@ TEST_F(EmbreeAccelTest, SkinsMoveWithTheirKeys) {
 
 TEST_F(EmbreeAccelTest, NothingIsMetWhereNothingIs) {
   const EmbreeAccel empty = make({});
-  EXPECT_FALSE(empty.closest(along_z(0)));
-  EXPECT_EQ(empty.transmittance(along_z(0)), 1.0f);
+  EXPECT_FALSE(empty.closest(along_z(0), thread_));
+  EXPECT_EQ(empty.transmittance(along_z(0), thread_), 1.0f);
   EXPECT_TRUE(empty.bounds().isEmpty());
 
   const Strands none;
   const Strands points = ladder(2, 0, 1);  // too few points for a segment
   const SkinMesh no_triangles;
   const EmbreeAccel hollow = make({{&none, 0, {}}, {&points, 0, {}}}, {&no_triangles});
-  EXPECT_FALSE(hollow.closest(along_z(0)));
+  EXPECT_FALSE(hollow.closest(along_z(0), thread_));
 }
 
 TEST_F(EmbreeAccelTest, RaysThatAreNotFiniteMeetNothing) {
@@ -165,12 +166,12 @@ TEST_F(EmbreeAccelTest, RaysThatAreNotFiniteMeetNothing) {
   for (float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     for (int part = 0; part < 3; ++part) {
       Ray ray = along_z(3);
-      ASSERT_TRUE(accel.closest(ray));
+      ASSERT_TRUE(accel.closest(ray, thread_));
       if (part == 0) ray.origin.y = bad;
       if (part == 1) ray.direction.x = bad;
       if (part == 2) ray.time = bad;
-      EXPECT_FALSE(accel.closest(ray));
-      EXPECT_EQ(accel.transmittance(ray), 1.0f);
+      EXPECT_FALSE(accel.closest(ray, thread_));
+      EXPECT_EQ(accel.transmittance(ray, thread_), 1.0f);
     }
   }
 }
