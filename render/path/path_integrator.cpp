@@ -10,6 +10,7 @@
 #include "render/accel/flush_denormals.h"
 #include "render/memory_budget.h"
 #include "render/path/frame_geometry.h"
+#include "render/path/tile_order.h"
 
 namespace pelage {
 namespace {
@@ -51,8 +52,7 @@ class FrameLoop {
         workers_(workers),
         progress_(progress),
         film_(film),
-        columns_((film.width() + kTileSide - 1) / kTileSide),
-        rows_((film.height() + kTileSide - 1) / kTileSide),
+        tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
         scratch_(static_cast<size_t>(workers.thread_count())) {
     for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
   }
@@ -60,16 +60,14 @@ class FrameLoop {
   /// Adds samples `first` .. `last` - 1 to every pixel. Returns false when cancelled on the way.
   bool pass(uint32_t first, uint32_t last) {
     std::atomic<bool> whole{true};
-    const auto tiles = static_cast<size_t>(columns_) * static_cast<size_t>(rows_);
-    workers_.for_each(tiles, 1, [&](WorkRange range) {
+    workers_.for_each(tiles_.size(), 1, [&](WorkRange range) {
       const FlushDenormals flush;
       for (size_t i = range.begin; i < range.end; ++i) {
         if (progress_.cancelled()) {
           whole = false;
           return;
         }
-        progress_.advance(
-            tile(static_cast<int>(i), first, last, scratch_[static_cast<size_t>(range.worker)]));
+        progress_.advance(trace(tiles_[i], first, last, scratch_[static_cast<size_t>(range.worker)]));
       }
     });
     return whole;
@@ -86,25 +84,23 @@ class FrameLoop {
 
  private:
   /// Returns how many samples it traced.
-  double tile(int number, uint32_t first, uint32_t last, PathScratch& scratch) {
-    const int x0 = number % columns_ * kTileSide, y0 = number / columns_ * kTileSide;
-    const int x1 = std::min(x0 + kTileSide, film_.width()), y1 = std::min(y0 + kTileSide, film_.height());
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
+  double trace(const Tile& tile, uint32_t first, uint32_t last, PathScratch& scratch) {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      for (int x = tile.x0; x < tile.x1; ++x) {
         for (uint32_t sample = first; sample < last; ++sample) {
           tracer_.trace(x, y, sample, scratch);
           if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
         }
       }
     }
-    return static_cast<double>(x1 - x0) * (y1 - y0) * (last - first);
+    return static_cast<double>(tile.x1 - tile.x0) * (tile.y1 - tile.y0) * (last - first);
   }
 
   const PathTracer& tracer_;
   const Workers& workers_;
   Progress& progress_;
   Film& film_;
-  const int columns_, rows_;
+  const std::vector<Tile> tiles_;
   std::vector<PathScratch> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};
 };
