@@ -55,6 +55,24 @@ void average_split_normals(const SkinLattice& lattice, const LimitSurface& surfa
   }
 }
 
+/// How the skin will be cut, every vertex numbered.
+SkinLattice numbered_lattice(std::span<const LimitSurface> keys, const View& view,
+                             const TessellationOptions& options, const Workers& workers) {
+  PELAGE_CHECK(!keys.empty());
+  const SurfaceTopology& topology = keys[0].topology();
+  for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &topology);
+
+  SkinLattice lattice(topology.impl());
+  std::vector<SkinLattice::Line>& lines = lattice.lines();
+  workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      if (lines[i].used) lines[i].rate = line_rate(lines[i], lattice, keys, view, options);
+    }
+  });
+  lattice.number();
+  return lattice;
+}
+
 }  // namespace
 
 size_t SkinMesh::bytes() const {
@@ -80,20 +98,15 @@ void SkinMesh::assign_triangle(const SkinMesh& source, size_t triangle) {
   vertex_uv.assign(uv, uv + 3);
 }
 
+TessellationSize tessellation_size(std::span<const LimitSurface> keys, const View& view,
+                                   const TessellationOptions& options, const Workers& workers) {
+  const SkinLattice lattice = numbered_lattice(keys, view, options, workers);
+  return {lattice.points().size(), lattice.triangle_count()};
+}
+
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers) {
-  PELAGE_CHECK(!keys.empty());
-  const SurfaceTopology& topology = keys[0].topology();
-  for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &topology);
-
-  SkinLattice lattice(topology.impl());
-  std::vector<SkinLattice::Line>& lines = lattice.lines();
-  workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      if (lines[i].used) lines[i].rate = line_rate(lines[i], lattice, keys, view, options);
-    }
-  });
-  lattice.number();
+  const SkinLattice lattice = numbered_lattice(keys, view, options, workers);
 
   SkinMesh mesh;
   mesh.motion_keys = static_cast<int>(keys.size());
@@ -101,7 +114,7 @@ SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const 
   mesh.triangles.resize(triangles * 3);
   mesh.faces.resize(triangles);
   mesh.vertex_uv.resize(triangles * 3);
-  workers.for_each(topology.face_count(), kFacesAtOnce, [&](WorkRange range) {
+  workers.for_each(keys[0].topology().face_count(), kFacesAtOnce, [&](WorkRange range) {
     for (size_t face = range.begin; face < range.end; ++face) {
       lattice.write_triangles(static_cast<uint32_t>(face), mesh.triangles.data(), mesh.faces.data(),
                               mesh.vertex_uv.data());

@@ -45,6 +45,14 @@ struct TessellationOptions {
   int max_rate = 32;      ///< most quads along an edge of a ptex face
 };
 
+/// How much tessellate() will make.
+struct TessellationSize {
+  size_t vertices = 0;
+  size_t triangles = 0;
+};
+TessellationSize tessellation_size(std::span<const LimitSurface> keys, const View& view,
+                                   const TessellationOptions& options, const Workers& workers);
+
 /// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`. Every
 /// edge of the cage is divided by its own length on screen, so that a skin costs what is seen of it; faces
 /// that share an edge share its vertices. Holes are left out. The same for any number of threads. Throws
