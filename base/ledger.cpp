@@ -45,11 +45,23 @@ int64_t MemoryLedger::peak(MemoryTag tag) const {
   return accounts_[static_cast<size_t>(tag)].peak.load(std::memory_order_relaxed);
 }
 
+bool MemoryLedger::is_budgeted(MemoryTag tag) {
+  switch (tag) {
+    case MemoryTag::kChunks:
+    case MemoryTag::kSkins:
+    case MemoryTag::kOperatorCache:
+    case MemoryTag::kReflectionCache:
+    case MemoryTag::kFilm:
+      return true;
+    default:
+      return false;
+  }
+}
+
 int64_t MemoryLedger::budgeted() const {
   int64_t bytes = 0;
-  for (MemoryTag tag : {MemoryTag::kChunks, MemoryTag::kSkins, MemoryTag::kOperatorCache,
-                        MemoryTag::kReflectionCache, MemoryTag::kFilm}) {
-    bytes += current(tag);
+  for (int tag = 0; tag < static_cast<int>(MemoryTag::kCount); ++tag) {
+    if (is_budgeted(static_cast<MemoryTag>(tag))) bytes += current(static_cast<MemoryTag>(tag));
   }
   return bytes;
 }

@@ -28,7 +28,9 @@ class MemoryLedger {
   void charge(MemoryTag tag, int64_t bytes);
   int64_t current(MemoryTag tag) const;
   int64_t peak(MemoryTag tag) const;
-  /// Bytes in use of what `render.memory` covers: chunks, skins, caches and film (law 5).
+  /// Whether `render.memory` covers a tag: chunks, skins, caches and film (law 5).
+  static bool is_budgeted(MemoryTag tag);
+  /// Bytes in use of what `render.memory` covers.
   int64_t budgeted() const;
 
  private:

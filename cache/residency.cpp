@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cache/residency.h"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+
+namespace pelage {
+namespace {
+
+std::string size_text(int64_t bytes) {
+  if (bytes < 1 << 20) return fmt::format("{:.1f} KiB", static_cast<double>(bytes) / (1 << 10));
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
+}
+
+/// What the ledger holds of the budget: "30.0 MiB are taken (skins 20.0 MiB, film 10.0 MiB)".
+std::string taken_text(const MemoryLedger& ledger) {
+  std::string parts;
+  for (int i = 0; i < static_cast<int>(MemoryTag::kCount); ++i) {
+    const auto tag = static_cast<MemoryTag>(i);
+    if (!MemoryLedger::is_budgeted(tag) || ledger.current(tag) == 0) continue;
+    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", memory_tag_name(tag),
+                         size_text(ledger.current(tag)));
+  }
+  return fmt::format("{} are taken{}", size_text(ledger.budgeted()), parts.empty() ? "" : " (" + parts + ")");
+}
+
+}  // namespace
+
+Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget,
+                     MemoryLedger& ledger, MemoryTag tag)
+    : grower_(grower),
+      ledger_(ledger),
+      tag_(tag),
+      budget_(budget),
+      slots_(slots),
+      hazards_(static_cast<size_t>(threads)),
+      keeps_all_(budget.limit == 0),
+      clock_(slots) {
+  const size_t index = slots * sizeof(Slot) + hazards_.size() * sizeof(Hazard) + clock_.bytes();
+  index_charge_ = MemoryCharge(ledger, tag, static_cast<int64_t>(index));
+  refuse_small_budget();
+}
+
+/// While one thread reserves, every other pins or grows at most one slot. So the largest slots of all threads
+/// together are what any order of events can ask for.
+void Residency::refuse_small_budget() const {
+  if (budget_.limit == 0) return;
+  std::vector<size_t> sizes(slots_.size());
+  for (size_t slot = 0; slot < sizes.size(); ++slot) {
+    sizes[slot] = grower_.reserve_bytes(static_cast<uint32_t>(slot));
+  }
+  const size_t count = std::min(hazards_.size(), sizes.size());
+  std::partial_sort(sizes.begin(), sizes.begin() + static_cast<ptrdiff_t>(count), sizes.end(),
+                    std::greater<>());
+  int64_t largest = 0;
+  for (size_t i = 0; i < count; ++i) largest += static_cast<int64_t>(sizes[i]);
+  const int64_t least = ledger_.budgeted() + largest;
+  if (least <= static_cast<int64_t>(budget_.limit)) return;
+  throw Error(
+      ErrorKind::kMemory,
+      fmt::format("render.memory ({}) is too small: {}, and {} threads need {} for a chunk each (the "
+                  "largest: {}); {}M would do",
+                  size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_), hazards_.size(),
+                  size_text(largest), size_text(static_cast<int64_t>(sizes[0])), (least >> 20) + 1));
+}
+
+Residency::~Residency() {
+  PELAGE_CHECK(growing_ == 0);
+  for (const Hazard& hazard : hazards_) PELAGE_CHECK(hazard.unit.load() == nullptr);
+  for (Slot& slot : slots_) delete slot.unit.load(std::memory_order_relaxed);
+  charge(-held_);
+}
+
+void Residency::charge(int64_t bytes) {
+  held_ += bytes;
+  ledger_.charge(tag_, bytes);
+  counts_.peak_bytes = std::max(counts_.peak_bytes, held_);
+}
+
+bool Residency::is_pinned(const Resident* unit) const {
+  return std::any_of(hazards_.begin(), hazards_.end(), [&](const Hazard& hazard) {
+    return hazard.unit.load(std::memory_order_seq_cst) == unit;
+  });
+}
+
+void Residency::sleep(std::unique_lock<std::mutex>& lock) {
+  const auto start = std::chrono::steady_clock::now();
+  changed_.wait(lock);
+  counts_.waited_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Residency::wake() {
+  // Whoever saw our pin and is about to sleep holds the mutex until it does.
+  { const std::lock_guard lock(mutex_); }
+  changed_.notify_all();
+}
+
+/// Takes units that hold `bytes` together out of the index, those first that no visit has used since the hand
+/// came by. All or none: kLater when pins left too little, kNever when even all units are too little.
+Residency::Room Residency::evict(int64_t bytes, Victims& victims) {
+  // Once round to forget uses, once to find what was not used again, once more to take what is not pinned.
+  const size_t round = clock_.size();
+  for (size_t step = 0; step < 3 * round && victims.bytes < bytes && !clock_.empty(); ++step) {
+    Slot& slot = slots_[clock_.hand()];
+    Resident* unit = slot.unit.load(std::memory_order_relaxed);
+    const bool used = slot.used.exchange(false, std::memory_order_relaxed);
+    if ((used && step < 2 * round) || is_pinned(unit)) {
+      clock_.advance();
+      continue;
+    }
+    slot.unit.store(nullptr, std::memory_order_seq_cst);
+    if (is_pinned(unit)) {  // by a visit that saw it in the index just before
+      slot.unit.store(unit, std::memory_order_seq_cst);
+      clock_.advance();
+      continue;
+    }
+    victims.units.emplace_back(clock_.remove_hand(), unit);
+    victims.bytes += static_cast<int64_t>(slot.bytes);
+  }
+  if (victims.bytes >= bytes) return Room::kGranted;
+  const bool any_pinned = !clock_.empty();
+  for (auto& [number, unit] : victims.units) {
+    slots_[number].unit.store(unit.release(), std::memory_order_seq_cst);
+    clock_.insert(number);
+  }
+  victims = {};
+  return any_pinned ? Room::kLater : Room::kNever;
+}
+
+/// Charges `bytes` within the limit, at the cost of `victims` if need be. What those hold stays charged until
+/// they are freed.
+Residency::Room Residency::reserve(int64_t bytes, Victims& victims) {
+  const int64_t limit = static_cast<int64_t>(budget_.limit);
+  const int64_t lacking = limit > 0 ? ledger_.budgeted() + bytes - limit : 0;
+  if (lacking > 0) {
+    const Room room = keeps_all_ ? Room::kNever : evict(lacking, victims);
+    if (room != Room::kGranted) return growing_ > 0 ? Room::kLater : room;
+  }
+  for (const auto& [number, unit] : victims.units) {
+    ++counts_.evictions;
+    if (!slots_[number].hit.load(std::memory_order_relaxed)) ++counts_.false_expansions;
+  }
+  charge(std::max<int64_t>(0, bytes - victims.bytes));
+  return Room::kGranted;
+}
+
+Resident& Residency::pin_slowly(uint32_t slot, int thread) {
+  const auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
+  Slot& s = slots_[slot];
+  // Who lets go of a pin or a reservation while this is up wakes us.
+  struct Starving {
+    std::atomic<int>& count;
+    bool up = false;
+    void raise() { count.fetch_add(1, std::memory_order_seq_cst), up = true; }
+    ~Starving() {
+      if (up) count.fetch_sub(1, std::memory_order_seq_cst);
+    }
+  } starving{starving_};
+
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (const auto failure = failures_.find(slot); failure != failures_.end()) {
+      std::rethrow_exception(failure->second);
+    }
+    if (Resident* unit = s.unit.load(std::memory_order_relaxed)) {  // stays: eviction needs the mutex
+      if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
+      set_flag(s.used);
+      return *unit;
+    }
+    if (!s.growing) {
+      Victims victims;
+      const Room room = reserve(needed, victims);
+      if (room == Room::kGranted) return grow(lock, slot, thread, needed, victims);
+      if (room == Room::kNever) throw_too_full(needed);
+      if (!starving.up) {  // a pin let go before now would not have woken us
+        starving.raise();
+        continue;
+      }
+    }
+    sleep(lock);
+  }
+}
+
+/// Grows a slot whose bytes are reserved, and pins it for `thread` before anybody could evict it.
+Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
+                          Victims& victims) {
+  Slot& s = slots_[slot];
+  s.growing = true;
+  ++growing_;
+  lock.unlock();
+  victims.units.clear();
+  if (victims.bytes > reserved) {
+    lock.lock();
+    charge(reserved - victims.bytes);
+    changed_.notify_all();
+    lock.unlock();
+  }
+
+  Grower::Grown grown;
+  try {
+    grown = grower_.grow(slot);
+    PELAGE_CHECK(grown.unit != nullptr);
+  } catch (...) {
+    lock.lock();
+    s.growing = false;
+    --growing_;
+    charge(-reserved);
+    changed_.notify_all();
+    failures_.emplace(slot, std::current_exception());
+    throw;
+  }
+
+  const auto bytes = static_cast<int64_t>(grown.bytes);
+  lock.lock();
+  s.growing = false;
+  --growing_;
+  charge(bytes - reserved);
+  ++counts_.expansions;
+  if (bytes > reserved) ++counts_.overruns;
+  if (s.touched) {
+    ++counts_.reexpansions;
+  } else {
+    ++counts_.touched;
+    counts_.working_set_bytes += bytes;
+  }
+  s.touched = true;
+  s.bytes = grown.bytes;
+  s.hit.store(false, std::memory_order_relaxed);
+  s.used.store(false, std::memory_order_relaxed);  // what is grown for one ray only goes first
+  clock_.insert(slot);
+  Resident* unit = grown.unit.release();
+  if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
+  s.unit.store(unit, std::memory_order_seq_cst);
+  changed_.notify_all();
+  return *unit;
+}
+
+void Residency::throw_too_full(int64_t needed) const {
+  const char* remedy = keeps_all_ ? "; with bounds other than none not everything is held at once" : "";
+  throw Error(ErrorKind::kMemory,
+              fmt::format("render.memory ({}) is used up: {}, and a chunk of {} is needed{}",
+                          size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
+                          size_text(needed), remedy));
+}
+
+void Residency::grow_all(const Workers& workers, Progress& progress) {
+  keeps_all_ = true;
+  progress.begin("grow", static_cast<double>(slots_.size()));
+  workers.for_each(slots_.size(), 1, [&](WorkRange range) {
+    for (size_t slot = range.begin; slot < range.end && !progress.cancelled(); ++slot) {
+      pin_slowly(static_cast<uint32_t>(slot), 0);
+      progress.advance(1);
+    }
+  });
+  progress.end();
+}
+
+ResidencyCounts Residency::counts() const {
+  const std::lock_guard lock(mutex_);
+  ResidencyCounts result = counts_;
+  for (const Slot& slot : slots_) {
+    if (slot.unit.load(std::memory_order_relaxed) && !slot.hit.load(std::memory_order_relaxed)) {
+      ++result.false_expansions;
+    }
+  }
+  return result;
+}
+
+}  // namespace pelage
