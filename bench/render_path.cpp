@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "bench/bumpy_ball.h"
 #include "image/texture.h"
+#include "procedurals/fixed.h"
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
 #include "render/light/light_params.h"
@@ -21,16 +22,6 @@ namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
 constexpr int kRuns = 3;
-
-class BallStrands final : public Procedural {
- public:
-  explicit BallStrands(const Strands& strands) : strands_(strands) {}
-  Box3f bound() const override { return {V3f(-2), V3f(2)}; }
-  Strands generate() const override { return strands_; }
-
- private:
-  const Strands& strands_;
-};
 
 /// The scene of the peers: two rectangle lights and a constant sky.
 RenderScene ball_scene(const BumpyBall& ball, int bounces, int samples, MemoryLedger& ledger) {
@@ -71,8 +62,8 @@ RenderScene ball_scene(const BumpyBall& ball, int bounces, int samples, MemoryLe
                     image,
                     render};
   scene.fur.push_back({"ball.fur", {}, 0, nullptr});
-  scene.fur[0].procedurals.push_back(std::make_unique<BallStrands>(ball.strands));
-  scene.skins.push_back({"ball.skin", std::make_shared<SkinMesh>(ball.skin), nullptr, 1});
+  scene.fur[0].procedurals.push_back(std::make_unique<FixedStrands>(ball.strands));
+  scene.skins.push_back({"ball.skin", std::make_shared<FixedSkin>(ball.skin), nullptr, 1});
   return scene;
 }
 
@@ -159,7 +150,7 @@ void path_over_bare_rays(benchmark::State& state) {
   const BumpyBall ball = make_bumpy_ball(static_cast<size_t>(state.range(0)));
   const RenderScene scene = ball_scene(ball, static_cast<int>(state.range(1)), 16, ledger);
   const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
-  const EmbreeScene bare({{&ball.strands, 0, {}}}, {scene.skins[0].mesh.get()}, {}, ledger, workers);
+  const EmbreeScene bare({{&ball.strands, 0, {}}}, {&ball.skin}, {}, ledger, workers);
 
   const FilmLayers layers = FilmLayers::make({{"key", false}, {"rim", false}, {"sky", true}}, kLobeGroups);
   const Recorder recorder(geometry->accel());

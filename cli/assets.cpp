@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
   return files;
 }
 
-Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies) {
+Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, MemoryLedger& ledger) {
   require_file(params.mesh.path, params.mesh.position);
   const ControlMesh cage = read_obj(params.mesh.path);
   const auto topology = share(
@@ -44,7 +44,7 @@ Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies) {
   Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage.positions, {}};
   if (params.poses) {
     skin.poses.emplace(pose_files(*params.poses), params.poses->first, params.poses->cycle,
-                       cage.positions.size());
+                       cage.positions.size(), ledger);
   }
   return skin;
 }
@@ -56,7 +56,8 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
   auto assets = std::make_unique<Assets>(ledger);
   SharedTopologies topologies;
   for (const auto& [name, position, params] : scene.skins.items) {
-    const Assets::Skin& skin = assets->skins.emplace(name, load_skin(params, topologies)).first->second;
+    const Assets::Skin& skin =
+        assets->skins.emplace(name, load_skin(params, topologies, ledger)).first->second;
     assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(skin.rest->bytes()));
   }
   for (const auto& topology : topologies) {

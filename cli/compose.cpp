@@ -2,50 +2,12 @@
 // The one page where everything meets: what the scene describes becomes the world of one frame.
 #include "cli/compose.h"
 
-#include <cmath>
-
-#include "cli/character_transform.h"
+#include "cli/character_pose.h"
 #include "procedurals/fur.h"
 
 namespace pelage {
 
 namespace {
-
-/// A moment of the frame, in frames; several when something moves while the shutter is open.
-std::vector<double> motion_times(const CameraParams& camera, double frame, bool moves) {
-  const float length = camera.shutter.y - camera.shutter.x;
-  if (!moves) return {frame};
-  if (!(length > 0)) return {frame + camera.shutter.x};
-  std::vector<double> times;
-  for (int key = 0; key < camera.motion_keys; ++key) {
-    times.push_back(frame + camera.shutter.x + double(length) * key / (camera.motion_keys - 1));
-  }
-  return times;
-}
-
-LimitSurface posed_surface(const Assets::Skin& skin, const CharacterParams& character, double time) {
-  std::vector<V3f> cage = skin.poses ? skin.poses->positions(time + character.frame_offset) : skin.cage;
-  const M44f to_world = character_matrix(character.transform, time);
-  for (V3f& point : cage) point *= to_world;
-  return LimitSurface(skin.rest->shared_topology(), cage);
-}
-
-std::shared_ptr<const PosedCharacterSkin> pose_skin(const Assets::Skin& skin,
-                                                    const CharacterParams& character,
-                                                    const CameraParams& camera, const View& view,
-                                                    double frame, bool needs_trees, const Workers& workers) {
-  auto posed = std::make_shared<PosedCharacterSkin>();
-  for (double time : motion_times(camera, frame, skin.poses || moves(character.transform))) {
-    posed->keys.push_back(posed_surface(skin, character, time));
-    posed->transforms.push_back(character_matrix(character.transform, time));
-  }
-  posed->mesh = std::make_shared<SkinMesh>(tessellate(posed->keys, view, {}, workers));
-  for (size_t key = 0; needs_trees && key < posed->keys.size(); ++key) {
-    posed->trees.emplace_back(*posed->mesh, static_cast<int>(key));
-  }
-  posed->scale = character.transform.scale.at(frame);
-  return posed;
-}
 
 size_t material_index(const SceneDescription& scene, const NameReference& material) {
   size_t index = 0;
@@ -54,17 +16,17 @@ size_t material_index(const SceneDescription& scene, const NameReference& materi
 }
 
 void add_part(World& world, const SceneDescription& scene, const Assets& assets, const std::string& name,
-              const CharacterParams& character, const PartParams& part, double frame, const Workers& workers,
-              MemoryLedger& ledger) {
+              const CharacterParams& character, const PartParams& part, double frame,
+              const std::shared_ptr<PoseCache>& poses, MemoryLedger& ledger) {
   const Assets::Skin& skin = assets.skins.at(part.skin.name);
-  bool needs_trees = false;
-  for (const auto& groom : part.grooms.items)
-    needs_trees |= assets.grooms.at(groom.name)->needs_closest_point();
-  const auto posed =
-      pose_skin(skin, character, scene.camera, world.scene.camera.view(), frame, needs_trees, workers);
+  CharacterPose pose = pose_character(skin, character, scene.camera, frame);
+  for (const auto& groom : part.grooms.items) {
+    if (assets.grooms.at(groom.name)->needs_closest_point()) pose.push_out_view = world.scene.camera.view();
+  }
+  const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses);
   world.charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(posed->bytes()));
   world.scene.skins.push_back(
-      {name + "." + part.skin.name, posed->mesh, skin.rest, material_index(scene, part.material)});
+      {name + "." + part.skin.name, posed, skin.rest, material_index(scene, part.material)});
 
   for (const auto& groom : part.grooms.items) {
     FurPart fur{name + "." + groom.name, {}, material_index(scene, groom.value), skin.rest};
@@ -92,9 +54,10 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               {}};
+  const auto poses = std::make_shared<PoseCache>(workers.thread_count(), ledger);
   for (const auto& [name, position, character] : scene.characters.items) {
     for (const PartParams& part : character.parts) {
-      add_part(world, scene, assets, name, character, part, frame, workers, ledger);
+      add_part(world, scene, assets, name, character, part, frame, poses, ledger);
     }
     ++world.characters;
   }

@@ -53,6 +53,10 @@ Frame frame_around(const V3f& normal, const V3f& along) {
 
 }  // namespace
 
+size_t SurfaceTopology::pose_bytes() const {
+  return sizeof(LimitSurface) + (impl_->rules.point_count() * 3 + 1) * sizeof(float);
+}
+
 LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions)
     : topology_(std::move(topology)) {
   const SurfaceTopology::Impl& impl = topology_->impl();

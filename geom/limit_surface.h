@@ -57,6 +57,8 @@ class SurfaceTopology {
   /// Of everything that the topology depends on; meshes with equal hashes share one topology.
   ContentHash hash() const;
   size_t bytes() const;
+  /// Bytes of each LimitSurface of it.
+  size_t pose_bytes() const;
 
   struct Impl;  // geom/surface_topology_impl.h
   const Impl& impl() const { return *impl_; }

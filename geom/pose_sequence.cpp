@@ -3,32 +3,78 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "base/check.h"
 #include "geom/io/obj_file.h"
 
 namespace pelage {
 
+/// The files of a sequence and what was read of them.
+class PoseSequence::Files {
+ public:
+  using Positions = std::shared_ptr<const std::vector<V3f>>;
+
+  Files(std::vector<std::filesystem::path> paths, size_t cage_points, MemoryLedger& ledger)
+      : paths_(std::move(paths)), cage_points_(cage_points), ledger_(ledger), read_(paths_.size()) {
+    PELAGE_CHECK(!paths_.empty());
+  }
+  ~Files() { ledger_.charge(MemoryTag::kSkins, -charged_); }
+
+  size_t count() const { return paths_.size(); }
+
+  Positions get(size_t file) {
+    const std::lock_guard lock(mutex_);
+    if (!read_[file]) {
+      const size_t most = std::max<size_t>(2, kMostBytes / std::max<size_t>(1, cage_points_ * sizeof(V3f)));
+      if (order_.size() >= most) {
+        charge(-1);
+        read_[order_.front()].reset();
+        order_.erase(order_.begin());
+      }
+      read_[file] = std::make_shared<const std::vector<V3f>>(read_obj_positions(paths_[file], cage_points_));
+      order_.push_back(file);
+      charge(1);
+    }
+    return read_[file];
+  }
+
+ private:
+  void charge(int64_t poses) {
+    const int64_t bytes = poses * static_cast<int64_t>(cage_points_ * sizeof(V3f));
+    ledger_.charge(MemoryTag::kSkins, bytes);
+    charged_ += bytes;
+  }
+
+  const std::vector<std::filesystem::path> paths_;
+  const size_t cage_points_;
+  MemoryLedger& ledger_;
+  std::mutex mutex_;             // guards what follows
+  std::vector<Positions> read_;  // of each file, or null
+  std::vector<size_t> order_;    // files that are in memory, the first read first
+  int64_t charged_ = 0;
+};
+
 PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle,
-                           size_t cage_points)
-    : files_(std::move(files)), first_(first), cycle_(cycle), cage_points_(cage_points) {
-  PELAGE_CHECK(!files_.empty());
-}
+                           size_t cage_points, MemoryLedger& ledger)
+    : files_(std::make_unique<Files>(std::move(files), cage_points, ledger)), first_(first), cycle_(cycle) {}
+PoseSequence::PoseSequence(PoseSequence&&) noexcept = default;
+PoseSequence::~PoseSequence() = default;
 
 std::vector<V3f> PoseSequence::positions(double pose) const {
-  const auto count = static_cast<double>(files_.size());
+  const auto count = static_cast<double>(files_->count());
   double at = pose - first_;
   if (cycle_) at -= std::floor(at / count) * count;
   // Rounding may leave a cycle at its end; what is not finite becomes the first pose.
   at = at > 0 ? std::min(at, cycle_ ? count : count - 1) : 0;
   const double below = std::floor(at);
   const auto t = static_cast<float>(at - below);
-  const size_t from = static_cast<size_t>(below) % files_.size();
-  const size_t to = t > 0 ? (from + 1) % files_.size() : from;
-  std::vector<V3f> result = read_obj_positions(files_[from], cage_points_);
+  const size_t from = static_cast<size_t>(below) % files_->count();
+  const size_t to = t > 0 ? (from + 1) % files_->count() : from;
+  std::vector<V3f> result = *files_->get(from);
   if (to != from) {
-    const std::vector<V3f> next = read_obj_positions(files_[to], cage_points_);
-    for (size_t i = 0; i < result.size(); ++i) result[i] = result[i] * (1 - t) + next[i] * t;
+    const Files::Positions next = files_->get(to);
+    for (size_t i = 0; i < result.size(); ++i) result[i] = result[i] * (1 - t) + (*next)[i] * t;
   }
   return result;
 }

@@ -2,28 +2,39 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
+#include "base/ledger.h"
 #include "base/vector.h"
 
 namespace pelage {
 
 /// Poses of a cage, one OBJ file each, numbered from `first`; between whole numbers, positions blend
 /// linearly. A cycle goes on for ever in both directions, otherwise the first and the last pose hold.
+///
+/// A file is read when it is first needed and its positions are kept, up to `kMostBytes` of them, so that a
+/// crowd reads each pose once. Thread safety: const members may be called from any thread.
 class PoseSequence {
  public:
-  /// `cage_points`: how many every file must have.
-  PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points);
+  /// Positions kept in memory per sequence, charged to the skins.
+  static constexpr size_t kMostBytes = size_t(64) << 20;
 
-  /// Positions of all control points at a pose number, object space. Reads the files it needs. Throws Error
-  /// (kInput) naming a file that is missing, damaged or has another number of points.
+  /// `cage_points`: how many every file must have.
+  PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,
+               MemoryLedger& ledger);
+  PoseSequence(PoseSequence&&) noexcept;
+  ~PoseSequence();
+
+  /// Positions of all control points at a pose number, object space. Throws Error (kInput) naming a file that
+  /// is missing, damaged or has another number of points.
   std::vector<V3f> positions(double pose) const;
 
  private:
-  std::vector<std::filesystem::path> files_;
+  class Files;
+  std::unique_ptr<Files> files_;
   int first_;
   bool cycle_;
-  size_t cage_points_;
 };
 
 }  // namespace pelage

@@ -61,12 +61,15 @@ SkinLattice numbered_lattice(std::span<const LimitSurface> keys, const View& vie
   PELAGE_CHECK(!keys.empty());
   const SurfaceTopology& topology = keys[0].topology();
   for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &topology);
+  const size_t end = std::min(options.end_rated_key, keys.size());
+  PELAGE_CHECK(options.first_rated_key < end);
+  const auto rated = keys.subspan(options.first_rated_key, end - options.first_rated_key);
 
   SkinLattice lattice(topology.impl());
   std::vector<SkinLattice::Line>& lines = lattice.lines();
   workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) {
-      if (lines[i].used) lines[i].rate = line_rate(lines[i], lattice, keys, view, options);
+      if (lines[i].used) lines[i].rate = line_rate(lines[i], lattice, rated, view, options);
     }
   });
   lattice.number();

@@ -43,6 +43,9 @@ struct SkinMesh {
 struct TessellationOptions {
   float edge_pixels = 4;  ///< aimed length of the longest edge on screen
   int max_rate = 32;      ///< most quads along an edge of a ptex face
+  /// Keys by whose edges the rates are chosen, from the first to the one before `end`: poses that are added
+  /// before and after these change no triangle.
+  size_t first_rated_key = 0, end_rated_key = SIZE_MAX;
 };
 
 /// How much tessellate() will make.

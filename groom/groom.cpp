@@ -187,6 +187,33 @@ Strands Groom::grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> co
   return Strands(std::move(arrays));
 }
 
+StrandCounts Groom::counts(size_t leaf) const {
+  const Impl& g = *impl_;
+  const FollicleTree::Leaf& range = g.follicles().leaves()[leaf];
+  StrandCounts counts;
+  counts.strands = range.end - range.begin;
+  if (g.imported) {
+    for (size_t f = range.begin; f < range.end; ++f) {
+      const auto points = static_cast<uint32_t>(g.imported->strand_points(f));
+      counts.points += points;
+      counts.segments += segment_count(g.imported->basis(), points);
+    }
+    for (const StrandAttribute& a :
+         g.imported->attributes(range.begin, range.end, g.stack->colors() ? "color" : "")) {
+      counts.attribute_floats += a.values.size();
+    }
+  } else {
+    counts.points = counts.strands * static_cast<size_t>(g.points);
+    counts.segments = counts.strands * static_cast<size_t>(g.points - 1);
+  }
+  if (const auto colors = g.stack->colors()) {
+    counts.attribute_floats += 3 * (*colors == AttributeClass::kConstant ? std::min<size_t>(1, counts.strands)
+                                    : *colors == AttributeClass::kPerStrand ? counts.strands
+                                                                            : counts.points);
+  }
+  return counts;
+}
+
 StrandReach Groom::Impl::reach(size_t leaf) const {
   StrandReach before;
   before.lean = 0;

@@ -9,6 +9,7 @@
 #include "base/ledger.h"
 #include "geom/closest_point.h"
 #include "geom/limit_surface.h"
+#include "geom/strand_counts.h"
 #include "geom/strands.h"
 #include "groom/follicles.h"
 #include "groom/groom_params.h"
@@ -58,6 +59,9 @@ class Groom {
   /// operator colours them: constant, per strand or per point, whichever is the least that holds the colours.
   /// Only the first `count` of them when `count` is given (an LOD prefix).
   Strands grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> count = {}) const;
+
+  /// Exactly what grow() of the whole leaf gives, but for the motion keys, which are the pose's.
+  StrandCounts counts(size_t leaf) const;
 
   /// A box that holds every point +- radius that grow() can give: roots in the pose, longest strand, each
   /// operator's reach. No strand is grown.

@@ -9,10 +9,11 @@ FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin)
     : groom_(std::move(groom)), skin_(std::move(skin)) {}
 
-Box3f FurProcedural::bound() const {
+Box3f FurProcedural::bound(BoundSpan span) const {
+  const auto pose = skin_->pose(span);
   Box3f box;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
-    box.extendBy(groom_->conservative_bound(leaf, skin_->pose()));
+    box.extendBy(groom_->conservative_bound(leaf, pose->skin()));
   }
   return box;
 }
@@ -26,18 +27,36 @@ std::vector<std::unique_ptr<Procedural>> FurProcedural::split() const {
 }
 
 Strands FurProcedural::generate() const {
+  const auto pose = skin_->pose(BoundSpan::kShutter);
   std::vector<Strands> leaves;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf)
-    leaves.push_back(groom_->grow(leaf, skin_->pose()));
+    leaves.push_back(groom_->grow(leaf, pose->skin()));
   return merge(leaves);
+}
+
+StrandCounts FurProcedural::counts() const {
+  StrandCounts sum;
+  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) sum += groom_->counts(leaf);
+  sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
+  return sum;
 }
 
 FurLeafProcedural::FurLeafProcedural(std::shared_ptr<const Groom> groom,
                                      std::shared_ptr<const PosedCharacterSkin> skin, size_t leaf)
     : groom_(std::move(groom)), skin_(std::move(skin)), leaf_(leaf) {}
 
-Box3f FurLeafProcedural::bound() const { return groom_->conservative_bound(leaf_, skin_->pose()); }
+Box3f FurLeafProcedural::bound(BoundSpan span) const {
+  return groom_->conservative_bound(leaf_, skin_->pose(span)->skin());
+}
 
-Strands FurLeafProcedural::generate() const { return groom_->grow(leaf_, skin_->pose()); }
+Strands FurLeafProcedural::generate() const {
+  return groom_->grow(leaf_, skin_->pose(BoundSpan::kShutter)->skin());
+}
+
+StrandCounts FurLeafProcedural::counts() const {
+  StrandCounts counts = groom_->counts(leaf_);
+  counts.motion_keys = static_cast<size_t>(skin_->motion_keys());
+  return counts;
+}
 
 }  // namespace pelage

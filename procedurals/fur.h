@@ -13,10 +13,11 @@ class FurProcedural final : public Procedural {
  public:
   FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin);
 
-  Box3f bound() const override;
+  Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;
   /// The whole coat at once, leaf after leaf, for tools that want one batch.
   Strands generate() const override;
+  StrandCounts counts() const override;
 
  private:
   std::shared_ptr<const Groom> groom_;
@@ -29,8 +30,9 @@ class FurLeafProcedural final : public Procedural {
   FurLeafProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
                     size_t leaf);
 
-  Box3f bound() const override;
+  Box3f bound(BoundSpan span) const override;
   Strands generate() const override;
+  StrandCounts counts() const override;
 
  private:
   std::shared_ptr<const Groom> groom_;

@@ -2,31 +2,70 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
-#include "geom/closest_point.h"
+#include "base/hash.h"
 #include "geom/limit_surface.h"
-#include "geom/tessellation.h"
-#include "groom/groom.h"
+#include "geom/view.h"
+#include "procedurals/deferred_skin.h"
+#include "procedurals/pose_cache.h"
+#include "procedurals/skin_pose.h"
 
 namespace pelage {
 
-/// A skin of one character in the pose of a frame, world space: what grows on it keeps it alive. Limit
-/// surfaces and trees are per motion key, at even times over the shutter.
-struct PosedCharacterSkin {
-  std::vector<LimitSurface> keys;
-  std::shared_ptr<const SkinMesh> mesh;  ///< the frame's one tessellation
-  std::vector<ClosestPointTree> trees;  ///< over `mesh`; empty unless a groom asks for the inside of the skin
-  float scale = 1;
-  std::vector<M44f> transforms;  ///< of the character, per key: for strands that grow on no skin
+/// Control points of one skin of one character, world space, at some times.
+struct PosedCages {
+  std::vector<std::vector<V3f>> cages;  ///< one per time
+  std::vector<M44f> transforms;         ///< of the character, per time: for strands that grow on no skin
+};
 
-  PosedSkin pose() const { return {keys, trees, scale, transforms}; }
-  size_t bytes() const {
-    size_t sum = mesh->bytes();
-    for (const LimitSurface& key : keys) sum += key.bytes();
-    for (const ClosestPointTree& tree : trees) sum += tree.bytes();
-    return sum;
-  }
+/// What a PosedCharacterSkin is made of.
+struct CharacterPose {
+  std::shared_ptr<const SurfaceTopology> topology;
+  /// At even times over the shutter; one time when nothing moves or the shutter is closed.
+  PosedCages shutter;
+  /// At the two ends of the frame's interval [frame - 1/2, frame + 1/2]; empty when `shutter` has one time.
+  PosedCages frame_ends;
+  /// Of the character, applied to strands about their roots: the cube root of the determinant where it is
+  /// scaled differently along its axes (frames come from the posed cage).
+  float scale = 1;
+  /// For which view the skin is tessellated from which strands keep clear; none when no groom does.
+  std::optional<View> push_out_view;
+};
+
+/// A skin of one character in a frame. All that is kept are the posed cages, some kilobytes: limit surfaces
+/// and trees are made when something grows, and shared through a PoseCache.
+class PosedCharacterSkin final : public DeferredSkin {
+ public:
+  PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseCache> poses);
+
+  int motion_keys() const override { return static_cast<int>(pose_.shutter.cages.size()); }
+  const SurfaceTopology& topology() const { return *pose_.topology; }
+
+  /// Ready to grow in. kShutter: one key per motion key. kFrame: these keys between those of the ends of the
+  /// frame, in order of time; what the shutter sees is thus never outside what a bound over the frame holds.
+  std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
+
+  /// The hull of the control points, a little widened.
+  Box3f bound(BoundSpan span) const override;
+  TessellationSize size(const View& view) const override;
+  SkinMesh tessellate(const View& view) const override;
+
+  /// Of all that shapes what grows here: topology, control points of all times, transforms, scale. Equal
+  /// poses have equal hashes.
+  ContentHash hash() const { return hash_; }
+  size_t bytes() const;
+
+ private:
+  std::shared_ptr<const SkinPose> make(BoundSpan span) const;
+
+  CharacterPose pose_;
+  std::shared_ptr<PoseCache> poses_;
+  ContentHash hash_;
+  mutable std::mutex mutex_;  // guards made_; held while a pose is made, so that it is made once
+  mutable std::weak_ptr<const SkinPose> made_[2];
 };
 
 }  // namespace pelage

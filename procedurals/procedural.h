@@ -5,9 +5,14 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "geom/strand_counts.h"
 #include "geom/strands.h"
 
 namespace pelage {
+
+/// During which time a bound holds. A procedural that does not know the shutter must hold the whole interval
+/// of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter both are the same instant.
+enum class BoundSpan { kFrame, kShutter };
 
 /// Geometry that exists only while something needs it: bound, split, generate, as RenderMan's RiProcedural
 /// [RISPEC 3.2, procedural primitives]. World space.
@@ -16,12 +21,15 @@ namespace pelage {
 class Procedural {
  public:
   virtual ~Procedural() = default;
-  /// Holds every point +- radius of everything that generate() may give, over the whole shutter (law 4).
-  virtual Box3f bound() const = 0;
+  /// Holds every point +- radius of everything that generate() may give, over the span (law 4). No strand is
+  /// grown.
+  virtual Box3f bound(BoundSpan span) const = 0;
   /// Finer procedurals to use instead; empty for a leaf.
   virtual std::vector<std::unique_ptr<Procedural>> split() const { return {}; }
-  /// The strands of a leaf.
+  /// The strands of a leaf, over the shutter.
   virtual Strands generate() const = 0;
+  /// How much generate() gives: exactly, or an upper bound.
+  virtual StrandCounts counts() const = 0;
 };
 
 }  // namespace pelage

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/tessellation.h"
+#include "procedurals/deferred_skin.h"
 #include "procedurals/procedural.h"
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
@@ -29,7 +29,7 @@ struct FurPart {
 /// itself; where that is null, both are zero.
 struct SkinPart {
   std::string name;
-  std::shared_ptr<const SkinMesh> mesh;
+  std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
 };

@@ -43,6 +43,21 @@ FurBatch grow(const Leaf& leaf, const RenderScene& scene) {
 
 }  // namespace
 
+std::vector<const SkinMesh*> FrameGeometry::tessellate_skins(const RenderScene& scene, const Workers& workers,
+                                                             MemoryLedger& ledger) {
+  skins_.resize(scene.skins.size());
+  workers.for_each(skins_.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i)
+      skins_[i] = scene.skins[i].skin->tessellate(scene.camera.view());
+  });
+  std::vector<const SkinMesh*> skins;
+  for (const SkinMesh& mesh : skins_) {
+    charges_.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(mesh.bytes()));
+    skins.push_back(&mesh);
+  }
+  return skins;
+}
+
 std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Workers& workers,
                                                          Progress& progress, MemoryLedger& ledger,
                                                          Statistics& statistics) {
@@ -80,10 +95,9 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   statistics.chunks += static_cast<int64_t>(leaves.size());
   statistics.expansions += static_cast<int64_t>(leaves.size());
   statistics.working_set_bytes = std::max(statistics.working_set_bytes, working_set);
-  std::vector<const SkinMesh*> skins;
-  for (const SkinPart& skin : scene.skins) skins.push_back(skin.mesh.get());
 
   progress.begin("build", 1);
+  std::vector<const SkinMesh*> skins = geometry->tessellate_skins(scene, workers, ledger);
   EmbreeOptions options;
   options.shape = scene.render.curves;
   options.memory_limit = scene.render.memory.bytes;

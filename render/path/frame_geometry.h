@@ -36,7 +36,11 @@ class FrameGeometry {
   const Accel& accel() const { return *accel_; }
 
  private:
+  std::vector<const SkinMesh*> tessellate_skins(const RenderScene& scene, const Workers& workers,
+                                                MemoryLedger& ledger);
+
   std::vector<FurBatch> batches_;
+  std::vector<SkinMesh> skins_;
   std::vector<MemoryCharge> charges_;
   std::unique_ptr<Accel> accel_;
 };

@@ -25,10 +25,11 @@ class PoseSequenceTest : public ::testing::Test {
 
   TemporaryFolder folder_;
   std::vector<std::filesystem::path> files_;
+  MemoryLedger ledger_;
 };
 
 TEST_F(PoseSequenceTest, BlendsBetweenPosesAndHoldsTheEnds) {
-  const PoseSequence poses(files_, 1, false, 3);
+  const PoseSequence poses(files_, 1, false, 3, ledger_);
   EXPECT_EQ(height(poses, 1), 0);
   EXPECT_FLOAT_EQ(height(poses, 2.25), 1.25f);
   EXPECT_EQ(height(poses, -7.5), 0);
@@ -36,7 +37,7 @@ TEST_F(PoseSequenceTest, BlendsBetweenPosesAndHoldsTheEnds) {
 }
 
 TEST_F(PoseSequenceTest, CyclesInBothDirections) {
-  const PoseSequence poses(files_, 1, true, 3);
+  const PoseSequence poses(files_, 1, true, 3, ledger_);
   EXPECT_EQ(height(poses, 4), 0);
   EXPECT_FLOAT_EQ(height(poses, 3.5), 1.0f);  // halfway from the last pose to the first
   EXPECT_EQ(height(poses, 0), 2);
@@ -45,7 +46,7 @@ TEST_F(PoseSequenceTest, CyclesInBothDirections) {
 
 TEST_F(PoseSequenceTest, TakesAnyNumber) {
   for (bool cycle : {false, true}) {
-    const PoseSequence poses(files_, 1, cycle, 3);
+    const PoseSequence poses(files_, 1, cycle, 3, ledger_);
     for (double pose :
          {1e18, -1e18, 1e300, -1e300, 1 - 1e-17, double(INFINITY), -double(INFINITY), double(NAN)}) {
       const float y = height(poses, pose);
@@ -54,15 +55,25 @@ TEST_F(PoseSequenceTest, TakesAnyNumber) {
   }
 }
 
+TEST_F(PoseSequenceTest, ReadsEachFileOnce) {
+  const PoseSequence poses(files_, 1, false, 3, ledger_);
+  EXPECT_EQ(ledger_.current(MemoryTag::kSkins), 0);
+  const float first = height(poses, 1.5);
+  EXPECT_EQ(ledger_.current(MemoryTag::kSkins), static_cast<int64_t>(2 * 3 * sizeof(V3f)));
+  for (const auto& file : files_) std::filesystem::remove(file);
+  EXPECT_EQ(height(poses, 1.5), first);
+  EXPECT_THROW(poses.positions(3), Error);  // was not needed before
+}
+
 TEST_F(PoseSequenceTest, NamesTheFileThatIsMissingOrDoesNotFit) {
   files_[1] = folder_.path() / "nowhere.obj";
   try {
-    PoseSequence(files_, 1, false, 3).positions(2);
+    PoseSequence(files_, 1, false, 3, ledger_).positions(2);
     FAIL() << "a missing pose was accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("nowhere.obj"), std::string::npos);
   }
-  EXPECT_THROW(PoseSequence(files_, 1, false, 4).positions(1), Error);
+  EXPECT_THROW(PoseSequence(files_, 1, false, 4, ledger_).positions(1), Error);
 }
 
 }  // namespace

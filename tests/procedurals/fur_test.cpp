@@ -26,15 +26,17 @@ class FurTest : public testing::Test {
     params.operators = stacks::usual();
     groom_ = Groom::create("coat", params, rest, textures_, workers_, ledger_);
 
-    auto skin = std::make_shared<PosedCharacterSkin>();
-    for (float t : {0.0f, 1.0f}) {
-      std::vector<V3f> posed = cage.positions;
-      for (V3f& p : posed) p = p * (1 + 0.2f * t) + V3f(3 * t, t, 0);
-      skin->keys.emplace_back(rest->shared_topology(), posed);
-    }
-    skin->mesh = std::make_shared<SkinMesh>(tessellate(skin->keys, View{}, {}, workers_));
-    skin->scale = 1.5f;
-    skin_ = skin;
+    CharacterPose pose;
+    pose.topology = rest->shared_topology();
+    const auto add = [&](PosedCages& cages, float t) {
+      cages.cages.push_back(cage.positions);
+      for (V3f& p : cages.cages.back()) p = p * (1 + 0.2f * t) + V3f(3 * t, t, 0);
+      cages.transforms.emplace_back();
+    };
+    for (float t : {0.0f, 1.0f}) add(pose.shutter, t);
+    for (float t : {-1.0f, 2.0f}) add(pose.frame_ends, t);
+    pose.scale = 1.5f;
+    skin_ = std::make_shared<PosedCharacterSkin>(std::move(pose), std::make_shared<PoseCache>(2, ledger_));
   }
 
   Workers workers_;
@@ -74,12 +76,34 @@ TEST_F(FurTest, SplitsIntoLeavesThatTogetherAreTheCoat) {
 
 TEST_F(FurTest, BoundsHoldEveryPointOverTheShutter) {
   const FurProcedural fur(groom_, skin_);
-  const Box3f all = fur.bound();
+  const Box3f frame = fur.bound(BoundSpan::kFrame), shutter = fur.bound(BoundSpan::kShutter);
+  EXPECT_TRUE(contains(frame, shutter));
+  EXPECT_GT(frame.size().x, shutter.size().x + 5);  // it goes on moving before and after the shutter
   for (const auto& leaf : fur.split()) {
-    const Box3f box = leaf->bound();
-    EXPECT_TRUE(contains(all, box));
+    const Box3f box = leaf->bound(BoundSpan::kShutter);
+    EXPECT_TRUE(contains(shutter, box));
     EXPECT_TRUE(contains(box, exact_bounds(leaf->generate())));
+    EXPECT_TRUE(contains(leaf->bound(BoundSpan::kFrame), box));
   }
+}
+
+TEST_F(FurTest, CountsWhatItWillGrow) {
+  const FurProcedural fur(groom_, skin_);
+  StrandCounts sum;
+  for (const auto& leaf : fur.split()) {
+    const StrandCounts counts = leaf->counts();
+    const Strands strands = leaf->generate();
+    EXPECT_EQ(counts.strands, strands.strand_count());
+    EXPECT_EQ(counts.points, strands.point_count());
+    EXPECT_EQ(counts.segments, strands.point_count() - strands.strand_count());
+    EXPECT_EQ(counts.motion_keys, 2u);
+    size_t floats = 0;
+    for (const StrandAttribute& a : strands.attributes()) floats += a.values.size();
+    EXPECT_EQ(counts.attribute_floats, floats);
+    sum += counts;
+  }
+  EXPECT_EQ(sum.strands, fur.counts().strands);
+  EXPECT_EQ(sum.attribute_floats, fur.counts().attribute_floats);
 }
 
 TEST_F(FurTest, SameBytesEveryTime) {
@@ -96,7 +120,10 @@ TEST_F(FurTest, HasTheMotionKeysOfItsSkin) {
   for (size_t i = 0; i < strands.strand_count(); i += 50) {
     const RootAddress& root = strands.root(i);
     for (int key = 0; key < 2; ++key) {
-      const V3f on_skin = skin_->keys[static_cast<size_t>(key)].evaluate(root.face, root.u, root.v).position;
+      const V3f on_skin = skin_->pose(BoundSpan::kShutter)
+                              ->keys[static_cast<size_t>(key)]
+                              .evaluate(root.face, root.u, root.v)
+                              .position;
       EXPECT_LT((strands.point(strands.first_point(i), key) - on_skin).length(), 1e-4f);
     }
   }

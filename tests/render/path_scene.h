@@ -8,23 +8,12 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "geom/curve_bounds.h"
 #include "image/texture.h"
+#include "procedurals/fixed.h"
 #include "render/light/light_params.h"
 #include "render/path/path_integrator.h"
 
 namespace pelage {
-
-/// Strands that are already there.
-class FixedStrands final : public Procedural {
- public:
-  explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
-  Box3f bound() const override { return exact_bounds(strands_); }
-  Strands generate() const override { return strands_; }
-
- private:
-  Strands strands_;
-};
 
 /// A small scene put together by hand, and its render.
 class PathScene {
@@ -51,7 +40,7 @@ class PathScene {
   void add_skin(SkinMesh mesh, MaterialParams material) {
     SkinPart part;
     part.name = "test.skin" + std::to_string(skins.size());
-    part.mesh = std::make_shared<SkinMesh>(std::move(mesh));
+    part.skin = std::make_shared<FixedSkin>(std::move(mesh));
     part.material = add_material(std::move(material));
     skins.push_back(std::move(part));
   }

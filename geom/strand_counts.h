@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+namespace pelage {
+
+/// How much a batch of strands holds, known before it is grown.
+struct StrandCounts {
+  size_t strands = 0;
+  size_t points = 0;    ///< of one motion key
+  size_t segments = 0;  ///< of all strands
+  size_t motion_keys = 1;
+  size_t attribute_floats = 0;  ///< of all attributes
+  StrandCounts& operator+=(const StrandCounts& other) {
+    strands += other.strands;
+    points += other.points;
+    segments += other.segments;
+    if (other.motion_keys > motion_keys) motion_keys = other.motion_keys;
+    attribute_floats += other.attribute_floats;
+    return *this;
+  }
+};
+
+}  // namespace pelage

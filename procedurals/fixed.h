@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <utility>
+
+#include "geom/curve_bounds.h"
+#include "procedurals/deferred_skin.h"
+#include "procedurals/procedural.h"
+
+namespace pelage {
+
+/// Strands that are already there, as a procedural.
+class FixedStrands final : public Procedural {
+ public:
+  explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
+  Box3f bound(BoundSpan) const override { return exact_bounds(strands_); }
+  Strands generate() const override { return strands_; }
+  StrandCounts counts() const override {
+    StrandCounts counts;
+    counts.strands = strands_.strand_count();
+    counts.points = strands_.point_count();
+    counts.motion_keys = static_cast<size_t>(strands_.motion_keys());
+    for (size_t i = 0; i < counts.strands; ++i)
+      counts.segments += segment_count(strands_.basis(), strands_.strand_points(i));
+    for (const StrandAttribute& a : strands_.attributes()) counts.attribute_floats += a.values.size();
+    return counts;
+  }
+
+ private:
+  Strands strands_;
+};
+
+/// Triangles that are already there, as a skin.
+class FixedSkin final : public DeferredSkin {
+ public:
+  explicit FixedSkin(SkinMesh mesh) : mesh_(std::move(mesh)) {}
+  Box3f bound(BoundSpan) const override {
+    Box3f box;
+    for (int key = 0; key < mesh_.motion_keys; ++key) {
+      for (size_t i = 0; i < mesh_.vertex_count(); ++i) box.extendBy(mesh_.position(i, key));
+    }
+    return box;
+  }
+  int motion_keys() const override { return mesh_.motion_keys; }
+  TessellationSize size(const View&) const override { return {mesh_.vertex_count(), mesh_.triangle_count()}; }
+  SkinMesh tessellate(const View&) const override { return mesh_; }
+
+ private:
+  SkinMesh mesh_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geom/closest_point.h"
+#include "geom/limit_surface.h"
+#include "geom/tessellation.h"
+#include "groom/groom.h"
+
+namespace pelage {
+
+/// A skin ready to grow hair in one pose: made from posed cages when something grows, and dropped again.
+/// Immutable. Thread safety: const members may be called from any thread.
+struct SkinPose {
+  std::vector<LimitSurface> keys;        ///< one per motion key
+  std::unique_ptr<const SkinMesh> mesh;  ///< what `trees` are over; null without them
+  std::vector<ClosestPointTree> trees;   ///< one per key, only for grooms that keep clear of the skin
+  std::vector<M44f> transforms;          ///< of the character, per key: for strands that grow on no skin
+  float scale = 1;
+
+  PosedSkin skin() const { return {keys, trees, scale, transforms}; }
+  size_t bytes() const;
+};
+
+}  // namespace pelage
