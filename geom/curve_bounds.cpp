@@ -108,6 +108,15 @@ std::vector<float> extreme_times(int motion_keys, float open, float close) {
   return times;
 }
 
+/// Enlarges `box` by the exact box of a strand at the given times.
+void extend_exactly(Box3f& box, const Strands& strands, size_t strand, std::span<const float> times) {
+  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+  if (segments == 0 || is_hull_inside(box, strands, strand)) return;
+  for (uint32_t segment = 0; segment < segments; ++segment) {
+    for (float time : times) extend_exactly(box, bezier_segment_at(strands, strand, segment, time));
+  }
+}
+
 }  // namespace
 
 Box3f hull_bounds(const CubicSegment& s) {
@@ -131,12 +140,15 @@ Box3f exact_bounds(const Strands& strands, float open, float close) {
   Box3f box;
   const std::vector<float> times = extreme_times(strands.motion_keys(), open, close);
   for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
-    const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
-    if (segments == 0 || is_hull_inside(box, strands, strand)) continue;
-    for (uint32_t segment = 0; segment < segments; ++segment) {
-      for (float time : times) extend_exactly(box, bezier_segment_at(strands, strand, segment, time));
-    }
+    extend_exactly(box, strands, strand, times);
   }
+  return box;
+}
+
+Box3f exact_bounds(const Strands& strands, std::span<const uint32_t> some, float open, float close) {
+  Box3f box;
+  const std::vector<float> times = extreme_times(strands.motion_keys(), open, close);
+  for (uint32_t strand : some) extend_exactly(box, strands, strand, times);
   return box;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "base/vector.h"
 #include "geom/curve.h"
 
@@ -22,5 +25,7 @@ Box3f exact_bounds(const CubicSegment& segment);
 /// Points and radii move linearly between motion keys, so the union over the keys inside the shutter and its
 /// two ends is exact.
 Box3f exact_bounds(const Strands& strands, float open = 0, float close = 1);
+/// The same of some strands of the batch, by index.
+Box3f exact_bounds(const Strands& strands, std::span<const uint32_t> some, float open = 0, float close = 1);
 
 }  // namespace pelage

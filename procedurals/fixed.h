@@ -6,6 +6,7 @@
 #include "geom/curve_bounds.h"
 #include "procedurals/deferred_skin.h"
 #include "procedurals/procedural.h"
+#include "procedurals/strand_parts.h"
 
 namespace pelage {
 
@@ -13,7 +14,7 @@ namespace pelage {
 class FixedStrands final : public Procedural {
  public:
   explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
-  Box3f bound(BoundSpan) const override { return exact_bounds(strands_); }
+  Box3f bound(BoundSpan) const override { return pelage::exact_bounds(strands_); }
   Strands generate() const override { return strands_; }
   StrandCounts counts() const override {
     StrandCounts counts;
@@ -24,6 +25,9 @@ class FixedStrands final : public Procedural {
       counts.segments += segment_count(strands_.basis(), strands_.strand_points(i));
     for (const StrandAttribute& a : strands_.attributes()) counts.attribute_floats += a.values.size();
     return counts;
+  }
+  ChunkBounds exact_bounds(BoundSpan, int keys) const override {
+    return exact_part_bounds(strands_, divide_into_parts(strands_), keys);
   }
 
  private:

@@ -2,8 +2,17 @@
 #include "procedurals/fur.h"
 
 #include "geom/strand_merge.h"
+#include "procedurals/strand_parts.h"
 
 namespace pelage {
+namespace {
+
+ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& pose, int keys) {
+  const Strands strands = groom.grow(leaf, pose);
+  return exact_part_bounds(strands, divide_into_parts(strands), keys);
+}
+
+}  // namespace
 
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin)
@@ -41,6 +50,17 @@ StrandCounts FurProcedural::counts() const {
   return sum;
 }
 
+ChunkBounds FurProcedural::exact_bounds(BoundSpan span, int keys) const {
+  const auto pose = skin_->pose(span);
+  ChunkBounds all;
+  all.keys = keys;
+  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
+    const ChunkBounds bounds = exact_leaf_bounds(*groom_, leaf, pose->skin(), keys);
+    all.boxes.insert(all.boxes.end(), bounds.boxes.begin(), bounds.boxes.end());
+  }
+  return all;
+}
+
 FurLeafProcedural::FurLeafProcedural(std::shared_ptr<const Groom> groom,
                                      std::shared_ptr<const PosedCharacterSkin> skin, size_t leaf)
     : groom_(std::move(groom)), skin_(std::move(skin)), leaf_(leaf) {}
@@ -57,6 +77,10 @@ StrandCounts FurLeafProcedural::counts() const {
   StrandCounts counts = groom_->counts(leaf_);
   counts.motion_keys = static_cast<size_t>(skin_->motion_keys());
   return counts;
+}
+
+ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
+  return exact_leaf_bounds(*groom_, leaf_, skin_->pose(span)->skin(), keys);
 }
 
 }  // namespace pelage

@@ -18,6 +18,7 @@ class FurProcedural final : public Procedural {
   /// The whole coat at once, leaf after leaf, for tools that want one batch.
   Strands generate() const override;
   StrandCounts counts() const override;
+  ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
 
  private:
   std::shared_ptr<const Groom> groom_;
@@ -33,6 +34,7 @@ class FurLeafProcedural final : public Procedural {
   Box3f bound(BoundSpan span) const override;
   Strands generate() const override;
   StrandCounts counts() const override;
+  ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
 
  private:
   std::shared_ptr<const Groom> groom_;

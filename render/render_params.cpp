@@ -17,6 +17,17 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,
           {.help = "Limit for strands, trees, skins, caches and film; running into it is an error"});
+    s.key("bounds", &RenderParams::bounds,
+          {.help = "How the boxes are found that rays are tested against before hair is grown. `none`: not "
+                   "needed, all hair is grown at once; `user`: conservative ones times `bounds_factor`; "
+                   "`conservative`: from skin, lengths and operators; `exact`: hair is grown once before, "
+                   "to be measured; `exact-shutter`: the same, only while the shutter is open; `linear`: the "
+                   "same, moving with the hair"});
+    s.key("bounds_factor", &RenderParams::bounds_factor,
+          {.help = "Size of the boxes of `bounds: user` relative to conservative ones; below 1, hair may be "
+                   "lost",
+           .min = 0.01,
+           .max = 100});
     return s;
   }();
   return table;

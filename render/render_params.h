@@ -5,6 +5,7 @@
 
 #include "base/schema.h"
 #include "base/value_readers.h"
+#include "procedurals/chunk_bounds.h"
 
 namespace pelage {
 
@@ -33,6 +34,8 @@ struct RenderParams {
   int bounces = 4;  ///< 0 = direct light only
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
+  BoundingStrategy bounds = BoundingStrategy::kExact;
+  float bounds_factor = 1;  ///< of BoundingStrategy::kUser
   static const Schema<RenderParams>& schema();
 };
 

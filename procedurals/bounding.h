@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/content_store.h"
+#include "procedurals/chunk_bounds.h"
+#include "procedurals/procedural.h"
+
+namespace pelage {
+
+class MemoryLedger;
+class Progress;
+class Workers;
+
+struct BoundingOptions {
+  BoundingStrategy strategy = BoundingStrategy::kExact;
+  float factor = 1;  ///< of kUser, about the centre of each box
+};
+
+/// During which time the boxes of a strategy hold what they hold, for skins too.
+BoundSpan bound_span(BoundingStrategy strategy);
+/// ChunkBounds::keys of all chunks.
+int bound_keys(BoundingStrategy strategy);
+
+struct BoundingCounts {
+  int64_t measured = 0;    ///< chunks that were grown to be measured: the first of two passes
+  int64_t remembered = 0;  ///< chunks whose boxes were found in a side file
+};
+
+/// The boxes of all chunks, which are leaves, in their order. What is measured is remembered beside the
+/// caches of the grooms (Procedural::bounds_record); a damaged side file is told to `warn` and written anew.
+/// The result is the same for any number of workers, measured or remembered. Strands that are grown to be
+/// measured are charged to the chunks while they exist; they are few at a time and gone afterwards. kNone
+/// gives the boxes of kConservative. Throws what growing throws. Leaves early when `progress` is cancelled,
+/// with chunks of no box.
+std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
+                                      std::span<const Procedural* const> chunks, const Workers& workers,
+                                      Progress& progress, MemoryLedger& ledger, const WarningSink& warn,
+                                      BoundingCounts* counts = nullptr);
+
+}  // namespace pelage

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/content_store.h"
+#include "procedurals/chunk_bounds.h"
+#include "procedurals/procedural.h"
+
+namespace pelage {
+
+// The side file of boxes: those of all chunks of one coat in one pose, an entry of kind "boxes" of the
+// content store beside the groom's cache. Two sections: where the boxes of each chunk begin (count + 1
+// numbers of 32 bits), and the boxes (6 floats each: min, max).
+
+/// The boxes of `count` chunks with `keys` keys each; nothing when there is no such entry. A damaged one, or
+/// one that cannot be true, counts as absent, with one warning.
+std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span, int keys,
+                                     const WarningSink& warn);
+
+/// Writes an entry; what the file system refuses is told to `warn`.
+void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::span<const ChunkBounds> bounds,
+                  const WarningSink& warn);
+
+}  // namespace pelage
