@@ -17,7 +17,7 @@ enum class MemoryTag {
   kReflectionCache,
   kFilm,
   kTextures,   ///< decoded images and environment distributions
-  kLibraries,  ///< what loading a module cost
+  kLibraries,  ///< what loading a module cost, pages of its files apart
   kCount,
 };
 std::string_view memory_tag_name(MemoryTag tag);

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
+
+#include "base/memory_sample.h"
 
 namespace pelage {
 
@@ -13,11 +16,14 @@ struct Statistics {
   double wall_s = 0;
   double cpu_s = 0;
   int64_t peak_rss_bytes = 0;
-  int64_t baseline_rss_bytes = 0;  ///< resident set when the command line had been parsed
-  int64_t working_set_bytes = 0;   ///< all distinct chunks touched
-  int64_t strands_described = 0;   ///< all in the scene, before LOD
-  int64_t strands_unique = 0;      ///< the same, geometry shared by identical poses counted once
-  int64_t strands_generated = 0;   ///< grown for use, regrowth included
+  int64_t baseline_rss_bytes = 0;        ///< resident set when the command line had been parsed
+  int64_t peak_anonymous_bytes = 0;      ///< highest resident anonymous pages that sampling met
+  int64_t baseline_anonymous_bytes = 0;  ///< those when the command line had been parsed
+  int64_t unexplained_bytes = 0;  ///< peak - baseline of these - all ledger tags at that moment (law 5)
+  int64_t working_set_bytes = 0;  ///< all distinct chunks touched
+  int64_t strands_described = 0;  ///< all in the scene, before LOD
+  int64_t strands_unique = 0;     ///< the same, geometry shared by identical poses counted once
+  int64_t strands_generated = 0;  ///< grown for use, regrowth included
   int64_t characters_in_frame = 0;
   int64_t chunks = 0;            ///< leaves of coats and skins that could be grown
   int64_t chunks_touched = 0;    ///< those that were
@@ -35,6 +41,7 @@ struct Statistics {
   std::map<std::string, int64_t> rays;          ///< by kind: camera, shadow, indirect
   std::map<std::string, int64_t> memory_bytes;  ///< peak by ledger tag
   std::map<std::string, double> stages_s;       ///< wall seconds by stage
+  std::vector<MemorySample> timeline;           ///< memory over time, where asked for
 };
 
 /// Resident set of this process, now and at its highest, in bytes; user + system CPU seconds so far.

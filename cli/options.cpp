@@ -37,6 +37,11 @@ void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
 
 void add_run_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
+  command
+      .add_option("--sample-memory", options.sample_memory_s,
+                  "Sample memory every so many seconds, for the timeline in --stats")
+      ->check(CLI::Range(0.001, 3600.0))
+      ->type_name("SECONDS");
   command.add_option("--threads", options.threads, "Threads to use (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");

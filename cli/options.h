@@ -29,8 +29,9 @@ struct Options {
   std::string output;  ///< -o or OUT; may hold a place for the frame number (cli/frames.h)
   std::vector<Override>
       overrides;  ///< --set, then the flags that stand for scene values (--frames, --memory)
-  std::optional<std::string> stats;  ///< --stats
-  int threads = 0;                   ///< --threads; 0: all that the process may use
+  std::optional<std::string> stats;       ///< --stats
+  std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between two samples
+  int threads = 0;                        ///< --threads; 0: all that the process may use
   ProgressStyle progress = ProgressStyle::kAuto;
 
   std::string groom;  ///< grow: only this one; empty: all

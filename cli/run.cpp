@@ -4,20 +4,40 @@
 #include "cli/stats_json.h"
 
 namespace pelage {
+namespace {
 
-Run::Run(const Options& options)
-    : workers_(options.threads), display_(options.progress, &SignalGuard::interrupted) {
-  statistics_.baseline_rss_bytes = current_rss_bytes();
+// Without --sample-memory only the peak is of interest.
+constexpr double kSampleMemory_s = 0.05;
+
+Statistics baseline() {
+  Statistics statistics;
+  statistics.baseline_rss_bytes = current_rss_bytes();
+  statistics.baseline_anonymous_bytes = resident_memory().anonymous;
+  return statistics;
 }
 
+}  // namespace
+
+Run::Run(const Options& options)
+    : statistics_(baseline()),
+      keeps_timeline_(options.sample_memory_s.has_value()),
+      sampler_(ledger_, start_, options.sample_memory_s.value_or(kSampleMemory_s)),
+      workers_(options.threads),
+      display_(options.progress, &SignalGuard::interrupted) {}
+
 double Run::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return std::chrono::duration<double>(MemorySampler::Clock::now() - start_).count();
 }
 
 void Run::finish(const Options& options) {
   statistics_.wall_s = seconds();
   statistics_.cpu_s = cpu_seconds();
   statistics_.peak_rss_bytes = peak_rss_bytes();
+  const MemoryHistory& memory = sampler_.stop();
+  statistics_.peak_anonymous_bytes = memory.highest.resident.anonymous;
+  statistics_.unexplained_bytes =
+      memory.highest.resident.anonymous - statistics_.baseline_anonymous_bytes - memory.highest.tagged();
+  if (keeps_timeline_) statistics_.timeline = memory.timeline;
   for (int tag = 0; tag < static_cast<int>(MemoryTag::kCount); ++tag) {
     const auto memory_tag = static_cast<MemoryTag>(tag);
     statistics_.memory_bytes[std::string(memory_tag_name(memory_tag))] = ledger_.peak(memory_tag);

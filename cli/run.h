@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <string_view>
 
 #include "base/ledger.h"
+#include "base/memory_sampler.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "cli/options.h"
@@ -46,10 +46,12 @@ class Run {
     double began_;
   };
 
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  MemorySampler::Clock::time_point start_ = MemorySampler::Clock::now();
   SignalGuard signals_;
   MemoryLedger ledger_;
   Statistics statistics_;
+  bool keeps_timeline_;
+  MemorySampler sampler_;
   Workers workers_;
   ProgressDisplay display_;
 };

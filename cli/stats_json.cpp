@@ -7,15 +7,34 @@
 #include "cli/version.h"
 
 namespace pelage {
+namespace {
+
+nlohmann::ordered_json timeline_columns() {
+  nlohmann::ordered_json names{"seconds", "rss_anon_bytes", "rss_file_bytes"};
+  for (int tag = 0; tag < static_cast<int>(MemoryTag::kCount); ++tag)
+    names.push_back(memory_tag_name(static_cast<MemoryTag>(tag)));
+  return names;
+}
+
+nlohmann::ordered_json timeline_row(const MemorySample& sample) {
+  nlohmann::ordered_json row{sample.seconds, sample.resident.anonymous, sample.resident.file};
+  for (const int64_t bytes : sample.tags) row.push_back(bytes);
+  return row;
+}
+
+}  // namespace
 
 std::string statistics_json(const Statistics& s) {
-  const nlohmann::ordered_json json{
+  nlohmann::ordered_json json{
       {"schema", kStatisticsSchema},
       {"version", version()},
       {"wall_s", s.wall_s},
       {"cpu_s", s.cpu_s},
       {"peak_rss_bytes", s.peak_rss_bytes},
       {"baseline_rss_bytes", s.baseline_rss_bytes},
+      {"peak_anonymous_bytes", s.peak_anonymous_bytes},
+      {"baseline_anonymous_bytes", s.baseline_anonymous_bytes},
+      {"unexplained_bytes", s.unexplained_bytes},
       {"memory_bytes", s.memory_bytes},
       {"working_set_bytes", s.working_set_bytes},
       {"strands_described", s.strands_described},
@@ -38,6 +57,10 @@ std::string statistics_json(const Statistics& s) {
       {"rays", s.rays},
       {"stages_s", s.stages_s},
   };
+  if (!s.timeline.empty()) {
+    json["timeline_columns"] = timeline_columns();
+    for (const MemorySample& sample : s.timeline) json["timeline"].push_back(timeline_row(sample));
+  }
   return json.dump(2) + "\n";
 }
 

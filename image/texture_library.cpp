@@ -7,7 +7,7 @@
 
 #include "base/file.h"
 #include "base/module.h"
-#include "base/statistics.h"
+#include "base/memory_sample.h"
 #include "image/exr_check.h"
 #include "image/reader_module.h"
 #include "image/texture.h"
@@ -137,9 +137,10 @@ std::shared_ptr<const Texture> TextureLibrary::load(const AssetPath& asset, Colo
   if (const auto found = entries_.find({path, space}); found != entries_.end()) return found->second.texture;
   check_is_readable(asset);
   if (!reader_) {
-    const int64_t before = current_rss_bytes();
+    // Pages of the files themselves are shared and can be dropped: no ledger counts them.
+    const int64_t before = resident_memory().anonymous;
     reader_ = std::make_unique<Reader>();
-    const int64_t cost = std::max<int64_t>(current_rss_bytes() - before, 0);
+    const int64_t cost = std::max<int64_t>(resident_memory().anonymous - before, 0);
     library_charge_ = MemoryCharge(ledger_, MemoryTag::kLibraries, cost);
   }
 

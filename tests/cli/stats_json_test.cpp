@@ -27,9 +27,33 @@ TEST(StatsJson, HoldsWhatIsPromised) {
   for (const char* name :
        {"cpu_s", "baseline_rss_bytes", "working_set_bytes", "strands_described", "strands_unique",
         "strands_generated", "characters_in_frame", "chunks", "expansions", "reexpansions",
-        "false_expansions", "samples_rejected", "strands_dropped", "strands_repaired", "version"}) {
+        "false_expansions", "samples_rejected", "peak_anonymous_bytes", "baseline_anonymous_bytes",
+        "unexplained_bytes", "strands_dropped", "strands_repaired", "version"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
+}
+
+TEST(StatsJson, HoldsATimelineWhenThereIsOne) {
+  EXPECT_FALSE(nlohmann::json::parse(statistics_json({})).contains("timeline"));
+  Statistics statistics;
+  MemorySample sample;
+  sample.seconds = 0.5;
+  sample.resident = {300, 200};
+  sample.tags[static_cast<size_t>(MemoryTag::kFilm)] = 70;
+  statistics.timeline = {{}, sample};
+  const auto json = nlohmann::json::parse(statistics_json(statistics));
+  const auto& columns = json.at("timeline_columns");
+  ASSERT_EQ(json.at("timeline").size(), 2u);
+  const auto& row = json.at("timeline")[1];
+  ASSERT_EQ(row.size(), columns.size());
+  EXPECT_EQ(columns[0], "seconds");
+  EXPECT_EQ(row[0], 0.5);
+  EXPECT_EQ(columns[1], "rss_anon_bytes");
+  EXPECT_EQ(row[1], 300);
+  EXPECT_EQ(columns[2], "rss_file_bytes");
+  EXPECT_EQ(row[2], 200);
+  const auto film = std::find(columns.begin(), columns.end(), "film") - columns.begin();
+  EXPECT_EQ(row[static_cast<size_t>(film)], 70);
 }
 
 TEST(StatsJson, IsWrittenWhole) {

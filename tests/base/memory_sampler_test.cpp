@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/memory_sampler.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/statistics.h"
+
+namespace pelage {
+namespace {
+
+using Clock = MemorySampler::Clock;
+
+TEST(ResidentMemory, SeesPagesThatAreTouched) {
+  constexpr size_t kBytes = size_t(64) << 20;
+  const ResidentMemory before = resident_memory();
+  EXPECT_GT(before.anonymous, 0);
+  EXPECT_GT(before.file, 0);
+  const std::vector<char> pages(kBytes, 1);
+  const ResidentMemory after = resident_memory();
+  EXPECT_GT(pages[kBytes / 2], 0);
+  // Room for the counters that the kernel keeps per thread, and for shadow pages of a sanitizer.
+  EXPECT_GE(after.anonymous - before.anonymous, int64_t(kBytes) * 9 / 10);
+  EXPECT_NEAR(static_cast<double>(after.anonymous + after.file), static_cast<double>(current_rss_bytes()),
+              double(16 << 20));
+}
+
+TEST(MemorySampler, KeepsTheLedgerOfTheHighestMoment) {
+  MemoryLedger ledger;
+  MemorySampler sampler(ledger, Clock::now(), 0.001);
+  {
+    const std::vector<char> pages(size_t(96) << 20, 1);
+    const MemoryCharge charge(ledger, MemoryTag::kFilm, int64_t(pages.size()));
+    // At least one sample begins and ends in here, however slow the machine.
+    const auto until = Clock::now() + std::chrono::milliseconds(100);
+    while (Clock::now() < until) std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  const MemoryHistory& history = sampler.stop();
+  ASSERT_GE(history.timeline.size(), 2u);
+  EXPECT_EQ(history.highest.tagged(), int64_t(96) << 20);
+  EXPECT_EQ(history.highest.tags[static_cast<size_t>(MemoryTag::kFilm)], int64_t(96) << 20);
+  EXPECT_EQ(history.timeline.back().tagged(), 0);
+  double last = -1;
+  for (const MemorySample& sample : history.timeline) {
+    EXPECT_LE(sample.resident.anonymous, history.highest.resident.anonymous);
+    EXPECT_GT(sample.seconds, last);
+    last = sample.seconds;
+  }
+}
+
+TEST(MemorySampler, StopsAtOnceAndOnlyOnce) {
+  MemoryLedger ledger;
+  const auto began = Clock::now();
+  MemorySampler sampler(ledger, began, 3600);
+  const size_t samples = sampler.stop().timeline.size();
+  EXPECT_LT(Clock::now() - began, std::chrono::minutes(30));
+  EXPECT_GE(samples, 2u);
+  EXPECT_EQ(sampler.stop().timeline.size(), samples);
+}
+
+TEST(MemorySampler, LivesBesideThreadsThatCharge) {
+  MemoryLedger ledger;
+  for (int round = 0; round < 20; ++round) {
+    MemorySampler sampler(ledger, Clock::now(), 0.0001);
+    std::thread charger([&] {
+      for (int i = 0; i < 1000; ++i) const MemoryCharge charge(ledger, MemoryTag::kChunks, i);
+    });
+    charger.join();
+  }
+  EXPECT_EQ(ledger.current(MemoryTag::kChunks), 0);
+}
+
+}  // namespace
+}  // namespace pelage
