@@ -80,6 +80,7 @@ std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       std::span<const Procedural* const> chunks, const Workers& workers,
                                       Progress& progress, MemoryLedger& ledger, const WarningSink& warn,
                                       BoundingCounts* counts) {
+  if (options.strategy == BoundingStrategy::kNone) return std::vector<ChunkBounds>(chunks.size());
   progress.begin("bound", static_cast<double>(chunks.size()));
   const bool measures = options.strategy == BoundingStrategy::kExact ||
                         options.strategy == BoundingStrategy::kExactShutter ||

@@ -34,8 +34,8 @@ struct BoundingCounts {
 /// caches of the grooms (Procedural::bounds_record); a damaged side file is told to `warn` and written anew.
 /// The result is the same for any number of workers, measured or remembered. Strands that are grown to be
 /// measured are charged to the chunks while they exist; they are few at a time and gone afterwards. kNone
-/// gives the boxes of kConservative. Throws what growing throws. Leaves early when `progress` is cancelled,
-/// with chunks of no box.
+/// gives no boxes: whoever grows everything knows better ones. Throws what growing throws. Leaves early when
+/// `progress` is cancelled, with chunks of no box.
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       std::span<const Procedural* const> chunks, const Workers& workers,
                                       Progress& progress, MemoryLedger& ledger, const WarningSink& warn,
