@@ -107,7 +107,7 @@ void interpolate_attribute(const Strands& strands, const StrandAttribute& attrib
   const size_t before = strands.basis() == CurveBasis::kBSpline ? 1 : 0;
   const float* a = &attribute.values[(strands.first_point(strand) + segment + before) * n];
   const float* b = a + n;
-  for (size_t c = 0; c < n; ++c) out[c] = a[c] * (1.0f - t) + b[c] * t;
+  for (size_t c = 0; c < n; ++c) out[c] = interpolate(a[c], b[c], t);
 }
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/vector.h"
@@ -93,6 +94,8 @@ class Strands {
   void assign_strand(const Strands& source, size_t strand);
 
   const StrandArrays& arrays() const { return a_; }
+  /// Gives the arrays away, so that the next batch can use their memory again.
+  StrandArrays release() && { return std::move(a_); }
   /// Heap bytes of all arrays.
   size_t bytes() const;
 
@@ -102,6 +105,9 @@ class Strands {
 
 /// Segments of a strand of `points` points in `basis`; 0 when there are too few.
 uint32_t segment_count(CurveBasis basis, uint32_t points);
+/// Linear between a and b; exactly a where both are equal, so that it does not matter how finely a value that
+/// never changes is stored.
+inline float interpolate(float a, float b, float t) { return a == b ? a : a * (1.0f - t) + b * t; }
 /// The `components` values of an attribute at parameter `t` of segment `segment` of a strand, into `out`.
 /// Per-point values are linear between the two points beside the segment; constant and per-strand ones are
 /// copied.

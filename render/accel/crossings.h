@@ -40,6 +40,7 @@ class Crossings {
     }
   }
 
+  size_t reports() const { return count_ + many_.size(); }
   /// Product of 1 - opacity over the crossings, each counted once with its largest opacity. The factors are
   /// multiplied in the order of places, so that the order of reports does not matter.
   float transmittance() {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/embree_accel.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "geom/curve.h"
+#include "render/accel/embree_query.h"
 #include "render/accel/embree_scene.h"
 
 namespace pelage {
@@ -27,58 +24,40 @@ struct LightQuery : EmbreeQuery {
   Crossings crossings;
 };
 
-/// What Embree hands to a filter about one candidate of one ray (N is 1).
-template <class Query>
-struct Report {
-  explicit Report(const RTCFilterFunctionNArguments* filter_arguments)
-      : arguments(filter_arguments),
-        query(static_cast<Query&>(*reinterpret_cast<EmbreeQuery*>(arguments->context))),
-        geometry(RTCHitN_geomID(arguments->hit, 1, 0)),
-        primitive(RTCHitN_primID(arguments->hit, 1, 0)) {}
-
-  float distance() const { return RTCRayN_tfar(arguments->ray, 1, 0); }
-  float u() const { return RTCHitN_u(arguments->hit, 1, 0); }
-  bool is_opaque() const { return query.scene.is_skin(geometry) || query.scene.curves(geometry).opaque(); }
-  /// Where a ray leaves a round strand. It was counted where it entered.
-  bool is_exit() const {
-    if (!query.scene.is_round()) return false;
-    return RTCHitN_Ng_x(arguments->hit, 1, 0) * RTCRayN_dir_x(arguments->ray, 1, 0) +
-               RTCHitN_Ng_y(arguments->hit, 1, 0) * RTCRayN_dir_y(arguments->ray, 1, 0) +
-               RTCHitN_Ng_z(arguments->hit, 1, 0) * RTCRayN_dir_z(arguments->ray, 1, 0) >
-           0;
-  }
-  void reject() const { arguments->valid[0] = 0; }
-
-  const RTCFilterFunctionNArguments* arguments;
-  Query& query;
-  uint32_t geometry, primitive;
-};
+bool is_opaque(const EmbreeScene& scene, uint32_t geometry) {
+  return scene.is_skin(geometry) || scene.curves(geometry).opaque();
+}
+/// Where a ray leaves a round strand. It was counted where it entered.
+bool is_exit(const EmbreeScene& scene, const EmbreeReport& report) {
+  return scene.is_round() && report.faces_away();
+}
 
 /// Of two hits at one distance keeps the one that stands first.
 void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
-  const Report<NearestQuery> report(arguments);
-  NearestQuery& query = report.query;
+  const EmbreeReport report(arguments);
+  auto& query = report.query<NearestQuery>();
   const float distance = report.distance();
+  const uint32_t geometry = report.geometry(), primitive = report.primitive();
   if (distance == query.distance && query.geometry != RTC_INVALID_GEOMETRY_ID &&
-      !query.scene.stands_before(report.geometry, report.primitive, query.geometry, query.primitive)) {
+      !query.scene.stands_before(geometry, primitive, query.geometry, query.primitive)) {
     report.reject();
     return;
   }
   query.distance = distance;
-  query.geometry = report.geometry;
-  query.primitive = report.primitive;
-  if (!query.scene.is_skin(report.geometry))
-    query.scene.curves(report.geometry).fetch_ahead(report.primitive);
+  query.geometry = geometry;
+  query.primitive = primitive;
+  if (!query.scene.is_skin(geometry)) query.scene.curves(geometry).fetch_ahead(primitive);
 }
 
 /// The same where strands are semi-transparent.
 void keep_nearest_stopping(const RTCFilterFunctionNArguments* arguments) noexcept {
-  const Report<NearestQuery> report(arguments);
-  if (!report.is_opaque()) {
-    const EmbreeCurves& batch = report.query.scene.curves(report.geometry);
-    const EmbreeCurves::Place place = batch.locate(report.primitive);
-    const CrossingPlace crossing = report.query.scene.crossing(batch, place, report.u());
-    if (report.is_exit() || !stops_at(report.query.random, crossing, batch.opacity(place, report.u()))) {
+  const EmbreeReport report(arguments);
+  const auto& query = report.query<NearestQuery>();
+  if (!is_opaque(query.scene, report.geometry())) {
+    const EmbreeCurves& batch = query.scene.curves(report.geometry());
+    const EmbreeCurves::Place place = batch.locate(report.primitive());
+    const CrossingPlace crossing = query.scene.crossing(batch, place, report.u());
+    if (is_exit(query.scene, report) || !stops_at(query.random, crossing, batch.opacity(place, report.u()))) {
       report.reject();
       return;
     }
@@ -88,56 +67,17 @@ void keep_nearest_stopping(const RTCFilterFunctionNArguments* arguments) noexcep
 
 /// Collects semi-transparent crossings; an opaque one ends the query.
 void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
-  const Report<LightQuery> report(arguments);
-  if (report.is_opaque()) return;
-  const EmbreeCurves& batch = report.query.scene.curves(report.geometry);
-  const EmbreeCurves::Place place = batch.locate(report.primitive);
+  const EmbreeReport report(arguments);
+  auto& query = report.query<LightQuery>();
+  if (is_opaque(query.scene, report.geometry())) return;
+  const EmbreeCurves& batch = query.scene.curves(report.geometry());
+  const EmbreeCurves::Place place = batch.locate(report.primitive());
   const float opacity = batch.opacity(place, report.u());
   if (opacity >= 1) return;
-  if (opacity > 0 && !report.is_exit()) {
-    report.query.crossings.add(report.query.scene.crossing(batch, place, report.u()), opacity);
+  if (opacity > 0 && !is_exit(query.scene, report)) {
+    query.crossings.add(query.scene.crossing(batch, place, report.u()), opacity);
   }
   report.reject();
-}
-
-bool is_finite(const Ray& ray) {
-  const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
-                    ray.direction.z + ray.near + ray.time;
-  return std::isfinite(sum) && !std::isnan(ray.far);
-}
-
-RTCRay embree_ray(const Ray& ray) {
-  RTCRay r;
-  r.org_x = ray.origin.x;
-  r.org_y = ray.origin.y;
-  r.org_z = ray.origin.z;
-  r.tnear = ray.near;
-  r.dir_x = ray.direction.x;
-  r.dir_y = ray.direction.y;
-  r.dir_z = ray.direction.z;
-  r.time = ray.time;
-  r.tfar = ray.far;
-  r.mask = ~0u;
-  r.id = 0;
-  r.flags = 0;
-  return r;
-}
-
-/// h of a hit whose v does not say it: from the surface normal of a round curve, or, where Embree gives none
-/// (flat linear segments), from the place of the hit beside the axis.
-float offset_across(const Strands& strand, bool round, const Ray& ray, const Hit& hit, const V3f& normal) {
-  const CubicSegment segment = bezier_segment_at(strand, 0, hit.segment, ray.time);
-  const V3f tangent = curve_tangent(segment, hit.u).normalized();
-  const V3f ez = tangent.cross(-ray.direction).normalized();
-  float h = 0;
-  if (round) {
-    h = -(normal - normal.dot(tangent) * tangent).normalized().dot(ez);
-  } else {
-    const float radius = curve_radius(segment, hit.u);
-    const V3f beside = ray.origin + hit.distance * ray.direction - curve_position(segment, hit.u);
-    h = radius > 0 ? -beside.dot(ez) / radius : 0;
-  }
-  return std::clamp(h, -1.0f, 1.0f);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ float EmbreeCurves::opacity(Place place, float u) const {
   // As interpolate_attribute does it: a span of an unpinned B-spline lies beside its second and third points.
   const size_t before = strands().basis() == CurveBasis::kBSpline ? 1 : 0;
   const float* o = &source_.opacity[strands().first_point(place.strand) + place.segment + before];
-  return o[0] * (1 - u) + o[1] * u;
+  return interpolate(o[0], o[1], u);
 }
 
 void EmbreeCurves::fetch_ahead(uint32_t primitive) const {

@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/embree_device.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "render/memory_budget.h"
 
 namespace pelage {
+namespace {
+
+// Embree's monitor does not say for which scene it allocates; each scene of a chunk is built by one thread.
+thread_local EmbreeMeter* meter_of_thread = nullptr;
+
+}  // namespace
+
 EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger)
+    : EmbreeDevice(memory_limit, &ledger) {}
+EmbreeDevice::EmbreeDevice() : EmbreeDevice(0, nullptr) {}
+
+EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger* ledger)
     : ledger_(ledger), memory_limit_(memory_limit) {
   device_ = rtcNewDevice(nullptr);
   if (!device_) {
@@ -31,6 +45,14 @@ void EmbreeDevice::rethrow() const {
   throw Error(ErrorKind::kFailed, "Embree: " + text_);
 }
 
+void EmbreeDevice::rethrow_of_thread() const {
+  const RTCError code = rtcGetDeviceError(device_);
+  if (code == RTC_ERROR_NONE) return;
+  if (code == RTC_ERROR_OUT_OF_MEMORY)
+    throw Error(ErrorKind::kMemory, "out of memory while building the tree of a chunk");
+  throw Error(ErrorKind::kFailed, fmt::format("Embree: error {}", static_cast<int>(code)));
+}
+
 void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcept {
   auto& device = *static_cast<EmbreeDevice*>(self);
   std::lock_guard lock(device.mutex_);
@@ -45,12 +67,25 @@ void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcep
 
 bool EmbreeDevice::on_memory(void* self, ssize_t bytes, bool post) noexcept {
   auto& device = *static_cast<EmbreeDevice*>(self);
-  device.ledger_.charge(MemoryTag::kChunks, bytes);
+  if (meter_of_thread) meter_of_thread->count(bytes);
+  if (!device.ledger_) return true;
+  device.ledger_->charge(MemoryTag::kChunks, bytes);
   if (bytes <= 0 || device.memory_limit_ == 0) return true;
-  if (device.ledger_.budgeted() <= static_cast<int64_t>(device.memory_limit_)) return true;
+  if (device.ledger_->budgeted() <= static_cast<int64_t>(device.memory_limit_)) return true;
   device.over_limit_ = true;
-  if (!post) device.ledger_.charge(MemoryTag::kChunks, -bytes);  // refused before it was allocated
+  if (!post) device.ledger_->charge(MemoryTag::kChunks, -bytes);  // refused before it was allocated
   return false;
+}
+
+EmbreeMeter::EmbreeMeter() {
+  PELAGE_CHECK(!meter_of_thread);
+  meter_of_thread = this;
+}
+EmbreeMeter::~EmbreeMeter() { meter_of_thread = nullptr; }
+
+void EmbreeMeter::count(int64_t bytes) {
+  held_ += bytes;
+  peak_ = std::max(peak_, held_);
 }
 
 }  // namespace pelage

@@ -10,13 +10,15 @@
 
 namespace pelage {
 
-/// An Embree device whose allocations are charged to MemoryTag::kChunks and whose errors are kept until
-/// somebody asks: nothing may be thrown through Embree's C frames.
+/// An Embree device whose errors are kept until somebody asks: nothing may be thrown through Embree's C
+/// frames.
 class EmbreeDevice {
  public:
-  /// `memory_limit`: bytes that the ledger's budgeted tags may reach,
-  /// 0 for no limit. Throws Error (kFailed) when Embree does not start.
+  /// Allocations are charged to MemoryTag::kChunks. `memory_limit`: bytes that the ledger's budgeted tags may
+  /// reach, 0 for no limit. Throws Error (kFailed) when Embree does not start.
   EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger);
+  /// Allocations are charged to nobody; EmbreeMeter counts them.
+  EmbreeDevice();
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
@@ -24,18 +26,40 @@ class EmbreeDevice {
   RTCDevice get() const { return device_; }
   /// Throws the first error that Embree reported since the device was made.
   void rethrow() const;
+  /// Throws the last error of this thread: where many threads build at once.
+  void rethrow_of_thread() const;
 
  private:
+  EmbreeDevice(uint64_t memory_limit, MemoryLedger* ledger);
   static void on_error(void* self, RTCError code, const char* text) noexcept;
   static bool on_memory(void* self, ssize_t bytes, bool post) noexcept;
 
-  MemoryLedger& ledger_;
+  MemoryLedger* const ledger_;  // may be null
   const uint64_t memory_limit_;
   RTCDevice device_ = nullptr;
   std::atomic<bool> over_limit_{false};
   mutable std::mutex mutex_;  // guards the rest
   RTCError code_ = RTC_ERROR_NONE;
   std::string text_;
+};
+
+/// While it lives, counts what Embree allocates on this thread, of whichever device. They do not nest.
+class EmbreeMeter {
+ public:
+  EmbreeMeter();
+  ~EmbreeMeter();
+  EmbreeMeter(const EmbreeMeter&) = delete;
+  EmbreeMeter& operator=(const EmbreeMeter&) = delete;
+
+  /// Bytes allocated since then and not given back, and the most of them at one time.
+  int64_t held() const { return held_; }
+  int64_t peak() const { return peak_; }
+
+ private:
+  friend class EmbreeDevice;
+  void count(int64_t bytes);
+
+  int64_t held_ = 0, peak_ = 0;
 };
 
 }  // namespace pelage

@@ -5,26 +5,10 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "render/accel/embree_query.h"
 #include "render/accel/flush_denormals.h"
 
 namespace pelage {
-namespace {
-
-RTCGeometryType geometry_type(CurveBasis basis, CurveShape shape) {
-  const bool flat = shape == CurveShape::kFlat;
-  switch (basis) {
-    case CurveBasis::kLinear:
-      return flat ? RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
-    case CurveBasis::kCatmullRom:
-      return flat ? RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE : RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE;
-    case CurveBasis::kPinnedBSpline:
-    case CurveBasis::kBSpline:
-      break;
-  }
-  return flat ? RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE : RTC_GEOMETRY_TYPE_ROUND_BSPLINE_CURVE;
-}
-
-}  // namespace
 
 EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
                          const EmbreeOptions& options, MemoryLedger& ledger, const Workers& workers)
@@ -70,7 +54,7 @@ void EmbreeScene::add_curves(uint32_t id) {
   const EmbreeCurves& batch = curves_[id];
   if (batch.segments().empty()) return;
   const Strands& strands = batch.strands();
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), geometry_type(strands.basis(), options_.shape));
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), embree_curve_type(strands.basis(), options_.shape));
   device_.rethrow();
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(strands.motion_keys()));
   for (int key = 0; key < strands.motion_keys(); ++key) {
@@ -116,10 +100,8 @@ bool EmbreeScene::stands_before(uint32_t geometry_a, uint32_t primitive_a, uint3
 }
 
 CrossingPlace EmbreeScene::crossing(const EmbreeCurves& batch, EmbreeCurves::Place place, float u) const {
-  // Two pieces of a flat segment may both report what lies on their border, so the border between two joints
-  // runs through the middle of a piece.
-  const float border = 0.5f + 0.5f / static_cast<float>(options_.tessellation_rate);
-  return {batch.strands().id(place.strand), batch.part(), place.segment + (u > border ? 1u : 0u)};
+  return {batch.strands().id(place.strand), batch.part(),
+          place.segment + joint_beside(u, options_.tessellation_rate)};
 }
 
 }  // namespace pelage

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/chunk_accel.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "render/accel/embree_query.h"
+#include "render/accel/part_bounds.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
+
+float area(const Box3f& box) {
+  if (box.isEmpty()) return 0;
+  const V3f d = box.size();
+  return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
+}
+
+size_t part_count_bound(const ChunkCounts& counts) {
+  return std::clamp<size_t>((counts.segments + counts.triangles) / kSegmentsPerPart, 1, kMostParts);
+}
+
+}  // namespace
+
+/// Grows chunks for the residency, and keeps of each the boxes that it learned when it was first grown.
+class ChunkAccel::Growth final : public Grower {
+ public:
+  Growth(const ChunkGrower& grower, size_t chunks, const ChunkAccelOptions& options,
+         const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
+      : grower_(grower), options_(options), device_(device), patterns_(patterns), learned_(chunks) {
+    size_t bytes = chunks * sizeof(learned_[0]);
+    for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
+      const ChunkCounts counts = grower.counts(chunk);
+      bytes += PartBoxes::bytes_bound(part_count_bound(counts), counts.motion_keys > 1);
+    }
+    charge_ = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
+  }
+  ~Growth() override {
+    for (auto& boxes : learned_) delete boxes.load(std::memory_order_relaxed);
+  }
+
+  size_t reserve_bytes(uint32_t slot) const override {
+    const ChunkCounts counts = grower_.counts(slot);
+    return EmbreeChunk::bytes_bound(counts) + part_bounds_scratch(counts);
+  }
+
+  Grown grow(uint32_t slot) override {
+    ChunkContents contents = grower_.grow(slot);
+    if (!learned(slot)) {
+      // One thread at a time grows a slot, so nobody else stores here.
+      auto boxes = std::make_unique<const PartBoxes>(part_bounds(contents, kSegmentsPerPart, kMostParts));
+      learned_[slot].store(boxes.release(), std::memory_order_release);
+    }
+    auto unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
+    const size_t bytes = unit->bytes();
+    return {std::move(unit), bytes};
+  }
+
+  /// Null before the chunk was first grown.
+  const PartBoxes* learned(uint32_t slot) const { return learned_[slot].load(std::memory_order_acquire); }
+
+ private:
+  const ChunkGrower& grower_;
+  const ChunkAccelOptions& options_;
+  const EmbreeDevice& device_;
+  SegmentPatterns& patterns_;
+  std::vector<std::atomic<const PartBoxes*>> learned_;
+  MemoryCharge charge_;
+};
+
+/// What one thread needs to know of the ray that it traces.
+struct alignas(64) ChunkAccel::Scratch {
+  struct Waiting {
+    float entry;
+    uint32_t chunk;
+    friend bool operator<(const Waiting& a, const Waiting& b) {
+      return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
+    }
+  };
+
+  /// Whether this ray has not come to the chunk before; now it has.
+  bool first_time(uint32_t chunk) {
+    if (seen[chunk] == ray) return false;
+    seen[chunk] = ray;
+    return true;
+  }
+  void next_ray() {
+    waiting.clear();
+    if (++ray != 0) return;
+    std::fill(seen.begin(), seen.end(), 0u);
+    ray = 1;
+  }
+
+  uint32_t ray = 0;            // counts rays
+  std::vector<uint32_t> seen;  // by chunk: the last ray that came to it
+  std::vector<Waiting> waiting;
+};
+
+ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
+                       const ChunkAccelOptions& options, MemoryLedger& ledger, const Workers& workers,
+                       Progress& progress)
+    : options_(options), patterns_(ledger) {
+  const size_t chunks = bounds.size();
+  const auto threads = static_cast<size_t>(options.threads);
+  scratch_ = std::make_unique<Scratch[]>(threads);
+  for (size_t i = 0; i < threads; ++i) scratch_[i].seen.resize(chunks);
+  charges_.emplace_back(ledger, MemoryTag::kChunks,
+                        static_cast<int64_t>(threads * chunks * sizeof(uint32_t)));
+  growth_ = std::make_unique<Growth>(grower, chunks, options_, device_, patterns_, ledger);
+
+  if (!options.eager) build_tree(bounds, ledger, workers);
+  residency_ = std::make_unique<Residency>(*growth_, chunks, options.threads,
+                                           MemoryBudget{options.memory_limit}, ledger, MemoryTag::kChunks);
+  if (!options.eager) return;
+  residency_->grow_all(workers, progress);
+  if (progress.cancelled()) return;
+  for (uint32_t chunk = 0; chunk < chunks; ++chunk) bounds[chunk] = growth_->learned(chunk)->bounds();
+  build_tree(bounds, ledger, workers);
+}
+
+ChunkAccel::~ChunkAccel() = default;
+
+void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger,
+                            const Workers& workers) {
+  for (const ChunkBounds& chunk : bounds) {
+    for (size_t part = 0; part < chunk.part_count(); ++part) bounds_area_ += area(chunk.box(part, 0));
+  }
+  tree_ = std::make_unique<ChunkTree>(bounds, workers);
+  charges_.emplace_back(ledger, MemoryTag::kChunks, static_cast<int64_t>(tree_->bytes()));
+}
+
+/// Calls visit(chunk) for every chunk that the ray may meet before far(), which may become smaller from visit
+/// to visit; ends when a visit returns false.
+template <class Far, class Visit>
+void ChunkAccel::visit_chunks(const Ray& ray, TraceThread& thread, const Far& far, const Visit& visit) const {
+  Scratch& scratch = scratch_[static_cast<size_t>(thread.worker)];
+  scratch.next_ray();
+  ChunkWalk walk(*tree_, ray);
+  const auto enter = [&](uint32_t chunk, float entry) {
+    const PartBoxes* boxes = growth_->learned(chunk);
+    if (!boxes) return entry;
+    thread.counts.box_tests += static_cast<int64_t>(boxes->count());
+    return boxes->enter(walk.slabs(), far());
+  };
+  const auto visit_one = [&](uint32_t chunk) {
+    ++thread.counts.chunk_visits;
+    return visit(chunk);
+  };
+
+  uint32_t chunk = 0;
+  float entry = 0;
+  bool goes_on = true;
+  while (goes_on && walk.next(far(), chunk, entry)) {
+    if (!scratch.first_time(chunk)) continue;
+    entry = enter(chunk, entry);
+    if (!(entry <= far())) continue;
+    if (residency_->is_resident(chunk)) {
+      goes_on = visit_one(chunk);
+    } else {
+      scratch.waiting.push_back({entry, chunk});
+    }
+  }
+  thread.counts.box_tests += walk.box_tests();
+  if (!goes_on) return;
+  std::sort(scratch.waiting.begin(), scratch.waiting.end());
+  for (const Scratch::Waiting& waiting : scratch.waiting) {
+    if (waiting.entry > far()) return;
+    // It may have been grown since for another thread's ray, or for this one's.
+    if (!(enter(waiting.chunk, waiting.entry) <= far())) continue;
+    if (!visit_one(waiting.chunk)) return;
+  }
+}
+
+Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
+  NearestSoFar nearest;
+  if (!is_finite(ray)) return nearest.hit;
+  visit_chunks(
+      ray, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
+      [&](uint32_t chunk) {
+        const bool found = residency_->visit(chunk, thread.worker, [&](Resident& unit) {
+          return static_cast<const EmbreeChunk&>(unit).closest(ray, nearest, thread.met);
+        });
+        if (found) residency_->mark_hit(chunk);
+        return true;
+      });
+  return nearest.hit;
+}
+
+float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
+  if (!is_finite(ray)) return 1;
+  Crossings crossings;
+  bool blocked = false;
+  visit_chunks(
+      ray, thread, [&] { return ray.far; },
+      [&](uint32_t chunk) {
+        const size_t before = crossings.reports();
+        blocked = !residency_->visit(chunk, thread.worker, [&](Resident& unit) {
+          return static_cast<const EmbreeChunk&>(unit).collect(ray, crossings);
+        });
+        if (blocked || crossings.reports() != before) residency_->mark_hit(chunk);
+        return !blocked;
+      });
+  return blocked ? 0.0f : crossings.transmittance();
+}
+
+}  // namespace pelage

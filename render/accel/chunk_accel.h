@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/ledger.h"
+#include "cache/residency.h"
+#include "procedurals/chunk_bounds.h"
+#include "render/accel/accel.h"
+#include "render/accel/chunk_grower.h"
+#include "render/accel/chunk_tree.h"
+#include "render/accel/embree_chunk.h"
+
+namespace pelage {
+
+class Progress;
+class Workers;
+
+struct ChunkAccelOptions {
+  EmbreeChunkOptions chunk;
+  bool eager = false;         ///< everything is grown before the first ray
+  bool opaque = false;        ///< every strand is known to be opaque
+  uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
+  int threads = 1;            ///< TraceThread::worker is below it
+};
+
+/// Accel over geometry that exists only while something needs it. Three parts: a ChunkTree says which chunks
+/// a ray may meet, a Residency grows and drops them, and an EmbreeChunk is what one of them holds.
+///
+/// A ray visits the chunks that are resident first, front to back, and then those that it still reaches of
+/// the others; each at most once. What it meets is copied out while the chunk is pinned. Neither the budget
+/// nor the boxes, as long as they hold their chunks, nor what is resident reaches a result.
+///
+/// Errors of a grower pass through closest() and transmittance().
+/// Thread safety: as Accel; each TraceThread::worker is used by one thread at a time.
+class ChunkAccel final : public Accel {
+ public:
+  /// `bounds`: one per chunk, over the whole shutter; what they say is not read with `eager`, where boxes are
+  /// measured on what was grown. The grower outlives the accelerator. When `progress` is cancelled
+  /// meanwhile, the accelerator is not to be used. Throws Error: kMemory when the limit is too small, and
+  /// what the grower throws where all is grown.
+  ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ChunkAccelOptions& options,
+             MemoryLedger& ledger, const Workers& workers, Progress& progress);
+  ~ChunkAccel() override;
+
+  Hit closest(const Ray& ray, TraceThread& thread) const override;
+  float transmittance(const Ray& ray, TraceThread& thread) const override;
+  bool opaque() const override { return options_.opaque; }
+  Box3f bounds() const override { return tree_->bounds(); }
+
+  ResidencyCounts counts() const { return residency_->counts(); }
+  /// Sum of the surface areas of the boxes that rays are tested against first, at shutter open.
+  double bounds_area() const { return bounds_area_; }
+
+ private:
+  class Growth;
+  struct Scratch;
+
+  void build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger, const Workers& workers);
+  template <class Far, class Visit>
+  void visit_chunks(const Ray& ray, TraceThread& thread, const Far& far, const Visit& visit) const;
+
+  const ChunkAccelOptions options_;
+  EmbreeDevice device_;
+  SegmentPatterns patterns_;
+  std::unique_ptr<Growth> growth_;
+  std::unique_ptr<Residency> residency_;
+  std::unique_ptr<ChunkTree> tree_;
+  std::unique_ptr<Scratch[]> scratch_;  // one per thread
+  std::vector<MemoryCharge> charges_;
+  double bounds_area_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/embree_chunk.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "render/accel/embree_query.h"
+#include "render/accel/flush_denormals.h"
+
+namespace pelage {
+namespace {
+
+// What Embree allocates beyond the geometry, found by measuring trees over strands of every kind and size, 1
+// to 4 motion keys (chunk_bytes_test walks over them again).
+constexpr size_t kPerScene = 16 * 1024;  // the scene itself, the ends of its blocks
+constexpr size_t kPerCurve = 60;         // of a tree without motion; 38 to 45 are usual
+constexpr size_t kPerMovingCurve = 105;  // and per pair of motion keys: time may be split between any two
+constexpr size_t kWhileBuilding = 80;    // per primitive and pair of keys
+
+/// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
+void pad_for_embree(std::vector<float>& positions) {
+  if (positions.capacity() == positions.size()) positions.reserve(positions.size() + 1);
+}
+
+}  // namespace
+
+struct EmbreeChunk::NearestQuery : EmbreeQuery {
+  NearestQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& ray,
+               const NearestSoFar& nearest_so_far)
+      : EmbreeQuery(filter_function),
+        chunk(in_chunk),
+        random(ray.random),
+        nearest(nearest_so_far),
+        distance(nearest_so_far.hit.distance) {}
+  const EmbreeChunk& chunk;
+  uint32_t random;
+  const NearestSoFar& nearest;
+  float distance;  // of the primitive, or before there is one of `nearest`
+  uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
+};
+
+struct EmbreeChunk::LightQuery : EmbreeQuery {
+  LightQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, Crossings& into)
+      : EmbreeQuery(filter_function), chunk(in_chunk), crossings(into) {}
+  const EmbreeChunk& chunk;
+  Crossings& crossings;
+};
+
+struct EmbreeChunk::Filters {
+  static NearestSoFar place_of(const EmbreeChunk& chunk, uint32_t primitive) {
+    NearestSoFar found;
+    found.hit.part = chunk.part_;
+    if (!chunk.strands_) {
+      found.hit.kind = HitKind::kSkin;
+      found.triangle = primitive;
+      return found;
+    }
+    const PackedStrands::Place place = chunk.strands_->locate(primitive);
+    found.hit.kind = HitKind::kStrand;
+    found.hit.strand_id = chunk.strands_->id(place.strand);
+    found.hit.segment = place.segment;
+    return found;
+  }
+
+  /// Of two hits at one distance keeps the one that stands first.
+  static void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    auto& query = report.query<NearestQuery>();
+    const EmbreeChunk& chunk = query.chunk;
+    const uint32_t primitive = report.primitive();
+    if (report.distance() == query.distance) {
+      const bool here = query.primitive != RTC_INVALID_GEOMETRY_ID;
+      if ((here || query.nearest.hit) &&
+          place_of(chunk, primitive).rank() >=
+              (here ? place_of(chunk, query.primitive) : query.nearest).rank()) {
+        report.reject();
+        return;
+      }
+    }
+    query.distance = report.distance();
+    query.primitive = primitive;
+    if (chunk.strands_) chunk.strands_->fetch_ahead(primitive);
+  }
+
+  /// The same where strands are semi-transparent.
+  static void keep_nearest_stopping(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    const auto& query = report.query<NearestQuery>();
+    const EmbreeChunk& chunk = query.chunk;
+    const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
+    if (is_exit(chunk, report) || !stops_at(query.random, chunk.crossing(place, report.u()),
+                                            chunk.strands_->opacity(place, report.u()))) {
+      report.reject();
+      return;
+    }
+    keep_nearest(arguments);
+  }
+
+  /// Collects semi-transparent crossings; an opaque one ends the query.
+  static void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    auto& query = report.query<LightQuery>();
+    const EmbreeChunk& chunk = query.chunk;
+    const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
+    const float opacity = chunk.strands_->opacity(place, report.u());
+    if (opacity >= 1) return;
+    if (opacity > 0 && !is_exit(chunk, report)) {
+      query.crossings.add(chunk.crossing(place, report.u()), opacity);
+    }
+    report.reject();
+  }
+
+  /// Where a ray leaves a round strand. It was counted where it entered.
+  static bool is_exit(const EmbreeChunk& chunk, const EmbreeReport& report) {
+    return chunk.options_.shape == CurveShape::kRound && report.faces_away();
+  }
+};
+
+EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& options,
+                         const EmbreeDevice& device, SegmentPatterns& patterns)
+    : options_(options), part_(contents.part) {
+  size_t held = sizeof(*this);
+  if (auto* fur = std::get_if<FurContents>(&contents.geometry)) {
+    // Emptied before the tree is built, so that the two never stand side by side.
+    const FurContents grown = std::move(*fur);
+    strands_.emplace(grown.strands, grown.opacity, options.compact_attributes, patterns);
+    held += strands_->bytes() - sizeof(PackedStrands);
+  } else {
+    skin_ = std::move(std::get<SkinMesh>(contents.geometry));
+    pad_for_embree(skin_.positions);
+    held += skin_.bytes();
+  }
+  {
+    const EmbreeMeter meter;
+    Workers::alone().lend_to_library([&] {
+      // Embree's own threads of this moment: the calling one.
+      const FlushDenormals flush;
+      build(device);
+    });
+    held += static_cast<size_t>(meter.held());
+    build_peak_ = static_cast<size_t>(meter.peak());
+  }
+  bytes_ = held;
+  try {
+    device.rethrow_of_thread();
+  } catch (...) {
+    rtcReleaseScene(scene_);
+    throw;
+  }
+}
+
+EmbreeChunk::~EmbreeChunk() { rtcReleaseScene(scene_); }
+
+void EmbreeChunk::build(const EmbreeDevice& device) {
+  scene_ = rtcNewScene(device.get());
+  if (!scene_) return;
+  rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | kEmbreeFilterFlag));
+  if (strands_) {
+    add_curves(device);
+  } else {
+    add_skin(device);
+  }
+  rtcCommitScene(scene_);
+}
+
+void EmbreeChunk::add_curves(const EmbreeDevice& device) {
+  const PackedStrands& strands = *strands_;
+  if (strands.segment_count() == 0) return;
+  RTCGeometry geometry = rtcNewGeometry(device.get(), embree_curve_type(strands.basis(), options_.shape));
+  if (!geometry) return;
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(strands.motion_keys()));
+  for (int key = 0; key < strands.motion_keys(); ++key) {
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(key),
+                               RTC_FORMAT_FLOAT4, strands.vertices(key), 0, 4 * sizeof(float),
+                               strands.vertex_count());
+  }
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, strands.segments(), 0,
+                             sizeof(uint32_t), strands.segment_count());
+  rtcSetGeometryTessellationRate(geometry, static_cast<float>(options_.tessellation_rate));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+void EmbreeChunk::add_skin(const EmbreeDevice& device) {
+  if (skin_.triangle_count() == 0) return;
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (!geometry) return;
+  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(skin_.motion_keys));
+  for (int key = 0; key < skin_.motion_keys; ++key) {
+    const float* positions = &skin_.positions[static_cast<size_t>(key) * skin_.vertex_count() * 3];
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(key),
+                               RTC_FORMAT_FLOAT3, positions, 0, 3 * sizeof(float), skin_.vertex_count());
+  }
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, skin_.triangles.data(), 0,
+                             3 * sizeof(uint32_t), skin_.triangle_count());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene_, geometry);
+  rtcReleaseGeometry(geometry);
+}
+
+bool EmbreeChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const {
+  RTCRayHit r;
+  r.ray = embree_ray(ray);
+  r.ray.tfar = std::min(ray.far, nearest.hit.distance);
+  r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  NearestQuery query(opaque() ? Filters::keep_nearest : Filters::keep_nearest_stopping, *this, ray, nearest);
+  embree_intersect(scene_, query, r);
+  if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
+
+  nearest = Filters::place_of(*this, r.hit.primID);
+  Hit& hit = nearest.hit;
+  hit.distance = r.ray.tfar;
+  hit.u = r.hit.u;
+  if (!strands_) {
+    hit.v = r.hit.v;
+    met.triangle.assign_triangle(skin_, r.hit.primID);
+    return true;
+  }
+  hit.v = -r.hit.v;  // Embree counts from the other edge
+  strands_->copy_strand(strands_->locate(r.hit.primID).strand, met.strand);
+  if (options_.shape == CurveShape::kRound || strands_->basis() == CurveBasis::kLinear) {
+    const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
+    hit.v = offset_across(met.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
+  }
+  return true;
+}
+
+bool EmbreeChunk::collect(const Ray& ray, Crossings& crossings) const {
+  RTCRay r = embree_ray(ray);
+  LightQuery query(opaque() ? nullptr : Filters::collect_crossings, *this, crossings);
+  embree_occluded(scene_, query, r);
+  return r.tfar >= 0;
+}
+
+CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
+  return {strands_->id(place.strand), part_, place.segment + joint_beside(u, options_.tessellation_rate)};
+}
+
+size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {
+  const auto keys = static_cast<size_t>(n.motion_keys);
+  const size_t pairs = std::max<size_t>(keys - 1, 1);
+  const size_t primitives = n.segments + n.triangles;
+  const size_t tree = kPerScene + primitives * (keys == 1 ? kPerCurve : kPerMovingCurve * pairs);
+  const size_t grown = 16 * keys * n.points + n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) +
+                       n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
+                       sizeof(float) * (n.points + n.attribute_floats) + 4096;
+  const size_t skin = 24 * keys * n.vertices + 40 * n.triangles;  // positions and normals; indices, faces, uv
+  const size_t packed = PackedStrands::bytes_bound(n);
+  return sizeof(EmbreeChunk) + skin +
+         std::max(grown + std::max(packed, n.growth_bytes),
+                  packed + tree + primitives * kWhileBuilding * pairs);
+}
+
+}  // namespace pelage

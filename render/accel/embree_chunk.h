@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <tuple>
+
+#include "cache/residency.h"
+#include "render/accel/accel.h"
+#include "render/accel/crossings.h"
+#include "render/accel/embree_device.h"
+#include "render/accel/packed_strands.h"
+#include "render/render_params.h"
+
+namespace pelage {
+
+struct EmbreeChunkOptions {
+  CurveShape shape = CurveShape::kFlat;
+  int tessellation_rate = 8;  ///< pieces of a flat segment; see EmbreeCurves
+  bool compact_attributes = true;
+};
+
+/// The nearest hit that a ray has so far, over all chunks that it visited.
+struct NearestSoFar {
+  Hit hit;
+  uint32_t triangle = 0;  ///< of a skin's hit
+
+  /// What decides between equal distances: strands before skins, then strand id, part, segment or triangle.
+  auto rank() const {
+    return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? triangle : hit.segment);
+  }
+};
+
+/// What a chunk holds while it is resident: packed strands or a skin, and a compact Embree scene over it on a
+/// device that all chunks share. Thread safety: const members from any thread, each inside a FlushDenormals
+/// scope.
+class EmbreeChunk final : public Resident {
+ public:
+  /// Built by the calling thread alone, so that it may be made inside a loop of another team. Throws Error
+  /// for what Embree reports; the device outlives the chunk.
+  EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& options, const EmbreeDevice& device,
+              SegmentPatterns& patterns);
+  ~EmbreeChunk() override;
+  EmbreeChunk(const EmbreeChunk&) = delete;
+  EmbreeChunk& operator=(const EmbreeChunk&) = delete;
+
+  /// Whether the ray meets something here between near and far that stands before `nearest`, which then
+  /// becomes that; `met` its geometry.
+  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const;
+  /// Adds the semi-transparent crossings of a ray; false when something opaque blocks it.
+  bool collect(const Ray& ray, Crossings& crossings) const;
+
+  const std::optional<PackedStrands>& strands() const { return strands_; }
+  const SkinMesh& skin() const { return skin_; }
+  /// What is held, this object and Embree's share included.
+  size_t bytes() const { return bytes_; }
+  /// Most bytes that Embree held while the tree was built.
+  size_t build_peak_bytes() const { return build_peak_; }
+  /// At least what making a chunk of these counts holds at any moment, the contents that it is given
+  /// included, and what it holds afterwards.
+  static size_t bytes_bound(const ChunkCounts& counts);
+
+ private:
+  struct NearestQuery;
+  struct LightQuery;
+  struct Filters;
+
+  void build(const EmbreeDevice& device);
+  void add_curves(const EmbreeDevice& device);
+  void add_skin(const EmbreeDevice& device);
+  CrossingPlace crossing(PackedStrands::Place place, float u) const;
+  bool opaque() const { return !strands_ || strands_->opaque(); }
+
+  EmbreeChunkOptions options_;
+  uint32_t part_ = 0;
+  std::optional<PackedStrands> strands_;  // or skin_
+  SkinMesh skin_;
+  RTCScene scene_ = nullptr;
+  size_t bytes_ = 0, build_peak_ = 0;
+};
+
+}  // namespace pelage

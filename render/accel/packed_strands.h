@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/page_block.h"
+#include "geom/strands.h"
+#include "render/accel/chunk_grower.h"
+#include "render/accel/packed_values.h"
+#include "render/accel/segment_patterns.h"
+
+namespace pelage {
+
+/// The strands of a chunk as they are kept: one block of memory with the control points as Embree reads them,
+/// phantom ends in place, and the rest in the smallest form that gives it back.
+///
+/// Points, radii and ids come back bit by bit. Attributes, opacities, root addresses and texture coordinates
+/// do so where `compact` is off; otherwise as packed_value(), in the rarest class that they need (constant,
+/// per strand, per point) and in 1, 2 or 4 bytes. A strand without a segment is left out.
+/// Thread safety: immutable.
+class PackedStrands {
+ public:
+  /// `opacity`: one in [0, 1] per point, or empty.
+  PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact,
+                SegmentPatterns& patterns);
+
+  size_t strand_count() const { return strand_count_; }
+  size_t segment_count() const { return segment_count_; }
+  CurveBasis basis() const { return basis_; }
+  int motion_keys() const { return motion_keys_; }
+  bool opaque() const { return opaque_; }
+
+  /// x, y, z, radius of every control point of one motion key, phantoms included.
+  const float* vertices(int key) const {
+    return reinterpret_cast<const float*>(block_.data()) + static_cast<size_t>(key) * vertex_count_ * 4;
+  }
+  size_t vertex_count() const { return vertex_count_; }
+  /// First control point of each segment.
+  const uint32_t* segments() const { return segments_; }
+  /// The control points that make one segment: 4, or 2 of a linear one.
+  uint32_t segment_vertices() const { return extra_ + 1; }
+
+  struct Place {
+    uint32_t strand = 0;
+    uint32_t segment = 0;
+  };
+  Place locate(uint32_t primitive) const {
+    if (segments_per_strand_ == 0) return search(primitive);
+    const uint32_t strand = primitive / segments_per_strand_;
+    return {strand, primitive - strand * segments_per_strand_};
+  }
+  uint64_t id(uint32_t strand) const {
+    return wide_ids_ ? at<uint64_t>(ids_)[strand] : first_id_ + at<uint32_t>(ids_)[strand];
+  }
+  float opacity(Place place, float u) const;
+  /// Strand `strand` becomes the only one of `out`, whose memory is reused.
+  void copy_strand(uint32_t strand, Strands& out) const;
+  /// Asks the processor to fetch what copy_strand() will read first.
+  void fetch_ahead(uint32_t primitive) const;
+
+  /// What is held, this object included.
+  size_t bytes() const;
+  /// At least bytes() of every batch of these counts, and what is held beside it while it is packed.
+  static size_t bytes_bound(const ChunkCounts& counts);
+
+ private:
+  struct Values {
+    size_t offset = 0;
+    Precision precision = Precision::kFloat;
+    AttributeClass frequency = AttributeClass::kConstant;
+    uint32_t components = 1;
+  };
+  struct Attribute {
+    std::string name;
+    Values values;
+  };
+  class Packer;
+
+  template <class T>
+  const T* at(size_t offset) const {
+    return reinterpret_cast<const T*>(block_.data() + offset);
+  }
+  Place search(uint32_t primitive) const;
+  uint32_t first_segment(uint32_t strand) const {
+    return segments_per_strand_ != 0 ? strand * segments_per_strand_ : at<uint32_t>(first_segments_)[strand];
+  }
+  uint32_t strand_segments(uint32_t strand) const {
+    return first_segment(strand + 1) - first_segment(strand);
+  }
+  /// Points of a strand as they were given: without phantoms, and where the first of them counts from.
+  uint32_t strand_points(uint32_t strand) const;
+  size_t first_point(uint32_t strand) const;
+  float value(const Values& values, size_t index) const {
+    return unpacked_value(block_.data() + values.offset, values.precision, index);
+  }
+
+  PageBlock block_;
+  std::shared_ptr<const SegmentPatterns::Pattern> pattern_;
+  const uint32_t* segments_ = nullptr;
+  size_t strand_count_ = 0, segment_count_ = 0, vertex_count_ = 0;
+  uint64_t first_id_ = 0;
+  size_t ids_ = 0, faces_ = 0, first_segments_ = 0;
+  uint32_t segments_per_strand_ = 0;  // when all strands have equally many; otherwise 0
+  uint32_t extra_ = 3;                // control points of a strand beyond its number of segments
+  uint32_t phantoms_ = 0;             // of these, not given
+  uint32_t first_face_ = 0;
+  int motion_keys_ = 1;
+  CurveBasis basis_ = CurveBasis::kPinnedBSpline;
+  bool opaque_ = true, wide_ids_ = false, has_roots_ = false, wide_faces_ = false, has_root_uv_ = false;
+  Values root_place_, root_uv_, opacity_;
+  std::vector<Attribute> attributes_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "procedurals/chunk_bounds.h"
+#include "render/accel/chunk_grower.h"
+#include "render/accel/ray_slabs.h"
+
+namespace pelage {
+
+/// Boxes of about `segments_per_part` neighbouring segments or triangles each, at most `most_parts`, over the
+/// whole shutter; linear in time when there is motion. Parts do not follow strands: a box of a piece of many
+/// strands is much smaller than one of a few whole strands.
+ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t most_parts);
+/// What part_bounds() holds at most while it works.
+size_t part_bounds_scratch(const ChunkCounts& counts);
+
+/// The boxes of one chunk, ready for rays. Immutable.
+class PartBoxes {
+ public:
+  explicit PartBoxes(const ChunkBounds& bounds);
+
+  /// Where the ray enters the first of the boxes that it meets before `far`; infinity when it meets none.
+  float enter(const RaySlabs& ray, float far) const {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (size_t i = 0; i < boxes_.size(); ++i) {
+      Four enter;
+      const auto met = ray.meet(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter);
+      for (size_t lane = 0; lane < 4; ++lane) {
+        if (met[lane]) nearest = std::min(nearest, enter[lane]);
+      }
+    }
+    return nearest;
+  }
+  size_t count() const { return count_; }
+  /// As they were given.
+  ChunkBounds bounds() const;
+  static size_t bytes_bound(size_t parts, bool moving) {
+    return sizeof(PartBoxes) + (parts + 3) / 4 * sizeof(FourBoxes) * (moving ? 2 : 1);
+  }
+
+ private:
+  std::vector<FourBoxes> boxes_;
+  std::vector<FourBoxes> motions_;  // as many, or none
+  size_t count_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/segment_patterns.h"
+
+#include <bit>
+
+namespace pelage {
+
+std::shared_ptr<const SegmentPatterns::Pattern> SegmentPatterns::get(uint32_t segments, uint32_t stride,
+                                                                     size_t strands) {
+  const std::lock_guard lock(mutex_);
+  std::shared_ptr<const Pattern>& known = patterns_[{segments, stride}];
+  if (known && known->first_vertex.size() >= strands * segments) return known;
+
+  // Sizes are powers of two: whatever sizes are asked for, few arrays are ever made.
+  const size_t count = std::bit_ceil(strands);
+  auto made = std::make_shared<Pattern>();
+  made->first_vertex.reserve(count * segments);
+  for (size_t s = 0; s < count; ++s) {
+    for (uint32_t i = 0; i < segments; ++i) {
+      made->first_vertex.push_back(static_cast<uint32_t>(s) * stride + i);
+    }
+  }
+  made->charge =
+      MemoryCharge(ledger_, MemoryTag::kChunks, static_cast<int64_t>(count * segments * sizeof(uint32_t)));
+  known = std::move(made);
+  return known;
+}
+
+}  // namespace pelage
