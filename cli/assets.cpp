@@ -41,10 +41,10 @@ Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, M
   const ControlMesh cage = read_obj(params.mesh.path);
   const auto topology = share(
       SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
-  Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage.positions, {}};
+  Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage, {}};
   if (params.poses) {
     skin.poses.emplace(pose_files(*params.poses), params.poses->first, params.poses->cycle,
-                       cage.positions.size(), ledger);
+                       cage.positions.size(), ledger, params.poses->frames_per_pose);
   }
   return skin;
 }
@@ -58,10 +58,14 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
   for (const auto& [name, position, params] : scene.skins.items) {
     const Assets::Skin& skin =
         assets->skins.emplace(name, load_skin(params, topologies, ledger)).first->second;
-    assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(skin.rest->bytes()));
+    assets->charges.emplace_back(ledger, MemoryTag::kSkins,
+                                 static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
   }
   for (const auto& topology : topologies) {
     assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
+  }
+  for (const auto& [name, position, params] : scene.crowds.items) {
+    assets->crowds.push_back(make_crowd(name, position, params));
   }
   for (const auto& [name, position, params] : scene.grooms.items) {
     const auto skin = assets->skins.find(params.skin.name);

@@ -21,7 +21,7 @@ namespace pelage {
 struct Assets {
   struct Skin {
     std::shared_ptr<const LimitSurface> rest;  ///< object space
-    std::vector<V3f> cage;                     ///< control points of the rest pose
+    ControlMesh cage;                          ///< at rest
     std::optional<PoseSequence> poses;
   };
 
@@ -30,12 +30,13 @@ struct Assets {
   TextureLibrary textures;
   std::map<std::string, Skin> skins;
   std::map<std::string, std::shared_ptr<const Groom>> grooms;
-  std::vector<MaterialParams> materials;  ///< in the order of the scene
+  std::vector<std::vector<CrowdMember>> crowds;  ///< in the order of the scene
+  std::vector<MaterialParams> materials;         ///< in the order of the scene
   std::vector<MemoryCharge> charges;
 };
 
 /// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
-/// operators. Throws Error (kInput).
+/// operators, who stands where. Throws Error (kInput).
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
                                     MemoryLedger& ledger);
 

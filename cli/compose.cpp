@@ -2,7 +2,10 @@
 // The one page where everything meets: what the scene describes becomes the world of one frame.
 #include "cli/compose.h"
 
-#include "cli/character_pose.h"
+#include <set>
+#include <tuple>
+
+#include "cli/drawn_characters.h"
 #include "procedurals/fur.h"
 
 namespace pelage {
@@ -15,26 +18,78 @@ size_t material_index(const SceneDescription& scene, const NameReference& materi
   return index;
 }
 
-void add_part(World& world, const SceneDescription& scene, const Assets& assets, const std::string& name,
-              const CharacterParams& character, const PartParams& part, double frame,
-              const std::shared_ptr<PoseCache>& poses, MemoryLedger& ledger) {
-  const Assets::Skin& skin = assets.skins.at(part.skin.name);
-  CharacterPose pose = pose_character(skin, character, scene.camera, frame);
-  for (const auto& groom : part.grooms.items) {
-    if (assets.grooms.at(groom.name)->needs_closest_point()) pose.push_out_view = world.scene.camera.view();
-  }
-  const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses);
-  world.charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(posed->bytes()));
-  world.scene.skins.push_back(
-      {name + "." + part.skin.name, posed, skin.rest, material_index(scene, part.material)});
+/// Poses a frame's characters one after the other.
+class Composer {
+ public:
+  Composer(const SceneDescription& scene, const Assets& assets, double frame, int threads,
+           MemoryLedger& ledger, World& world)
+      : scene_(scene),
+        assets_(assets),
+        frame_(frame),
+        ledger_(ledger),
+        world_(world),
+        poses_(std::make_shared<PoseCache>(threads, ledger)) {}
 
-  for (const auto& groom : part.grooms.items) {
-    FurPart fur{name + "." + groom.name, {}, material_index(scene, groom.value), skin.rest};
-    fur.procedurals.push_back(std::make_unique<FurProcedural>(assets.grooms.at(groom.name), posed));
-    world.strands_described += static_cast<int64_t>(assets.grooms.at(groom.name)->follicles().size());
-    world.scene.fur.push_back(std::move(fur));
+  void add(const DrawnCharacter& character) {
+    Box3f box;
+    for (const PartParams& part : character.params->parts) add_part(character, part, box);
+    if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
   }
-}
+
+ private:
+  void add_part(const DrawnCharacter& character, const PartParams& part, Box3f& box) {
+    const Assets::Skin& skin = assets_.skins.at(part.skin.name);
+    CharacterPose pose = pose_character(character, skin, topology_of(part.skin.name), scene_.camera, frame_);
+    for (const auto& groom : part.grooms.items) {
+      if (assets_.grooms.at(groom.name)->needs_closest_point())
+        pose.push_out_view = world_.scene.camera.view();
+    }
+    const Rgb tint = character.member ? character.member->tint : Rgb(1);
+    const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
+    charge(posed->bytes());
+    box.extendBy(posed->bound(BoundSpan::kShutter));
+    world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
+                                  material_index(scene_, part.material), tint});
+    for (const auto& groom : part.grooms.items) {
+      const auto& coat = assets_.grooms.at(groom.name);
+      FurPart fur{
+          character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
+      fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed));
+      box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
+      world_.scene.fur.push_back(std::move(fur));
+      count(*coat, *posed);
+    }
+  }
+
+  /// Characters of one cage share one topology, unless the scene asks what that is worth.
+  std::shared_ptr<const SurfaceTopology> topology_of(const std::string& skin) {
+    const auto& shared = assets_.skins.at(skin).rest->shared_topology();
+    if (scene_.render.shared_topology) return shared;
+    const SkinParams& params = scene_.skins.find(skin)->value;
+    charge(shared->bytes());
+    return SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
+                                   params.mesh.path.string());
+  }
+
+  void count(const Groom& groom, const PosedCharacterSkin& skin) {
+    const auto strands = static_cast<int64_t>(groom.follicles().size());
+    world_.strands_described += strands;
+    if (seen_.emplace(&groom, skin.hash().low, skin.hash().high, skin.length()).second)
+      world_.strands_unique += strands;
+  }
+
+  void charge(size_t bytes) {
+    world_.charges.emplace_back(ledger_, MemoryTag::kSkins, static_cast<int64_t>(bytes));
+  }
+
+  const SceneDescription& scene_;
+  const Assets& assets_;
+  const double frame_;
+  MemoryLedger& ledger_;
+  World& world_;
+  std::shared_ptr<PoseCache> poses_;
+  std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
+};
 
 }  // namespace
 
@@ -53,14 +108,10 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
                scene.render},
               0,
               0,
+              0,
               {}};
-  const auto poses = std::make_shared<PoseCache>(workers.thread_count(), ledger);
-  for (const auto& [name, position, character] : scene.characters.items) {
-    for (const PartParams& part : character.parts) {
-      add_part(world, scene, assets, name, character, part, frame, poses, ledger);
-    }
-    ++world.characters;
-  }
+  Composer composer(scene, assets, frame, workers.thread_count(), ledger, world);
+  for (const DrawnCharacter& character : drawn_characters(scene, assets)) composer.add(character);
   return world;
 }
 

@@ -85,8 +85,9 @@ int run_grow(const Options& options) {
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
   World world =
       run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
-  run.statistics().strands_described = run.statistics().strands_unique = world.strands_described;
-  run.statistics().characters_in_frame = world.characters;
+  run.statistics().strands_described = world.strands_described;
+  run.statistics().strands_unique = world.strands_unique;
+  run.statistics().characters_in_frame = world.characters_in_frame;
 
   std::vector<Strands> grown;
   for (const FurPart& part : world.scene.fur) {

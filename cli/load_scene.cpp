@@ -61,6 +61,20 @@ std::vector<Problem> in_file_order(std::vector<Problem> problems) {
   return problems;
 }
 
+void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& item, Problems& problems) {
+  const CrowdParams& crowd = item.value;
+  const auto refuse = [&](const std::string& why) {
+    problems.add(item.position, "crowd " + quote(item.name) + why);
+  };
+  if (crowd.of.empty()) refuse(" is made of no character");
+  for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
+  for (const V3f& disc : crowd.footprint) {
+    if (!(disc.z >= 0)) refuse(": a disc [x, z, radius] of the footprint has a negative radius");
+  }
+  const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
+  if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
+}
+
 }  // namespace
 
 void check_references(const SceneDescription& scene, Problems& problems) {
@@ -78,9 +92,16 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
     for (const PartParams& part : character.parts) check_part(scene, part, problems);
   }
+  for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
 }
 
 namespace {
+
+void check_lod(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (!scene.render.lod.enabled) return;
+  problems.add(document.find("render")->find("lod")->find("enabled")->position(),
+               "level of detail is not built yet; set render.lod.enabled to false");
+}
 
 void check_shutter(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (scene.camera.shutter.x <= scene.camera.shutter.y) return;
@@ -99,6 +120,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
+      check_lod(scene, *document, problems);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

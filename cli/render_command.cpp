@@ -30,8 +30,8 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   const double began = run.seconds();
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
   run.statistics().strands_described += world.strands_described;
-  run.statistics().strands_unique += world.strands_described;
-  run.statistics().characters_in_frame += world.characters;
+  run.statistics().strands_unique += world.strands_unique;
+  run.statistics().characters_in_frame += world.characters_in_frame;
   const FrameResult result =
       render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
 

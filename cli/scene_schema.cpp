@@ -13,12 +13,6 @@ bool ValueReader<FormatVersion>::read(const Value& value, const KeyOptions&, For
   return false;
 }
 
-bool ValueReader<CrowdsParams>::read(const Value& value, const KeyOptions&, CrowdsParams&,
-                                     Problems& problems) {
-  problems.add(value.position(), "crowds are not built yet; place characters one by one");
-  return false;
-}
-
 const Schema<UnitsParams>& UnitsParams::schema() {
   static const Schema<UnitsParams> table = [] {
     Schema<UnitsParams> s("units", "What a scene unit and a frame are.");
@@ -41,6 +35,8 @@ const Schema<PosesParams>& PosesParams::schema() {
     s.key("first", &PosesParams::first, {.help = "Number of the first file, and the frame that shows it"});
     s.key("count", &PosesParams::count,
           {.help = "How many files there are", .required = true, .min = 1, .max = 1e6});
+    s.key("frames_per_pose", &PosesParams::frames_per_pose,
+          {.unit = "frames", .help = "From one pose to the next", .min = 0, .above_min = true});
     s.key("cycle", &PosesParams::cycle, {.help = "Begin again after the last pose, instead of holding it"});
     return s;
   }();
@@ -93,6 +89,9 @@ const Schema<CharacterParams>& CharacterParams::schema() {
           {.help = "Where it stands", .default_text = "at the origin"});
     s.key("frame_offset", &CharacterParams::frame_offset,
           {.unit = "frames", .help = "Added to the frame to choose the pose; may be a fraction"});
+    s.key("drawn", &CharacterParams::drawn,
+          {.help = "Whether it stands in the picture by itself",
+           .default_text = "unless a crowd is made of it"});
     return s;
   }();
   return table;
@@ -119,7 +118,7 @@ const Schema<SceneDescription>& SceneDescription::schema() {
     s.key("grooms", &SceneDescription::grooms, {.help = "Coats, by name"});
     s.key("materials", &SceneDescription::materials, {.help = "What skins and strands look like, by name"});
     s.key("characters", &SceneDescription::characters, {.help = "Animals, by name"});
-    s.key("crowds", &SceneDescription::crowds, {.help = "Reserved for a later version"});
+    s.key("crowds", &SceneDescription::crowds, {.help = "Many animals from a few characters, by name"});
     s.key("lights", &SceneDescription::lights,
           {.help = "Lights, by name; each has layers of its own in the picture"});
     s.key("render", &SceneDescription::render,

@@ -11,6 +11,7 @@
 #include "cli/frames.h"
 #include "geom/limit_surface.h"
 #include "groom/groom_params.h"
+#include "procedurals/crowd.h"
 #include "render/camera/camera.h"
 #include "render/film/film_layers.h"
 #include "render/light/light_params.h"
@@ -33,26 +34,19 @@ struct ValueReader<FormatVersion> {
   static std::string print(const FormatVersion&) { return "1"; }
 };
 
-/// `crowds:`, a promised name without a meaning yet: reading it is a problem that says so.
-struct CrowdsParams {};
-template <>
-struct ValueReader<CrowdsParams> {
-  static bool read(const Value&, const KeyOptions&, CrowdsParams& out, Problems&);
-  static std::string type_name() { return "refused"; }
-  static std::string print(const CrowdsParams&) { return ""; }
-};
-
 struct UnitsParams {
   float meters_per_unit = 0.01f;
   float fps = 24;
   static const Schema<UnitsParams>& schema();
 };
 
-/// A posed cage per frame. Character frame f shows pose f; between poses, positions blend linearly.
+/// A posed cage per frame, or per some frames. Character frame `first` shows pose `first`; between poses,
+/// positions blend linearly.
 struct PosesParams {
   AssetPath files;  ///< with a place for the number, see cli/frames.h
   int first = 1;
   int count = 1;
+  double frames_per_pose = 1;
   bool cycle = false;  ///< pose first + count is pose first again; else the ends hold
   static const Schema<PosesParams>& schema();
 };
@@ -84,7 +78,8 @@ struct TransformParams {
 struct CharacterParams {
   std::vector<PartParams> parts;
   TransformParams transform;
-  float frame_offset = 0;  ///< added to the frame to get the pose
+  float frame_offset = 0;     ///< added to the frame to get the pose
+  std::optional<bool> drawn;  ///< none: unless a crowd is made of it
   static const Schema<CharacterParams>& schema();
 };
 
@@ -99,7 +94,7 @@ struct SceneDescription {
   Named<GroomParams> grooms;
   Named<MaterialParams> materials;
   Named<CharacterParams> characters;
-  CrowdsParams crowds;
+  Named<CrowdParams> crowds;
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< of the document with its overrides, not of the files it names

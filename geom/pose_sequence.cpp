@@ -56,14 +56,17 @@ class PoseSequence::Files {
 };
 
 PoseSequence::PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle,
-                           size_t cage_points, MemoryLedger& ledger)
-    : files_(std::make_unique<Files>(std::move(files), cage_points, ledger)), first_(first), cycle_(cycle) {}
+                           size_t cage_points, MemoryLedger& ledger, double frames_per_pose)
+    : files_(std::make_unique<Files>(std::move(files), cage_points, ledger)),
+      first_(first),
+      cycle_(cycle),
+      frames_per_pose_(frames_per_pose) {}
 PoseSequence::PoseSequence(PoseSequence&&) noexcept = default;
 PoseSequence::~PoseSequence() = default;
 
-std::vector<V3f> PoseSequence::positions(double pose) const {
+std::vector<V3f> PoseSequence::positions(double frame) const {
   const auto count = static_cast<double>(files_->count());
-  double at = pose - first_;
+  double at = (frame - first_) / frames_per_pose_;
   if (cycle_) at -= std::floor(at / count) * count;
   // Rounding may leave a cycle at its end; what is not finite becomes the first pose.
   at = at > 0 ? std::min(at, cycle_ ? count : count - 1) : 0;

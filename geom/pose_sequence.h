@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// Poses of a cage, one OBJ file each, numbered from `first`; between whole numbers, positions blend
-/// linearly. A cycle goes on for ever in both directions, otherwise the first and the last pose hold.
+/// Poses of a cage, one OBJ file each, numbered from `first`, which frame `first` shows; between poses,
+/// positions blend linearly. A cycle goes on for ever in both directions, otherwise the first and the last
+/// pose hold.
 ///
 /// A file is read when it is first needed and its positions are kept, up to `kMostBytes` of them, so that a
 /// crowd reads each pose once. Thread safety: const members may be called from any thread.
@@ -20,21 +21,22 @@ class PoseSequence {
   /// Positions kept in memory per sequence, charged to the skins.
   static constexpr size_t kMostBytes = size_t(64) << 20;
 
-  /// `cage_points`: how many every file must have.
+  /// `cage_points`: how many every file must have. `frames_per_pose`: frames from one pose to the next.
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,
-               MemoryLedger& ledger);
+               MemoryLedger& ledger, double frames_per_pose = 1);
   PoseSequence(PoseSequence&&) noexcept;
   ~PoseSequence();
 
-  /// Positions of all control points at a pose number, object space. Throws Error (kInput) naming a file that
+  /// Positions of all control points at a frame, object space. Throws Error (kInput) naming a file that
   /// is missing, damaged or has another number of points.
-  std::vector<V3f> positions(double pose) const;
+  std::vector<V3f> positions(double frame) const;
 
  private:
   class Files;
   std::unique_ptr<Files> files_;
   int first_;
   bool cycle_;
+  double frames_per_pose_;
 };
 
 }  // namespace pelage

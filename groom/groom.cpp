@@ -222,6 +222,17 @@ StrandReach Groom::Impl::reach(size_t leaf) const {
   return stack->reach(before);
 }
 
+bool Groom::grows_on_skin() const { return impl_->rest != nullptr; }
+
+float Groom::reach() const {
+  float most = 0;
+  for (size_t leaf = 0; leaf < impl_->follicles().leaves().size(); ++leaf) {
+    const StrandReach reach = impl_->reach(leaf);
+    most = std::max(most, reach.distance + reach.radius);
+  }
+  return most;
+}
+
 Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose) const {
   const Impl& g = *impl_;
   const FollicleTree& follicles = g.follicles();

@@ -63,6 +63,9 @@ class Groom {
   /// Exactly what grow() of the whole leaf gives, but for the motion keys, which are the pose's.
   StrandCounts counts(size_t leaf) const;
 
+  bool grows_on_skin() const;
+  /// Farthest that any point of a strand, with its radius, may be from its root, for a character of scale 1.
+  float reach() const;
   /// A box that holds every point +- radius that grow() can give: roots in the pose, longest strand, each
   /// operator's reach. No strand is grown.
   Box3f conservative_bound(size_t leaf, const PosedSkin& pose) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/fur.h"
 
+#include <algorithm>
+
 #include "geom/strand_merge.h"
 #include "procedurals/strand_parts.h"
 
@@ -19,6 +21,12 @@ FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
     : groom_(std::move(groom)), skin_(std::move(skin)) {}
 
 Box3f FurProcedural::bound(BoundSpan span) const {
+  if (groom_->grows_on_skin()) {
+    // Without posing the skin: a crowd asks this of every animal.
+    Box3f box = skin_->bound(span);
+    const V3f out(groom_->reach() * skin_->scale() * std::max(1.0f, skin_->length()));
+    return {box.min - out, box.max + out};
+  }
   const auto pose = skin_->pose(span);
   Box3f box;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {

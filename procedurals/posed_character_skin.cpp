@@ -78,6 +78,7 @@ std::shared_ptr<const SkinPose> PosedCharacterSkin::make(BoundSpan span) const {
   for (size_t i = 0; i < pose_.shutter.cages.size(); ++i) add(pose_.shutter, i);
   if (with_ends) add(pose_.frame_ends, 1);
   made->scale = pose_.scale;
+  made->length = pose_.length;
   if (pose_.push_out_view) {
     // The triangles that the shutter's keys ask for, so that hair grows the same over either span.
     TessellationOptions options;

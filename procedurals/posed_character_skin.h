@@ -31,6 +31,7 @@ struct CharacterPose {
   /// Of the character, applied to strands about their roots: the cube root of the determinant where it is
   /// scaled differently along its axes (frames come from the posed cage).
   float scale = 1;
+  float length = 1;  ///< of its strands, times what the groom makes; their radii stay
   /// For which view the skin is tessellated from which strands keep clear; none when no groom does.
   std::optional<View> push_out_view;
 };
@@ -44,6 +45,9 @@ class PosedCharacterSkin final : public DeferredSkin {
   int motion_keys() const override { return static_cast<int>(pose_.shutter.cages.size()); }
   const SurfaceTopology& topology() const { return *pose_.topology; }
 
+  float scale() const { return pose_.scale; }
+  float length() const { return pose_.length; }
+
   /// Ready to grow in. kShutter: one key per motion key. kFrame: these keys between those of the ends of the
   /// frame, in order of time; what the shutter sees is thus never outside what a bound over the frame holds.
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
@@ -53,8 +57,8 @@ class PosedCharacterSkin final : public DeferredSkin {
   TessellationSize size(const View& view) const override;
   SkinMesh tessellate(const View& view) const override;
 
-  /// Of all that shapes what grows here: topology, control points of all times, transforms, scale. Equal
-  /// poses have equal hashes.
+  /// Of all that shapes what grows here, but for its length: topology, control points of all times,
+  /// transforms, scale. Equal poses have equal hashes.
   ContentHash hash() const { return hash_; }
   size_t bytes() const;
 

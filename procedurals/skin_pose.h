@@ -19,6 +19,7 @@ struct SkinPose {
   std::vector<ClosestPointTree> trees;   ///< one per key, only for grooms that keep clear of the skin
   std::vector<M44f> transforms;          ///< of the character, per key: for strands that grow on no skin
   float scale = 1;
+  float length = 1;
 
   PosedSkin skin() const { return {keys, trees, scale, transforms}; }
   size_t bytes() const;

@@ -3,6 +3,28 @@
 
 namespace pelage {
 
+bool ValueReader<LodCamera>::read(const Value& value, const KeyOptions& options, LodCamera& out,
+                                  Problems& problems) {
+  if (value.is_map())
+    return ValueReader<std::optional<CameraParams>>::read(value, options, out.own, problems);
+  if (value.is_scalar() && value.text() == "main") {
+    out.own.reset();
+    return true;
+  }
+  problems.add(value.position(), "expected main or a block with the keys of camera, got " + value.describe());
+  return false;
+}
+
+const Schema<LodParams>& LodParams::schema() {
+  static const Schema<LodParams> table = [] {
+    Schema<LodParams> s("lod", "Level of detail: not built yet, every strand is grown.");
+    s.key("enabled", &LodParams::enabled, {.help = "Only false for now"});
+    s.key("camera", &LodParams::camera, {.help = "Camera whose view decides"});
+    return s;
+  }();
+  return table;
+}
+
 const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "How the picture is computed.");
@@ -28,6 +50,10 @@ const Schema<RenderParams>& RenderParams::schema() {
                    "lost",
            .min = 0.01,
            .max = 100});
+    s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "off"});
+    s.key("shared_topology", &RenderParams::shared_topology,
+          {.help =
+               "Animals of one cage share its refinement and patches; false only to measure what it saves"});
     return s;
   }();
   return table;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "procedurals/chunk_bounds.h"
+#include "render/camera/camera.h"
 
 namespace pelage {
 
@@ -25,6 +27,24 @@ struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
 
+/// Whose distance, motion and focus decide the level of detail: the camera of the scene, or one of its own.
+struct LodCamera {
+  std::optional<CameraParams> own;
+};
+template <>
+struct ValueReader<LodCamera> {
+  static bool read(const Value&, const KeyOptions&, LodCamera& out, Problems&);
+  static std::string type_name() { return "main, or block camera"; }
+  static std::string print(const LodCamera& camera) { return camera.own ? "{}" : "main"; }
+};
+
+/// `lod:` of `render:`.
+struct LodParams {
+  bool enabled = false;
+  LodCamera camera;
+  static const Schema<LodParams>& schema();
+};
+
 /// `render:` of a scene.
 struct RenderParams {
   Integrator integrator = Integrator::kPath;
@@ -36,6 +56,8 @@ struct RenderParams {
   ByteSize memory{uint64_t(4) << 30};
   BoundingStrategy bounds = BoundingStrategy::kExact;
   float bounds_factor = 1;  ///< of BoundingStrategy::kUser
+  LodParams lod;
+  bool shared_topology = true;  ///< characters of one cage share its refinement and patches
   static const Schema<RenderParams>& schema();
 };
 

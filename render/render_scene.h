@@ -23,6 +23,7 @@ struct FurPart {
   /// The skin that the strands grow on, in rest pose, for material fields that depend on the rest position;
   /// may be null, then strands rest at their roots.
   std::shared_ptr<const LimitSurface> rest;
+  Rgb tint{1};  ///< multiplies the colour of the strands
 };
 
 /// A skin. Texture coordinates of its hits are asked of the topology of `rest`, rest positions of `rest`
@@ -32,6 +33,7 @@ struct SkinPart {
   std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
+  Rgb tint{1};  ///< multiplies its colour
 };
 
 /// Everything that a renderer needs to know of one frame. World space.

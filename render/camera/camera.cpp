@@ -87,6 +87,29 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
              0.5f * static_cast<float>(height_) - scale * local.dot(pose.up), depth);
 }
 
+bool Camera::may_see(const Box3f& box) const {
+  if (box.isEmpty()) return false;
+  const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
+  // Corners outside of each half space, over all keys: behind, left, right, below, above. What is beyond one
+  // border at every key is beyond it between them.
+  size_t outside[5] = {};
+  for (const Pose& pose : keys_) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const V3f at(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                   corner & 4 ? box.max.z : box.min.z);
+      const V3f local = at - pose.position;
+      const float depth = local.dot(pose.forward), x = local.dot(pose.right), y = local.dot(pose.up);
+      const float half_height = depth * pose.tan_half, half_width = half_height * aspect;
+      outside[0] += depth <= 0;
+      outside[1] += x < -half_width;
+      outside[2] += x > half_width;
+      outside[3] += y < -half_height;
+      outside[4] += y > half_height;
+    }
+  }
+  return *std::max_element(outside, outside + 5) < 8 * keys_.size();
+}
+
 View Camera::view() const {
   View view;
   view.position = frame_.position;

@@ -24,6 +24,13 @@ std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
 }
 
+/// Never lighter than white, unless the colour itself is.
+Rgb tinted(const Rgb& color, const Rgb& tint) {
+  Rgb result;
+  for (int i = 0; i < 3; ++i) result[i] = std::min(color[i] * tint[i], std::max(color[i], 1.0f));
+  return result;
+}
+
 }  // namespace
 
 FrameShading::FrameShading(const RenderScene& scene)
@@ -64,7 +71,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
     const float place = fibre.shells.tangent_place(lobe, v, hit.strand_id, 0);
     tangents[static_cast<size_t>(lobe)] = strand_tangent(strand, 0, place, ray.time);
   }
-  const Rgb color = fibre_color(fibre, strand, hit, v);
+  const Rgb color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
   return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
           ConeShellBsdf(fibre.shells, color, tangents, -ray.direction)};
 }
@@ -88,7 +95,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
   const SkinPart& part = scene_.skins[hit.part];
   const Skin& skin = *skins_[part.material];
   const SkinPoint point = pelage::skin_point(triangle, ray, hit);
-  const Rgb color = skin_color(part, skin, hit, triangle);
+  const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
   if (!skin.coat) return {point.position, point.start, LambertBsdf(color, point.normal)};
   return {point.position, point.start,
           GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};

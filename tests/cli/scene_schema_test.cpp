@@ -122,18 +122,46 @@ TEST_F(SceneSchema, MistakesOfAllKindsComeInFileOrder) {
       "pelage: 2\n"
       "camra: {}\n"
       "camera: {fov: 400, fov: 30}\n"
-      "crowds: {colony: {count: 10}}\n"
+      "crowds: {colony: {cout: 10, area: {type: disk}, of: [rat]}}\n"
       "lights:\n"
       "  key: {radius: 1}\n"
       "image: {width: 0}\n";
-  EXPECT_EQ(problems(text), (Lines{"s:1:9: this program reads scenes of format 1, got '2'",
-                                   "s:2:1: unknown key 'camra' in scene; did you mean 'camera'?",
-                                   "s:3:15: expected a number 0.01 .. 170, got 400",
-                                   "s:3:20: duplicate key 'fov', first on line 3",
-                                   "s:4:9: crowds are not built yet; place characters one by one",
-                                   "s:6:8: the block needs the key 'type': rectangle | sphere | environment",
-                                   "s:7:16: expected a whole number 1 .. 65536, got 0"}));
+  EXPECT_EQ(problems(text),
+            (Lines{"s:1:9: this program reads scenes of format 1, got '2'",
+                   "s:2:1: unknown key 'camra' in scene; did you mean 'camera'?",
+                   "s:3:15: expected a number 0.01 .. 170, got 400",
+                   "s:3:20: duplicate key 'fov', first on line 3", "s:4:18: crowd needs the key 'count'",
+                   "s:4:19: unknown key 'cout' in crowd; did you mean 'count'?",
+                   "s:4:42: expected rectangle | disc | polygon, got 'disk'; did you mean 'disc'?",
+                   "s:6:8: the block needs the key 'type': rectangle | sphere | environment",
+                   "s:7:16: expected a whole number 1 .. 65536, got 0"}));
   EXPECT_EQ(problems("frames: 1\n"), Lines{"s:1:1: scene needs the key 'pelage'"});
+}
+
+TEST_F(SceneSchema, CrowdsAreChecked) {
+  const std::string area = ", count: 3, area: {type: disc, radius: 9}";
+  const auto with = [&](const std::string& crowd) {
+    return std::string(kScene) + "crowds:\n  herd: {" + crowd + "}\n";
+  };
+  EXPECT_EQ(problems(with("of: [rat], spacing: 1" + area)), Lines{});
+  EXPECT_EQ(problems(with("of: [rta]" + area)),
+            Lines{"s:21:15: there is no character 'rta'; did you mean 'rat'?"});
+  EXPECT_EQ(problems(with("of: []" + area)), Lines{"s:21:3: crowd 'herd' is made of no character"});
+  EXPECT_EQ(problems(with("of: [rat], count: 3, area: {type: polygon, points: [[0, 0], [1, 1]]}")),
+            Lines{"s:21:3: crowd 'herd': its area needs at least three points"});
+  EXPECT_EQ(problems(with("of: [rat], footprint: [[0, 0, -1]]" + area)),
+            Lines{"s:21:3: crowd 'herd': a disc [x, z, radius] of the footprint has a negative radius"});
+  EXPECT_EQ(problems(with("of: [rat], heading: {variation: 200}" + area)),
+            Lines{"s:21:42: expected a number 0 .. 180, got 200"});
+}
+
+TEST_F(SceneSchema, LevelOfDetailIsRefusedUntilItExists) {
+  EXPECT_EQ(problems(kScene, {{"render.lod.enabled", "false"}, {"render.lod.camera", "main"}}), Lines{});
+  EXPECT_EQ(problems(kScene, {{"render.lod.camera", "{position: [0, 0, 9]}"}}), Lines{});
+  EXPECT_EQ(problems(kScene, {{"render.lod.camera", "mine"}}),
+            Lines{"--set render.lod.camera: expected main or a block with the keys of camera, got 'mine'"});
+  EXPECT_EQ(problems(std::string(kScene) + "render: {lod: {enabled: true}}\n"),
+            Lines{"s:20:25: level of detail is not built yet; set render.lod.enabled to false"});
 }
 
 TEST_F(SceneSchema, IsOutlinedByInfo) {

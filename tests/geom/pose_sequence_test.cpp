@@ -55,6 +55,14 @@ TEST_F(PoseSequenceTest, TakesAnyNumber) {
   }
 }
 
+TEST_F(PoseSequenceTest, PosesMayBeFramesApart) {
+  const PoseSequence poses(files_, 1, true, 3, ledger_, 4);
+  EXPECT_EQ(height(poses, 1), 0);
+  EXPECT_EQ(height(poses, 3), 0.5f);
+  EXPECT_EQ(height(poses, 5), 1);
+  EXPECT_EQ(height(poses, 13), 0);
+}
+
 TEST_F(PoseSequenceTest, ReadsEachFileOnce) {
   const PoseSequence poses(files_, 1, false, 3, ledger_);
   EXPECT_EQ(ledger_.current(MemoryTag::kSkins), 0);

@@ -111,5 +111,33 @@ TEST(Camera, ImpossiblePosesAreErrors) {
   EXPECT_THROW(Camera(upward, 1, kWidth, kHeight), Error);
 }
 
+TEST(Camera, SeesBoxesThatMeetThePicture) {
+  CameraParams params;
+  params.position = V3f(0, 0, 10);
+  params.fov = 90;
+  const Camera camera(params, 1, 200, 100);  // as high as far, twice as wide
+  const auto box = [](const V3f& at) { return Box3f(at - V3f(1), at + V3f(1)); };
+  EXPECT_TRUE(camera.may_see(box(V3f(0, 0, 0))));
+  EXPECT_TRUE(camera.may_see(box(V3f(20, 0, 0))));
+  EXPECT_FALSE(camera.may_see(box(V3f(23.5f, 0, 0))));
+  EXPECT_FALSE(camera.may_see(box(V3f(-23.5f, 0, 0))));
+  EXPECT_FALSE(camera.may_see(box(V3f(0, 13, 0))));
+  EXPECT_FALSE(camera.may_see(box(V3f(0, -13, 0))));
+  EXPECT_FALSE(camera.may_see(box(V3f(0, 0, 12))));
+  EXPECT_TRUE(camera.may_see(box(V3f(0, 0, 10))));  // it stands in it
+  EXPECT_TRUE(camera.may_see(Box3f(V3f(-1000), V3f(1000))));
+  EXPECT_FALSE(camera.may_see(Box3f()));
+}
+
+TEST(Camera, SeesWhatItPassesWhileTheShutterIsOpen) {
+  CameraParams params;
+  params.position = Keyed<V3f>({{1.0, V3f(0, 0, 10)}, {2.0, V3f(100, 0, 10)}});
+  params.look_at = Keyed<V3f>({{1.0, V3f(0)}, {2.0, V3f(100, 0, 0)}});
+  const Box3f there(V3f(24, -1, -1), V3f(26, 1, 1));  // between the keys
+  EXPECT_FALSE(Camera(params, 1, 100, 100).may_see(there));
+  params.shutter = V2f(0, 0.5f);
+  EXPECT_TRUE(Camera(params, 1, 100, 100).may_see(there));
+}
+
 }  // namespace
 }  // namespace pelage

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "procedurals/crowd.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "procedurals/crowd_placement.h"
+
+namespace pelage {
+
+namespace {
+
+/// Random numbers of one animal, in [-1, 1).
+class Dice {
+ public:
+  Dice(uint64_t seed, size_t animal) : seed_(seed), animal_(animal) {}
+  uint64_t bits(uint64_t use) const { return hash64(seed_, animal_, use); }
+  float varied(float value, float variation, uint64_t use) const {
+    return value * (1 + variation * signed_float(bits(use)));
+  }
+
+ private:
+  uint64_t seed_;
+  size_t animal_;
+};
+
+CrowdMember vary(const CrowdParams& params, const Dice& dice) {
+  CrowdMember member;
+  member.prototype = dice.bits(random_use("crowd prototype")) % params.of.size();
+  const float scale = dice.varied(params.scale.value, params.scale.variation, random_use("crowd scale"));
+  member.scale = {dice.varied(scale, params.scale.axes.x, random_use("crowd scale x")),
+                  dice.varied(scale, params.scale.axes.y, random_use("crowd scale y")),
+                  dice.varied(scale, params.scale.axes.z, random_use("crowd scale z"))};
+  member.frame_offset =
+      params.phase.value + params.phase.variation * signed_float(dice.bits(random_use("crowd phase")));
+  member.length = dice.varied(params.length.value, params.length.variation, random_use("crowd length"));
+  const float brightness = dice.varied(1, params.color.variation, random_use("crowd color"));
+  member.tint = params.color.value * Rgb(dice.varied(brightness, params.color.hue, random_use("crowd red")),
+                                         dice.varied(brightness, params.color.hue, random_use("crowd green")),
+                                         dice.varied(brightness, params.color.hue, random_use("crowd blue")));
+  return member;
+}
+
+Footprint scaled(const Footprint& footprint, const V3f& scale) {
+  Footprint result;
+  for (const V3f& disc : footprint)
+    result.emplace_back(disc.x * scale.x, disc.y * scale.z, disc.z * std::max(scale.x, scale.z));
+  return result;
+}
+
+}  // namespace
+
+std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
+                                    const CrowdParams& params) {
+  constexpr float to_radians = std::numbers::pi_v<float> / 180;
+  const uint64_t seed = hash64(static_cast<uint64_t>(params.seed),
+                               content_hash(std::as_bytes(std::span(name.data(), name.size()))).low);
+  std::vector<CrowdMember> members;
+  CrowdRules rules;
+  for (size_t i = 0; i < static_cast<size_t>(params.count); ++i) {
+    members.push_back(vary(params, Dice(seed, i)));
+    rules.footprints.push_back(scaled(params.footprint, members.back().scale));
+  }
+  rules.spacing = params.spacing;
+  rules.heading = params.heading.value * to_radians;
+  rules.heading_variation = params.heading.variation * to_radians;
+  rules.seed = seed;
+  const GroundArea area(params.area);
+  std::vector<CrowdPlace> places;
+  try {
+    places = place_crowd(area, rules);
+  } catch (const Error& error) {
+    throw Error(error.kind(), named_at, "crowd '" + name + "': " + error.what());
+  }
+  for (size_t i = 0; i < members.size(); ++i) {
+    members[i].position = V3f(places[i].position.x, area.height(), places[i].position.y);
+    members[i].heading = places[i].heading;
+  }
+  return members;
+}
+
+M44f scale_of(const CrowdMember& member) {
+  M44f matrix;
+  matrix.setScale(member.scale);
+  return matrix;
+}
+
+M44f placement_of(const CrowdMember& member) {
+  const float s = std::sin(member.heading), c = std::cos(member.heading);
+  const V3f& p = member.position;
+  return {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, p.x, p.y, p.z, 1};
+}
+
+}  // namespace pelage

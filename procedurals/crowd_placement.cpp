@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "procedurals/crowd_placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kRounds = 40, kSweepsPerRound = 80;
+constexpr int kJumps = 100;          // places that are tried for one that is stuck
+constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
+constexpr double kDensest = 0.9069;  // of equal discs in the plane
+constexpr float kPi = std::numbers::pi_v<float>;
+
+V2f turned(const V2f& v, float s, float c) { return {c * v.x + s * v.y, c * v.y - s * v.x}; }
+
+/// One animal while it is pushed about.
+struct Body {
+  CrowdPlace place;
+  std::vector<V3f> discs;  // a point is a disc of radius 0
+  float reach = 0;         // farthest point of the footprint from the origin
+  float inertia = 1;       // against turning, for a mass of 1
+  float sine = 0, cosine = 1;
+
+  void turn_to(float heading) {
+    place.heading = heading;
+    sine = std::sin(heading);
+    cosine = std::cos(heading);
+  }
+  V2f lever(size_t disc) const { return turned({discs[disc].x, discs[disc].y}, sine, cosine); }
+};
+
+Body body_of(const Footprint& footprint, const CrowdPlace& place) {
+  Body body;
+  body.place = place;
+  body.discs = footprint.empty() ? Footprint{V3f(0)} : footprint;
+  float spread = 0;
+  for (const V3f& disc : body.discs) {
+    const float from_origin = std::hypot(disc.x, disc.y);
+    body.reach = std::max(body.reach, from_origin + disc.z);
+    spread = std::max(spread, from_origin * from_origin + disc.z * disc.z);
+  }
+  body.inertia = std::max(0.5f * spread, 1e-12f);
+  body.turn_to(place.heading);
+  return body;
+}
+
+float distance(const Body& a, const Body& b) {
+  float least = std::numeric_limits<float>::infinity();
+  for (size_t p = 0; p < a.discs.size(); ++p) {
+    for (size_t q = 0; q < b.discs.size(); ++q) {
+      const V2f apart = b.place.position + b.lever(q) - a.place.position - a.lever(p);
+      least = std::min(least, apart.length() - a.discs[p].z - b.discs[q].z);
+    }
+  }
+  return least;
+}
+
+/// Points of the R2 sequence [Roberts18] that fall into the area, each moved at random by part of their
+/// distance: even, but no lattice.
+std::vector<V2f> spread(const GroundArea& area, size_t count, uint64_t seed) {
+  constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
+  const double shift_x = unit_float(hash64(seed, random_use("crowd shift x")));
+  const double shift_y = unit_float(hash64(seed, random_use("crowd shift y")));
+  const V2f size = area.max() - area.min();
+  const float jitter = 0.4f * std::sqrt(static_cast<float>(area.surface() / static_cast<double>(count)));
+  std::vector<V2f> points;
+  // A sliver of an area would be missed for ever: what is outside then moves to its border.
+  const uint64_t patience = 1000 * count + 100000;
+  for (uint64_t i = 0; points.size() < count; ++i) {
+    const double x = shift_x + kStepX * static_cast<double>(i), y = shift_y + kStepY * static_cast<double>(i);
+    const V2f at = area.min() + V2f(size.x * static_cast<float>(x - std::floor(x)),
+                                    size.y * static_cast<float>(y - std::floor(y)));
+    if (!area.contains(at) && i < patience) continue;
+    const V2f moved(at.x + jitter * signed_float(hash64(seed, i, random_use("crowd jitter x"))),
+                    at.y + jitter * signed_float(hash64(seed, i, random_use("crowd jitter y"))));
+    points.push_back(area.nearest(moved));
+  }
+  return points;
+}
+
+/// Pairs of bodies that may touch: those in the same or neighbouring cells of a grid.
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Body>& bodies, const V2f& origin, float cell) {
+    cells_.reserve(bodies.size());
+    for (uint32_t i = 0; i < bodies.size(); ++i) {
+      const V2f at = (bodies[i].place.position - origin) / cell;
+      cells_.push_back({static_cast<int32_t>(std::floor(at.x)), static_cast<int32_t>(std::floor(at.y)), i});
+    }
+    std::sort(cells_.begin(), cells_.end());
+  }
+  /// Calls `visit(i, j)` once for every pair, in a fixed order.
+  template <class Visit>
+  void each_pair(const Visit& visit) const {
+    for (const Cell& cell : cells_) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        auto other = std::lower_bound(cells_.begin(), cells_.end(), Cell{cell.x + dx, cell.y - 1, 0});
+        for (; other != cells_.end() && other->x == cell.x + dx && other->y <= cell.y + 1; ++other) {
+          if (other->body > cell.body) visit(cell.body, other->body);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Cell {
+    int32_t x, y;
+    uint32_t body;
+    auto operator<=>(const Cell&) const = default;
+  };
+  std::vector<Cell> cells_;
+};
+
+/// Pushes pairs of discs apart as if they belonged to rigid bodies on ice.
+class Crowd {
+ public:
+  Crowd(const GroundArea& area, const CrowdRules& rules, std::vector<Body> bodies)
+      : area_(area), rules_(rules), bodies_(std::move(bodies)) {}
+
+  /// Pushes apart every pair that is too close; returns how many there were.
+  size_t sweep() {
+    float reach = 0;
+    for (const Body& body : bodies_) reach = std::max(reach, body.reach);
+    const V2f size = area_.max() - area_.min();
+    const float touching = 2 * reach + rules_.spacing * (1 + 2 * kMargin);
+    if (!(touching > 0)) return 0;
+    const Neighbours neighbours(bodies_, area_.min(), std::max(touching, 1e-6f * std::max(size.x, size.y)));
+    stuck_.clear();
+    size_t contacts = 0;
+    neighbours.each_pair([&](uint32_t i, uint32_t j) {
+      if (!separate(i, j)) return;
+      ++contacts;
+      stuck_.push_back(std::max(i, j));
+    });
+    std::sort(stuck_.begin(), stuck_.end());
+    stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
+    return contacts;
+  }
+
+  /// Moves one of every pair of the last sweep, such as two that are hooked into each other, to the place
+  /// with most room of some that are tried.
+  void jump(uint64_t round) {
+    const V2f size = area_.max() - area_.min();
+    for (uint32_t i : stuck_) {
+      CrowdPlace best = bodies_[i].place;
+      float most = -std::numeric_limits<float>::infinity();
+      for (uint64_t attempt = 0; attempt < kJumps; ++attempt) {
+        const auto dice = [&](uint64_t use) { return hash64(rules_.seed, i, round, attempt, use); };
+        CrowdPlace place;
+        place.position = area_.nearest(area_.min() + V2f(size.x * unit_float(dice(random_use("crowd x"))),
+                                                         size.y * unit_float(dice(random_use("crowd z")))));
+        place.heading =
+            rules_.heading + rules_.heading_variation * signed_float(dice(random_use("crowd turn")));
+        const float room = room_at(i, place, most);
+        if (room <= most) continue;
+        most = room;
+        best = place;
+      }
+      bodies_[i].place = best;
+      bodies_[i].turn_to(best.heading);
+    }
+  }
+  const std::vector<Body>& bodies() const { return bodies_; }
+
+ private:
+  /// Distance from the nearest other footprint if `i` stood at `place`; something less than `enough` where it
+  /// is not more.
+  float room_at(uint32_t i, const CrowdPlace& place, float enough) const {
+    Body moved = bodies_[i];
+    moved.place = place;
+    moved.turn_to(place.heading);
+    float room = std::numeric_limits<float>::infinity();
+    for (uint32_t j = 0; j < bodies_.size() && room > enough; ++j) {
+      if (j == i) continue;
+      const float apart = (bodies_[j].place.position - place.position).length();
+      if (apart - moved.reach - bodies_[j].reach < room) room = std::min(room, distance(moved, bodies_[j]));
+    }
+    return room;
+  }
+
+  bool separate(uint32_t i, uint32_t j) {
+    Body &a = bodies_[i], &b = bodies_[j];
+    const float far = a.reach + b.reach + rules_.spacing;
+    if ((b.place.position - a.place.position).length2() > far * far) return false;
+    bool touched = false;
+    for (size_t p = 0; p < a.discs.size(); ++p) {
+      for (size_t q = 0; q < b.discs.size(); ++q) touched |= separate(a, p, b, q, hash64(rules_.seed, i, j));
+    }
+    if (touched) {
+      settle(a);
+      settle(b);
+    }
+    return touched;
+  }
+
+  /// One contact, solved as position based dynamics does [Mueller07]: both bodies give way, in the ratio in
+  /// which they can be moved at this point.
+  bool separate(Body& a, size_t p, Body& b, size_t q, uint64_t tie) {
+    const V2f lever_a = a.lever(p), lever_b = b.lever(q);
+    V2f apart = b.place.position + lever_b - a.place.position - lever_a;
+    const float wanted = a.discs[p].z + b.discs[q].z + rules_.spacing;
+    const float length = apart.length();
+    if (length >= wanted) return false;
+    const float angle = 2 * kPi * unit_float(tie);  // on one point: any direction, always the same
+    apart = length > 1e-6f * wanted ? apart / length : V2f(std::sin(angle), std::cos(angle));
+    // d(lever)/d(heading) is the lever turned by a quarter: (z, -x).
+    const float turn_a = lever_a.y * apart.x - lever_a.x * apart.y;
+    const float turn_b = lever_b.y * apart.x - lever_b.x * apart.y;
+    const bool turns = rules_.heading_variation > 0;
+    const float give_a = 1 + (turns ? turn_a * turn_a / a.inertia : 0);
+    const float give_b = 1 + (turns ? turn_b * turn_b / b.inertia : 0);
+    const float push = (wanted * (1 + kMargin) - length) / (give_a + give_b);
+    a.place.position -= apart * push;
+    b.place.position += apart * push;
+    if (turns) {
+      a.turn_to(a.place.heading - push * turn_a / a.inertia);
+      b.turn_to(b.place.heading + push * turn_b / b.inertia);
+    }
+    return true;
+  }
+
+  /// Back into the area and the allowed headings.
+  void settle(Body& body) const {
+    body.place.position = area_.nearest(body.place.position);
+    if (rules_.heading_variation >= kPi) return;
+    const float most = rules_.heading_variation;
+    body.turn_to(rules_.heading + std::clamp(body.place.heading - rules_.heading, -most, most));
+  }
+
+  const GroundArea& area_;
+  const CrowdRules& rules_;
+  std::vector<Body> bodies_;
+  std::vector<uint32_t> stuck_;  // one of each pair of the last sweep
+};
+
+/// Refuses at once what cannot be: more discs than the area, widened by what may stand over its border, has
+/// room for.
+void require_room(const GroundArea& area, const CrowdRules& rules) {
+  float radius = std::numeric_limits<float>::infinity(), offset = 0;  // of the least of the largest discs
+  for (const Footprint& footprint : rules.footprints) {
+    V3f largest(0);
+    for (const V3f& disc : footprint) {
+      if (disc.z >= largest.z) largest = disc;
+    }
+    radius = std::min(radius, largest.z);
+    offset = std::max(offset, std::hypot(largest.x, largest.y));
+  }
+  const double disc = double(radius) + 0.5 * rules.spacing, over = disc + offset;
+  if (!(disc > 0) || rules.footprints.size() < 2) return;
+  const double room = area.surface() + area.border() * over + std::numbers::pi * over * over;
+  const double most = kDensest * room / (std::numbers::pi * disc * disc);
+  if (static_cast<double>(rules.footprints.size()) <= most + 1) return;
+  throw Error(ErrorKind::kInput,
+              fmt::format("{} do not fit into its area: there is room for less than {:.0f} at this spacing",
+                          rules.footprints.size(), most + 1));
+}
+
+}  // namespace
+
+std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules) {
+  require_room(area, rules);
+  const size_t count = rules.footprints.size();
+  const std::vector<V2f> points = spread(area, count, rules.seed);
+  std::vector<Body> bodies;
+  for (size_t i = 0; i < count; ++i) {
+    const float turn = signed_float(hash64(rules.seed, i, random_use("crowd heading")));
+    bodies.push_back(
+        body_of(rules.footprints[i], {points[i], rules.heading + rules.heading_variation * turn}));
+  }
+  Crowd crowd(area, rules, std::move(bodies));
+  size_t contacts = 1;
+  for (uint64_t round = 0; round < kRounds && contacts > 0; ++round) {
+    if (round > 0) crowd.jump(round);
+    for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0; ++sweep) contacts = crowd.sweep();
+  }
+  if (contacts > 0) {
+    throw Error(ErrorKind::kInput,
+                fmt::format("{} do not fit into its area: pushed about for long, {} pairs are still closer "
+                            "than {}; make the area larger, or count, spacing or footprint smaller",
+                            count, contacts, rules.spacing));
+  }
+  std::vector<CrowdPlace> places;
+  for (const Body& body : crowd.bodies()) places.push_back(body.place);
+  return places;
+}
+
+float footprint_distance(const Footprint& a, const CrowdPlace& at, const Footprint& b, const CrowdPlace& bt) {
+  return distance(body_of(a, at), body_of(b, bt));
+}
+
+}  // namespace pelage
