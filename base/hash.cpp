@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/hash.h"
 
+#include <charconv>
+
 #include <fmt/format.h>
 
 #define XXH_INLINE_ALL
@@ -14,6 +16,16 @@ ContentHash content_hash(std::span<const std::byte> bytes, uint64_t seed) {
 }
 
 std::string to_string(const ContentHash& hash) { return fmt::format("{:016x}{:016x}", hash.high, hash.low); }
+
+std::optional<ContentHash> parse_hash(std::string_view text) {
+  if (text.size() != 32) return {};
+  ContentHash hash;
+  const char* middle = text.data() + 16;
+  const auto high = std::from_chars(text.data(), middle, hash.high, 16);
+  const auto low = std::from_chars(middle, middle + 16, hash.low, 16);
+  if (high.ptr != middle || low.ptr != middle + 16) return {};
+  return hash;
+}
 
 struct ContentHasher::State {
   XXH3_state_t xxh;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,6 +53,8 @@ struct ContentHash {
 ContentHash content_hash(std::span<const std::byte> bytes, uint64_t seed = 0);
 /// 32 hexadecimal digits.
 std::string to_string(const ContentHash& hash);
+/// Of what to_string gave; nothing for other texts.
+std::optional<ContentHash> parse_hash(std::string_view text);
 
 /// The content hash of many pieces, one after the other. Texts and lists are preceded by their length, so
 /// that "ab", "c" and "a", "bc" differ. Numbers enter as their bytes: 1.0f, 1.0 and 1 differ, as do 0 and -0.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/check.h"
 #include "base/error.h"
 #include "base/value.h"
 
@@ -59,6 +61,14 @@ struct KeyInfo {
   std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that may stand here
 };
 
+/// One parameter as it stands: "levels[0].amount", "{map: fur/amount.png, channel: r}", and the files whose
+/// contents it stands for.
+struct ParameterText {
+  std::string key;
+  std::string text;
+  std::vector<std::filesystem::path> files = {};
+};
+
 /// "0 .. 1", "> 0", or "" when unlimited.
 std::string range_text(const KeyOptions& options);
 
@@ -86,6 +96,10 @@ class SchemaInfo {
 /// and optionally
 ///   // Tables of nested blocks.
 ///   static std::vector<const SchemaInfo*> blocks();
+///   // Adds the files whose contents belong to the value.
+///   static void add_files(const T&, std::vector<std::filesystem::path>&);
+///   // For values that print() does not state in full.
+///   static void describe(const T&, const std::string& key, std::vector<ParameterText>& out);
 template <class T, class Enable = void>
 struct ValueReader;
 
@@ -96,6 +110,18 @@ std::vector<const SchemaInfo*> blocks_of() {
     return ValueReader<T>::blocks();
   } else {
     return {};
+  }
+}
+template <class T>
+void describe_value(const T& value, const std::string& key, std::vector<ParameterText>& out) {
+  if constexpr (requires { ValueReader<T>::describe(value, key, out); }) {
+    ValueReader<T>::describe(value, key, out);
+  } else {
+    ParameterText one{key, ValueReader<T>::print(value), {}};
+    PELAGE_CHECK(one.text != "{}");  // print() of a map or a variant says nothing of what it holds
+    if constexpr (requires { ValueReader<T>::add_files(value, one.files); })
+      ValueReader<T>::add_files(value, one.files);
+    out.push_back(std::move(one));
   }
 }
 void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems);
@@ -118,7 +144,18 @@ class Schema : public SchemaInfo {
     readers_.push_back([member, options](const Value& value, P& out, Problems& problems) {
       return ValueReader<T>::read(value, options, out.*member, problems);
     });
+    describers_.push_back(
+        [member, name](const P& params, const std::string& prefix, std::vector<ParameterText>& out) {
+          detail::describe_value(params.*member, prefix + name, out);
+        });
     return *this;
+  }
+
+  /// Every parameter, in the order of the table: two structs that differ give different texts.
+  std::vector<ParameterText> describe(const P& params, const std::string& prefix = {}) const {
+    std::vector<ParameterText> out;
+    for (const auto& describer : describers_) describer(params, prefix, out);
+    return out;
   }
 
   /// Fills `out` from a map; adds a problem for every unknown, missing or malformed key. A key that belongs
@@ -149,6 +186,7 @@ class Schema : public SchemaInfo {
 
  private:
   std::vector<std::function<bool(const Value&, P&, Problems&)>> readers_;
+  std::vector<std::function<void(const P&, const std::string&, std::vector<ParameterText>&)>> describers_;
 };
 
 /// A struct with a table of its own may stand wherever a value may.
@@ -159,6 +197,9 @@ struct ValueReader<P, std::void_t<decltype(P::schema())>> {
   }
   static std::string type_name() { return "block " + P::schema().name(); }
   static std::string print(const P&) { return "{}"; }
+  static void describe(const P& params, const std::string& key, std::vector<ParameterText>& out) {
+    for (ParameterText& text : P::schema().describe(params, key + ".")) out.push_back(std::move(text));
+  }
   static std::vector<const SchemaInfo*> blocks() { return {&P::schema()}; }
 };
 

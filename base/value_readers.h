@@ -113,6 +113,9 @@ struct ValueReader<AssetPath> {
   static bool read(const Value&, const KeyOptions&, AssetPath& out, Problems&);
   static std::string type_name() { return "file"; }
   static std::string print(const AssetPath& v);
+  static void add_files(const AssetPath& v, std::vector<std::filesystem::path>& files) {
+    if (!v.empty()) files.push_back(v.path);
+  }
 };
 template <>
 struct ValueReader<NameReference> {
@@ -180,6 +183,13 @@ struct ValueReader<std::optional<T>> {
   }
   static std::string type_name() { return ValueReader<T>::type_name(); }
   static std::string print(const std::optional<T>& v) { return v ? ValueReader<T>::print(*v) : "none"; }
+  static void describe(const std::optional<T>& v, const std::string& key, std::vector<ParameterText>& out) {
+    if (v) {
+      detail::describe_value(*v, key, out);
+    } else {
+      out.push_back({key, "none", {}});
+    }
+  }
   static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
 };
 
@@ -203,6 +213,11 @@ struct ValueReader<std::vector<T>> {
     std::string text = "[";
     for (size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + ValueReader<T>::print(v[i]);
     return text + "]";
+  }
+  static void describe(const std::vector<T>& v, const std::string& key, std::vector<ParameterText>& out) {
+    out.push_back({key, std::to_string(v.size()), {}});
+    for (size_t i = 0; i < v.size(); ++i)
+      detail::describe_value(v[i], key + "[" + std::to_string(i) + "]", out);
   }
   static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
 };

@@ -52,7 +52,7 @@ Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, M
 }  // namespace
 
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
-                                    MemoryLedger& ledger) {
+                                    MemoryLedger& ledger, const GroomCacheHooks& hooks) {
   auto assets = std::make_unique<Assets>(ledger);
   SharedTopologies topologies;
   for (const auto& [name, position, params] : scene.skins.items) {
@@ -70,7 +70,7 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
   for (const auto& [name, position, params] : scene.grooms.items) {
     const auto skin = assets->skins.find(params.skin.name);
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
-    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger);
+    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger, hooks);
   }
   for (const auto& [name, position, params] : scene.materials.items) {
     assets->materials.push_back(with_textures(params, assets->textures));

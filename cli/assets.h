@@ -36,8 +36,8 @@ struct Assets {
 };
 
 /// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
-/// operators, who stands where. Throws Error (kInput).
+/// operators, coats with a cache from there; who stands where. Throws Error (kInput).
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
-                                    MemoryLedger& ledger);
+                                    MemoryLedger& ledger, const GroomCacheHooks& hooks = {});
 
 }  // namespace pelage

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
+#include "groom/cache_report.h"
 
 namespace pelage {
 
@@ -55,6 +57,19 @@ void report(const std::string& name, const Growth& growth, int threads) {
       threads, threads == 1 ? "thread" : "threads");
 }
 
+void report_cache(const std::string& name, const GroomCacheReport& cache, bool explain) {
+  const auto strands = static_cast<double>(std::max<size_t>(1, cache.strands));
+  std::cout << fmt::format("{}: {}; {} strands, {:.1f} bytes per strand, {:.2f} s{}\n", name, cache.summary(),
+                           cache.strands,
+                           static_cast<double>(cache.offset_bytes + cache.follicle_bytes) / strands,
+                           cache.seconds, cache.stored ? "" : ", not stored");
+  if (!explain) return;
+  for (const GroomCacheReport::Stage& stage : cache.stages) {
+    std::cout << fmt::format("  {:<12} {}{}\n", stage.name, stage.fresh ? "fresh" : "stale: ", stage.reason);
+  }
+  std::cout << fmt::format("  {}\n", cache.file.string());
+}
+
 // A strand file has one basis.
 void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   for (const Strands& strands : grown) {
@@ -82,7 +97,19 @@ int run_grow(const Options& options) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
   }
   const int frame = scene.frames.frames.front();
-  const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
+  const auto assets =
+      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+  bool all_cached = true;
+  for (const auto& [name, groom] : assets->grooms) {
+    if (!options.groom.empty() && name != options.groom) continue;
+    all_cached &= groom->cache_report() != nullptr;
+    if (groom->cache_report()) report_cache(name, *groom->cache_report(), options.explain);
+  }
+  // What a cache holds needs no pose; strands are made for those who ask for them.
+  if (all_cached && options.output.empty()) {
+    run.finish(options);
+    return 0;
+  }
   World world =
       run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
   run.statistics().strands_described = world.strands_described;

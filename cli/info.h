@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/content_store.h"
 #include "cli/scene_schema.h"
 #include "geom/io/strand_file.h"
 #include "geom/mesh.h"
@@ -16,5 +17,6 @@ std::string describe_scene(const SceneDescription& scene);
 std::string describe_strands(const StrandFile& file);
 std::string describe_mesh(const ControlMesh& mesh);
 std::string describe_exr(const ExrImage& image);
+std::string describe_cache(const StoredFile& file);
 
 }  // namespace pelage

@@ -27,8 +27,9 @@ std::string describe_file(const Options& options) {
   }
   if (kind == ".obj") return describe_mesh(read_obj(path));
   if (kind == ".exr") return describe_exr(read_exr(path));
+  if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},
-              "what this is cannot be told from its name; expected .yaml, .hair, .tfx, .obj or .exr");
+              "what this is cannot be told from its name; expected .yaml, .hair, .tfx, .obj, .exr or .cache");
 }
 
 }  // namespace

@@ -84,9 +84,8 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     } else if (groom.strands_file.empty()) {
       problems.add(position, "groom " + quote(name) + " needs a skin to grow on, or a strands_file");
     }
-    if (groom.cache)
-      problems.add(position,
-                   "groom " + quote(name) + ": the operator cache is not built yet; leave out 'cache'");
+    if (const std::optional<Problem> problem = check_freeze(groom))
+      problems.add(problem->position, problem->message);
   }
   for (const auto& [name, position, character] : scene.characters.items) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");

@@ -74,15 +74,17 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_run_flags(*render, options, texts);
 
   CLI::App* grow =
-      app.add_subcommand("grow", "Grow the grooms of a scene, say what came of it, write strand files");
+      app.add_subcommand("grow", "Grow the grooms of a scene and what their caches lack, write strand files");
   add_scene_flags(*grow, options, texts);
   grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx)")->type_name("FILE");
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
+  grow->add_flag("--explain", options.explain,
+                 "Say of each operator of a cache whether it was stale, and why");
   grow->add_option("--frames", texts.frames, "Frame whose pose to grow on")->type_name("FRAME");
   add_run_flags(*grow, options, texts);
 
-  CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh or EXR");
-  info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj or .exr file")->required();
+  CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");
+  info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
   info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");

@@ -34,7 +34,8 @@ struct Options {
   int threads = 0;                        ///< --threads; 0: all that the process may use
   ProgressStyle progress = ProgressStyle::kAuto;
 
-  std::string groom;  ///< grow: only this one; empty: all
+  std::string groom;     ///< grow: only this one; empty: all
+  bool explain = false;  ///< grow: say of each operator whether its cache was fresh
 
   std::string section;    ///< manual
   bool markdown = false;  ///< manual

@@ -87,12 +87,20 @@ void ProgressDisplay::end() {
 }
 
 void ProgressDisplay::note(std::string_view line) {
-  if (style_ == ProgressStyle::kQuiet) return;
+  if (style_ != ProgressStyle::kQuiet) show("note", line);
+}
+
+void ProgressDisplay::warn(std::string_view line) {
+  const bool json = style_ == ProgressStyle::kJson;
+  show("warning", json ? std::string(line) : fmt::format("pelage: warning: {}", line));
+}
+
+void ProgressDisplay::show(std::string_view kind, std::string_view line) {
   const std::lock_guard lock(mutex_);
   if (style_ == ProgressStyle::kJson) {
-    target_.write(nlohmann::ordered_json{{"note", line}}.dump(-1, ' ', false,
-                                                              nlohmann::json::error_handler_t::replace) +
-                  "\n");
+    target_.write(
+        nlohmann::ordered_json{{kind, line}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
+        "\n");
     return;
   }
   target_.write(fmt::format("{}{}\n", line_open_ ? "\r\x1b[K" : "", line));

@@ -37,9 +37,12 @@ class ProgressDisplay final : public Progress {
 
   /// A line for the user that does not tear the bar: warnings, what was written. Not shown when quiet.
   void note(std::string_view line);
+  /// The same for what went wrong and did not stop the run: shown when quiet, too.
+  void warn(std::string_view line);
 
  private:
   using Clock = std::chrono::steady_clock;
+  void show(std::string_view kind, std::string_view line);
   void draw(double done, bool last);
   std::string bar_line(double fraction, double elapsed) const;
   void set_next_step(double done);

@@ -66,7 +66,8 @@ int run_render(const Options& options) {
   check_output_pattern(output, scene.frames);
   check_writable(frame_file_name(output, scene.frames.frames.front()));
 
-  const auto assets = run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger()); });
+  const auto assets =
+      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
   for (const auto& [name, groom] : assets->grooms) {
     run.statistics().strands_dropped += groom->strands_dropped();
     run.statistics().strands_repaired += groom->strands_repaired();

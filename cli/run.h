@@ -10,6 +10,7 @@
 #include "cli/options.h"
 #include "cli/progress_display.h"
 #include "cli/signals.h"
+#include "groom/groom.h"
 
 namespace pelage {
 
@@ -22,6 +23,8 @@ class Run {
   MemoryLedger& ledger() { return ledger_; }
   Statistics& statistics() { return statistics_; }
   ProgressDisplay& display() { return display_; }
+  /// Shows what grooms with a cache do.
+  GroomCacheHooks cache_hooks();
   double seconds() const;
 
   /// Runs `work`, shows it as a stage of unknown length and adds its wall time to stages_s.

@@ -127,6 +127,18 @@ Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, floa
   return frame_of(here);
 }
 
+ContentHash LimitSurface::hash() const {
+  // All points follow from the control points and the topology.
+  const auto control = std::span(points_).first(size_t(3) * topology_->control_count());
+  return ContentHasher()
+      .add(topology_->hash())
+      .add(std::span<const float>(control))
+      .add(origin_.x)
+      .add(origin_.y)
+      .add(origin_.z)
+      .digest();
+}
+
 size_t LimitSurface::bytes() const { return sizeof(*this) + points_.capacity() * sizeof(float); }
 
 }  // namespace pelage

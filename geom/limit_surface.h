@@ -99,6 +99,8 @@ class LimitSurface {
   Frame frame(const SurfacePoint& point, uint32_t face, float u, float v) const;
   static Frame frame_of(const SurfacePoint& point);
   Box3f control_bounds() const { return bounds_; }
+  /// Of topology and control points: surfaces with equal hashes are the same everywhere.
+  ContentHash hash() const;
   size_t bytes() const;
 
  private:

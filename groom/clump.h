@@ -48,6 +48,8 @@ class Clump final : public Operator {
   explicit Clump(Params params) : params_(std::move(params)) {}
 
   std::string_view name() const override { return kName; }
+  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
+  bool learns_from_preceding() const override { return true; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;

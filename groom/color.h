@@ -22,7 +22,9 @@ class Color final : public Operator {
   explicit Color(Params params) : params_(std::move(params)) {}
 
   std::string_view name() const override { return kName; }
+  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   std::optional<AttributeClass> colors() const override;
+  bool attributes_only() const override { return !params_.value.dependence().rest; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach&) const override { return 0; }

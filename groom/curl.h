@@ -24,6 +24,7 @@ class Curl final : public Operator {
   explicit Curl(Params params) : params_(std::move(params)) {}
 
   std::string_view name() const override { return kName; }
+  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;

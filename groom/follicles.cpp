@@ -96,6 +96,16 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   return over(positions, roots, ids, options.leaf_strands, places);
 }
 
+FollicleTree FollicleTree::of(std::vector<Leaf> leaves, std::vector<uint32_t> ids,
+                              std::vector<RootAddress> roots) {
+  PELAGE_CHECK(ids.size() == roots.size() && (leaves.empty() ? 0 : leaves.back().end) == ids.size());
+  FollicleTree tree;
+  tree.leaves_ = std::move(leaves);
+  tree.ids_ = std::move(ids);
+  tree.roots_ = std::move(roots);
+  return tree;
+}
+
 size_t FollicleTree::bytes() const {
   return leaves_.capacity() * sizeof(Leaf) + ids_.capacity() * sizeof(uint32_t) +
          roots_.capacity() * sizeof(RootAddress);

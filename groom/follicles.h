@@ -55,10 +55,15 @@ class FollicleTree {
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
                            std::span<const uint32_t> ids, int leaf_strands, std::vector<uint32_t>& order);
 
+  /// What was taken from a tree, put together again: leaves follow each other and cover all follicles.
+  static FollicleTree of(std::vector<Leaf> leaves, std::vector<uint32_t> ids, std::vector<RootAddress> roots);
+
   size_t size() const { return ids_.size(); }
   std::span<const Leaf> leaves() const { return leaves_; }
   uint64_t id(size_t follicle) const { return ids_[follicle]; }
   const RootAddress& root(size_t follicle) const { return roots_[follicle]; }
+  std::span<const uint32_t> ids() const { return ids_; }
+  std::span<const RootAddress> roots() const { return roots_; }
   size_t bytes() const;
 
  private:

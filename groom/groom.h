@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "base/content_store.h"
 #include "base/ledger.h"
 #include "geom/closest_point.h"
 #include "geom/limit_surface.h"
@@ -16,8 +17,10 @@
 
 namespace pelage {
 
+class Progress;
 class TextureLibrary;
 class Workers;
+struct GroomCacheReport;
 
 /// A skin in the pose of a frame: one limit surface, and one tree over the frame's tessellation, per motion
 /// key.
@@ -27,30 +30,46 @@ struct PosedSkin {
   float scale = 1;  ///< uniform scale of the character, applied to strands about their roots
   /// Of strands that grow on no skin, one per motion key; empty: they stay where their file puts them.
   std::span<const M44f> free_transforms;
+  float length = 1;  ///< scale of the finished strands about their roots; their widths stay
+};
+
+/// Whom a groom with `cache:` tells what it does.
+struct GroomCacheHooks {
+  WarningSink warn = {};         ///< of damaged files and of folders that take none
+  Progress* progress = nullptr;  ///< of growing what is missing
 };
 
 /// A coat on a skin: follicles and the operators that shape their strands.
 ///
 /// Operators that read rest state only run on the rest surface; the result is carried to each pose by the
 /// follicle frames (root + frame * offset * scale). From the first operator that reads live state on,
-/// operators run on the posed strands of every motion key. Every strand is a pure function of the groom, its
-/// id and the pose (law 1). Strands of a file grow the same way: their points are the state before the first
-/// operator, their ids the order of the file, their roots the nearest points of the rest skin. Immutable.
-/// Thread safety: const members may be called from any thread.
+/// operators run on the posed strands of every motion key. With `cache:` what the operators up to the one
+/// named by `freeze` do is kept in files, quantised (groom/frozen_leaf.h); strands are then always grown from
+/// the quantised bytes, whether they were just made or read. Every strand is a pure function of the groom,
+/// its id and the pose (law 1). Strands of a file grow the same way: their points are the state before the
+/// first operator, their ids the order of the file, their roots the nearest points of the rest skin.
+/// Immutable. Thread safety: const members may be called from any thread.
 class Groom {
  public:
   /// Places follicles and prepares the operators (clump centres, guides). `name` is for messages; `rest` is
   /// null for a groom on no skin. Throws Error (kInput) for missing maps, guide files and combinations that
-  /// make no sense.
+  /// make no sense. What is wrong with a cache goes to the hooks; growing goes on.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
                                              TextureLibrary& textures, const Workers& workers,
-                                             MemoryLedger& ledger);
+                                             MemoryLedger& ledger, const GroomCacheHooks& hooks = {});
   ~Groom();
 
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
+  /// Of everything that shapes the strands, live operators and this build of the program included: grooms of
+  /// equal hashes grow equal strands in equal leaves.
+  const ContentHash& content_hash() const;
+  /// Where what is made of the groom is kept; null without a cache.
+  const ContentStore* store() const;
+  /// What became of the cache; null without one (groom/cache_report.h).
+  const GroomCacheReport* cache_report() const;
   /// What was mended in the strands file: strands dropped and repaired.
   int64_t strands_dropped() const;
   int64_t strands_repaired() const;

@@ -1,13 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/groom_params.h"
 
+#include <algorithm>
+
+#include "base/nearest_name.h"
+
 namespace pelage {
+
+std::optional<Problem> check_freeze(const GroomParams& params) {
+  if (!params.cache) return {};
+  const NameReference& freeze = params.cache->freeze;
+  const auto& items = params.operators.items;
+  std::vector<std::string> names;
+  for (const OperatorList::Item& item : items) names.push_back(item.name);
+  const auto last = std::find(names.rbegin(), names.rend(), freeze.name);
+  if (last == names.rend()) {
+    return Problem{freeze.position, "no operator of this groom is called " + quote(freeze.name) +
+                                        (names.empty() ? "; it has none" : suggest(freeze.name, names))};
+  }
+  const auto end = items.begin() + (names.rend() - last);
+  const auto live =
+      std::find_if(items.begin(), end, [](const auto& item) { return !item.prototype->reads_rest_only(); });
+  if (live == end) return {};
+  return Problem{freeze.position,
+                 quote(live->name) + " works on posed strands and cannot be frozen" +
+                     (live + 1 == end ? "" : ", and it stands before " + quote(freeze.name))};
+}
 
 const Schema<GroomCacheParams>& GroomCacheParams::schema() {
   static const Schema<GroomCacheParams> table = [] {
     Schema<GroomCacheParams> s("groom cache", "Where what the frozen operators do is kept between runs.");
-    s.key("directory", &GroomCacheParams::directory, {.help = "Folder; files are named by content"});
-    s.key("freeze", &GroomCacheParams::freeze, {.help = "Last operator that is frozen", .required = true});
+    s.key(
+        "directory", &GroomCacheParams::directory,
+        {.help = "Folder; files in it are named by what they were made from, and may be removed at any time",
+         .default_text = "cache, in the current folder"});
+    s.key(
+        "freeze", &GroomCacheParams::freeze,
+        {.help = "Last operator that is frozen: it and those before it run once, and their result is kept in "
+                 "16 bits; of several with this name, the last",
+         .required = true});
     return s;
   }();
   return table;

@@ -15,8 +15,8 @@ namespace pelage {
 
 /// `cache:` of a groom.
 struct GroomCacheParams {
-  std::string directory = "cache";
-  std::string freeze;  ///< name of the last frozen operator
+  AssetPath directory{"cache", {}};
+  NameReference freeze;  ///< the last frozen operator; of several with one name, the last
   static const Schema<GroomCacheParams>& schema();
 };
 
@@ -36,5 +36,8 @@ struct GroomParams {
   std::optional<GroomCacheParams> cache;
   static const Schema<GroomParams>& schema();
 };
+
+/// What is wrong with `cache.freeze`: it names no operator, or one that does not depend on rest state alone.
+std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

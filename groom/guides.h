@@ -42,6 +42,7 @@ class Guides final : public Operator {
   explicit Guides(Params params) : params_(std::move(params)) {}
 
   std::string_view name() const override { return kName; }
+  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   float coverage(const V3f& rest_position, const V3f& normal) const override;
   bool restricts_coverage() const override { return params_.spread.has_value(); }

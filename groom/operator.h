@@ -7,8 +7,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "base/error.h"
+#include "base/schema.h"
 #include "base/vector.h"
 #include "geom/strands.h"
 
@@ -51,6 +53,8 @@ class Operator {
   virtual ~Operator() = default;
   /// As in the scene file: "clump".
   virtual std::string_view name() const = 0;
+  /// Every parameter that prepare() and apply() depend on.
+  virtual std::vector<ParameterText> parameters() const = 0;
   /// Rest state only: the offsets serve every pose and may be frozen. Otherwise the operator sees posed
   /// strands.
   virtual bool reads_rest_only() const { return true; }
@@ -58,6 +62,13 @@ class Operator {
   virtual bool needs_closest_point() const { return false; }
   /// How often the colours that apply() writes change; nothing when it writes none.
   virtual std::optional<AttributeClass> colors() const { return {}; }
+  /// Whether apply() reads and writes nothing of a batch but ids, texture coordinates, clump numbers, radii
+  /// and colours: then it can run on strands whose shape is not known yet.
+  virtual bool attributes_only() const { return false; }
+  /// Whether apply() looks at where strands stand on the rest skin (StrandBatch::rest).
+  virtual bool reads_rest() const { return !attributes_only(); }
+  /// Whether prepare() runs the operators before this one.
+  virtual bool learns_from_preceding() const { return false; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.
   /// Throws Error (kInput).
   virtual void prepare(const PrepareContext&) {}

@@ -36,24 +36,46 @@ Frame frame_at(const LimitSurface& surface, const RootAddress& root, const Surfa
 
 }  // namespace
 
-OperatorStack::OperatorStack(const OperatorList& list, const PrepareContext& context) {
-  // The seed of an operator depends on how many of its name come before, not on its place, so that adding an
-  // operator of another name changes nothing in it.
+OperatorStack::OperatorStack(const OperatorList& list) {
   std::map<std::string, uint64_t> seen;
   operators_.reserve(list.items.size());
   for (const OperatorList::Item& item : list.items) {
-    std::unique_ptr<Operator> op = item.clone(*item.prototype);
-    PrepareContext own = context;
-    own.preceding = operators_;
-    own.seed = hash64(context.seed, hash_name(item.name), seen[item.name]++);
-    own.position = item.position;
-    op->prepare(own);
-    check_bounded(*op, item.position);
-    operators_.push_back(std::move(op));
+    operators_.push_back(item.clone(*item.prototype));
+    places_.push_back({item.position, hash_name(item.name), seen[item.name]++, false});
   }
   live_ = static_cast<size_t>(std::find_if(operators_.begin(), operators_.end(),
                                            [](const auto& op) { return !op->reads_rest_only(); }) -
                               operators_.begin());
+}
+
+void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& context) {
+  for (size_t i = begin; i < end; ++i) {
+    Place& place = places_[i];
+    if (place.prepared) continue;
+    if (operators_[i]->learns_from_preceding()) prepare(0, i, context);
+    PrepareContext own = context;
+    own.preceding = std::span(operators_).first(i);
+    // The seed of an operator depends on how many of its name come before, not on its place, so that adding
+    // an operator of another name changes nothing in it.
+    own.seed = hash64(context.seed, place.name, place.number);
+    own.position = place.position;
+    operators_[i]->prepare(own);
+    check_bounded(*operators_[i], place.position);
+    place.prepared = true;
+  }
+}
+
+void OperatorStack::prepare_coverage(const PrepareContext& context) {
+  for (size_t i = 0; i < size(); ++i) {
+    if (operators_[i]->restricts_coverage()) prepare(i, i + 1, context);
+  }
+}
+
+bool OperatorStack::attributes_only(size_t begin, size_t end) const {
+  for (size_t i = begin; i < end; ++i) {
+    if (!operators_[i]->attributes_only()) return false;
+  }
+  return true;
 }
 
 void OperatorStack::apply(size_t begin, size_t end, StrandBatch& batch) const {
@@ -65,17 +87,24 @@ bool OperatorStack::needs_closest_point() const {
                      [](const auto& op) { return op->needs_closest_point(); });
 }
 
-std::optional<AttributeClass> OperatorStack::colors() const {
+bool OperatorStack::reads_rest(size_t begin, size_t end) const {
+  for (size_t i = begin; i < end; ++i) {
+    if (operators_[i]->reads_rest()) return true;
+  }
+  return false;
+}
+
+std::optional<AttributeClass> OperatorStack::colors(size_t begin, size_t end) const {
   std::optional<AttributeClass> most;
-  for (const auto& op : operators_) {
-    const std::optional<AttributeClass> own = op->colors();
+  for (size_t i = begin; i < end; ++i) {
+    const std::optional<AttributeClass> own = operators_[i]->colors();
     if (own && (!most || *own > *most)) most = own;
   }
   return most;
 }
 
-StrandReach OperatorStack::reach(StrandReach before) const {
-  for (const auto& op : operators_) before = op->reach_after(before);
+StrandReach OperatorStack::reach(StrandReach before, size_t begin, size_t end) const {
+  for (size_t i = begin; i < end; ++i) before = operators_[i]->reach_after(before);
   return before;
 }
 
@@ -102,11 +131,20 @@ void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleT
     const RootAddress& root = follicles.root(begin + s);
     const SurfacePoint point = rest.evaluate(root.face, root.u, root.v);
     batch.rest.set(s, point.position, frame_at(rest, root, point));
+  }
+  place_ids(batch, rest.topology(), follicles, begin);
+  for (size_t s = 0; s < batch.count; ++s)
+    batch.clump[s] = unit_float(hash64(batch.ids[s], random_use("no clump")));
+}
+
+void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const FollicleTree& follicles,
+               size_t begin) {
+  for (size_t s = 0; s < batch.count; ++s) {
+    const RootAddress& root = follicles.root(begin + s);
     batch.ids[s] = follicles.id(begin + s);
-    const V2f uv = rest.topology().texture_coordinates(root.face, root.u, root.v);
+    const V2f uv = topology.texture_coordinates(root.face, root.u, root.v);
     batch.u[s] = uv.x;
     batch.v[s] = uv.y;
-    batch.clump[s] = unit_float(hash64(batch.ids[s], random_use("no clump")));
   }
 }
 

@@ -14,37 +14,63 @@
 
 namespace pelage {
 
-/// The prepared operators of a groom, in order: first those that read rest state only, then, from the first
-/// that reads live state on, the live part. Immutable once prepared. Thread safety: const members may be
-/// called from any thread.
+/// The operators of a groom, in order: first those that read rest state only, then, from the first that reads
+/// live state on, the live part. Immutable once prepared. Thread safety: const members may be called from any
+/// thread.
 class OperatorStack {
  public:
-  /// `preceding` of `context` is filled in for each operator.
-  OperatorStack(const OperatorList& list, const PrepareContext& context);
+  /// Copies of the operators of the list, not yet prepared.
+  explicit OperatorStack(const OperatorList& list);
 
+  /// Prepares the operators [begin, end) that are not, after those before them that they learn from.
+  /// `preceding`, `seed` (of the groom here) and `position` of the context are filled in for each.
+  void prepare(size_t begin, size_t end, const PrepareContext& context);
+  void prepare_all(const PrepareContext& context) { prepare(0, size(), context); }
+  /// Prepares what coverage() asks.
+  void prepare_coverage(const PrepareContext& context);
+
+  size_t size() const { return operators_.size(); }
+  /// The first operator that reads live state; size() when none does.
+  size_t first_live() const { return live_; }
+  /// Those that are applied must have been prepared.
+  void apply(size_t begin, size_t end, StrandBatch& batch) const;
   void apply_frozen(StrandBatch& batch) const { apply(0, live_, batch); }
-  void apply_live(StrandBatch& batch) const { apply(live_, operators_.size(), batch); }
+  void apply_live(StrandBatch& batch) const { apply(live_, size(), batch); }
   bool has_live() const { return live_ < operators_.size(); }
+  /// Whether all of [begin, end) are.
+  bool attributes_only(size_t begin, size_t end) const;
+  /// Whether any of [begin, end) does.
+  bool reads_rest(size_t begin, size_t end) const;
   bool needs_closest_point() const;
   /// The most frequent of the operators'; nothing when none colours strands.
-  std::optional<AttributeClass> colors() const;
+  std::optional<AttributeClass> colors() const { return colors(0, size()); }
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }
-  /// What holds of strands after all operators when `before` held before.
-  StrandReach reach(StrandReach before) const;
+  /// The same of [begin, end).
+  std::optional<AttributeClass> colors(size_t begin, size_t end) const;
+  /// What holds of strands after the operators [begin, end) when `before` held before.
+  StrandReach reach(StrandReach before, size_t begin, size_t end) const;
   /// Product over the operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
   bool restricts_coverage() const;
   size_t bytes() const;
 
  private:
-  void apply(size_t begin, size_t end, StrandBatch& batch) const;
-
+  struct Place {
+    SourcePosition position;
+    uint64_t name = 0;    // hash of the operator's name
+    uint64_t number = 0;  // how many of its name stand before it
+    bool prepared = false;
+  };
   std::vector<std::unique_ptr<Operator>> operators_;
+  std::vector<Place> places_;
   size_t live_ = 0;  // first operator that reads live state
 };
 
 /// Fills the rest roots, ids and texture coordinates of follicles [begin, begin + batch.count).
 void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles, size_t begin);
+/// Fills ids and texture coordinates only.
+void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const FollicleTree& follicles,
+               size_t begin);
 /// Fills batch.here with the roots in a pose.
 void place_in_pose(StrandBatch& batch, const LimitSurface& pose, const FollicleTree& follicles, size_t begin);
 

@@ -29,10 +29,20 @@ void start_strands(StrandBatch& batch, int points) {
       float* offset = rows.offset[axis].data();
       for (size_t s = 0; s < batch.count; ++s) offset[s] = normal[s] * along;
     }
-    rows.radius.fill(0.0f);
   }
+  clear_attributes(batch);
+}
+
+void clear_attributes(StrandBatch& batch) {
+  for (StrandBatch::PointRows& rows : batch.points) rows.radius.fill(0.0f);
   for (VectorRow& color : batch.colors) {
     for (StrandRow& channel : color) channel.fill(1.0f);
+  }
+}
+
+void scale_radii(StrandBatch& batch, float scale) {
+  for (StrandBatch::PointRows& rows : batch.points) {
+    for (size_t s = 0; s < batch.count; ++s) rows.radius[s] *= scale;
   }
 }
 

@@ -83,6 +83,10 @@ struct StrandBatch {
 /// rest frames to `here`.
 void start_strands(StrandBatch& batch, int points);
 
+/// Takes away widths and makes colours white, as before the first operator.
+void clear_attributes(StrandBatch& batch);
+void scale_radii(StrandBatch& batch, float scale);
+
 /// Turns rest offsets into those of a pose, whose roots stand in batch.here, and scales offsets and radii.
 void carry_to_pose(StrandBatch& batch, float scale);
 

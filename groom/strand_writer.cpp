@@ -29,7 +29,7 @@ size_t StrandWriter::color_rows(int points) const {
   return *colors_ == AttributeClass::kPerPoint ? static_cast<size_t>(points) : 1;
 }
 
-void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key) {
+void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key, float length) {
   const size_t total = arrays_.first_point.back();
   if (arrays_.points.empty()) arrays_.points.resize(keys_ * total * 4);
   const size_t stride = batch.points.size() * 4;
@@ -37,9 +37,9 @@ void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key) {
     const StrandBatch::PointRows& rows = batch.points[p];
     float* __restrict out = &arrays_.points[(key * total + arrays_.first_point[first] + p) * 4];
     for (size_t s = 0; s < batch.count; ++s, out += stride) {
-      out[0] = batch.here.position[0][s] + rows.offset[0][s];
-      out[1] = batch.here.position[1][s] + rows.offset[1][s];
-      out[2] = batch.here.position[2][s] + rows.offset[2][s];
+      out[0] = batch.here.position[0][s] + rows.offset[0][s] * length;
+      out[1] = batch.here.position[1][s] + rows.offset[1][s] * length;
+      out[2] = batch.here.position[2][s] + rows.offset[2][s] * length;
       out[3] = rows.radius[s];
     }
   }

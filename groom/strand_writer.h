@@ -19,8 +19,9 @@ class StrandWriter {
   /// Rows of colour that batches of strands with `points` points must carry.
   size_t color_rows(int points) const;
 
-  /// Writes a batch whose strands come from number `first` on; colours, ids and roots with key 0.
-  void write(const StrandBatch& batch, size_t first, size_t key);
+  /// Writes a batch whose strands come from number `first` on, scaled by `length` about their roots, widths
+  /// apart; colours with key 0.
+  void write(const StrandBatch& batch, size_t first, size_t key, float length);
   void write_root(const StrandBatch& batch, size_t first, size_t strand, const RootAddress& root);
   StrandArrays take();
 

@@ -24,6 +24,10 @@ class Width final : public Operator {
   explicit Width(Params params) : params_(std::move(params)) {}
 
   std::string_view name() const override { return kName; }
+  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
+  bool attributes_only() const override {
+    return !params_.root.dependence().rest && !params_.tip.dependence().rest;
+  }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach&) const override { return 0; }

@@ -42,6 +42,12 @@ std::vector<std::string> Field::attribute_names() const {
   return names;
 }
 
+std::vector<std::filesystem::path> Field::files() const {
+  std::vector<std::filesystem::path> files;
+  node_->collect_files(files);
+  return files;
+}
+
 Field Field::with_textures(TextureLibrary& textures) const {
   std::shared_ptr<const Node> loaded = node_->with_textures(textures);
   return loaded ? Field(std::move(loaded)) : *this;

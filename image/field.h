@@ -32,6 +32,7 @@ struct FieldDependence {
   bool along = false;       ///< changes along a strand
   bool surface = false;     ///< changes over the skin
   bool attributes = false;  ///< reads attributes
+  bool rest = false;        ///< changes with the position in rest space, not with (u, v) alone
 };
 
 /// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an
@@ -67,6 +68,9 @@ class Field {
   /// Names of the attributes it reads.
   std::vector<std::string> attribute_names() const;
 
+  /// The files of its maps.
+  std::vector<std::filesystem::path> files() const;
+
   /// The same field with its maps read. Throws Error (kInput) at the place in the scene where a map is named.
   Field with_textures(TextureLibrary& textures) const;
 
@@ -83,6 +87,9 @@ struct ValueReader<Field> {
   static bool read(const Value&, const KeyOptions&, Field& out, Problems&);
   static std::string type_name() { return "field"; }
   static std::string print(const Field& field);
+  static void add_files(const Field& field, std::vector<std::filesystem::path>& files) {
+    for (std::filesystem::path& file : field.files()) files.push_back(std::move(file));
+  }
   static std::vector<const SchemaInfo*> blocks();
 };
 

@@ -42,6 +42,9 @@ struct MapNode final : Field::Node {
     if (form.space != ColorSpace::kAuto) text += ", space: " + ValueReader<ColorSpace>::print(form.space);
     return text + "}";
   }
+  void collect_files(std::vector<std::filesystem::path>& files) const override {
+    files.push_back(form.map.path);
+  }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override;
 
   MapForm form;
@@ -111,7 +114,8 @@ struct RampNode final : Field::Node {
   float value(const FieldPoint& p) const override { return color(p).x; }
   FieldDependence dependence() const override {
     const bool strand = ramp.along == RampAxis::kStrand;
-    return {.along = strand, .surface = !strand};
+    const bool rest = !strand && ramp.along != RampAxis::kU && ramp.along != RampAxis::kV;
+    return {.along = strand, .surface = !strand, .attributes = false, .rest = rest};
   }
   std::pair<float, float> range() const override {
     const auto less = [](const RampKnot& a, const RampKnot& b) { return a.value.x < b.value.x; };
@@ -133,7 +137,9 @@ struct NoiseNode final : Field::Node {
            noise.amplitude * perlin_noise(p.rest * noise.frequency, static_cast<uint32_t>(noise.seed));
   }
   Rgb color(const FieldPoint& p) const override { return Rgb(value(p)); }
-  FieldDependence dependence() const override { return {.surface = true}; }
+  FieldDependence dependence() const override {
+    return {.along = false, .surface = true, .attributes = false, .rest = true};
+  }
   std::pair<float, float> range() const override {
     return {noise.offset - std::abs(noise.amplitude), noise.offset + std::abs(noise.amplitude)};
   }
@@ -184,7 +190,8 @@ struct ProductNode final : Field::Node {
     FieldDependence all;
     for (const Field& factor : factors) {
       const FieldDependence d = factor.dependence();
-      all = {all.along || d.along, all.surface || d.surface, all.attributes || d.attributes};
+      all = {all.along || d.along, all.surface || d.surface, all.attributes || d.attributes,
+             all.rest || d.rest};
     }
     return all;
   }
@@ -205,6 +212,9 @@ struct ProductNode final : Field::Node {
   }
   void collect_attributes(std::vector<std::string>& names) const override {
     for (const Field& factor : factors) factor.node().collect_attributes(names);
+  }
+  void collect_files(std::vector<std::filesystem::path>& files) const override {
+    for (const Field& factor : factors) factor.node().collect_files(files);
   }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override {
     auto loaded = std::make_shared<ProductNode>(factors);
@@ -231,6 +241,9 @@ struct ClampNode final : Field::Node {
   std::string print() const override { return field.node().print(); }
   void collect_attributes(std::vector<std::string>& names) const override {
     field.node().collect_attributes(names);
+  }
+  void collect_files(std::vector<std::filesystem::path>& files) const override {
+    field.node().collect_files(files);
   }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override {
     return std::make_shared<ClampNode>(field.with_textures(textures), low, high);

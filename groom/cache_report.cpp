@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/cache_report.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace pelage {
+namespace {
+
+constexpr const char* kKind = "manifest";
+constexpr size_t kLongest = 60;  // of a value that is shown
+
+ContentHash key_of(const std::string& groom) { return ContentHasher().add("groom").add(groom).digest(); }
+
+/// In one line, without what separates fields.
+std::string plain(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return text;
+}
+
+std::string shown(const std::string& text) {
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+// Hashes say nothing to people.
+bool is_contents(const std::string& key) {
+  return key.starts_with("contents of ") || key == "mesh" || key == "program" || key == "seed";
+}
+
+std::string change_of(const std::string& key, const std::string* before, const std::string& now) {
+  if (key == "program") return "another build of the program";
+  if (key == "mesh") return "the rest skin has changed";
+  if (now == "missing") return key.substr(key.find(' ') + 1 + 3) + " is missing";
+  if (is_contents(key)) return key + " changed";
+  return before ? fmt::format("{}: {} -> {}", key, shown(*before), shown(now))
+                : fmt::format("{}: {}", key, shown(now));
+}
+
+std::string changes(const GroomStage& before, const GroomStage& now) {
+  std::string text;
+  const auto add = [&](const std::string& change) { text += (text.empty() ? "" : ", ") + change; };
+  for (const auto& [key, value] : now.inputs) {
+    const auto old = std::find_if(before.inputs.begin(), before.inputs.end(),
+                                  [&, &name = key](const auto& input) { return input.first == name; });
+    if (old == before.inputs.end()) {
+      add(change_of(key, nullptr, value));
+    } else if (old->second != value) {
+      add(change_of(key, &old->second, value));
+    }
+  }
+  return text.empty() ? "changed" : text;
+}
+
+std::string_view cut(std::string_view& text, char at) {
+  const size_t end = std::min(text.find(at), text.size());
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return part;
+}
+
+}  // namespace
+
+std::string GroomCacheReport::summary() const {
+  if (fresh) return "fresh";
+  for (const Stage& stage : stages) {
+    if (!stage.fresh) return fmt::format("stale from {} on ({})", stage.name, stage.reason);
+  }
+  return "stale (its file was missing or damaged)";
+}
+
+GroomManifest::GroomManifest(const GroomIdentity& identity, size_t count)
+    : stages_(identity.stages().begin(), identity.stages().begin() + static_cast<std::ptrdiff_t>(count)) {
+  for (GroomStage& stage : stages_) {
+    for (auto& [key, value] : stage.inputs) key = plain(key), value = plain(value);
+  }
+}
+
+std::string GroomManifest::text() const {
+  std::string text;
+  for (const GroomStage& stage : stages_) {
+    text += fmt::format("{}\t{}\n", stage.name, to_string(stage.hash));
+    for (const auto& [key, value] : stage.inputs) text += fmt::format("\t{}\t{}\n", key, value);
+  }
+  return text;
+}
+
+std::optional<GroomManifest> GroomManifest::read(const ContentStore& store, const std::string& groom) {
+  const auto file = store.open(kKind, key_of(groom), [](const std::string&) {});
+  if (!file || file->section_count() != 1) return {};
+  const auto bytes = file->section(0);
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  GroomManifest manifest;
+  while (!text.empty()) {
+    std::string_view line = cut(text, '\n');
+    const std::string first(cut(line, '\t'));
+    if (!first.empty()) {
+      GroomStage& stage = manifest.stages_.emplace_back();
+      stage.name = first;
+      stage.hash = parse_hash(line).value_or(ContentHash{});
+    } else if (!manifest.stages_.empty()) {
+      const std::string key(cut(line, '\t'));
+      manifest.stages_.back().inputs.emplace_back(key, std::string(line));
+    }
+  }
+  return manifest;
+}
+
+void GroomManifest::write(const ContentStore& store, const std::string& groom) const {
+  const std::string bytes = text();
+  ContentStore::Writer writer = store.writer(kKind, key_of(groom));
+  writer.add(std::as_bytes(std::span(bytes.data(), bytes.size())));
+  writer.commit([](const std::string&) {});
+}
+
+std::vector<GroomCacheReport::Stage> explain(const GroomManifest& now,
+                                             const std::optional<GroomManifest>& before) {
+  std::vector<GroomCacheReport::Stage> result;
+  bool fresh = true;
+  for (size_t i = 0; i < now.stages().size(); ++i) {
+    const GroomStage& stage = now.stages()[i];
+    const GroomStage* old = before && i < before->stages().size() ? &before->stages()[i] : nullptr;
+    std::string reason;
+    if (fresh && (!old || old->hash != stage.hash)) {
+      fresh = false;
+      reason = !old ? "new" : old->name != stage.name ? "in place of " + old->name : changes(*old, stage);
+    } else if (!fresh) {
+      // Its own changes too: more than one may have been edited.
+      const bool same = old && old->name == stage.name && old->inputs == stage.inputs;
+      reason = same || !old || old->name != stage.name ? "follows" : changes(*old, stage);
+    }
+    result.push_back({stage.name, fresh, reason});
+  }
+  return result;
+}
+
+}  // namespace pelage

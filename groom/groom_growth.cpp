@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <Imath/ImathBoxAlgo.h>
+
+#include "base/check.h"
+#include "groom/groom_impl.h"
+#include "groom/strand_writer.h"
+
+namespace pelage {
+
+void Groom::Impl::stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const {
+  if (source.rest) {
+    place_in_pose(batch, skin.keys[key], source.follicles(), begin);
+  } else if (!skin.free_transforms.empty()) {
+    const M44f& m = skin.free_transforms[key];
+    Frame frame;
+    m.multDirMatrix(V3f(1, 0, 0), frame.tangent);
+    m.multDirMatrix(V3f(0, 1, 0), frame.bitangent);
+    frame.tangent.normalize();
+    frame.bitangent.normalize();
+    frame.normal = frame.tangent.cross(frame.bitangent);
+    for (size_t s = 0; s < batch.count; ++s) {
+      V3f root;
+      m.multVecMatrix(vector_at(batch.rest.position, s), root);
+      batch.here.set(s, root, frame);
+    }
+  }
+  batch.skin = key < skin.trees.size() ? &skin.trees[key] : nullptr;
+}
+
+namespace {
+
+size_t key_count(const PosedSkin& pose, bool on_skin) {
+  return std::max<size_t>(1, on_skin ? pose.keys.size() : pose.free_transforms.size());
+}
+
+}  // namespace
+
+void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const {
+  const size_t keys = key_count(pose, source.rest != nullptr);
+  const auto batch = std::make_unique<StrandBatch>();
+  // One key is made in place; more need the rest state again.
+  const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
+  for (size_t at = begin; at < end; at += batch->count) {
+    batch->count = source.run_length(at, end);
+    batch->colors.resize(writer.color_rows(source.strand_points(at)));
+    source.start(*batch, at);
+    stack->apply_frozen(*batch);
+    for (size_t key = 0; key < keys; ++key) {
+      StrandBatch* target = batch.get();
+      if (posed) {
+        *posed = *batch;
+        target = posed.get();
+      }
+      stand(*target, at, pose, key);
+      carry_to_pose(*target, pose.scale);
+      stack->apply_live(*target);
+      writer.write(*target, at - begin, key, pose.length);
+    }
+    for (size_t s = 0; s < batch->count; ++s)
+      writer.write_root(*batch, at - begin, s, source.follicles().root(at + s));
+  }
+}
+
+void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end,
+                              StrandWriter& writer) const {
+  const size_t keys = key_count(pose, source.rest != nullptr);
+  const size_t live = std::max(frozen_end, stack->first_live());
+  const FrozenLeaf& strands = frozen->leaf(leaf);
+  const auto batch = std::make_unique<StrandBatch>();
+  const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
+  for (const FrozenLeaf::Block& block : strands.blocks()) {
+    const size_t at = begin + block.first;
+    if (at >= end) break;
+    batch->count = std::min<size_t>(block.count, end - at);
+    batch->points.resize(static_cast<size_t>(block.points));
+    batch->colors.resize(writer.color_rows(block.points));
+    batch->scale = 1;
+    batch->posed = false;
+    batch->skin = nullptr;
+    if (stands_on_rest) {
+      source.place(*batch, at);
+    } else {
+      place_ids(*batch, source.rest->topology(), source.follicles(), at);
+    }
+    clear_attributes(*batch);
+    strands.attributes(block, *batch);
+    if (stands_on_rest) {
+      batch->here = batch->rest;
+      strands.shape(block, batch->rest, 1, *batch);
+    }
+    stack->apply(frozen_end, live, *batch);
+    for (size_t key = 0; key < keys; ++key) {
+      StrandBatch* target = batch.get();
+      if (posed) {
+        *posed = *batch;
+        target = posed.get();
+      }
+      stand(*target, at, pose, key);
+      if (stands_on_rest) {
+        carry_to_pose(*target, pose.scale);
+      } else {
+        target->scale = pose.scale;
+        target->posed = true;
+        strands.shape(block, target->here, pose.scale, *target);
+        scale_radii(*target, pose.scale);
+      }
+      stack->apply(live, stack->size(), *target);
+      writer.write(*target, at - begin, key, pose.length);
+    }
+    for (size_t s = 0; s < batch->count; ++s)
+      writer.write_root(*batch, at - begin, s, source.follicles().root(at + s));
+  }
+}
+
+Strands Groom::grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> count) const {
+  const Impl& g = *impl_;
+  const bool on_skin = g.source.rest != nullptr;
+  const FollicleTree::Leaf& range = g.source.follicles().leaves()[leaf];
+  const size_t end = range.begin + std::min<size_t>(count.value_or(SIZE_MAX), range.end - range.begin);
+  PELAGE_CHECK(!on_skin || !pose.keys.empty());
+  PELAGE_CHECK(!g.stack->needs_closest_point() || pose.trees.size() == key_count(pose, on_skin));
+
+  StrandWriter writer(end - range.begin, key_count(pose, on_skin), g.stack->colors(), on_skin);
+  if (g.source.imported) {
+    for (size_t f = range.begin; f < end; ++f) writer.expect(g.source.strand_points(f));
+  } else {
+    writer.expect_all(g.source.points);
+  }
+  if (g.frozen) {
+    g.grow_cached(leaf, pose, range.begin, end, writer);
+  } else {
+    g.grow_plain(pose, range.begin, end, writer);
+  }
+  StrandArrays arrays = writer.take();
+  if (g.source.imported) {
+    arrays.basis = g.source.imported->basis();
+    for (StrandAttribute& a :
+         g.source.imported->attributes(range.begin, end, g.stack->colors() ? "color" : "")) {
+      arrays.attributes.push_back(std::move(a));
+    }
+  }
+  return Strands(std::move(arrays));
+}
+
+StrandCounts Groom::counts(size_t leaf) const {
+  const CoatSource& source = impl_->source;
+  const std::optional<AttributeClass> colors = impl_->stack->colors();
+  const FollicleTree::Leaf& range = source.follicles().leaves()[leaf];
+  StrandCounts counts;
+  counts.strands = range.end - range.begin;
+  if (source.imported) {
+    for (size_t f = range.begin; f < range.end; ++f) {
+      const auto points = static_cast<uint32_t>(source.strand_points(f));
+      counts.points += points;
+      counts.segments += segment_count(source.imported->basis(), points);
+    }
+    for (const StrandAttribute& a :
+         source.imported->attributes(range.begin, range.end, colors ? "color" : "")) {
+      counts.attribute_floats += a.values.size();
+    }
+  } else {
+    counts.points = counts.strands * static_cast<size_t>(source.points);
+    counts.segments = counts.strands * static_cast<size_t>(source.points - 1);
+  }
+  if (colors) {
+    counts.attribute_floats += 3 * (*colors == AttributeClass::kConstant ? std::min<size_t>(1, counts.strands)
+                                    : *colors == AttributeClass::kPerStrand ? counts.strands
+                                                                            : counts.points);
+  }
+  return counts;
+}
+
+StrandReach Groom::Impl::reach(size_t leaf) const {
+  return frozen ? stack->reach(frozen->reach(leaf), frozen_end, stack->size())
+                : stack->reach(source.reach(leaf), 0, stack->size());
+}
+
+float Groom::reach() const {
+  float most = 0;
+  for (size_t leaf = 0; leaf < impl_->source.follicles().leaves().size(); ++leaf) {
+    const StrandReach reach = impl_->reach(leaf);
+    most = std::max(most, reach.distance + reach.radius);
+  }
+  return most;
+}
+
+Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose) const {
+  const Impl& g = *impl_;
+  const FollicleTree& follicles = g.source.follicles();
+  const FollicleTree::Leaf& range = follicles.leaves()[leaf];
+  Box3f box;
+  if (g.source.rest) {
+    for (const LimitSurface& surface : pose.keys) {
+      for (uint32_t f = range.begin; f < range.end; ++f) {
+        const RootAddress& root = follicles.root(f);
+        box.extendBy(surface.evaluate(root.face, root.u, root.v).position);
+      }
+    }
+  } else if (pose.free_transforms.empty()) {
+    box = range.rest_roots;
+  } else {
+    for (const M44f& m : pose.free_transforms) box.extendBy(Imath::transform(range.rest_roots, m));
+  }
+  const StrandReach reach = g.reach(leaf);
+  // Rounding of positions far from the origin, and of the frames that turn offsets.
+  const float size = std::max({std::fabs(box.min.x), std::fabs(box.min.y), std::fabs(box.min.z),
+                               std::fabs(box.max.x), std::fabs(box.max.y), std::fabs(box.max.z)});
+  const V3f out((reach.distance * pose.length + reach.radius) * pose.scale * 1.00002f + 1e-6f * size);
+  return {box.min - out, box.max + out};
+}
+
+}  // namespace pelage

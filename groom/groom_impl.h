@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "groom/cache_report.h"
+#include "groom/frozen_coat.h"
+#include "groom/groom.h"
+#include "groom/groom_identity.h"
+#include "groom/operator_stack.h"
+
+namespace pelage {
+
+/// What a groom is made of, for the sources that make and grow it.
+struct Groom::Impl {
+  StrandRole role = StrandRole::kUnder;
+  CoatSource source;
+  std::optional<OperatorStack> stack;
+  ContentHash hash;
+  std::optional<ContentStore> store;  // of a groom with a cache
+  std::optional<FrozenCoat> frozen;   // of a groom with a cache
+  size_t frozen_end = 0;              // the operators [0, frozen_end) are in it
+  bool stands_on_rest = true;         // growing from the cache needs the rest skin
+  std::optional<GroomCacheReport> report;
+  MemoryCharge charge;
+
+  /// Follicles and frozen leaves from the store, or made and stored; prepares the operators that are needed.
+  void open_cache(const std::string& name, const GroomParams& params, const GroomIdentity& identity,
+                  const PrepareContext& context, uint64_t seed, MemoryLedger& ledger,
+                  const GroomCacheHooks& hooks);
+  FollicleTree place_follicles(const GroomParams& params, const PrepareContext& context, uint64_t seed) const;
+
+  void grow_plain(const PosedSkin& pose, size_t begin, size_t end, class StrandWriter& writer) const;
+  void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end,
+                   class StrandWriter& writer) const;
+  /// Where batch.count strands stand at a motion key.
+  void stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const;
+  StrandReach reach(size_t leaf) const;
+};
+
+}  // namespace pelage
