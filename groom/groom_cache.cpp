@@ -27,50 +27,51 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   const WarningSink warn = hooks.warn ? hooks.warn : [](const std::string&) {};
   NoProgress silent;
   Progress& progress = hooks.progress ? *hooks.progress : silent;
-  const ContentStore& store = this->store.emplace(params.cache->directory.path);
+  store.emplace(params.cache->directory.path);
   frozen_end = end_of_frozen(*stack, params.cache->freeze.name);
 
   const ContentHash follicle_key =
       in_leaves(identity.stages()[GroomIdentity::kStrands].hash, params.leaf_strands);
   const ContentHash offset_key = in_leaves(identity.of_operator(frozen_end - 1).hash, params.leaf_strands);
   const GroomManifest now(identity, GroomIdentity::kFirstOperator + frozen_end);
-  const std::optional<GroomManifest> before = GroomManifest::read(store, name);
+  const std::optional<GroomManifest> before = GroomManifest::read(*store, name);
   report.emplace();
-  report->file = FrozenCoat::file(store, offset_key);
+  report->file = FrozenCoat::file(*store, offset_key);
   report->stages = explain(now, before);
 
   bool have_follicles = source.imported.has_value();
   const auto open = [&](const WarningSink& sink) {
     if (!have_follicles) {
       std::optional<FollicleTree> stored =
-          stored_follicles(store, follicle_key, source.rest->topology(), sink);
+          stored_follicles(*store, follicle_key, source.rest->topology(), sink);
       have_follicles = stored.has_value();
       if (stored) source.grown = std::move(*stored);
     }
-    if (have_follicles && !frozen) frozen = FrozenCoat::open(store, offset_key, source, sink);
+    if (have_follicles && !frozen) frozen = FrozenCoat::open(*store, offset_key, source, sink);
   };
   open(warn);
   report->fresh = report->stored = frozen.has_value();
   if (!frozen) {
-    store.sweep();
-    const ContentStore::Lock lock = store.lock("offsets", offset_key);
+    store->sweep();
+    const ContentStore::Lock lock = store->lock("offsets", offset_key);
     open([](const std::string&) {});  // another process may have been at it; damage has been told of
     if (!have_follicles) {
       stack->prepare_coverage(context);
       source.grown = place_follicles(params, context, seed);
-      store_follicles(store, follicle_key, source.grown, warn);
+      store_follicles(*store, follicle_key, source.grown, warn);
     }
     if (!frozen) {
-      const FrozenGrowth growth{source, *stack, identity, frozen_end, store, warn, context.workers, progress};
+      const FrozenGrowth growth{source, *stack, identity,        frozen_end,
+                                *store, warn,   context.workers, progress};
       FrozenGrowth::Result grown = growth.run(context, params.leaf_strands);
       report->resumed = grown.resumed;
-      report->stored = FrozenCoat::store(store, offset_key, grown.leaves, grown.reaches, warn);
+      report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, warn);
       // Read back, so that what is in memory may go.
-      if (report->stored) frozen = FrozenCoat::open(store, offset_key, source, warn);
+      if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
       if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), ledger);
     }
   }
-  if (!before || before->stages().back().hash != now.stages().back().hash) now.write(store, name);
+  if (!before || before->stages().back().hash != now.stages().back().hash) now.write(*store, name);
   stack->prepare(frozen_end, stack->size(), context);
   stands_on_rest = !source.rest || stack->reads_rest(frozen_end, stack->size()) ||
                    !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
