@@ -20,7 +20,7 @@ void check_name(const NameReference& reference, const char* what, const Named<T>
   problems.add(reference.position, std::move(message));
 }
 
-bool is_fibre(const MaterialParams& material) { return std::holds_alternative<ConeShellParams>(material); }
+bool is_fibre(const MaterialParams& material) { return fibre_params(material) != nullptr; }
 
 void check_material(const SceneDescription& scene, const NameReference& reference, bool for_fibres,
                     Problems& problems) {

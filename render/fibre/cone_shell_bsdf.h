@@ -3,9 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "render/fibre/cone_shell.h"
-#include "render/fibre/fibre_bsdf.h"
+#include "render/fibre/fibre_value.h"
 
 namespace pelage {
 
@@ -39,17 +40,17 @@ using LobeTangents = std::array<V3f, kLobeGroups>;
 /// Never gives back more than it gets: albedos whose sum exceeds one in a channel are scaled down together. A
 /// plain value, cheap to make for every vertex of a path: no memory is allocated, trigonometry happens only
 /// in sample() and where a literal shell is cut at a pole.
-class ConeShellBsdf final : public FibreBsdf {
+class ConeShellBsdf {
  public:
   /// `color` is the material's colour at the point; `wo` points to the viewer or previous vertex.
   ConeShellBsdf(const ConeShellMaterial& material, const Rgb& color, const LobeTangents& tangents,
                 const V3f& wo);
 
-  FibreValue eval(const V3f& wi) const override;
+  FibreValue eval(const V3f& wi) const;
   /// Stratification of (u.x, u.y) survives: u.x picks the lobe and, stretched, the polar angle, u.y the
   /// azimuth; u.z balances forward and back scatter.
-  std::optional<FibreSample> sample(const V3f& u) const override;
-  Rgb albedo() const override { return albedos_[0] + albedos_[1] + albedos_[2]; }
+  std::optional<FibreSample> sample(const V3f& u) const;
+  Rgb albedo() const { return albedos_[0] + albedos_[1] + albedos_[2]; }
 
  private:
   LobeTangents tangents_;

@@ -2,32 +2,21 @@
 #pragma once
 
 #include <optional>
+#include <utility>
+#include <variant>
 
-#include "base/vector.h"
+#include "render/fibre/chiang.h"
+#include "render/fibre/cone_shell_bsdf.h"
+#include "render/fibre/deon.h"
+#include "render/fibre/fibre_value.h"
+#include "render/fibre/kajiya_kay.h"
+#include "render/fibre/lambert_cylinder.h"
+#include "render/fibre/marschner.h"
 
 namespace pelage {
 
-/// Groups of lobes that images are split by. A model uses those it has.
-enum class LobeGroup { kDiffuse, kPrimary, kSecondary, kCount };
-inline constexpr int kLobeGroups = static_cast<int>(LobeGroup::kCount);
-inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary", "secondary"};
-
-/// Value of a fibre's scattering for a pair of directions: the throughput density rho = f cos(theta_i) per
-/// solid angle (cos of the inclination, not of any normal), by lobe group, so that radiance out = integral
-/// over the whole sphere of rho * L_in. No further cosine is due.
-struct FibreValue {
-  Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
-  float pdf = 0;  ///< of the mixture that sample() draws from, per solid angle
-
-  Rgb total() const { return lobes[0] + lobes[1] + lobes[2]; }
-};
-
-struct FibreSample {
-  V3f wi{0};
-  FibreValue value;  ///< eval() of wi, the whole mixture
-};
-
-/// Scattering of one fibre at one point for one outgoing direction.
+/// Scattering of one fibre at one point for one outgoing direction, by any model. A plain value: no memory is
+/// allocated. It may refer to the FibreMaterial that made it.
 ///
 /// Conventions: directions are unit, in world space, and point away from the strand: wo to the viewer or
 /// previous vertex (given when the value is made), wi to the light or next vertex; wi is what is sampled.
@@ -35,12 +24,27 @@ struct FibreSample {
 /// to tip.
 class FibreBsdf {
  public:
-  virtual ~FibreBsdf() = default;
-  virtual FibreValue eval(const V3f& wi) const = 0;
+  using Model =
+      std::variant<ConeShellBsdf, LambertCylinderBsdf, KajiyaKayBsdf, ChiangBsdf, DeonBsdf, MarschnerBsdf>;
+
+  template <class AnyModel>
+  requires std::is_constructible_v<Model, AnyModel> FibreBsdf(AnyModel&& model)
+      : model_(std::forward<AnyModel>(model)) {}
+
+  FibreValue eval(const V3f& wi) const {
+    return std::visit([&](const auto& model) { return model.eval(wi); }, model_);
+  }
   /// Draws wi from the mixture; `u` are three numbers in [0, 1). Nothing when the fibre absorbs all.
-  virtual std::optional<FibreSample> sample(const V3f& u) const = 0;
+  std::optional<FibreSample> sample(const V3f& u) const {
+    return std::visit([&](const auto& model) { return model.sample(u); }, model_);
+  }
   /// Integral of rho over the sphere of wi.
-  virtual Rgb albedo() const = 0;
+  Rgb albedo() const {
+    return std::visit([](const auto& model) { return model.albedo(); }, model_);
+  }
+
+ private:
+  Model model_;
 };
 
 }  // namespace pelage

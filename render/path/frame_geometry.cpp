@@ -34,7 +34,7 @@ FurBatch grow(const Leaf& leaf, const RenderScene& scene) {
   batch.part = leaf.part;
   batch.strands = leaf.procedural->generate();
   if (batch.strands.strand_count() == 0) return batch;
-  const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[part.material]);
+  const FibreParams* fibre = fibre_params(scene.materials[part.material]);
   if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not one for fibres");
   find_attributes(fibre->color, batch.strands, part.name);  // throws for one that is missing
   batch.opacity = point_opacities(fibre->opacity, batch.strands, part);

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "geom/strand_point.h"
 #include "render/path/skin_point.h"
 #include "render/path/strand_fields.h"
@@ -18,6 +20,12 @@ namespace {
 float along_strand(const Strands& strand, const Hit& hit) {
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   return (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
+}
+
+/// A place across a fibre that has nothing to do with where it was hit: the far field, one sample at a time.
+float random_offset(const Hit& hit) {
+  return signed_float(hash64(random_use("far field"), hit.strand_id, hit.segment,
+                             std::bit_cast<uint32_t>(hit.u), std::bit_cast<uint32_t>(hit.v)));
 }
 
 std::optional<Rgb> constant_of(const Field& field) {
@@ -36,9 +44,9 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 FrameShading::FrameShading(const RenderScene& scene)
     : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    if (const auto* fibre = std::get_if<ConeShellParams>(&scene.materials[i])) {
-      fibres_[i] = Fibre{ConeShellMaterial(*fibre), fibre->color, constant_of(fibre->color),
-                         fibre->color.attribute_names()};
+    if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
+      fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
+                               fibre->color.attribute_names()});
     } else if (const auto* lambert = std::get_if<LambertParams>(&scene.materials[i])) {
       skins_[i] = Skin{lambert->color, constant_of(lambert->color), std::nullopt};
     } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
@@ -65,15 +73,19 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const StrandPoint point = strand_point(strand, 0, hit.segment, hit.u, ray.time);
   const float v = along_strand(strand, hit);
 
-  LobeTangents tangents;
-  tangents[0] = point.tangent;
-  for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
-    const float place = fibre.shells.tangent_place(lobe, v, hit.strand_id, 0);
-    tangents[static_cast<size_t>(lobe)] = strand_tangent(strand, 0, place, ray.time);
+  FibrePoint at;
+  at.tangents.fill(point.tangent);
+  if (const ConeShellMaterial* shells = fibre.material.cone_shell()) {
+    for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
+      const float place = shells->tangent_place(lobe, v, hit.strand_id, 0);
+      at.tangents[static_cast<size_t>(lobe)] = strand_tangent(strand, 0, place, ray.time);
+    }
   }
-  const Rgb color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
+  at.wo = -ray.direction;
+  at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
+  at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
   return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
-          ConeShellBsdf(fibre.shells, color, tangents, -ray.direction)};
+          fibre.material.at(at)};
 }
 
 Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/accel/accel.h"
+#include "render/fibre/fibre_material.h"
 #include "render/film/film.h"
 #include "render/path/scatter_point.h"
 #include "render/render_scene.h"
@@ -25,7 +26,7 @@ class FrameShading {
 
  private:
   struct Fibre {
-    ConeShellMaterial shells;
+    FibreMaterial material;
     Field color;
     std::optional<Rgb> constant_color;
     std::vector<std::string> attributes;  // that the colour reads

@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "render/fibre/cone_shell_bsdf.h"
+#include "render/fibre/fibre_bsdf.h"
 #include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
 
@@ -15,7 +15,7 @@ namespace pelage {
 class ScatterPoint {
  public:
   /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface.
-  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, const ConeShellBsdf& bsdf)
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, const FibreBsdf& bsdf)
       : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), bsdf_(bsdf) {}
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
@@ -29,13 +29,13 @@ class ScatterPoint {
   const V3f& tangent() const { return tangent_; }
 
   FibreValue eval(const V3f& wi) const {
-    if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->eval(wi);
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
     if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->eval(wi));
   }
 
   std::optional<FibreSample> sample(const V3f& u) const {
-    if (const auto* fibre = std::get_if<ConeShellBsdf>(&bsdf_)) return fibre->sample(u);
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->sample(u);
     if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->sample({u.x, u.y}));
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
@@ -68,7 +68,7 @@ class ScatterPoint {
   V3f tangent_{0};
   V3f surface_;
   float radius_ = 0;
-  std::variant<ConeShellBsdf, LambertBsdf, GlossyBsdf> bsdf_;
+  std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 
 }  // namespace pelage

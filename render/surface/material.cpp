@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/surface/material.h"
 
+#include "render/fibre/fibre_keys.h"
+
 namespace pelage {
 
 namespace {
@@ -43,9 +45,7 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
         "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two highlights, "
         "each "
         "a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
-    s.key("color", &P::color, {.help = "Colour of the fibre", .min = 0, .max = 1});
-    s.key("opacity", &P::opacity,
-          {.help = "How much of what lies behind a strand it hides", .min = 0, .max = 1});
+    add_color_keys(s, "Colour of the fibre");
     s.key("diffuse", &P::diffuse, {.help = "Albedo of the diffuse lobe, times color", .min = 0, .max = 1});
     s.key("balance", &P::balance,
           {.help =
@@ -99,10 +99,22 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
   return table;
 }
 
+const FibreParams* fibre_params(const MaterialParams& material) {
+  return std::visit(
+      []<class P>(const P& params) -> const FibreParams* {
+        if constexpr (std::is_base_of_v<FibreParams, P>) return &params;
+        return nullptr;
+      },
+      material);
+}
+
 MaterialParams with_textures(MaterialParams material, TextureLibrary& textures) {
-  std::visit([&](auto& params) { params.color = params.color.with_textures(textures); }, material);
-  if (auto* fibre = std::get_if<ConeShellParams>(&material))
-    fibre->opacity = fibre->opacity.with_textures(textures);
+  std::visit(
+      [&](auto& params) {
+        params.color = params.color.with_textures(textures);
+        if constexpr (requires { params.opacity; }) params.opacity = params.opacity.with_textures(textures);
+      },
+      material);
   return material;
 }
 

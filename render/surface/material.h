@@ -7,6 +7,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "image/field.h"
+#include "render/fibre/fibre_params.h"
 
 namespace pelage {
 
@@ -36,11 +37,9 @@ struct EnumNames<ShellVariant> {
 };
 
 /// Fur by the cone-shell model of "Rendering Fur in Life of Pi".
-struct ConeShellParams {
+struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
-  Field color{Rgb(0.5f, 0.3f, 0.15f)};
-  Field opacity{1.0f};
   float diffuse = 0.7f;          ///< albedo of the diffuse lobe, times color
   float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
@@ -57,7 +56,11 @@ struct ConeShellParams {
   static const Schema<ConeShellParams>& schema();
 };
 
-using MaterialParams = std::variant<LambertParams, GlossyParams, ConeShellParams>;
+using MaterialParams = std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams,
+                                    KajiyaKayParams, MarschnerParams, DeonParams, ChiangParams>;
+
+/// What all models of fibres have; null for a material of skins.
+const FibreParams* fibre_params(const MaterialParams& material);
 
 class TextureLibrary;
 

@@ -95,6 +95,26 @@ TEST(PathFurnace, ATangleOfWhiteFibresVanishes) {
   expect_white(result, 2e-3);
 }
 
+/// The physical models return all that a fibre does not absorb, and so does a tangle of such fibres.
+TEST(PathFurnace, WhiteFibresOfPhysicalModelsVanish) {
+  ChiangParams chiang;
+  chiang.color = Field(Rgb(1));
+  DeonParams deon;
+  deon.color = Field(Rgb(1));
+  for (const MaterialParams& material : {MaterialParams(chiang), MaterialParams(deon)}) {
+    PathScene scene(24, 24);
+    RandomStrandOptions o;
+    o.strands = 400;
+    o.radius = 0.02f;
+    o.wander = 0.3f;
+    scene.add_fur(random_strands(4, o), material);
+    scene.add_sky(Rgb(1));
+    scene.camera.fov = 12.0f;
+    scene.render.bounces = 64;
+    expect_white(scene.run(), 3e-3);
+  }
+}
+
 /// A coarse convex mesh with smooth normals must not shadow itself, up to its silhouette.
 TEST(PathFurnace, AWhiteSphereVanishes) {
   PathScene scene(32, 32);

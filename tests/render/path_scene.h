@@ -30,7 +30,7 @@ class PathScene {
     materials.push_back(std::move(material));
     return materials.size() - 1;
   }
-  void add_fur(Strands strands, ConeShellParams material) {
+  void add_fur(Strands strands, MaterialParams material) {
     FurPart part;
     part.name = "test.fur" + std::to_string(fur.size());
     part.procedurals.push_back(std::make_unique<FixedStrands>(std::move(strands)));

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/fibre/absorption.h"
+#include "render/fibre/azimuthal.h"
+#include "render/fibre/fibre_params.h"
+#include "render/fibre/separable_bsdf.h"
+
+namespace pelage {
+
+using ChiangBsdf = SeparableBsdf<TrimmedLogistic>;
+
+/// Constants of a material by the near-field model of [Chiang16]: lobes R, TT and TRT with the longitudinal
+/// function of d'Eon and a trimmed logistic around the fibre, and one more for all longer ways.
+///
+/// theta_o takes the tilt of the cuticle's scales, whose free edges point to the tip: +2 alpha for R, -alpha
+/// for TT and -4 alpha for TRT, with T from root to tip.
+class ChiangMaterial {
+ public:
+  explicit ChiangMaterial(const ChiangParams& params);
+  ChiangBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+
+ private:
+  float eta_;
+  AbsorptionParams absorption_;
+  ColorToAbsorption by_color_;
+  LobeWidths<TrimmedLogistic> widths_;
+};
+
+/// Variance of the R lobe by longitudinal roughness [Chiang16, equation 7].
+float chiang_variance(float beta_m);
+/// Scale of the logistic by azimuthal roughness [Chiang16, equation 8].
+float chiang_scale(float beta_n);
+
+}  // namespace pelage

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/fibre/absorption.h"
+#include "render/fibre/azimuthal.h"
+#include "render/fibre/fibre_params.h"
+#include "render/fibre/separable_bsdf.h"
+
+namespace pelage {
+
+using DeonBsdf = SeparableBsdf<WrappedGaussian>;
+
+/// Azimuthal roughness of the fit of [Chiang16] for models that have no such parameter.
+inline constexpr float kColorRoughness = 0.3f;
+
+/// Constants of a material by the energy-conserving model of [dEon11]: the lobes of Marschner with a
+/// longitudinal function that is normalised, Gaussian detectors around the fibre, and one lobe for all longer
+/// ways. Attenuations are taken at theta_o, which is theta_d at the peaks: energy is exact then, and lobes
+/// are drawn exactly.
+///
+/// The far field is the average over h.
+class DeonMaterial {
+ public:
+  explicit DeonMaterial(const DeonParams& params);
+  DeonBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+
+ private:
+  float eta_;
+  AbsorptionParams absorption_;
+  ColorToAbsorption by_color_;
+  LobeWidths<WrappedGaussian> widths_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <variant>
+
+#include "render/fibre/fibre_bsdf.h"
+#include "render/surface/material.h"
+
+namespace pelage {
+
+/// Where light meets a fibre, in terms of what models ask.
+struct FibrePoint {
+  LobeTangents tangents;  ///< the first is the strand's own; the others matter to cone shells alone
+  V3f wo{0};              ///< unit, to the viewer or previous vertex
+  float h = 0;            ///< across the fibre, -1 to 1, in the frame of FibreFrame
+  Rgb color{0};           ///< the material's colour there
+};
+
+/// A material for fibres: what all its points share, made once. Thread safety: const members may be called
+/// from any thread.
+class FibreMaterial {
+ public:
+  /// Whether the parameters are of a model for fibres.
+  static bool is_one(const MaterialParams& params) { return fibre_params(params) != nullptr; }
+  /// `params` must be of a model for fibres.
+  explicit FibreMaterial(const MaterialParams& params);
+
+  /// Refers to this material.
+  FibreBsdf at(const FibrePoint& point) const;
+
+  /// The cone-shell model, whose lobes take their tangents from places of their own; null for all others.
+  const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
+  /// Whether FibrePoint::h should be drawn anew for each point, uniformly, in place of that of the hit.
+  bool far_field() const { return far_field_; }
+
+ private:
+  struct LambertCylinder {};
+  using Model = std::variant<ConeShellMaterial, LambertCylinder, KajiyaKayMaterial, ChiangMaterial,
+                             DeonMaterial, MarschnerMaterial>;
+  static Model make(const MaterialParams& params);
+
+  Model model_;
+  bool far_field_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "base/schema.h"
+#include "base/value_readers.h"
+#include "image/field.h"
+
+namespace pelage {
+
+/// What every model of a fibre has, so that one may be put in another's place by its name alone.
+struct FibreParams {
+  Field color{Rgb(0.5f, 0.3f, 0.15f)};
+  Field opacity{1.0f};
+};
+
+/// Whether the place across the fibre matters that a ray meets, or all places count alike, as if the fibre
+/// were too thin to see. Each sample of a far field draws one place, so that the average is the far field.
+enum class FibreField { kNear, kFar };
+template <>
+struct EnumNames<FibreField> {
+  static constexpr const char* names[] = {"near", "far"};
+};
+
+/// The non-translucent baseline: a tube that reflects evenly.
+struct LambertCylinderParams : FibreParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "lambert-cylinder";
+  FibreField field = FibreField::kNear;
+  static const Schema<LambertCylinderParams>& schema();
+};
+
+/// Kajiya and Kay's diffuse and specular terms, normalised.
+struct KajiyaKayParams : FibreParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "kajiya-kay";
+  float diffuse = 0.7f;
+  Rgb specular{0.2f};
+  float exponent = 40;
+  static const Schema<KajiyaKayParams>& schema();
+};
+
+/// How the colour of a translucent fibre is given: by what it absorbs, or else by `color`.
+struct AbsorptionParams {
+  std::optional<Rgb> absorption;     ///< per radius
+  std::optional<float> eumelanin;    ///< concentration of the black and brown pigment
+  std::optional<float> pheomelanin;  ///< of the red and yellow one
+};
+
+/// Whether the lobes are those of the paper or half as high, about what
+/// energy calls for.
+enum class MarschnerVariant { kPublished, kHalved };
+template <>
+struct EnumNames<MarschnerVariant> {
+  static constexpr const char* names[] = {"published", "halved"};
+};
+
+struct MarschnerParams : FibreParams, AbsorptionParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "marschner";
+  float eta = 1.55f;
+  float alpha = -7.5f;         ///< shift of the R lobe, degrees
+  float beta = 7.5f;           ///< width of the R lobe, degrees
+  float azimuthal_width = 15;  ///< degrees
+  MarschnerVariant variant = MarschnerVariant::kPublished;
+  static const Schema<MarschnerParams>& schema();
+};
+
+struct DeonParams : FibreParams, AbsorptionParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "deon";
+  float eta = 1.55f;
+  float alpha = -2;
+  float beta = 10;
+  float azimuthal_width = 15;
+  FibreField field = FibreField::kFar;
+  static const Schema<DeonParams>& schema();
+};
+
+struct ChiangParams : FibreParams, AbsorptionParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "chiang";
+  float eta = 1.55f;
+  float beta_m = 0.3f;
+  float beta_n = 0.3f;
+  float alpha = 2;
+  FibreField field = FibreField::kNear;
+  static const Schema<ChiangParams>& schema();
+};
+
+/// Absorption per radius of a point whose material has the given colour there.
+class ColorToAbsorption;
+Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color);
+
+}  // namespace pelage

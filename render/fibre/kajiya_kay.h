@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "render/fibre/fibre_frame.h"
+#include "render/fibre/fibre_params.h"
+#include "render/fibre/fibre_value.h"
+#include "render/fibre/longitudinal.h"
+
+namespace pelage {
+
+/// Constants of a Kajiya-Kay material.
+class KajiyaKayMaterial {
+ public:
+  explicit KajiyaKayMaterial(const KajiyaKayParams& params);
+
+  float diffuse;
+  Rgb specular;
+  float exponent;
+  LongitudinalLobe proposal;  ///< never below the highlight by more than a factor
+
+  /// K_p(theta_o) = 2 pi integral of max(0, cos(theta_i + theta_o))^p cos(theta_i) d theta_i.
+  float specular_norm(float sin_theta_o, float cos_theta_o) const;
+
+ private:
+  static constexpr int kNorms = 512;
+  std::array<float, kNorms + 1> norms_;  // over |theta_o| from 0 to pi / 2
+};
+
+/// A diffuse term A_d cos(theta_i) / pi^2, and the highlight A_s max(0, cos(theta_i + theta_o))^p / K_p of
+/// [KajiyaKay89, section 4.3], normalised so that the albedos are what they say. The same all around the
+/// fibre. Refers to `material`.
+class KajiyaKayBsdf {
+ public:
+  KajiyaKayBsdf(const KajiyaKayMaterial& material, const Rgb& color, const FibreFrame& frame);
+
+  FibreValue eval(const V3f& wi) const;
+  /// u.x: azimuth; u.y: inclination; u.z: lobe.
+  std::optional<FibreSample> sample(const V3f& u) const;
+  Rgb albedo() const { return diffuse_ + specular_; }
+
+ private:
+  const KajiyaKayMaterial* material_;
+  FibreFrame frame_;
+  Rgb diffuse_, specular_;
+  float inverse_norm_;
+  float diffuse_choice_;
+};
+
+}  // namespace pelage

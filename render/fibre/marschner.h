@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "render/fibre/absorption.h"
+#include "render/fibre/azimuthal.h"
+#include "render/fibre/fibre_params.h"
+#include "render/fibre/separable_bsdf.h"
+
+namespace pelage {
+
+class MarschnerBsdf;
+
+/// Constants of a material by the far-field model of [Marschner03].
+class MarschnerMaterial {
+ public:
+  explicit MarschnerMaterial(const MarschnerParams& params);
+  MarschnerBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+
+ private:
+  friend class MarschnerBsdf;
+  static constexpr int kLobes = 3;
+  float eta_;
+  float scale_;  // of all lobes
+  AbsorptionParams absorption_;
+  ColorToAbsorption by_color_;
+  std::array<float, kLobes> alpha_, beta_;  // radians, in theta_h
+  WrappedGaussian azimuthal_;
+  LobeWidths<WrappedGaussian> proposal_;
+};
+
+/// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h:
+/// M a Gaussian of unit area in theta_h, N the attenuation at theta_d times a Gaussian about the exit
+/// azimuth, whose average over h replaces the roots and the caustics of the paper. The length in the fibre is
+/// 2 cos(gamma_t) / cos(theta_t); what the paper prints is known to be wrong.
+///
+/// Gives back nearly twice what it gets: unit area in theta_h is area 2 in theta_i. Refers to `material`.
+class MarschnerBsdf {
+ public:
+  MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
+
+  FibreValue eval(const V3f& wi) const;
+  /// Drawn from the energy-conserving lobes of the same widths.
+  std::optional<FibreSample> sample(const V3f& u) const;
+  /// Approximate: what the energy-conserving lobes have, times 2 as published.
+  Rgb albedo() const { return albedo_; }
+
+ private:
+  static SeparableBsdf<WrappedGaussian> proposal(const MarschnerMaterial& material, const FibreFrame& frame,
+                                                 float h, const Rgb& sigma);
+  const MarschnerMaterial* material_;
+  float h_;
+  Rgb sigma_;
+  float theta_o_;
+  Rgb albedo_;
+  SeparableBsdf<WrappedGaussian> proposal_;
+};
+
+}  // namespace pelage
