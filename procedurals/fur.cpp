@@ -91,4 +91,14 @@ ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
   return exact_leaf_bounds(*groom_, leaf_, skin_->pose(span)->skin(), keys);
 }
 
+std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
+  if (!groom_->store()) return {};
+  BoundsRecord record;
+  record.store = {groom_, groom_->store()};
+  record.key = ContentHasher().add(groom_->content_hash()).add(skin_->hash()).add(skin_->length()).digest();
+  record.index = leaf_;
+  record.count = groom_->follicles().leaves().size();
+  return record;
+}
+
 }  // namespace pelage

@@ -35,6 +35,8 @@ class FurLeafProcedural final : public Procedural {
   Strands generate() const override;
   StrandCounts counts() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
+  /// Beside the cache of the groom, for all leaves of the coat in one file.
+  std::optional<BoundsRecord> bounds_record() const override;
 
  private:
   std::shared_ptr<const Groom> groom_;

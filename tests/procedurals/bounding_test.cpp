@@ -333,6 +333,29 @@ TEST_F(RememberedBounds, OfPartOfACoatAreNotWritten) {
   EXPECT_EQ(files().size(), 1u);
 }
 
+// A coat with a cache remembers its boxes there, for that groom in that pose at that length.
+TEST(Bounding, OfCachedCoatsAreRememberedBesideTheCache) {
+  const TemporaryFolder folder;
+  const auto expect = [&](uint64_t seed, float length, bool known) {
+    const RandomCoat coat(seed, {.length = length, .cache = folder.path()});
+    const auto all = static_cast<int64_t>(coat.chunks.size());
+    BoundingCounts counts;
+    const auto bounds = bounds_of(coat.chunks, {BoundingStrategy::kExact}, 2, expect_no_warning, &counts);
+    EXPECT_EQ(counts.remembered, known ? all : 0);
+    EXPECT_EQ(counts.measured, known ? 0 : all);
+    for (size_t leaf = 0; leaf < coat.chunks.size(); ++leaf) {
+      EXPECT_EQ(bounds[leaf].boxes, coat.chunks[leaf]->exact_bounds(BoundSpan::kFrame, 1).boxes);
+    }
+  };
+  expect(5, 1, false);
+  expect(5, 1, true);
+  expect(5, 1.01f, false);  // another length
+  expect(6, 1, false);      // another groom and pose
+  expect(5, 1, true);
+  expect(6, 1, true);
+  EXPECT_FALSE(RandomCoat(5, {}).chunks[0]->bounds_record().has_value());
+}
+
 TEST(Bounding, PassesOnWhatGrowingThrows) {
   class Failing final : public Procedural {
    public:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct RandomCoatOptions {
   int64_t strands = 900;
   int leaf_strands = 300;
   bool push_out = false;
+  float length = 1;                            // factor on the length that comes from the seed
+  std::filesystem::path cache = {};            // of the groom; none when empty
   std::optional<OperatorList> operators = {};  ///< random ones when not given
 };
 
@@ -38,6 +41,11 @@ class RandomCoat {
     params.leaf_strands = options.leaf_strands;
     params.points = 4 + static_cast<int>(between(0, 7));
     params.operators = options.operators ? *options.operators : stacks::random(seed, 4, options.push_out);
+    if (!options.cache.empty()) {
+      params.cache.emplace();
+      params.cache->directory.path = options.cache;
+      params.cache->freeze.name = Length::kName;
+    }
     groom = Groom::create("coat", params, rest, textures_, workers_, ledger_);
 
     const float turn = between(-2, 2), swell = between(-0.3f, 0.3f), tilt = between(0, 6);
@@ -63,6 +71,7 @@ class RandomCoat {
       for (float t : {-0.5f, 0.5f}) pose_at(pose.frame_ends, t);
     }
     pose.scale = between(0.5f, 2);
+    pose.length = options.length * between(0.5f, 1.5f);
     if (options.push_out) pose.push_out_view = View{V3f(0, 0, 60), 300};
     skin = std::make_shared<PosedCharacterSkin>(std::move(pose), std::make_shared<PoseCache>(2, ledger_));
     leaves = FurProcedural(groom, skin).split();
