@@ -12,6 +12,8 @@ int run_render(const Options& options);
 int run_grow(const Options& options);
 int run_info(const Options& options);
 int run_convert(const Options& options);
+int run_motion_blur(const Options& options);
+int run_stereo(const Options& options);
 int run_manual(const Options& options);
 
 }  // namespace pelage

@@ -19,6 +19,10 @@ int run(const pelage::Options& options) {
       return pelage::run_info(options);
     case Command::kConvert:
       return pelage::run_convert(options);
+    case Command::kMotionBlur:
+      return pelage::run_motion_blur(options);
+    case Command::kStereo:
+      return pelage::run_stereo(options);
     case Command::kManual:
       return pelage::run_manual(options);
   }

@@ -11,6 +11,7 @@
 
 #include "base/nearest_name.h"
 #include "cli/frames.h"
+#include "cli/post_flags.h"
 #include "cli/version.h"
 #include "groom/curve_basis_names.h"
 
@@ -23,6 +24,7 @@ struct Texts {
   std::vector<std::string> set;
   std::vector<std::string> section;  // its words
   bool quiet = false;
+  PostTexts post;
 };
 
 constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
@@ -35,7 +37,8 @@ void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
       ->type_name("KEY=VALUE");
 }
 
-void add_run_flags(CLI::App& command, Options& options, Texts& texts) {
+void add_run_flags(CLI::App& command, Options& options, Texts& texts,
+                   const char* memory_help = "Memory budget, such as 512M or 4G (render.memory)") {
   command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
   command
       .add_option("--sample-memory", options.sample_memory_s,
@@ -45,8 +48,7 @@ void add_run_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("--threads", options.threads, "Threads to use (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
-  command.add_option("--memory", texts.memory, "Memory budget, such as 512M or 4G (render.memory)")
-      ->type_name("BYTES");
+  command.add_option("--memory", texts.memory, memory_help)->type_name("BYTES");
   CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "No progress");
   command.add_option("--progress", texts.progress, "How to show progress: bar, plain or json")
       ->type_name("STYLE")
@@ -95,6 +97,16 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   convert->add_option("OUT", options.output, "Strand file to write")->required();
   add_strand_flags(*convert, options, texts);
 
+  constexpr const char* kPostMemory = "Memory that pixels and work buffers may take (default: 4G)";
+  CLI::App* motion_blur =
+      app.add_subcommand("motionblur", "Blur finished pictures by their motion vectors (any EXR)");
+  add_motion_blur_flags(*motion_blur, options, texts.post);
+  add_run_flags(*motion_blur, options, texts, kPostMemory);
+
+  CLI::App* stereo = app.add_subcommand("stereo", "Make the other eye's picture from one eye's (any EXR)");
+  add_stereo_flags(*stereo, options, texts.post);
+  add_run_flags(*stereo, options, texts, kPostMemory);
+
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
   manual->add_option("SECTION", texts.section, "Only this section, such as camera, curl or map field");
   manual->add_flag("--markdown", options.markdown, "Write Markdown");
@@ -105,6 +117,8 @@ const std::map<std::string, Command>& command_names() {
                                                     {"grow", Command::kGrow},
                                                     {"info", Command::kInfo},
                                                     {"convert", Command::kConvert},
+                                                    {"motionblur", Command::kMotionBlur},
+                                                    {"stereo", Command::kStereo},
                                                     {"manual", Command::kManual}};
   return names;
 }
@@ -169,6 +183,8 @@ void interpret(const Texts& texts, Options& options) {
     if (!parse_bytes(texts.memory))
       fail("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
     options.overrides.push_back({"render.memory", texts.memory});
+    const auto bytes = static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
+    options.motion_blur.file.memory = options.stereo.file.memory = bytes;
   }
   if (!texts.frames.empty()) {
     parse_frames(texts.frames);  // throws here, where the flag can be named
@@ -179,6 +195,7 @@ void interpret(const Texts& texts, Options& options) {
   if (!texts.stats.empty()) options.stats = texts.stats;
   if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
   options.progress = parse_progress(texts);
+  interpret_post(texts.post, options);
 }
 
 }  // namespace

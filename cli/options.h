@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "geom/strands.h"
+#include "post/blur_file.h"
+#include "post/stereo_file.h"
 #include "scene/document.h"
 
 namespace pelage {
 
-enum class Command { kRender, kGrow, kInfo, kConvert, kManual };
+enum class Command { kRender, kGrow, kInfo, kConvert, kMotionBlur, kStereo, kManual };
 
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
@@ -36,6 +38,10 @@ struct Options {
 
   std::string groom;     ///< grow: only this one; empty: all
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh
+
+  std::string frames;           ///< motionblur, stereo: --frames, for names with a place for the number
+  BlurFileParams motion_blur;   ///< motionblur
+  StereoFileParams stereo;      ///< stereo
 
   std::string section;    ///< manual
   bool markdown = false;  ///< manual

@@ -2,86 +2,24 @@
 #include "image/exr.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <exception>
-#include <limits>
 #include <new>
-#include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfVecAttribute.h>
 
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/exr_check.h"
+#include "image/exr_header.h"
 
 namespace pelage {
 namespace {
-
-/// Attributes that are the image's own shape: set by the writer, not carried in `attributes`.
-constexpr std::array kStructure = {"channels",   "compression",   "dataWindow", "displayWindow",
-                                   "lineOrder",  "tiles",         "type",       "version",
-                                   "chunkCount", "chromaticities"};
-
-Imf::PixelType pixel_type(ChannelType type) {
-  switch (type) {
-    case ChannelType::kHalf:
-      return Imf::HALF;
-    case ChannelType::kFloat:
-      return Imf::FLOAT;
-    case ChannelType::kUint:
-      return Imf::UINT;
-  }
-  return Imf::HALF;
-}
-
-ChannelType channel_type(Imf::PixelType type) {
-  if (type == Imf::UINT) return ChannelType::kUint;
-  return type == Imf::FLOAT ? ChannelType::kFloat : ChannelType::kHalf;
-}
-
-struct AttributeWriter {
-  Imf::Header& header;
-  const char* name;
-  void operator()(int v) const { header.insert(name, Imf::IntAttribute(v)); }
-  void operator()(float v) const {
-    if (std::string_view(name) == "framesPerSecond") {  // a standard attribute, of a type of its own
-      header.insert(name, Imf::RationalAttribute(Imf::Rational(static_cast<double>(v))));
-    } else {
-      header.insert(name, Imf::FloatAttribute(v));
-    }
-  }
-  void operator()(const std::string& v) const { header.insert(name, Imf::StringAttribute(v)); }
-  void operator()(const V2f& v) const { header.insert(name, Imf::V2fAttribute(v)); }
-  void operator()(const V3f& v) const { header.insert(name, Imf::V3fAttribute(v)); }
-  void operator()(const M44f& v) const { header.insert(name, Imf::M44fAttribute(v)); }
-};
-
-template <class Attribute>
-bool read_attribute(const Imf::Header& header, const std::string& name, ExrImage& image) {
-  const auto* attribute = header.findTypedAttribute<Attribute>(name);
-  if (attribute) image.attributes[name] = attribute->value();
-  return attribute != nullptr;
-}
-
-bool read_rational(const Imf::Header& header, const std::string& name, ExrImage& image) {
-  const auto* attribute = header.findTypedAttribute<Imf::RationalAttribute>(name);
-  if (attribute) image.attributes[name] = static_cast<float>(static_cast<double>(attribute->value()));
-  return attribute != nullptr;
-}
 
 /// Pixels of one channel in the representation of the file: half channels are rounded here, once.
 struct Storage {
@@ -97,12 +35,8 @@ Storage storage_for_writing(const ExrChannel& channel) {
   } else if (channel.type == ChannelType::kFloat) {
     s.base = reinterpret_cast<char*>(const_cast<float*>(channel.pixels.data()));
   } else {
-    // What a half cannot hold becomes its largest number: readers choke on infinity.
     s.halves.resize(channel.pixels.size());
-    std::transform(channel.pixels.begin(), channel.pixels.end(), s.halves.begin(), [](float v) {
-      const bool overflows = std::abs(v) > HALF_MAX && std::abs(v) <= std::numeric_limits<float>::max();
-      return half(overflows ? std::copysign(HALF_MAX, v) : v);
-    });
+    std::transform(channel.pixels.begin(), channel.pixels.end(), s.halves.begin(), rounded_half);
     s.base = reinterpret_cast<char*>(s.halves.data());
     s.size = sizeof(half);
   }
@@ -114,9 +48,7 @@ void write_file(const std::filesystem::path& path, const ExrImage& image) {
   header.compression() = Imf::ZIP_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;
   Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709 is the library's default
-  for (const auto& [name, value] : image.attributes) {
-    std::visit(AttributeWriter{header, name.c_str()}, value);
-  }
+  insert_attributes(header, image.attributes);
   Imf::FrameBuffer frame;
   std::vector<Storage> storage;
   storage.reserve(image.channels.size());
@@ -132,30 +64,17 @@ void write_file(const std::filesystem::path& path, const ExrImage& image) {
   file.writePixels(image.height);
 }
 
-[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& why) {
-  throw Error(ErrorKind::kInput, {path.string(), 0, 0}, why);
-}
-
 void read_header(const Imf::Header& header, const std::filesystem::path& path, ExrImage& image) {
   const Imath::Box2i window = header.dataWindow();
   image.width = window.max.x - window.min.x + 1;
   image.height = window.max.y - window.min.y + 1;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
     if (c.channel().xSampling != 1 || c.channel().ySampling != 1) {
-      refuse(path, "channel '" + std::string(c.name()) + "' is subsampled, which is not supported");
+      refuse_exr(path, "channel '" + std::string(c.name()) + "' is subsampled, which is not supported");
     }
     image.channels.push_back({c.name(), channel_type(c.channel().type), {}, {}});
   }
-  for (auto a = header.begin(); a != header.end(); ++a) {
-    const std::string name = a.name();
-    if (std::find(kStructure.begin(), kStructure.end(), name) != kStructure.end()) continue;
-    read_attribute<Imf::IntAttribute>(header, name, image) ||
-        read_attribute<Imf::FloatAttribute>(header, name, image) ||
-        read_attribute<Imf::StringAttribute>(header, name, image) ||
-        read_attribute<Imf::V2fAttribute>(header, name, image) ||
-        read_attribute<Imf::V3fAttribute>(header, name, image) ||
-        read_attribute<Imf::M44fAttribute>(header, name, image) || read_rational(header, name, image);
-  }
+  image.attributes = read_attributes(header);
 }
 
 /// Rows that are read at a time. Memory grows as they arrive: a header may claim rows that the file does not
@@ -187,17 +106,6 @@ void read_rows(Imf::InputFile& file, ExrImage& image) {
     file.setFrameBuffer(frame);
     file.readPixels(strip.min.y, strip.max.y);
   }
-}
-
-/// First line of a library's message, without the path that it repeats.
-std::string reason(const std::exception& error, const std::filesystem::path& path) {
-  std::string text = error.what();
-  if (const size_t named = text.find(path.string() + "\". "); named != std::string::npos) {
-    text.erase(0, named + path.string().size() + 3);
-  }
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
-  return "damaged: " + text;
 }
 
 }  // namespace
@@ -237,7 +145,7 @@ ExrImage read_exr(const std::filesystem::path& path) {
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
   } catch (const std::exception& error) {
-    refuse(path, reason(error, path));
+    refuse_exr(path, damage_text(error, path));
   }
   return image;
 }

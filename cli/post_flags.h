@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pelage {
+
+/// What the flags of motionblur and stereo leave as text until it is checked, so that every message is ours.
+struct PostTexts {
+  std::string units, up, filter, eye, convergence;
+  std::string motion_layer, depth_layer;
+  std::vector<std::string> data, colors;
+  float vector_scale = 1;
+  int scale = 0;  // 0: the tool's own
+};
+
+void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts);
+void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts);
+
+/// Throws Error (kArguments).
+void interpret_post(const PostTexts& texts, Options& options);
+
+}  // namespace pelage

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/post_frames.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/frames.h"
+
+namespace pelage {
+namespace {
+
+void check_names(const Options& options, const FrameList& frames) {
+  if (std::filesystem::path(options.output).extension() != ".exr") {
+    throw Error(ErrorKind::kArguments, "-o " + options.output + ": pictures are written as .exr");
+  }
+  if (options.frames.empty()) {
+    if (has_frame_pattern(options.input)) {
+      throw Error(ErrorKind::kArguments, options.input + ": say which frames with --frames");
+    }
+    return;
+  }
+  check_output_pattern(options.output, frames);
+  if (frames.frames.size() > 1 && !has_frame_pattern(options.input)) {
+    throw Error(ErrorKind::kArguments, options.input + ": several frames need a place for their number, as in %04d");
+  }
+}
+
+}  // namespace
+
+int run_post_frames(const Options& options, const PostWork& work) {
+  const FrameList frames = options.frames.empty() ? FrameList() : parse_frames(options.frames);
+  check_names(options, frames);
+  Run run(options);
+  for (const int frame : frames.frames) {
+    const bool numbered = !options.frames.empty();
+    const std::string input = numbered ? frame_file_name(options.input, frame) : options.input;
+    const std::string output = numbered ? frame_file_name(options.output, frame) : options.output;
+    const double began = run.seconds();
+    const PostReport report = work(input, output, run);
+    for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
+    if (report.cancelled) return kInterruptedExitCode;
+    run.statistics().stages_s["post"] += run.seconds() - began;
+    run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {} step{}, {}", output,
+                                   report.window.width(), report.window.height(), report.longest, report.steps,
+                                   report.steps == 1 ? "" : "s", duration_text(run.seconds() - began)));
+  }
+  run.finish(options);
+  return 0;
+}
+
+}  // namespace pelage

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/exr_file.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfThreading.h>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "image/exr_check.h"
+#include "image/exr_header.h"
+
+namespace pelage {
+namespace {
+
+/// OpenEXR's own threads, of which a process has one team. Under the thread sanitizer none: they are not
+/// instrumented.
+int library_threads(int threads) {
+#ifdef PELAGE_STD_THREADS
+  threads = 0;
+#endif
+  threads = threads > 1 ? threads : 0;
+  if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+  return threads;
+}
+
+PixelBox box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
+Imath::Box2i box_of(const PixelBox& box) { return {{box.x0, box.y0}, {box.x1 - 1, box.y1 - 1}}; }
+
+ExrPart describe(const Imf::Header& header, const std::filesystem::path& path) {
+  ExrPart part;
+  if (header.hasType() && (header.type() == Imf::DEEPSCANLINE || header.type() == Imf::DEEPTILE)) {
+    refuse_exr(path, "holds deep pixels, which are not supported");
+  }
+  part.data = box_of(header.dataWindow());
+  part.display = box_of(header.displayWindow());
+  if (header.hasName()) part.name = header.name();
+  if (header.hasView()) part.view = header.view();
+  if (Imf::hasMultiView(header)) part.multi_view = Imf::multiView(header);
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1) {
+      refuse_exr(path, "channel '" + std::string(c.name()) + "' is subsampled, which is not supported");
+    }
+    part.channels.push_back({c.name(), channel_type(c.channel().type)});
+  }
+  part.attributes = read_attributes(header);
+  return part;
+}
+
+bool loses(Imf::Compression compression) {
+  return compression != Imf::NO_COMPRESSION && compression != Imf::RLE_COMPRESSION &&
+         compression != Imf::ZIPS_COMPRESSION && compression != Imf::ZIP_COMPRESSION &&
+         compression != Imf::PIZ_COMPRESSION;
+}
+
+Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
+  Imf::Header header(like);
+  for (const char* shape : {"tiles", "chunkCount", "maxSamplesPerPixel", "preview", "version"})
+    header.erase(shape);
+  header.setType(Imf::SCANLINEIMAGE);
+  header.lineOrder() = Imf::INCREASING_Y;
+  if (loses(header.compression())) header.compression() = Imf::ZIP_COMPRESSION;
+  if (part.multi_view.empty()) header.erase("multiView");
+  if (!part.name.empty()) header.setName(part.name);
+  if (!part.view.empty()) header.setView(part.view);
+  header.dataWindow() = box_of(part.data);
+  header.displayWindow() = box_of(part.display);
+  header.channels() = Imf::ChannelList();
+  for (const ExrChannelInfo& channel : part.channels) {
+    header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
+  }
+  insert_attributes(header, part.attributes);
+  return header;
+}
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::exception& error) {
+  throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
+}
+
+/// Runs what may throw anything while a file is read.
+template <class Work>
+auto reading(const std::filesystem::path& path, Work&& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
+  } catch (const std::exception& error) {
+    refuse_exr(path, damage_text(error, path));
+  }
+}
+
+}  // namespace
+
+struct ExrReader::File {
+  File(const char* path, int threads) : input(path, threads) {}
+  Imf::MultiPartInputFile input;
+};
+
+ExrReader::ExrReader(std::filesystem::path path, int threads) : path_(std::move(path)) {
+  check_exr_headers(path_);
+  reading(path_, [&] {
+    file_ = std::make_unique<File>(path_.c_str(), library_threads(threads));
+    for (int i = 0; i < file_->input.parts(); ++i) parts_.push_back(describe(file_->input.header(i), path_));
+  });
+  if (parts_.empty()) refuse_exr(path_, "has no parts");
+}
+
+ExrReader::~ExrReader() = default;
+
+void ExrReader::read(size_t part, int y0, int y1, std::span<const ExrRows> rows) {
+  const ExrPart& info = parts_.at(part);
+  PELAGE_CHECK(y0 >= info.data.y0 && y1 <= info.data.y1 && y0 <= y1);
+  if (y0 == y1 || rows.empty()) return;
+  reading(path_, [&] {
+    Imf::FrameBuffer frame;
+    for (const ExrRows& to : rows) {
+      const ExrChannelInfo& channel = info.channels.at(to.channel);
+      const Imath::Box2i where = box_of(PixelBox{info.data.x0, y0, info.data.x1, y1});
+      frame.insert(channel.name, Imf::Slice::Make(channel.type == ChannelType::kUint ? Imf::UINT : Imf::FLOAT,
+                                                  to.words, where, 4, 4 * to.row_stride));
+    }
+    Imf::InputPart input(file_->input, static_cast<int>(part));
+    input.setFrameBuffer(frame);
+    input.readPixels(y0, y1 - 1);
+  });
+}
+
+struct ExrWriter::File {
+  File(const std::filesystem::path& path, const Imf::Header* headers, int count, int threads)
+      : atomic(path),
+        output(std::make_unique<Imf::MultiPartOutputFile>(atomic.temporary_path().c_str(), headers, count,
+                                                          false, threads)) {}
+  AtomicFile atomic;
+  std::unique_ptr<Imf::MultiPartOutputFile> output;
+  std::vector<ExrPart> parts;
+  std::vector<half> halves;  // one call's half channels, one after the other
+};
+
+ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
+                     int threads)
+    : path_(std::move(path)) {
+  PELAGE_CHECK(!parts.empty());
+  try {
+    std::vector<Imf::Header> headers;
+    for (const ExrOutputPart& part : parts) {
+      headers.push_back(header_for(source.file_->input.header(static_cast<int>(part.like)), part.header));
+    }
+    file_ = std::make_unique<File>(path_, headers.data(), static_cast<int>(headers.size()),
+                                   library_threads(threads));
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    fail_to_write(path_, error);
+  }
+  for (ExrOutputPart& part : parts) file_->parts.push_back(std::move(part.header));
+}
+
+ExrWriter::~ExrWriter() = default;
+
+void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows) {
+  if (count == 0) return;
+  const ExrPart& info = file_->parts.at(part);
+  PELAGE_CHECK(rows.size() == info.channels.size());
+  const auto width = static_cast<size_t>(info.data.width()), height = static_cast<size_t>(count);
+  size_t half_channels = 0;
+  for (const ExrChannelInfo& channel : info.channels) half_channels += channel.type == ChannelType::kHalf;
+  try {
+    file_->halves.resize(half_channels * width * height);
+    half* next = file_->halves.data();
+    Imf::OutputPart output(*file_->output, static_cast<int>(part));
+    const int y0 = output.currentScanLine();
+    const Imath::Box2i where = box_of(PixelBox{info.data.x0, y0, info.data.x1, y0 + count});
+    Imf::FrameBuffer frame;
+    for (const ExrRows& from : rows) {
+      const ExrChannelInfo& channel = info.channels.at(from.channel);
+      const Imf::PixelType type = pixel_type(channel.type);
+      if (channel.type == ChannelType::kHalf) {
+        for (size_t y = 0; y < height; ++y) {
+          const float* row = from.words + y * from.row_stride;
+          std::transform(row, row + width, next + y * width, rounded_half);
+        }
+        frame.insert(channel.name, Imf::Slice::Make(type, next, where, sizeof(half), sizeof(half) * width));
+        next += width * height;
+      } else {
+        frame.insert(channel.name, Imf::Slice::Make(type, from.words, where, 4, 4 * from.row_stride));
+      }
+    }
+    output.setFrameBuffer(frame);
+    output.writePixels(count);
+  } catch (const std::exception& error) {
+    fail_to_write(path_, error);
+  }
+}
+
+void ExrWriter::commit() {
+  try {
+    for (size_t i = 0; i < file_->parts.size(); ++i) {
+      Imf::OutputPart output(*file_->output, static_cast<int>(i));
+      PELAGE_CHECK(output.currentScanLine() == file_->parts[i].data.y1);
+    }
+    file_->output.reset();
+  } catch (const std::exception& error) {
+    fail_to_write(path_, error);
+  }
+  file_->atomic.commit();
+}
+
+}  // namespace pelage

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/band_job.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kFewestRows = 16;
+
+std::string megabytes(int64_t bytes) { return fmt::format("{} MiB", (bytes >> 20) + 1); }
+
+[[noreturn]] void fail_memory(const std::filesystem::path& path, int64_t needed, int64_t budget) {
+  throw Error(ErrorKind::kMemory, {path.string(), 0, 0},
+              fmt::format("needs {} of memory, the budget is {}", megabytes(needed), megabytes(budget)));
+}
+
+}  // namespace
+
+void check_field_memory(const ViewImage& image, int64_t budget) {
+  const int64_t pixels = int64_t{image.canvas().width()} * image.canvas().height();
+  const int64_t needed = pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 1);
+  if (needed > budget) fail_memory(image.reader().path(), needed, budget);
+}
+
+void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice) {
+  throw Error(ErrorKind::kInput, {image.reader().path().string(), 0, 0},
+              fmt::format("has no {}; {}; it has {}", what, advice, image.layers().listing()));
+}
+
+WarpTarget BandJob::target(const MovingView& view) const {
+  return {scale, window.x0 - view.image->canvas().x0, window.y0 - view.image->canvas().y0};
+}
+
+int64_t BandJob::field_bytes() const {
+  int64_t bytes = 0;
+  for (const MovingView& view : views) {
+    if (!view.field) continue;
+    bytes += int64_t{view.field->width()} * view.field->height() *
+             static_cast<int64_t>(FlowField::kBytesPerPixel);
+  }
+  return bytes;
+}
+
+int64_t BandJob::band_bytes(Band band) const {
+  const int64_t planes = static_cast<int64_t>(channels->size() + extra_planes);
+  // A result of floats, and halves while it is written.
+  int64_t bytes = planes * window.width() * (band.last - band.first) * 6;
+  int64_t most_source = 0;  // one view at a time
+  for (const MovingView& view : views) {
+    const RowRange rows = reach(view, target(view), band);
+    most_source = std::max(most_source, int64_t{4} * view.image->canvas().width() * (rows.last - rows.first) *
+                                            static_cast<int64_t>(view.image->own().size()));
+  }
+  return bytes + most_source;
+}
+
+BandJob::Band BandJob::next_band(int first) const {
+  const int64_t room = memory - scratch_bytes - field_bytes();
+  for (int rows = window.height() - first;; rows = (rows + 1) / 2) {
+    const Band band{first, first + rows};
+    const int64_t needed = band_bytes(band);
+    if (needed <= room) return band;
+    if (rows <= kFewestRows) fail_memory(reader->path(), memory - room + needed, memory);
+  }
+}
+
+Plane BandJob::plane(size_t number, Band band) const {
+  const auto width = static_cast<size_t>(window.width()), rows = static_cast<size_t>(band.last - band.first);
+  return {const_cast<float*>(result_.data()) + number * width * rows, 1, static_cast<ptrdiff_t>(width),
+          band.first};
+}
+
+Plane BandJob::extra_plane(size_t extra) const { return plane(channels->size() + extra, band_); }
+
+void BandJob::make_band(Band band) {
+  band_ = band;
+  const size_t planes = channels->size() + extra_planes;
+  result_.assign(planes * static_cast<size_t>(window.width()) * static_cast<size_t>(band.last - band.first), 0);
+  for (const MovingView& view : views) {
+    const std::vector<size_t>& own = view.image->own();
+    const RowRange rows = reach(view, target(view), band);
+    std::vector<float> source = view.image->read(own, rows.first, rows.last);
+    const auto width = static_cast<size_t>(view.image->canvas().width());
+    const size_t plane_size = width * static_cast<size_t>(rows.last - rows.first);
+    PostLayers layers;
+    std::vector<size_t> number(channels->size());
+    for (size_t i = 0; i < own.size(); ++i) {
+      number[own[i]] = i;
+      layers.channels.push_back(
+          {view.image->layers().role(own[i]),
+           {source.data() + i * plane_size, 1, static_cast<ptrdiff_t>(width), rows.first},
+           plane(own[i], band)});
+    }
+    for (RankedMatte matte : view.image->layers().mattes()) {
+      for (auto& rank : matte.ranks) rank = {number[rank.id], number[rank.coverage]};
+      layers.mattes.push_back(std::move(matte));
+    }
+    process(view, target(view), band, layers);
+  }
+}
+
+void BandJob::write_band(ExrWriter& writer, Band band) {
+  for (size_t p = 0; p < parts.size(); ++p) {
+    const PixelBox& data = parts[p].part.header.data;
+    const int first = std::max(band.first, data.y0 - window.y0), last = std::min(band.last, data.y1 - window.y0);
+    if (first >= last) continue;
+    std::vector<ExrRows> rows;
+    for (size_t c = 0; c < parts[p].planes.size(); ++c) {
+      const Plane from = plane(parts[p].planes[c], band);
+      rows.push_back({c, &from.at(data.x0 - window.x0, first), static_cast<size_t>(window.width())});
+    }
+    writer.write(p, last - first, rows);
+  }
+}
+
+void BandJob::run(const std::filesystem::path& output, const Workers& workers, Progress& progress,
+                  MemoryLedger& ledger, PostReport& report) {
+  std::vector<ExrOutputPart> headers;
+  for (const Part& part : parts) headers.push_back(part.part);
+  next_band(0);  // refuses a budget that is too small before anything is written
+  ExrWriter writer(output, *reader, std::move(headers), workers.thread_count());
+  const MemoryCharge fixed(ledger, MemoryTag::kFilm, field_bytes() + scratch_bytes);
+  report.bands = 0;
+  report.window = window;
+  for (int row = 0; row < window.height(); row = band_.last) {
+    const Band band = next_band(row);
+    const MemoryCharge charge(ledger, MemoryTag::kFilm, band_bytes(band));
+    make_band(band);
+    report.cancelled = progress.cancelled();
+    if (report.cancelled) return;
+    write_band(writer, band);
+    ++report.bands;
+  }
+  writer.commit();
+}
+
+}  // namespace pelage

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/ledger.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "post/motion_blur.h"
+#include "post/view_image.h"
+
+namespace pelage {
+
+/// What a tool came to do with a file.
+struct PostReport {
+  bool cancelled = false;  ///< nothing was written
+  PixelBox window;         ///< of all that was written
+  int steps = 1;
+  int bands = 1;      ///< pieces in which the file went through memory
+  float longest = 0;  ///< motion or parallax, pixels
+  std::vector<std::string> notes;  ///< for the user, one line each
+};
+
+/// What both tools need to know.
+struct PostFileParams {
+  LayerChoice layers;
+  VectorParams vectors;
+  int scale = 4;                       ///< samples per pixel and side, 1 to 8
+  int64_t memory = int64_t{4} << 30;  ///< bytes: pixels, vectors and work buffers stay below
+};
+
+/// A view whose pixels move; without a field they are copied.
+struct MovingView {
+  std::unique_ptr<ViewImage> image;
+  std::unique_ptr<FlowField> field;
+};
+
+/// Takes a file through memory band by band: reads the rows of the source that a band needs, lets `process`
+/// make the band, writes it. Memory: the fields, `scratch_bytes`, and as many rows as the budget leaves room
+/// for.
+class BandJob {
+ public:
+  struct Band {
+    int first, last;  ///< rows of the result
+  };
+  /// Makes the band of one view.
+  using Process = std::function<void(const MovingView& view, const WarpTarget& target, Band band,
+                                     const PostLayers& layers)>;
+  /// Rows of the view's canvas that the band needs.
+  using Reach = std::function<RowRange(const MovingView& view, const WarpTarget& target, Band band)>;
+
+  /// A part to write and, for each of its channels, the number of its plane: of a channel of the file, or
+  /// that number plus the count of channels for planes that `process` fills beside.
+  struct Part {
+    ExrOutputPart part;
+    std::vector<size_t> planes;
+  };
+
+  ExrReader* reader = nullptr;
+  const std::vector<NamedChannel>* channels = nullptr;
+  std::vector<MovingView> views;
+  std::vector<Part> parts;
+  PixelBox window;         ///< of the result; encloses all its parts
+  size_t extra_planes = 0;
+  int scale = 4;
+  int64_t memory = 0;
+  int64_t scratch_bytes = 0;
+  Process process;
+  Reach reach;
+
+  /// Plane `extra` of the band at hand, for `process`.
+  Plane extra_plane(size_t extra) const;
+
+  /// Throws Error: kInput and kFailed as the reader and the writer do, kMemory when the budget does not hold
+  /// the narrowest band. Fills `cancelled`, `window` and `bands` of the report.
+  void run(const std::filesystem::path& output, const Workers& workers, Progress& progress,
+           MemoryLedger& ledger, PostReport& report);
+
+  /// Where the view lies in the window.
+  WarpTarget target(const MovingView& view) const;
+
+ private:
+  int64_t field_bytes() const;
+  int64_t band_bytes(Band band) const;
+  Band next_band(int first) const;
+  void make_band(Band band);
+  void write_band(ExrWriter& writer, Band band);
+  Plane plane(size_t number, Band band) const;
+
+  std::vector<float> result_;
+  Band band_{0, 0};
+};
+
+/// Bytes of the fields of pictures of this size, at most, while they are made; throws Error (kMemory) naming the file
+/// when they exceed the budget.
+void check_field_memory(const ViewImage& image, int64_t budget);
+
+/// Several parts of the two tools' beginnings: throws Error (kInput) saying what is missing and what there is.
+[[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
+
+}  // namespace pelage

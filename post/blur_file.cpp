@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/blur_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "post/box_resolve.h"
+
+namespace pelage {
+namespace {
+
+PixelBox grown_within(const PixelBox& box, const Overhang& by, const PixelBox& limits) {
+  return {std::max(box.x0 - by.left, std::min(limits.x0, box.x0)),
+          std::max(box.y0 - by.top, std::min(limits.y0, box.y0)),
+          std::min(box.x1 + by.right, std::max(limits.x1, box.x1)),
+          std::min(box.y1 + by.bottom, std::max(limits.y1, box.y1))};
+}
+
+void enclose(PixelBox& box, const PixelBox& other) {
+  box = {std::min(box.x0, other.x0), std::min(box.y0, other.y0), std::max(box.x1, other.x1),
+         std::max(box.y1, other.y1)};
+}
+
+std::string of_view(const std::string& view) { return view.empty() ? "" : " in view '" + view + "'"; }
+
+float longest_of(const FlowField& field) {
+  const float x = std::max(std::abs(field.low().x), std::abs(field.high().x));
+  const float y = std::max(std::abs(field.low().y), std::abs(field.high().y));
+  return std::hypot(x, y);
+}
+
+/// The field of a view, or none where it has no vectors or nothing to blur.
+std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFileParams& params,
+                                      const std::string& view, const Workers& workers, PostReport& report) {
+  const LayerFinder& layers = image.layers();
+  const auto motion = layers.motion();
+  if (!motion || !layers.has_colors()) return nullptr;
+  const bool without_depth = params.file.layers.depth == "none";
+  if (!layers.depth() && !without_depth) {
+    fail_missing(image, "depth" + of_view(view), "name a layer with --depth-layer, or 'none' to go without");
+  }
+  check_field_memory(image, params.file.memory);
+  std::vector<float> depth = image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha());
+  size_t not_finite = 0;
+  std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, not_finite);
+  if (not_finite > 0) {
+    report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
+  }
+  const ShutterParams& shutter = params.shutter;
+  LinkLimits limits;
+  limits.largest_time = std::abs(shutter.centre) + std::abs(shutter.length) / 2;
+  return std::make_unique<FlowField>(image.canvas().width(), image.canvas().height(), std::move(vectors),
+                                     std::move(depth), limits, workers);
+}
+
+int64_t scratch_bytes(const BlurFileParams& params, size_t channels, int threads) {
+  const PixelBox piece{0, 0, params.tiling.columns, params.tiling.rows};
+  PostLayers layers;
+  layers.channels.resize(channels);
+  const size_t bytes = WorkBuffer::bytes_needed(piece, params.file.scale) +
+                       static_cast<size_t>(piece.width() * piece.height()) * BoxResolve::bytes_per_pixel(layers);
+  return static_cast<int64_t>(bytes) * threads;
+}
+
+}  // namespace
+
+PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
+                     const BlurFileParams& params, const Workers& workers, Progress& progress,
+                     MemoryLedger& ledger) {
+  PostReport report;
+  ExrReader reader(input, workers.thread_count());
+  const std::vector<NamedChannel> channels = name_channels(reader.parts());
+  if (channels.empty()) throw Error(ErrorKind::kInput, {input.string(), 0, 0}, "has no channels");
+
+  BandJob job;
+  job.reader = &reader;
+  job.channels = &channels;
+  job.scale = params.file.scale;
+  job.memory = params.file.memory;
+  job.scratch_bytes = scratch_bytes(params, channels.size(), workers.thread_count());
+  for (const std::string& view : views_of(channels, reader.parts())) {
+    MovingView moving;
+    moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
+    if (moving.image->own().empty()) continue;
+    moving.field = make_field(*moving.image, params, view, workers, report);
+    if (moving.field) report.longest = std::max(report.longest, longest_of(*moving.field));
+    if (!moving.field && moving.image->layers().has_colors()) {
+      report.notes.push_back("no motion vectors" + of_view(view) + ": copied");
+    }
+    job.views.push_back(std::move(moving));
+  }
+  const bool moves = std::any_of(job.views.begin(), job.views.end(), [](const auto& v) { return !!v.field; });
+  if (!moves) {
+    fail_missing(*job.views.front().image,
+                 params.file.layers.motion.empty() ? "motion vectors"
+                                                   : "motion vectors '" + params.file.layers.motion + "'",
+                 "name their layer with --motion-layer");
+  }
+  const std::vector<float> times = shutter_times(params.shutter, report.longest);
+  report.steps = static_cast<int>(times.size());
+
+  job.window = reader.parts().front().data;
+  for (size_t p = 0; p < reader.parts().size(); ++p) {
+    const ExrPart& part = reader.parts()[p];
+    BandJob::Part out{{p, part}, {}};
+    for (const MovingView& view : job.views) {
+      bool is_inside = false;
+      for (size_t i : view.image->own()) is_inside |= channels[i].part == p;
+      if (!is_inside || !view.field) continue;
+      enclose(out.part.header.data, grown_within(part.data, overhang(*view.field, times), part.display));
+    }
+    for (size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i].part == p) out.planes.push_back(i);
+    }
+    out.part.header.attributes.clear();  // those of the source stay
+    out.part.header.attributes["pelage:motionBlur"] =
+        fmt::format("shutter {} around {}, {} steps, scale {}", params.shutter.length, params.shutter.centre,
+                    report.steps, params.file.scale);
+    enclose(job.window, out.part.header.data);
+    job.parts.push_back(std::move(out));
+  }
+
+  job.reach = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band) -> RowRange {
+    if (view.field)
+      return rows_reaching(*view.field, target, job.window.width(), band.first, band.last, times);
+    const int height = view.image->canvas().height();
+    return {std::clamp(band.first + target.origin_y, 0, height),
+            std::clamp(band.last + target.origin_y, 0, height)};
+  };
+  job.process = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band,
+                    const PostLayers& layers) {
+    if (view.field) {
+      const BlurJob blur{view.field.get(), target, times, job.window.width(), band.first, band.last};
+      blur_rows(blur, layers, params.tiling, workers, progress);
+      return;
+    }
+    const RowRange rows = job.reach(view, target, band);
+    for (const PostChannel& channel : layers.channels) {
+      for (int y = rows.first; y < rows.last; ++y) {
+        for (int x = 0; x < view.image->canvas().width(); ++x) {
+          channel.target.at(x - target.origin_x, y - target.origin_y) = channel.source.at(x, y);
+        }
+      }
+    }
+    progress.advance(band.last - band.first);
+  };
+  progress.begin("blur", static_cast<double>(job.window.height()) * static_cast<double>(job.views.size()));
+  job.run(output, workers, progress, ledger, report);
+  progress.end();
+  return report;
+}
+
+}  // namespace pelage

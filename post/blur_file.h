@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "post/band_job.h"
+
+namespace pelage {
+
+struct BlurFileParams {
+  PostFileParams file;
+  ShutterParams shutter;
+  PostTiling tiling;
+};
+
+/// `pelage motionblur` on one file: each view that has motion vectors is blurred by them, what has none is
+/// copied. Parts keep their names, channels, types and attributes; their data windows grow by the motion, up
+/// to the display window. Throws Error (kInput) when no view has vectors or one has no depth, and as BandJob
+/// does.
+PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
+                     const BlurFileParams& params, const Workers& workers, Progress& progress,
+                     MemoryLedger& ledger);
+
+}  // namespace pelage

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "post/layers.h"
+#include "post/work_buffer.h"
+
+namespace pelage {
+
+/// Turns work buffers into pixels: every sample counts alike. Counts are whole numbers, so a pixel that sees
+/// one pixel of the source and nothing else becomes a copy of it, to the bit, however often it is looked at.
+/// Colours that are not numbers count as zero where they are averaged.
+///
+/// Colours are fetched once for each run of steps in which a pixel sees the same thing. Thread safety: one
+/// thread at a time; use one per worker.
+class BoxResolve {
+ public:
+  explicit BoxResolve(const PostLayers& layers) : layers_(layers) {}
+
+  /// Begins with pixels `box` of the result.
+  void begin(const PixelBox& box, int scale);
+  /// What is seen at one step, or at `steps` steps that are alike. `buffer` holds at least the box.
+  void add(const WorkBuffer& buffer, int steps = 1);
+  /// Writes the box.
+  void finish();
+
+  /// What it holds for a pixel of the box while it works.
+  static size_t bytes_per_pixel(const PostLayers& layers) {
+    return layers.channels.size() * sizeof(float) + sizeof(State) + 2 * sizeof(Entry);
+  }
+
+ private:
+  struct Entry {
+    uint32_t at;      // pixel of the box
+    uint32_t source;  // Sample::pixel()
+    uint32_t count;
+  };
+  struct State {
+    Sample front;  // nearest of all samples
+    uint32_t source = 0;
+    uint32_t count = 0;     // samples of `source` that are not in the sums yet
+    bool is_mixed = false;  // something is in the sums
+  };
+  static constexpr size_t kMostEntries = 1 << 14;
+
+  void see(uint32_t at, uint32_t source, uint32_t count);
+  void flush();
+  void add_to_matte(const RankedMatte& matte, const Entry& entry);
+  void write_matte(size_t matte, uint32_t at, int x, int y);
+  void write_pixel(uint32_t at, int x, int y);
+
+  const PostLayers& layers_;
+  PixelBox box_;
+  int scale_ = 1;
+  uint32_t samples_ = 0;  // of a pixel, over all steps so far
+  std::vector<State> states_;
+  std::vector<Entry> entries_;
+  std::vector<float> sums_;                                  // channel by channel
+  std::vector<std::vector<std::pair<uint32_t, float>>> matte_sums_;  // by matte and pixel: bits of the id, sum
+};
+
+}  // namespace pelage

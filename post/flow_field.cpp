@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/flow_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+
+namespace pelage {
+
+FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
+                     const LinkLimits& limits, const Workers& workers)
+    : width_(width),
+      height_(height),
+      motion_(std::move(motion)),
+      depth_(std::move(depth)),
+      // Linked neighbours differ by at most tear / largest_time; a corner is a mean over three of them.
+      slack_(limits.largest_time > 0 ? 2 * limits.tear / limits.largest_time : 2 * kLongest) {
+  PELAGE_CHECK(width > 0 && height > 0 && width <= kLargestSide && height <= kLargestSide);
+  const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
+  PELAGE_CHECK(motion_.size() == pixels && depth_.size() == pixels);
+  links_.resize(pixels);
+  const auto rows = [&](auto&& work) {
+    workers.for_each(static_cast<size_t>(height), 16, [&](WorkRange range) {
+      for (size_t y = range.begin; y < range.end; ++y) work(static_cast<int>(y));
+    });
+  };
+  rows([&](int y) {
+    for (int x = 0; x < width_; ++x) clean(at(x, y));
+  });
+  rows([&](int y) { link_row(y, limits); });
+  std::vector<uint8_t> rigid(pixels);  // apart from the links, which other rows read meanwhile
+  rows([&](int y) {
+    for (int x = 0; x < width_; ++x) rigid[at(x, y)] = has_own_corners(x, y) ? kRigid : 0;
+  });
+  rows([&](int y) {
+    for (int x = 0; x < width_; ++x) links_[at(x, y)] |= rigid[at(x, y)];
+  });
+  bound_blocks();
+}
+
+void FlowField::clean(size_t pixel) {
+  Flow& m = motion_[pixel];
+  if (!std::isfinite(m.x) || !std::isfinite(m.y)) m = {};
+  m.x = std::clamp(m.x, -kLongest, kLongest);
+  m.y = std::clamp(m.y, -kLongest, kLongest);
+  float& z = depth_[pixel];
+  z = std::abs(z);
+  if (!(z > 0)) z = std::numeric_limits<float>::infinity();
+}
+
+bool FlowField::is_linked(size_t a, size_t b, const LinkLimits& limits) const {
+  const float dx = std::abs(motion_[a].x - motion_[b].x), dy = std::abs(motion_[a].y - motion_[b].y);
+  if (std::max(dx, dy) * limits.largest_time > limits.tear) return false;
+  const float near = 1 / std::min(depth_[a], depth_[b]), far = 1 / std::max(depth_[a], depth_[b]);
+  return near - far <= limits.depth_step * near;
+}
+
+void FlowField::link_row(int y, const LinkLimits& limits) {
+  for (int x = 0; x < width_; ++x) {
+    const size_t p = at(x, y);
+    uint8_t bits = 0;
+    if (x + 1 < width_ && is_linked(p, p + 1, limits)) bits |= kRight;
+    if (y + 1 < height_ && is_linked(p, at(x, y + 1), limits)) bits |= kDown;
+    links_[p] = bits;
+  }
+}
+
+Flow FlowField::corner(int x, int y, int right, int bottom) const {
+  // The four pixels around the corner: a b over c d. Beyond the picture there are none, and no links.
+  const int left = x + right - 1, top = y + bottom - 1;
+  const bool in_l = left >= 0, in_r = left + 1 < width_, in_t = top >= 0, in_b = top + 1 < height_;
+  const size_t a = static_cast<size_t>(static_cast<int64_t>(top) * width_ + left);
+  const size_t w = static_cast<size_t>(width_);
+  const bool ab = in_t && in_l && in_r && (links_[a] & kRight);
+  const bool cd = in_b && in_l && in_r && (links_[a + w] & kRight);
+  const bool ac = in_l && in_t && in_b && (links_[a] & kDown);
+  const bool bd = in_r && in_t && in_b && (links_[a + 1] & kDown);
+
+  // Which of them hang together with this pixel, by at most three links.
+  const int self = (bottom ? 0 : 2) + (right ? 0 : 1);
+  bool in[4] = {self == 0, self == 1, self == 2, self == 3};
+  for (int step = 0; step < 3; ++step) {
+    if (ab) in[0] = in[1] = in[0] || in[1];
+    if (cd) in[2] = in[3] = in[2] || in[3];
+    if (ac) in[0] = in[2] = in[0] || in[2];
+    if (bd) in[1] = in[3] = in[1] || in[3];
+  }
+  // In one order, as differences to one of them: equal vectors have exactly themselves as mean.
+  const size_t pixels[4] = {a, a + 1, a + w, a + w + 1};
+  int count = 0;
+  Flow first, sum;
+  for (int i = 0; i < 4; ++i) {
+    if (!in[i]) continue;
+    const Flow m = motion_[pixels[i]];
+    if (count++ == 0) first = m;
+    sum.x += m.x - first.x;
+    sum.y += m.y - first.y;
+  }
+  return {first.x + sum.x / static_cast<float>(count), first.y + sum.y / static_cast<float>(count)};
+}
+
+bool FlowField::has_own_corners(int x, int y) const {
+  const Flow m = motion(x, y);
+  for (int c = 0; c < 4; ++c) {
+    if (corner(x, y, c & 1, c >> 1) != m) return false;
+  }
+  return true;
+}
+
+void FlowField::bound_blocks() {
+  low_ = high_ = motion_[0];
+  for (int y0 = 0; y0 < height_; y0 += kBlockHeight) {
+    for (int x0 = 0; x0 < width_; x0 += kBlockWidth) {
+      Block block{x0, y0, std::min(x0 + kBlockWidth, width_), std::min(y0 + kBlockHeight, height_), {}, {}};
+      block.low = block.high = motion(x0, y0);
+      for (int y = block.y0; y < block.y1; ++y) {
+        for (int x = block.x0; x < block.x1; ++x) {
+          const Flow m = motion(x, y);
+          block.low = {std::min(block.low.x, m.x), std::min(block.low.y, m.y)};
+          block.high = {std::max(block.high.x, m.x), std::max(block.high.y, m.y)};
+        }
+      }
+      low_ = {std::min(low_.x, block.low.x), std::min(low_.y, block.low.y)};
+      high_ = {std::max(high_.x, block.high.x), std::max(high_.y, block.high.y)};
+      blocks_.push_back(block);
+    }
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace pelage {
+
+/// A vector in the picture, in pixels: x right, y down.
+struct Flow {
+  float x = 0, y = 0;
+  bool operator==(const Flow&) const = default;
+};
+
+/// What decides that two neighbours are one surface.
+struct LinkLimits {
+  float largest_time = 1;  ///< of all the times that the field will be warped to, by magnitude
+  float tear = 1.5f;       ///< pixels by which neighbours may come to lie further apart, or closer
+  float depth_step = 0.05f;  ///< step of 1 / depth, as a fraction of the nearer one's
+};
+
+/// Where every pixel of a picture moves, how far away it is, and which neighbours it is one surface with (the
+/// motion-gradient image, reduced to what it decides). Thread safety: immutable once made.
+///
+/// Memory: kBytesPerPixel for each pixel, and one more while it is made.
+class FlowField {
+ public:
+  static constexpr size_t kBytesPerPixel = 13;
+  /// Pictures may be this wide and high: a pixel's place is a pair of 16-bit numbers.
+  static constexpr int kLargestSide = 65535;
+  /// Vectors are cut to this length: far enough to leave any picture.
+  static constexpr float kLongest = 1 << 18;
+
+  /// `motion`, `depth`: width * height, rows from the top. Vectors that are not finite count as none. Depth is
+  /// a distance; its sign is ignored, and what is not a distance (zero, infinity, not a number) is infinitely
+  /// far away.
+  FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
+            const LinkLimits& limits, const Workers& workers);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  Flow motion(int x, int y) const { return motion_[at(x, y)]; }
+  float depth(int x, int y) const { return depth_[at(x, y)]; }
+  bool linked_right(int x, int y) const { return links_[at(x, y)] & kRight; }
+  bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
+
+  /// Whether all four corners move as the pixel does, so that it stays a unit square.
+  bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
+  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean of those of the four pixels around it
+  /// that are one surface with this one. They all get the same bits, so that a surface has no cracks.
+  Flow corner(int x, int y, int right, int bottom) const;
+
+  /// Pixels whose motion is bounded together.
+  struct Block {
+    int x0, y0, x1, y1;
+    Flow low{0, 0}, high{0, 0};  ///< of the vectors within
+  };
+  static constexpr int kBlockWidth = 64, kBlockHeight = 8;
+  /// Row by row.
+  const std::vector<Block>& blocks() const { return blocks_; }
+  int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
+  /// By how much a corner may move further than any pixel of its block.
+  float slack() const { return slack_; }
+  /// Bounds of all vectors.
+  Flow low() const { return low_; }
+  Flow high() const { return high_; }
+
+ private:
+  static constexpr uint8_t kRight = 1, kDown = 2, kRigid = 4;
+  size_t at(int x, int y) const { return static_cast<size_t>(y) * static_cast<size_t>(width_) + x; }
+  bool is_linked(size_t a, size_t b, const LinkLimits& limits) const;
+  void clean(size_t pixel);
+  void link_row(int y, const LinkLimits& limits);
+  bool has_own_corners(int x, int y) const;
+  void bound_blocks();
+
+  int width_, height_;
+  std::vector<Flow> motion_;
+  std::vector<float> depth_;
+  std::vector<uint8_t> links_;
+  std::vector<Block> blocks_;
+  Flow low_, high_;
+  float slack_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/exr_file.h"
+#include "post/layers.h"
+
+namespace pelage {
+
+/// A channel of a file and what its name says. In a part of its own a layer's channels often have bare names;
+/// the layer is then the name of the part.
+struct NamedChannel {
+  size_t part = 0, channel = 0;  ///< of ExrReader::parts()
+  std::string view;              ///< empty where the file has no views, or the channel belongs to none
+  std::string layer;             ///< "key.diffuse" of "key.diffuse.R"; empty for a bare name
+  std::string component;         ///< "R"
+  ChannelType type = ChannelType::kHalf;
+  /// The name without its view.
+  std::string name() const { return layer.empty() ? component : layer + "." + component; }
+};
+
+/// All channels of a file, in order, with the views of multi-view files taken out of their names: from the
+/// part's `view`, or from "left.R" and "forward.left.u" where the header lists the views.
+std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
+
+/// Names of the views, the default one first; {""} for a file without views.
+std::vector<std::string> views_of(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts);
+
+/// How the layers of a file are found, where the names alone do not say it.
+struct LayerChoice {
+  std::string motion;               ///< "forward", a part's name, or two channels: "mv.R,mv.G"
+  std::string depth;                ///< a layer, a part or a channel; "none": everything is equally far away
+  std::vector<std::string> data;    ///< layers that are not averaged
+  std::vector<std::string> colors;  ///< layers that are, whatever their names suggest
+};
+
+/// Finds what the tools need among the channels of one view. Names are compared without regard to case and
+/// punctuation. Numbers are indices of `channels`.
+class LayerFinder {
+ public:
+  LayerFinder(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts, std::string view,
+              const LayerChoice& choice);
+
+  /// Both channels of the vectors: u and v, x and y, or r and g of the layer that was chosen, or else of
+  /// "forward", "motion" and what else such layers are called.
+  std::optional<std::pair<size_t, size_t>> motion() const { return motion_; }
+  /// The same in a layer of this name.
+  std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
+  std::optional<size_t> depth() const { return depth_; }
+  std::optional<size_t> alpha() const;
+  LayerRole role(size_t channel) const;
+  /// Cryptomattes that the attributes announce, as indices of channels.
+  const std::vector<RankedMatte>& mattes() const { return mattes_; }
+  bool has_colors() const;
+
+  /// What the file has, for messages: "R, G, B, A, key.diffuse.R and 12 more".
+  std::string listing() const;
+
+ private:
+  bool is_here(size_t channel) const { return channels_[channel].view == view_; }
+  bool is_called(const NamedChannel& channel, const std::string& plain_layer) const;
+  std::optional<std::pair<size_t, size_t>> find_motion() const;
+  std::optional<size_t> find_depth() const;
+  std::vector<RankedMatte> find_mattes() const;
+  std::optional<size_t> find(const std::string& plain_layer, const std::vector<std::string>& components) const;
+
+  const std::vector<NamedChannel>& channels_;
+  const std::vector<ExrPart>& parts_;
+  std::string view_;
+  const LayerChoice& choice_;
+  std::optional<std::pair<size_t, size_t>> motion_;
+  std::optional<size_t> depth_;
+  std::vector<RankedMatte> mattes_;
+  std::set<size_t> ranked_;  // channels of mattes_
+};
+
+}  // namespace pelage

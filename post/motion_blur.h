@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "post/flow_field.h"
+#include "post/layers.h"
+#include "post/warp.h"
+
+namespace pelage {
+
+/// When the shutter is open, and how finely it is looked at. Times are in frames (or whatever the vectors
+/// are per), 0 being when the picture was rendered.
+struct ShutterParams {
+  float length = 0.5f;  ///< 0.5 is a shutter of 180 degrees
+  float centre = 0;     ///< 0: as much before the rendered instant as after it
+  int steps = 0;        ///< instants; 0: about one per pixel of the longest motion, 8 to 64
+};
+
+/// The instants: middles of equal parts of the shutter. `longest` is that of all vectors, in pixels. Without
+/// motion there is one.
+std::vector<float> shutter_times(const ShutterParams& shutter, float longest);
+
+/// How the work is cut; changes no pixel.
+struct PostTiling {
+  int columns = 128, rows = 16;  ///< pixels of a piece that a worker draws and resolves at a time
+};
+
+/// Pixmotor [Neulander07; Neulander13]: warps the picture to each of the `times`, resolves what is seen, and
+/// averages. `rows` are rows of the result (the picture shifted by target.origin), `width` its columns; the
+/// layers' sources must hold every row of the field from which something reaches these rows
+/// (`rows_reaching`), their targets these rows. Throws nothing of its own. Returns early when `progress` is
+/// cancelled, to which it reports a step per row; otherwise a function of its arguments but the tiling and the
+/// workers.
+struct BlurJob {
+  const FlowField* field = nullptr;
+  WarpTarget target;
+  std::vector<float> times;
+  int width = 0;
+  int first_row = 0, last_row = 0;  ///< half-open
+};
+void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, const Workers& workers,
+               Progress& progress);
+
+/// Rows of the field from which a pixel may reach rows first_row .. last_row of the result at one of the
+/// times; half-open, empty as {0, 0}.
+struct RowRange {
+  int first = 0, last = 0;
+};
+RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row, int last_row,
+                       const std::vector<float>& times);
+
+/// How far pixels come to lie outside the field at any of the times, in whole pixels per side.
+struct Overhang {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+Overhang overhang(const FlowField& field, const std::vector<float>& times);
+
+}  // namespace pelage

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/stereo_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+
+namespace pelage {
+namespace {
+
+constexpr float kEyeSeparationMetres = 0.065f;
+constexpr int kFillFraction = 40;  // of the width
+
+[[noreturn]] void refuse(const ExrReader& reader, const std::string& why) {
+  throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0}, why);
+}
+
+std::string pick_view(const ExrReader& reader, const std::vector<std::string>& views,
+                      const StereoFileParams& params) {
+  const auto has = [&](const std::string& view) {
+    return std::find(views.begin(), views.end(), view) != views.end();
+  };
+  if (params.view) {
+    if (!has(*params.view)) {
+      refuse(reader, "has no view " + quote(*params.view) + suggest(*params.view, views));
+    }
+    return *params.view;
+  }
+  const std::string usual = params.to_left ? "right" : "left";
+  return has(usual) ? usual : views.front();
+}
+
+/// The part that says the most about the camera: the first one of the view.
+const ExrPart& camera_part(const ViewImage& image) {
+  return image.reader().parts()[image.channels()[image.own().front()].part];
+}
+
+StereoCamera pick_camera(const ViewImage& image, const StereoFileParams& params) {
+  const ExrPart& part = camera_part(image);
+  StereoCamera camera;
+  camera.convergence = params.convergence;
+  if (params.focal_pixels) {
+    camera.focal_pixels = *params.focal_pixels;
+  } else if (params.fov_deg) {
+    const float half = *params.fov_deg / 2 * std::numbers::pi_v<float> / 180;
+    camera.focal_pixels = static_cast<float>(part.display.height()) / (2 * std::tan(half));
+  } else if (const auto focal = focal_pixels_of(part)) {
+    camera.focal_pixels = *focal;
+  } else {
+    refuse(image.reader(),
+           "says nothing about its camera (worldToCamera, worldToNDC); give --fov, --focal-pixels or "
+           "--parallax-layer");
+  }
+  if (params.eye_separation) {
+    camera.eye_separation = *params.eye_separation;
+  } else {
+    const auto unit = part.attributes.find("pelage:metersPerUnit");
+    const float* metres = unit == part.attributes.end() ? nullptr : std::get_if<float>(&unit->second);
+    if (!metres || !(*metres > 0)) refuse(image.reader(), "does not say how long a unit is; give --eye-separation");
+    camera.eye_separation = kEyeSeparationMetres / *metres;
+  }
+  if (params.to_left) camera.eye_separation = -camera.eye_separation;
+  return camera;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = from.empty() ? std::string::npos : text.find(from);
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+std::string other_view(const std::string& view) {
+  return view == "left" ? "right" : view == "right" ? "left" : view;
+}
+
+/// Parts of the result: those with channels of the view, the layer of what was invented with the colours.
+void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, const StereoCamera& camera) {
+  const ExrReader& reader = image.reader();
+  const std::vector<NamedChannel>& channels = image.channels();
+  const auto color = std::find_if(image.own().begin(), image.own().end(), [&](size_t i) {
+    return image.layers().role(i) == LayerRole::kColor;
+  });
+  const size_t colors = channels[color == image.own().end() ? image.own().front() : *color].part;
+  for (size_t p = 0; p < reader.parts().size(); ++p) {
+    BandJob::Part out{{p, reader.parts()[p]}, {}};
+    ExrPart& header = out.part.header;
+    header.channels.clear();
+    header.multi_view.clear();
+    for (size_t i : image.own()) {
+      if (channels[i].part != p || channels[i].layer == "invented") continue;  // made anew
+      header.channels.push_back({channels[i].name(), channels[i].type});
+      out.planes.push_back(i);
+    }
+    if (header.channels.empty()) continue;
+    header.name = replaced(header.name, view, other_view(view));
+    header.view = header.view.empty() ? "" : other_view(view);
+    if (p == colors) {
+      header.data = job.window;  // what was invented may lie anywhere
+      header.channels.push_back({"invented.mask", ChannelType::kHalf});
+      header.channels.push_back({"invented.hole", ChannelType::kHalf});
+      out.planes.push_back(channels.size());
+      out.planes.push_back(channels.size() + 1);
+    } else {
+      header.data.x0 = std::min(header.data.x0, job.window.x0);
+      header.data.x1 = std::max(header.data.x1, job.window.x1);
+    }
+    move_camera(header, camera);
+    std::erase_if(header.attributes, [](const auto& a) {
+      return a.first != "worldToCamera" && a.first != "worldToNDC";  // the source's stay
+    });
+    header.attributes["pelage:stereo"] =
+        camera.focal_pixels > 0 ? fmt::format("focal length {} pixels, eye separation {}, convergence {}",
+                                              camera.focal_pixels, camera.eye_separation, camera.convergence)
+                                : "parallax of a layer";
+    job.parts.push_back(std::move(out));
+  }
+}
+
+std::vector<Flow> parallax_of(const std::vector<float>& depth, const StereoCamera& camera) {
+  std::vector<Flow> vectors;
+  vectors.reserve(depth.size());
+  for (const float z : depth) {
+    const float distance = std::abs(z) > 0 ? std::abs(z) : std::numeric_limits<float>::infinity();
+    vectors.push_back({parallax(camera, distance), 0});
+  }
+  return vectors;
+}
+
+std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFileParams& params,
+                                      const StereoCamera& camera, const Workers& workers, PostReport& report) {
+  check_field_memory(image, params.file.memory);
+  const LayerFinder& layers = image.layers();
+  if (!layers.depth()) fail_missing(image, "depth", "name a layer with --depth-layer");
+  std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha());
+  std::vector<Flow> vectors;
+  if (params.parallax.empty()) {
+    vectors = parallax_of(depth, camera);
+  } else {
+    const auto uv = layers.vectors(params.parallax);
+    if (!uv) fail_missing(image, "layer " + quote(params.parallax), "give another --parallax-layer");
+    size_t not_finite = 0;
+    vectors = image.read_vectors(*uv, params.file.vectors, not_finite);
+    if (not_finite > 0) {
+      report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
+    }
+  }
+  return std::make_unique<FlowField>(image.canvas().width(), image.canvas().height(), std::move(vectors),
+                                     std::move(depth), LinkLimits(), workers);
+}
+
+}  // namespace
+
+PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
+                       const StereoFileParams& params, const Workers& workers, Progress& progress,
+                       MemoryLedger& ledger) {
+  PostReport report;
+  ExrReader reader(input, workers.thread_count());
+  const std::vector<NamedChannel> channels = name_channels(reader.parts());
+  if (channels.empty()) refuse(reader, "has no channels");
+  const std::string view = pick_view(reader, views_of(channels, reader.parts()), params);
+
+  BandJob job;
+  job.reader = &reader;
+  job.channels = &channels;
+  job.scale = params.file.scale;
+  job.memory = params.file.memory;
+  job.extra_planes = 2;
+  MovingView moving;
+  moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
+  const ViewImage& image = *moving.image;
+  const StereoCamera camera = params.parallax.empty() ? pick_camera(image, params) : StereoCamera();
+  moving.field = make_field(image, params, camera, workers, report);
+  const FlowField& field = *moving.field;
+  report.longest = std::max(std::abs(field.low().x), std::abs(field.high().x));
+
+  const Overhang by = overhang(field, {0, 1});
+  job.window = image.canvas();
+  job.window.x0 = std::max(job.window.x0 - by.left, image.limits().x0);
+  job.window.x1 = std::min(job.window.x1 + by.right, image.limits().x1);
+  plan_parts(job, image, view, camera);
+  job.views.push_back(std::move(moving));
+
+  const int margin = stereo_margin(params.filter), height = job.window.height();
+  const int strip_rows = std::max(1, params.strip_rows);
+  job.scratch_bytes =
+      static_cast<int64_t>(
+          WorkBuffer::bytes_needed({0, 0, job.window.width(), strip_rows + 2 * margin}, job.scale) +
+          static_cast<size_t>(job.window.width()) * static_cast<size_t>(strip_rows) * (8 + 4 * channels.size() + 64)) *
+      workers.thread_count();
+  const int fill = params.longest_fill.value_or(camera_part(image).display.width() / kFillFraction);
+  job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
+    return rows_reaching(*v.field, target, job.window.width(), std::max(0, band.first - margin),
+                         std::min(height, band.last + margin), {1.0f});
+  };
+  job.process = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band,
+                    const PostLayers& layers) {
+    StereoJob stereo{v.field.get(), target, params.filter, fill, job.window.width(), height, band.first,
+                     band.last, {}, {}};
+    stereo.invented = job.extra_plane(0);
+    stereo.missing = job.extra_plane(1);
+    stereo_rows(stereo, layers, strip_rows, workers, progress);
+  };
+  progress.begin("other eye", height);
+  job.run(output, workers, progress, ledger, report);
+  progress.end();
+  return report;
+}
+
+}  // namespace pelage

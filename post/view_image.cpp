@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/view_image.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace pelage {
+namespace {
+
+/// Rows that are read at a time where a whole channel is wanted.
+constexpr int kRows = 64;
+
+PixelBox enclosing(const PixelBox& a, const PixelBox& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+}  // namespace
+
+ViewImage::ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channels, const std::string& view,
+                     const LayerChoice& choice)
+    : reader_(reader), channels_(channels), layers_(channels, reader.parts(), view, choice) {
+  for (size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].view != view) continue;
+    const ExrPart& part = reader.parts()[channels[i].part];
+    canvas_ = own_.empty() ? part.data : enclosing(canvas_, part.data);
+    limits_ = own_.empty() ? part.display : enclosing(limits_, part.display);
+    own_.push_back(i);
+  }
+  limits_ = enclosing(limits_, canvas_);
+  const int64_t width = int64_t{canvas_.x1} - canvas_.x0, height = int64_t{canvas_.y1} - canvas_.y0;
+  const int64_t most = FlowField::kLargestSide;
+  if (width > most || height > most) {
+    throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0},
+                fmt::format("its pixels span {} x {}; at most {} a side are supported", width, height, most));
+  }
+}
+
+void ViewImage::read_into(const std::vector<size_t>& wanted, int first, int last, float* words) const {
+  const auto width = static_cast<size_t>(canvas_.width());
+  const size_t plane = width * static_cast<size_t>(last - first);
+  for (size_t p = 0; p < reader_.parts().size(); ++p) {
+    const PixelBox& data = reader_.parts()[p].data;
+    const int y0 = std::max(first + canvas_.y0, data.y0), y1 = std::min(last + canvas_.y0, data.y1);
+    if (y0 >= y1) continue;
+    std::vector<ExrRows> rows;
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      const NamedChannel& channel = channels_[wanted[i]];
+      if (channel.part != p) continue;
+      const size_t row = static_cast<size_t>(y0 - canvas_.y0 - first);
+      rows.push_back({channel.channel,
+                      words + i * plane + row * width + static_cast<size_t>(data.x0 - canvas_.x0), width});
+    }
+    reader_.read(p, y0, y1, rows);
+  }
+}
+
+std::vector<float> ViewImage::read(const std::vector<size_t>& wanted, int first, int last) const {
+  std::vector<float> words(wanted.size() * static_cast<size_t>(canvas_.width()) *
+                           static_cast<size_t>(last - first));
+  read_into(wanted, first, last, words.data());
+  return words;
+}
+
+std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optional<size_t> alpha) const {
+  std::vector<size_t> wanted;
+  if (depth) wanted.push_back(*depth);
+  if (alpha) wanted.push_back(*alpha);
+  std::vector<float> result;
+  result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
+  for (int y = 0; y < canvas_.height(); y += kRows) {
+    const int rows = std::min(kRows, canvas_.height() - y);
+    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(canvas_.width());
+    const std::vector<float> words = read(wanted, y, y + rows);
+    const float* z = depth ? words.data() : nullptr;
+    const float* a = alpha ? words.data() + (depth ? count : 0) : nullptr;
+    for (size_t i = 0; i < count; ++i) {
+      const bool is_clear = a && a[i] == 0;  // nothing is there, whatever its depth
+      result.push_back(is_clear ? std::numeric_limits<float>::infinity() : z ? z[i] : 1);
+    }
+  }
+  return result;
+}
+
+std::vector<Flow> ViewImage::read_vectors(std::pair<size_t, size_t> uv, const VectorParams& params,
+                                          size_t& not_finite) const {
+  const PixelBox& display = reader_.parts()[channels_[uv.first].part].display;
+  float sx = params.scale, sy = params.is_y_up ? -params.scale : params.scale;
+  if (params.is_ndc) {
+    sx *= static_cast<float>(display.width());
+    sy *= static_cast<float>(display.height());
+  }
+  std::vector<Flow> result;
+  result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
+  not_finite = 0;
+  for (int y = 0; y < canvas_.height(); y += kRows) {
+    const int rows = std::min(kRows, canvas_.height() - y);
+    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(canvas_.width());
+    const std::vector<float> words = read({uv.first, uv.second}, y, y + rows);
+    for (size_t i = 0; i < count; ++i) {
+      const Flow m{sx * words[i], sy * words[count + i]};
+      not_finite += !std::isfinite(m.x) || !std::isfinite(m.y);
+      result.push_back(m);
+    }
+  }
+  return result;
+}
+
+}  // namespace pelage

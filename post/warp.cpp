@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/warp.h"
+
+namespace pelage {
+
+bool Warp::reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const {
+  const auto scale = static_cast<float>(target_.scale);
+  // A sample more than needed on each side: bounds may round otherwise than corners do.
+  const auto reach = [&](int begin, int end, float low, float high, int origin, int s0, int s1) {
+    const float slack = field_.slack() * std::max(std::abs(first), std::abs(last));
+    const float least = std::min({first * low, first * high, last * low, last * high}) - slack;
+    const float most = std::max({first * low, first * high, last * low, last * high}) + slack;
+    return scale * (static_cast<float>(end - origin) + most) + 1 >= static_cast<float>(s0) &&
+           scale * (static_cast<float>(begin - origin) + least) - 1 <= static_cast<float>(s1);
+  };
+  return reach(block.y0, block.y1, block.low.y, block.high.y, target_.origin_y, samples.y0, samples.y1) &&
+         reach(block.x0, block.x1, block.low.x, block.high.x, target_.origin_x, samples.x0, samples.x1);
+}
+
+std::vector<const FlowField::Block*> Warp::reaching(const PixelBox& samples, float first_time,
+                                                    float last_time) const {
+  std::vector<const FlowField::Block*> found;
+  for (const FlowField::Block& block : field_.blocks()) {
+    if (reaches(block, samples, first_time, last_time)) found.push_back(&block);
+  }
+  return found;
+}
+
+}  // namespace pelage

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "post/flow_field.h"
+#include "post/work_buffer.h"
+
+namespace pelage {
+
+/// Where a field is drawn to: pixel (x, y) of the picture is pixel (x + origin_x, y + origin_y) of the field,
+/// which need not exist.
+struct WarpTarget {
+  int scale = 4;  ///< samples per pixel and side
+  int origin_x = 0, origin_y = 0;
+};
+
+/// Draws the pixels of a field as they lie at some time into pieces of a picture. A pixel is a square whose
+/// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies in it. Neighbours
+/// on one surface share their corners, so that each sample between them belongs to exactly one of them.
+///
+/// `Buffer` is WorkBuffer or has its samples() and put(). Thread safety: const, any number of threads with
+/// buffers of their own.
+class Warp {
+ public:
+  Warp(const FlowField& field, WarpTarget target) : field_(field), target_(target) {}
+
+  /// Blocks of the field that may reach `samples` at any time between the two.
+  std::vector<const FlowField::Block*> reaching(const PixelBox& samples, float first_time,
+                                                float last_time) const;
+  /// Whether the block may reach `samples` at one time.
+  bool reaches(const FlowField::Block& block, const PixelBox& samples, float time) const {
+    return reaches(block, samples, time, time);
+  }
+
+  template <class Buffer>
+  void draw(const FlowField::Block& block, float time, Buffer& buffer) const {
+    for (int y = block.y0; y < block.y1; ++y) {
+      for (int x = block.x0; x < block.x1; ++x) {
+        if (field_.is_rigid(x, y)) {
+          draw_square(x, y, time, buffer);
+        } else {
+          draw_quad(x, y, time, buffer);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Point {
+    float x, y;
+  };
+
+  bool reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const;
+
+  /// In samples of the picture. The same for everybody who asks for the same corner.
+  Point place(int x, int y, Flow motion, float time) const {
+    const auto scale = static_cast<float>(target_.scale);
+    return {scale * (static_cast<float>(x - target_.origin_x) + time * motion.x),
+            scale * (static_cast<float>(y - target_.origin_y) + time * motion.y)};
+  }
+  /// The first of the samples low .. high whose centre is not before `edge`.
+  static int first_sample(float edge, int low, int high) {
+    return static_cast<int>(std::clamp(std::ceil(edge - 0.5f), static_cast<float>(low), static_cast<float>(high)));
+  }
+
+  template <class Buffer>
+  void draw_square(int x, int y, float time, Buffer& buffer) const {
+    const PixelBox& box = buffer.samples();
+    const Flow m = field_.motion(x, y);
+    const Point from = place(x, y, m, time), to = place(x + 1, y + 1, m, time);
+    const int x0 = first_sample(from.x, box.x0, box.x1), x1 = first_sample(to.x, box.x0, box.x1);
+    if (x0 >= x1) return;
+    const int y0 = first_sample(from.y, box.y0, box.y1), y1 = first_sample(to.y, box.y0, box.y1);
+    const Sample sample(field_.depth(x, y), x, y);
+    for (int row = y0; row < y1; ++row) buffer.put(row, x0, x1, sample);
+  }
+
+  /// A side of a quad, from its upper end: both pixels beside it compute the same crossings from it.
+  struct Side {
+    float y0, y1, x0, slope;
+    Side(Point a, Point b) {
+      if (b.y < a.y || (b.y == a.y && b.x < a.x)) std::swap(a, b);
+      y0 = a.y;
+      y1 = b.y;
+      x0 = a.x;
+      slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0;
+    }
+    bool crosses(float y) const { return y0 <= y && y < y1; }
+    float at(float y) const { return x0 + (y - y0) * slope; }
+  };
+
+  template <class Buffer>
+  void draw_quad(int x, int y, float time, Buffer& buffer) const {
+    Point p[4];
+    for (int c = 0; c < 4; ++c) {
+      const int right = c & 1, bottom = c >> 1;
+      p[c] = place(x + right, y + bottom, field_.corner(x, y, right, bottom), time);
+    }
+    const PixelBox& box = buffer.samples();
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x, p[3].x});
+    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y, p[3].y});
+    if (first_sample(left, box.x0, box.x1) >= first_sample(right, box.x0, box.x1)) return;
+    const int y0 = first_sample(top, box.y0, box.y1), y1 = first_sample(bottom, box.y0, box.y1);
+    if (y0 >= y1) return;
+    const Side sides[4] = {{p[0], p[1]}, {p[1], p[3]}, {p[2], p[3]}, {p[0], p[2]}};
+    const Sample sample(field_.depth(x, y), x, y);
+    for (int row = y0; row < y1; ++row) {
+      // From the leftmost to the rightmost crossing: all of a convex quad; a folded one gets no holes.
+      const float centre = static_cast<float>(row) + 0.5f;
+      float low = std::numeric_limits<float>::infinity(), high = -low;
+      for (const Side& side : sides) {
+        if (!side.crosses(centre)) continue;
+        const float at = side.at(centre);
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
+      if (low < high) {
+        buffer.put(row, first_sample(low, box.x0, box.x1), first_sample(high, box.x0, box.x1), sample);
+      }
+    }
+  }
+
+  const FlowField& field_;
+  WarpTarget target_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "image/exr_file.h"
+
+namespace pelage {
+
+/// One sample of the work buffer: which pixel of the source is seen there, as a pair of 16-bit coordinates,
+/// and how far away it is, as a float; 8 bytes, and no colours [Neulander13]. Packed so that the smaller
+/// number is the nearer one, and of equally near ones the pixel that comes first: what a sample ends up with
+/// does not depend on the order in which pixels are drawn.
+class Sample {
+ public:
+  Sample() = default;
+  Sample(float depth, int x, int y)
+      : bits_(uint64_t{std::bit_cast<uint32_t>(depth)} << 32 | static_cast<uint32_t>(y) << 16 |
+              static_cast<uint32_t>(x)) {}
+
+  bool is_empty() const { return bits_ == kEmpty; }
+  int x() const { return static_cast<int>(bits_ & 0xffff); }
+  int y() const { return static_cast<int>(bits_ >> 16 & 0xffff); }
+  /// Both coordinates in one number, for comparing.
+  uint32_t pixel() const { return static_cast<uint32_t>(bits_); }
+  float depth() const { return std::bit_cast<float>(static_cast<uint32_t>(bits_ >> 32)); }
+  bool is_nearer_than(Sample other) const { return bits_ < other.bits_; }
+  bool operator==(const Sample&) const = default;
+
+ private:
+  static constexpr uint64_t kEmpty = ~uint64_t{0};  // farther than infinity, at a place that no picture has
+  uint64_t bits_ = kEmpty;
+};
+static_assert(sizeof(Sample) == 8);
+
+/// A piece of the picture at `scale` samples per pixel and side. Samples are counted from the upper left
+/// corner of the whole picture; the piece holds those of the pixels in `box`.
+class WorkBuffer {
+ public:
+  WorkBuffer(PixelBox box, int scale) { reset(box, scale); }
+
+  /// Becomes another piece, empty.
+  void reset(PixelBox box, int scale) {
+    samples_ = {box.x0 * scale, box.y0 * scale, box.x1 * scale, box.y1 * scale};
+    width_ = static_cast<size_t>(samples_.width());
+    data_.assign(width_ * static_cast<size_t>(samples_.height()), Sample());
+  }
+  void clear() { std::fill(data_.begin(), data_.end(), Sample()); }
+
+  /// The samples that it holds.
+  const PixelBox& samples() const { return samples_; }
+  /// Row `y` of samples, from samples().x0 on.
+  Sample* row(int y) { return &data_[static_cast<size_t>(y - samples_.y0) * width_]; }
+  const Sample* row(int y) const { return const_cast<WorkBuffer*>(this)->row(y); }
+
+  /// Puts `sample` wherever it is nearer than what is there, in columns x0 <= x < x1 of row y, which must lie
+  /// within samples().
+  void put(int y, int x0, int x1, Sample sample) {
+    Sample* const to = row(y) - samples_.x0;
+    for (int x = x0; x < x1; ++x) to[x] = sample.is_nearer_than(to[x]) ? sample : to[x];
+  }
+
+  static size_t bytes_needed(PixelBox box, int scale) {
+    return sizeof(Sample) * static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()) *
+           static_cast<size_t>(scale) * static_cast<size_t>(scale);
+  }
+
+ private:
+  PixelBox samples_;
+  size_t width_ = 0;
+  std::vector<Sample> data_;
+};
+
+}  // namespace pelage
