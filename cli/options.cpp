@@ -183,7 +183,8 @@ void interpret(const Texts& texts, Options& options) {
     if (!parse_bytes(texts.memory))
       fail("--memory: expected bytes such as 512M or 4G, got " + quote(texts.memory));
     options.overrides.push_back({"render.memory", texts.memory});
-    const auto bytes = static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
+    const auto bytes =
+        static_cast<int64_t>(std::min<uint64_t>(*parse_bytes(texts.memory), uint64_t{1} << 60));
     options.motion_blur.file.memory = options.stereo.file.memory = bytes;
   }
   if (!texts.frames.empty()) {

@@ -39,9 +39,9 @@ struct Options {
   std::string groom;     ///< grow: only this one; empty: all
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh
 
-  std::string frames;           ///< motionblur, stereo: --frames, for names with a place for the number
-  BlurFileParams motion_blur;   ///< motionblur
-  StereoFileParams stereo;      ///< stereo
+  std::string frames;          ///< motionblur, stereo: --frames, for names with a place for the number
+  BlurFileParams motion_blur;  ///< motionblur
+  StereoFileParams stereo;     ///< stereo
 
   std::string section;    ///< manual
   bool markdown = false;  ///< manual

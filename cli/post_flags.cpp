@@ -25,8 +25,7 @@ void add_file_flags(CLI::App& command, Options& options, PostTexts& texts) {
       ->type_name("1-8");
   command.add_option("--depth-layer", texts.depth_layer, "Layer, part or channel of the depth (default: Z)")
       ->type_name("NAME");
-  command
-      .add_option("--data-layer", texts.data, "A layer that must not be averaged; repeatable")
+  command.add_option("--data-layer", texts.data, "A layer that must not be averaged; repeatable")
       ->allow_extra_args(false)
       ->type_name("NAME");
   command
@@ -38,10 +37,12 @@ void add_file_flags(CLI::App& command, Options& options, PostTexts& texts) {
 void add_vector_flags(CLI::App& command, PostTexts& texts, const char* layer, const char* help) {
   const std::string what(layer);
   command.add_option("--" + what + "-layer", texts.motion_layer, help)->type_name("NAME");
-  command.add_option("--" + what + "-units", texts.units,
-                     "pixels (default) or ndc: fractions of the display window")
+  command
+      .add_option("--" + what + "-units", texts.units,
+                  "pixels (default) or ndc: fractions of the display window")
       ->type_name("UNITS");
-  command.add_option("--" + what + "-y", texts.up, "Where positive v points: down (default) or up, as in Nuke")
+  command
+      .add_option("--" + what + "-y", texts.up, "Where positive v points: down (default) or up, as in Nuke")
       ->type_name("down|up");
   command.add_option("--" + what + "-scale", texts.vector_scale, "What to multiply the vectors by")
       ->type_name("FACTOR");
@@ -53,8 +54,7 @@ void add_vector_flags(CLI::App& command, PostTexts& texts, const char* layer, co
 bool is_second(const std::string& flag, const std::string& text, const std::vector<std::string>& words) {
   if (text.empty() || text == words[0]) return false;
   if (text == words[1]) return true;
-  fail(flag + " " + quote(text) + " is not known" + suggest(text, words) + "; it is " + words[0] + " or " +
-       words[1]);
+  fail(flag + " " + quote(text) + " is not known" + suggest(text, words));
 }
 
 void interpret_file(const PostTexts& texts, PostFileParams& file) {
@@ -75,33 +75,42 @@ void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts
   command.add_option("--shutter", shutter.length, "Frames that the shutter is open (default: 0.5)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("FRAMES");
-  command.add_option("--shutter-centre", shutter.centre, "Its middle, in frames from the rendered instant (default: 0)")
+  command
+      .add_option("--shutter-centre", shutter.centre,
+                  "Its middle, in frames from the rendered instant (default: 0)")
       ->check(CLI::Range(-1000.0, 1000.0))
       ->type_name("FRAMES");
-  command.add_option("--steps", shutter.steps, "Instants to look at (default: one per pixel of motion, 8 to 64)")
+  command
+      .add_option("--steps", shutter.steps, "Instants to look at (default: one per pixel of motion, 8 to 64)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
-  add_vector_flags(command, texts, "motion",
-                   "Layer or part of the vectors, or two channels as in mv.R,mv.G (default: forward, motion ...)");
+  add_vector_flags(
+      command, texts, "motion",
+      "Layer or part of the vectors, or two channels as in mv.R,mv.G (default: forward, motion ...)");
 }
 
 void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
   add_file_flags(command, options, texts);
   StereoFileParams& stereo = options.stereo;
-  command.add_option("--eye-separation", stereo.eye_separation,
-                     "Scene units (default: 6.5 cm, where the file says what a unit is)")
+  command
+      .add_option("--eye-separation", stereo.eye_separation,
+                  "Scene units (default: 6.5 cm, where the file says what a unit is)")
       ->type_name("D");
-  command.add_option("--convergence", texts.convergence,
-                     "Distance that is at the same place in both pictures (default: infinite)")
+  command
+      .add_option("--convergence", texts.convergence,
+                  "Distance that is at the same place in both pictures (default: infinite)")
       ->type_name("Z");
-  command.add_option("--focal-pixels", stereo.focal_pixels, "Focal length in pixels, instead of the file's camera")
+  command
+      .add_option("--focal-pixels", stereo.focal_pixels,
+                  "Focal length in pixels, instead of the file's camera")
       ->check(CLI::PositiveNumber)
       ->type_name("PIXELS");
   command.add_option("--fov", stereo.fov_deg, "Vertical field of view, instead of the file's camera")
       ->check(CLI::Range(0.01, 170.0))
       ->type_name("DEGREES");
   command.add_option("--eye", texts.eye, "Eye to make: right (default) or left")->type_name("right|left");
-  command.add_option("--view", stereo.view, "View of the file to start from (default: left)")->type_name("NAME");
+  command.add_option("--view", stereo.view, "View of the file to start from (default: left)")
+      ->type_name("NAME");
   command.add_option("--filter", texts.filter, "lanczos (default), which keeps sharpness, or box")
       ->type_name("FILTER");
   command.add_option("--fill", stereo.longest_fill, "Pixels to fill of a gap (default: width / 40)")

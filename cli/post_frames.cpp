@@ -22,7 +22,8 @@ void check_names(const Options& options, const FrameList& frames) {
   }
   check_output_pattern(options.output, frames);
   if (frames.frames.size() > 1 && !has_frame_pattern(options.input)) {
-    throw Error(ErrorKind::kArguments, options.input + ": several frames need a place for their number, as in %04d");
+    throw Error(ErrorKind::kArguments,
+                options.input + ": several frames need a place for their number, as in %04d");
   }
 }
 
@@ -42,8 +43,9 @@ int run_post_frames(const Options& options, const PostWork& work) {
     if (report.cancelled) return kInterruptedExitCode;
     run.statistics().stages_s["post"] += run.seconds() - began;
     run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {} step{}, {}", output,
-                                   report.window.width(), report.window.height(), report.longest, report.steps,
-                                   report.steps == 1 ? "" : "s", duration_text(run.seconds() - began)));
+                                   report.window.width(), report.window.height(), report.longest,
+                                   report.steps, report.steps == 1 ? "" : "s",
+                                   duration_text(run.seconds() - began)));
   }
   run.finish(options);
   return 0;

@@ -40,8 +40,8 @@ int64_t BandJob::field_bytes() const {
   int64_t bytes = 0;
   for (const MovingView& view : views) {
     if (!view.field) continue;
-    bytes += int64_t{view.field->width()} * view.field->height() *
-             static_cast<int64_t>(FlowField::kBytesPerPixel);
+    bytes +=
+        int64_t{view.field->width()} * view.field->height() * static_cast<int64_t>(FlowField::kBytesPerPixel);
   }
   return bytes;
 }
@@ -80,7 +80,8 @@ Plane BandJob::extra_plane(size_t extra) const { return plane(channels->size() +
 void BandJob::make_band(Band band) {
   band_ = band;
   const size_t planes = channels->size() + extra_planes;
-  result_.assign(planes * static_cast<size_t>(window.width()) * static_cast<size_t>(band.last - band.first), 0);
+  result_.assign(planes * static_cast<size_t>(window.width()) * static_cast<size_t>(band.last - band.first),
+                 0);
   for (const MovingView& view : views) {
     const std::vector<size_t>& own = view.image->own();
     const RowRange rows = reach(view, target(view), band);
@@ -107,7 +108,8 @@ void BandJob::make_band(Band band) {
 void BandJob::write_band(ExrWriter& writer, Band band) {
   for (size_t p = 0; p < parts.size(); ++p) {
     const PixelBox& data = parts[p].part.header.data;
-    const int first = std::max(band.first, data.y0 - window.y0), last = std::min(band.last, data.y1 - window.y0);
+    const int first = std::max(band.first, data.y0 - window.y0),
+              last = std::min(band.last, data.y1 - window.y0);
     if (first >= last) continue;
     std::vector<ExrRows> rows;
     for (size_t c = 0; c < parts[p].planes.size(); ++c) {

@@ -19,8 +19,8 @@ struct PostReport {
   bool cancelled = false;  ///< nothing was written
   PixelBox window;         ///< of all that was written
   int steps = 1;
-  int bands = 1;      ///< pieces in which the file went through memory
-  float longest = 0;  ///< motion or parallax, pixels
+  int bands = 1;                   ///< pieces in which the file went through memory
+  float longest = 0;               ///< motion or parallax, pixels
   std::vector<std::string> notes;  ///< for the user, one line each
 };
 
@@ -28,7 +28,7 @@ struct PostReport {
 struct PostFileParams {
   LayerChoice layers;
   VectorParams vectors;
-  int scale = 4;                       ///< samples per pixel and side, 1 to 8
+  int scale = 4;                      ///< samples per pixel and side, 1 to 8
   int64_t memory = int64_t{4} << 30;  ///< bytes: pixels, vectors and work buffers stay below
 };
 
@@ -63,7 +63,7 @@ class BandJob {
   const std::vector<NamedChannel>* channels = nullptr;
   std::vector<MovingView> views;
   std::vector<Part> parts;
-  PixelBox window;         ///< of the result; encloses all its parts
+  PixelBox window;  ///< of the result; encloses all its parts
   size_t extra_planes = 0;
   int scale = 4;
   int64_t memory = 0;
@@ -94,11 +94,12 @@ class BandJob {
   Band band_{0, 0};
 };
 
-/// Bytes of the fields of pictures of this size, at most, while they are made; throws Error (kMemory) naming the file
-/// when they exceed the budget.
+/// Bytes of the fields of pictures of this size, at most, while they are made; throws Error (kMemory) naming
+/// the file when they exceed the budget.
 void check_field_memory(const ViewImage& image, int64_t budget);
 
-/// Several parts of the two tools' beginnings: throws Error (kInput) saying what is missing and what there is.
+/// Several parts of the two tools' beginnings: throws Error (kInput) saying what is missing and what there
+/// is.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

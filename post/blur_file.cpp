@@ -60,8 +60,9 @@ int64_t scratch_bytes(const BlurFileParams& params, size_t channels, int threads
   const PixelBox piece{0, 0, params.tiling.columns, params.tiling.rows};
   PostLayers layers;
   layers.channels.resize(channels);
-  const size_t bytes = WorkBuffer::bytes_needed(piece, params.file.scale) +
-                       static_cast<size_t>(piece.width() * piece.height()) * BoxResolve::bytes_per_pixel(layers);
+  const size_t bytes =
+      WorkBuffer::bytes_needed(piece, params.file.scale) +
+      static_cast<size_t>(piece.width() * piece.height()) * BoxResolve::bytes_per_pixel(layers);
   return static_cast<int64_t>(bytes) * threads;
 }
 

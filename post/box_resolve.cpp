@@ -94,7 +94,8 @@ void BoxResolve::add(const WorkBuffer& buffer, int steps) {
           }
         }
         state.front = front;
-        for (uint32_t i = 0; i < sources.size(); ++i) see(at, sources.pixel(i), sources.count_of(i) * repeats);
+        for (uint32_t i = 0; i < sources.size(); ++i)
+          see(at, sources.pixel(i), sources.count_of(i) * repeats);
       }
       for (int j = 0; j < s; ++j) rows[j] += s;
     }
@@ -156,8 +157,7 @@ void BoxResolve::write_pixel(uint32_t at, int x, int y) {
     } else if (channel.role == LayerRole::kColor) {
       to = sums_[c * states_.size() + at] / static_cast<float>(samples_);
     } else if (channel.role == LayerRole::kData || channel.role == LayerRole::kDepth) {
-      const float empty =
-          channel.role == LayerRole::kDepth ? std::numeric_limits<float>::infinity() : 0.0f;
+      const float empty = channel.role == LayerRole::kDepth ? std::numeric_limits<float>::infinity() : 0.0f;
       to = state.front.is_empty() ? empty : channel.source.at(state.front.x(), state.front.y());
     }
   }

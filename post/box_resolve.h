@@ -58,8 +58,9 @@ class BoxResolve {
   uint32_t samples_ = 0;  // of a pixel, over all steps so far
   std::vector<State> states_;
   std::vector<Entry> entries_;
-  std::vector<float> sums_;                                  // channel by channel
-  std::vector<std::vector<std::pair<uint32_t, float>>> matte_sums_;  // by matte and pixel: bits of the id, sum
+  std::vector<float> sums_;  // channel by channel
+  std::vector<std::vector<std::pair<uint32_t, float>>>
+      matte_sums_;  // by matte and pixel: bits of the id, sum
 };
 
 }  // namespace pelage

@@ -32,20 +32,19 @@ void fill_from(std::span<Sample> row, std::span<uint8_t> invented, ptrdiff_t gap
 
 }  // namespace
 
-void fill_gaps(std::span<Sample> row, std::span<uint8_t> invented, int longest) {
+void fill_gaps(std::span<Sample> row, std::span<uint8_t> invented, int longest, RowEnds ends) {
   PELAGE_CHECK(row.size() == invented.size());
   const auto size = static_cast<ptrdiff_t>(row.size());
   for (ptrdiff_t begin = 0; begin < size; ++begin) {
     if (!row[static_cast<size_t>(begin)].is_empty()) continue;
     ptrdiff_t end = begin;
     while (end < size && row[static_cast<size_t>(end)].is_empty()) ++end;
-    const bool has_left = begin > 0, has_right = end < size;
+    const bool has_left = begin > 0 && !invented[static_cast<size_t>(begin - 1)], has_right = end < size;
     const int count = static_cast<int>(std::min<ptrdiff_t>(end - begin, longest));
     const auto depth = [&](ptrdiff_t at) { return row[static_cast<size_t>(at)].depth(); };
-    const bool from_left = has_left && (!has_right || depth(begin - 1) >= depth(end));
-    if (from_left && !invented[static_cast<size_t>(begin - 1)]) {
+    if (has_left && (has_right ? depth(begin - 1) >= depth(end) : ends.right_is_cut)) {
       fill_from(row, invented, begin, 1, count);
-    } else if (has_right) {
+    } else if (has_right && (has_left || ends.left_is_cut)) {
       fill_from(row, invented, end - 1, -1, count);
     }
     begin = end;

@@ -29,13 +29,18 @@ FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vecto
     for (int x = 0; x < width_; ++x) clean(at(x, y));
   });
   rows([&](int y) { link_row(y, limits); });
-  std::vector<uint8_t> rigid(pixels);  // apart from the links, which other rows read meanwhile
-  rows([&](int y) {
-    for (int x = 0; x < width_; ++x) rigid[at(x, y)] = has_own_corners(x, y) ? kRigid : 0;
-  });
-  rows([&](int y) {
-    for (int x = 0; x < width_; ++x) links_[at(x, y)] |= rigid[at(x, y)];
-  });
+  // Marks are gathered apart from the links, which other rows read meanwhile.
+  std::vector<uint8_t> marks(pixels);
+  const auto mark = [&](auto&& find) {
+    rows([&](int y) {
+      for (int x = 0; x < width_; ++x) marks[at(x, y)] = find(x, y);
+    });
+    rows([&](int y) {
+      for (int x = 0; x < width_; ++x) links_[at(x, y)] |= marks[at(x, y)];
+    });
+  };
+  mark([&](int x, int y) { return four_hang_together(x, y) ? kFour : 0; });
+  mark([&](int x, int y) { return has_own_corners(x, y) ? kRigid : 0; });
   bound_blocks();
 }
 
@@ -66,7 +71,13 @@ void FlowField::link_row(int y, const LinkLimits& limits) {
   }
 }
 
-Flow FlowField::corner(int x, int y, int right, int bottom) const {
+bool FlowField::four_hang_together(int x, int y) const {
+  if (x + 1 >= width_ || y + 1 >= height_) return false;
+  const int links = linked_right(x, y) + linked_down(x, y) + linked_right(x, y + 1) + linked_down(x + 1, y);
+  return links >= 3;
+}
+
+Flow FlowField::torn_corner(int x, int y, int right, int bottom) const {
   // The four pixels around the corner: a b over c d. Beyond the picture there are none, and no links.
   const int left = x + right - 1, top = y + bottom - 1;
   const bool in_l = left >= 0, in_r = left + 1 < width_, in_t = top >= 0, in_b = top + 1 < height_;
@@ -86,7 +97,7 @@ Flow FlowField::corner(int x, int y, int right, int bottom) const {
     if (ac) in[0] = in[2] = in[0] || in[2];
     if (bd) in[1] = in[3] = in[1] || in[3];
   }
-  // In one order, as differences to one of them: equal vectors have exactly themselves as mean.
+  // In one order, as differences to one of them.
   const size_t pixels[4] = {a, a + 1, a + w, a + w + 1};
   int count = 0;
   Flow first, sum;

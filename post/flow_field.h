@@ -18,8 +18,8 @@ struct Flow {
 
 /// What decides that two neighbours are one surface.
 struct LinkLimits {
-  float largest_time = 1;  ///< of all the times that the field will be warped to, by magnitude
-  float tear = 1.5f;       ///< pixels by which neighbours may come to lie further apart, or closer
+  float largest_time = 1;    ///< of all the times that the field will be warped to, by magnitude
+  float tear = 1.5f;         ///< pixels by which neighbours may come to lie further apart, or closer
   float depth_step = 0.05f;  ///< step of 1 / depth, as a fraction of the nearer one's
 };
 
@@ -35,9 +35,9 @@ class FlowField {
   /// Vectors are cut to this length: far enough to leave any picture.
   static constexpr float kLongest = 1 << 18;
 
-  /// `motion`, `depth`: width * height, rows from the top. Vectors that are not finite count as none. Depth is
-  /// a distance; its sign is ignored, and what is not a distance (zero, infinity, not a number) is infinitely
-  /// far away.
+  /// `motion`, `depth`: width * height, rows from the top. Vectors that are not finite count as none. Depth
+  /// is a distance; its sign is ignored, and what is not a distance (zero, infinity, not a number) is
+  /// infinitely far away.
   FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
             const LinkLimits& limits, const Workers& workers);
 
@@ -52,7 +52,12 @@ class FlowField {
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
   /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean of those of the four pixels around it
   /// that are one surface with this one. They all get the same bits, so that a surface has no cracks.
-  Flow corner(int x, int y, int right, int bottom) const;
+  Flow corner(int x, int y, int right, int bottom) const {
+    const int left = x + right - 1, top = y + bottom - 1;
+    if (left < 0 || top < 0 || !(links_[at(left, top)] & kFour)) return torn_corner(x, y, right, bottom);
+    const Flow* a = &motion_[at(left, top)];
+    return mean_of_four(a[0], a[1], a[width_], a[width_ + 1]);
+  }
 
   /// Pixels whose motion is bounded together.
   struct Block {
@@ -71,10 +76,19 @@ class FlowField {
 
  private:
   static constexpr uint8_t kRight = 1, kDown = 2, kRigid = 4;
+  /// The four pixels of which this is the upper left one hang together.
+  static constexpr uint8_t kFour = 8;
+  /// As differences to the first: equal vectors have exactly themselves as mean.
+  static Flow mean_of_four(Flow a, Flow b, Flow c, Flow d) {
+    return {a.x + ((b.x - a.x) + (c.x - a.x) + (d.x - a.x)) * 0.25f,
+            a.y + ((b.y - a.y) + (c.y - a.y) + (d.y - a.y)) * 0.25f};
+  }
   size_t at(int x, int y) const { return static_cast<size_t>(y) * static_cast<size_t>(width_) + x; }
   bool is_linked(size_t a, size_t b, const LinkLimits& limits) const;
   void clean(size_t pixel);
   void link_row(int y, const LinkLimits& limits);
+  bool four_hang_together(int x, int y) const;
+  Flow torn_corner(int x, int y, int right, int bottom) const;
   bool has_own_corners(int x, int y) const;
   void bound_blocks();
 

@@ -83,7 +83,8 @@ void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
   pixel_.near_hole = false;
   const int tap0 = x * scale_ - reach_;  // sample of the first tap
   const int begin = std::max(samples.x0, tap0), end = std::min(samples.x1, (x + 1) * scale_ + reach_);
-  const double across = sums_to_[static_cast<size_t>(end - tap0)] - sums_to_[static_cast<size_t>(begin - tap0)];
+  const double across =
+      sums_to_[static_cast<size_t>(end - tap0)] - sums_to_[static_cast<size_t>(begin - tap0)];
   double down = 0;
   const int near_x0 = (x - 1) * scale_, near_x1 = (x + 2) * scale_;
   for (size_t i = 0; i < runs_.size(); ++i) {
@@ -101,7 +102,8 @@ void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
         pixel_.near_hole |= is_near;
         continue;
       }
-      const double run = sums_to_[static_cast<size_t>(to - tap0)] - sums_to_[static_cast<size_t>(from - tap0)];
+      const double run =
+          sums_to_[static_cast<size_t>(to - tap0)] - sums_to_[static_cast<size_t>(from - tap0)];
       add(runs[r].sample.pixel(), static_cast<float>(weight * run), is_near);
     }
   }
@@ -110,7 +112,8 @@ void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
 
 float LanczosResolve::resolve(const PostChannel& channel) const {
   float sum = 0;
-  float low = pixel_.near_hole ? 0 : std::numeric_limits<float>::infinity(), high = pixel_.near_hole ? 0 : -low;
+  float low = pixel_.near_hole ? 0 : std::numeric_limits<float>::infinity(),
+        high = pixel_.near_hole ? 0 : -low;
   for (const Part& part : pixel_.parts) {
     float v = channel.source.at(static_cast<int>(part.source & 0xffff), static_cast<int>(part.source >> 16));
     v = v == v ? v : 0;

@@ -50,12 +50,12 @@ class LanczosResolve {
   float resolve(const PostChannel& channel) const;
 
   const PostLayers& layers_;
-  int scale_, reach_;                 // samples per pixel; taps on each side of the pixel's first sample
-  std::vector<double> weights_;       // by tap
-  std::vector<double> sums_to_;       // of the weights before a tap
+  int scale_, reach_;                   // samples per pixel; taps on each side of the pixel's first sample
+  std::vector<double> weights_;         // by tap
+  std::vector<double> sums_to_;         // of the weights before a tap
   std::vector<std::vector<Run>> runs_;  // by sample row, with one at the end that begins behind it
-  std::vector<size_t> first_run_;     // of each row, for the pixel at hand
-  int runs_row_ = 0;                  // sample row of runs_[0]
+  std::vector<size_t> first_run_;       // of each row, for the pixel at hand
+  int runs_row_ = 0;                    // sample row of runs_[0]
   Gathered pixel_;
   std::vector<uint16_t> slots_;  // hash table: 1 + number of the part
 };

@@ -36,10 +36,10 @@ const char* const kDepthLayers[] = {"depth", "z", "zdepth", "depthz"};
 
 /// Layers of which no mean makes sense, and beginnings of such names.
 const std::set<std::string> kDataLayers = {
-    "n",      "nn",       "ng",       "ns",     "normal", "normals",    "p",        "pos",     "position",
-    "pworld", "pref",     "point",    "tangent", "uv",    "st",         "texcoord", "root",    "id",
-    "ids",    "objectid", "material", "materialid", "indexob", "indexma", "forward", "backward", "motion",
-    "vector", "vectors",  "velocity", "mv",     "z",      "depth",      "zback",    "zdepth",  "depthz"};
+    "n",      "nn",       "ng",       "ns",         "normal",  "normals", "p",        "pos",      "position",
+    "pworld", "pref",     "point",    "tangent",    "uv",      "st",      "texcoord", "root",     "id",
+    "ids",    "objectid", "material", "materialid", "indexob", "indexma", "forward",  "backward", "motion",
+    "vector", "vectors",  "velocity", "mv",         "z",       "depth",   "zback",    "zdepth",   "depthz"};
 const char* const kDataBeginnings[] = {"disparity", "parallax", "motion", "normal", "crypto"};
 
 bool means_data(const std::string& plain_name) {
@@ -97,7 +97,8 @@ std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts) {
   return channels;
 }
 
-std::vector<std::string> views_of(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts) {
+std::vector<std::string> views_of(const std::vector<NamedChannel>& channels,
+                                  const std::vector<ExrPart>& parts) {
   std::vector<std::string> views;
   const auto add = [&](const std::string& view) {
     if (std::find(views.begin(), views.end(), view) == views.end()) views.push_back(view);
@@ -132,24 +133,26 @@ bool LayerFinder::is_called(const NamedChannel& channel, const std::string& plai
          without(part.name, view_) == plain_layer;
 }
 
-std::optional<size_t> LayerFinder::find(const std::string& plain_layer,
+std::optional<size_t> LayerFinder::find(const std::string& view, const std::string& plain_layer,
                                         const std::vector<std::string>& components) const {
   for (const std::string& component : components) {
     for (size_t i = 0; i < channels_.size(); ++i) {
-      if (is_here(i) && plain(channels_[i].component) == component && is_called(channels_[i], plain_layer))
+      if (channels_[i].view == view && plain(channels_[i].component) == component &&
+          is_called(channels_[i], plain_layer))
         return i;
     }
   }
   return {};
 }
 
-std::optional<std::pair<size_t, size_t>> LayerFinder::vectors(const std::string& name) const {
+std::optional<std::pair<size_t, size_t>> LayerFinder::vectors_in(const std::string& view,
+                                                                 const std::string& name) const {
   const std::vector<std::string> both = split(name, ',');
   if (both.size() == 2) {
     std::optional<size_t> found[2];
     for (size_t k = 0; k < 2; ++k) {
       for (size_t i = 0; i < channels_.size() && !found[k]; ++i) {
-        if (is_here(i) && plain(channels_[i].name()) == plain(both[k])) found[k] = i;
+        if (channels_[i].view == view && plain(channels_[i].name()) == plain(both[k])) found[k] = i;
       }
     }
     if (found[0] && found[1]) return std::pair(*found[0], *found[1]);
@@ -157,10 +160,14 @@ std::optional<std::pair<size_t, size_t>> LayerFinder::vectors(const std::string&
   }
   const char* const pairs[][2] = {{"u", "v"}, {"x", "y"}, {"r", "g"}, {"red", "green"}};
   for (const auto& pair : pairs) {
-    const auto u = find(plain(name), {pair[0]}), v = find(plain(name), {pair[1]});
+    const auto u = find(view, plain(name), {pair[0]}), v = find(view, plain(name), {pair[1]});
     if (u && v) return std::pair(*u, *v);
   }
   return {};
+}
+
+std::optional<std::pair<size_t, size_t>> LayerFinder::vectors(const std::string& name) const {
+  return in_view_or_none([&](const std::string& view) { return vectors_in(view, name); });
 }
 
 std::optional<std::pair<size_t, size_t>> LayerFinder::find_motion() const {
@@ -172,24 +179,28 @@ std::optional<std::pair<size_t, size_t>> LayerFinder::find_motion() const {
 }
 
 std::optional<size_t> LayerFinder::find_depth() const {
+  return in_view_or_none([&](const std::string& view) { return depth_in(view); });
+}
+
+std::optional<size_t> LayerFinder::depth_in(const std::string& view) const {
   const std::vector<std::string> components = {"z", "depth", "r", "y", "v", "x", "red"};
   if (!choice_.depth.empty()) {
     for (size_t i = 0; i < channels_.size(); ++i) {
-      if (is_here(i) && plain(channels_[i].name()) == plain(choice_.depth)) return i;
+      if (channels_[i].view == view && plain(channels_[i].name()) == plain(choice_.depth)) return i;
     }
-    return find(plain(choice_.depth), components);
+    return find(view, plain(choice_.depth), components);
   }
   // A bare Z, unless it stands beside X and Y: then it is the third number of a vector.
   for (size_t i = 0; i < channels_.size(); ++i) {
-    if (!is_here(i) || !channels_[i].layer.empty()) continue;
+    if (channels_[i].view != view || !channels_[i].layer.empty()) continue;
     const std::string name = plain(channels_[i].component);
     const bool has_x = std::any_of(channels_.begin(), channels_.end(), [&](const NamedChannel& c) {
-      return c.part == channels_[i].part && c.view == view_ && c.layer.empty() && plain(c.component) == "x";
+      return c.part == channels_[i].part && c.view == view && c.layer.empty() && plain(c.component) == "x";
     });
     if (name == "depth" || (name == "z" && !has_x)) return i;
   }
   for (const char* layer : kDepthLayers) {
-    if (const auto found = find(layer, components)) return found;
+    if (const auto found = find(view, layer, components)) return found;
   }
   return {};
 }
@@ -199,9 +210,10 @@ std::optional<size_t> LayerFinder::alpha() const {
     const NamedChannel& c = channels_[i];
     if (!is_here(i) || !c.layer.empty()) continue;
     const std::string name = plain(c.component);
-    const bool is_beauty = c.part == 0 || std::any_of(channels_.begin(), channels_.end(), [&](const auto& other) {
-      return other.part == c.part && other.layer.empty() && plain(other.component) == "r";
-    });
+    const bool is_beauty =
+        c.part == 0 || std::any_of(channels_.begin(), channels_.end(), [&](const auto& other) {
+          return other.part == c.part && other.layer.empty() && plain(other.component) == "r";
+        });
     if ((name == "a" || name == "alpha") && (is_beauty || parts_[c.part].channels.size() == 1)) return i;
   }
   return {};

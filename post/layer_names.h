@@ -29,7 +29,8 @@ struct NamedChannel {
 std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
 
 /// Names of the views, the default one first; {""} for a file without views.
-std::vector<std::string> views_of(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts);
+std::vector<std::string> views_of(const std::vector<NamedChannel>& channels,
+                                  const std::vector<ExrPart>& parts);
 
 /// How the layers of a file are found, where the names alone do not say it.
 struct LayerChoice {
@@ -49,7 +50,7 @@ class LayerFinder {
   /// Both channels of the vectors: u and v, x and y, or r and g of the layer that was chosen, or else of
   /// "forward", "motion" and what else such layers are called.
   std::optional<std::pair<size_t, size_t>> motion() const { return motion_; }
-  /// The same in a layer of this name.
+  /// The same in a layer of this name. What the view lacks may belong to no view.
   std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
   std::optional<size_t> depth() const { return depth_; }
   std::optional<size_t> alpha() const;
@@ -63,11 +64,20 @@ class LayerFinder {
 
  private:
   bool is_here(size_t channel) const { return channels_[channel].view == view_; }
+  /// Calls `search` for this view and, if that finds nothing, for what belongs to no view.
+  template <class Search>
+  auto in_view_or_none(Search&& search) const {
+    const auto found = search(view_);
+    return found || view_.empty() ? found : search(std::string());
+  }
+  std::optional<std::pair<size_t, size_t>> vectors_in(const std::string& view, const std::string& name) const;
+  std::optional<size_t> depth_in(const std::string& view) const;
   bool is_called(const NamedChannel& channel, const std::string& plain_layer) const;
   std::optional<std::pair<size_t, size_t>> find_motion() const;
   std::optional<size_t> find_depth() const;
   std::vector<RankedMatte> find_mattes() const;
-  std::optional<size_t> find(const std::string& plain_layer, const std::vector<std::string>& components) const;
+  std::optional<size_t> find(const std::string& view, const std::string& plain_layer,
+                             const std::vector<std::string>& components) const;
 
   const std::vector<NamedChannel>& channels_;
   const std::vector<ExrPart>& parts_;

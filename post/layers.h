@@ -24,7 +24,8 @@ struct Plane {
   int first_row = 0;
 
   float& at(int x, int y) const {
-    return words[static_cast<ptrdiff_t>(y - first_row) * row_stride + static_cast<ptrdiff_t>(x) * pixel_stride];
+    return words[static_cast<ptrdiff_t>(y - first_row) * row_stride +
+                 static_cast<ptrdiff_t>(x) * pixel_stride];
   }
 };
 

@@ -79,8 +79,8 @@ void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, 
   });
 }
 
-RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row, int last_row,
-                       const std::vector<float>& times) {
+RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row,
+                       int last_row, const std::vector<float>& times) {
   const auto [first, last] = std::minmax_element(times.begin(), times.end());
   const int s = target.scale;
   const Warp warp(field, target);

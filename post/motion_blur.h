@@ -32,8 +32,8 @@ struct PostTiling {
 /// averages. `rows` are rows of the result (the picture shifted by target.origin), `width` its columns; the
 /// layers' sources must hold every row of the field from which something reaches these rows
 /// (`rows_reaching`), their targets these rows. Throws nothing of its own. Returns early when `progress` is
-/// cancelled, to which it reports a step per row; otherwise a function of its arguments but the tiling and the
-/// workers.
+/// cancelled, to which it reports a step per row; otherwise a function of its arguments but the tiling and
+/// the workers.
 struct BlurJob {
   const FlowField* field = nullptr;
   WarpTarget target;
@@ -49,8 +49,8 @@ void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, 
 struct RowRange {
   int first = 0, last = 0;
 };
-RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row, int last_row,
-                       const std::vector<float>& times);
+RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row,
+                       int last_row, const std::vector<float>& times);
 
 /// How far pixels come to lie outside the field at any of the times, in whole pixels per side.
 struct Overhang {

@@ -2,10 +2,10 @@
 #include "post/stereo.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "post/box_resolve.h"
-#include "post/fill_holes.h"
 #include "post/lanczos_resolve.h"
 
 namespace pelage {
@@ -33,7 +33,7 @@ void fill_strip(const StereoJob& job, int y0, int y1, Scratch& scratch) {
   for (int row = samples.y0; row < samples.y1; ++row) {
     const std::span<Sample> line(scratch.buffer.row(row), static_cast<size_t>(samples.width()));
     scratch.invented.assign(line.size(), 0);
-    fill_gaps(line, scratch.invented, job.longest_fill * s);
+    fill_gaps(line, scratch.invented, job.longest_fill * s, job.ends);
     const int y = row / s;
     if (y < y0 || y >= y1) continue;
     const size_t first = static_cast<size_t>(y - y0) * width;
@@ -70,6 +70,16 @@ void stereo_strip(const StereoJob& job, const Warp& warp, int y0, int y1, Scratc
 }
 
 }  // namespace
+
+std::vector<Flow> parallax_field(const std::vector<float>& depth, const StereoCamera& camera) {
+  std::vector<Flow> vectors;
+  vectors.reserve(depth.size());
+  for (const float z : depth) {
+    const float distance = std::abs(z) > 0 ? std::abs(z) : std::numeric_limits<float>::infinity();
+    vectors.push_back({parallax(camera, distance), 0});
+  }
+  return vectors;
+}
 
 int stereo_margin(StereoFilter filter) {
   return filter == StereoFilter::kLanczos ? LanczosResolve::kReach : 0;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "post/fill_holes.h"
 #include "post/flow_field.h"
 #include "post/layers.h"
 #include "post/motion_blur.h"
@@ -15,8 +16,9 @@ namespace pelage {
 /// Two parallel cameras whose pictures are shifted against each other, so that what lies at the distance of
 /// convergence is at the same place in both.
 struct StereoCamera {
-  float focal_pixels = 0;    ///< focal length, in pixels of the picture's width
-  float eye_separation = 0;  ///< scene units; the other eye is to the right, or with a negative one to the left
+  float focal_pixels = 0;  ///< focal length, in pixels of the picture's width
+  float eye_separation =
+      0;  ///< scene units; the other eye is to the right, or with a negative one to the left
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units along the camera axis
 };
 
@@ -25,6 +27,15 @@ struct StereoCamera {
 inline float parallax(const StereoCamera& camera, float depth) {
   return camera.focal_pixels * camera.eye_separation * (1 / camera.convergence - 1 / depth);
 }
+
+/// The same for every pixel, as a field's vectors; depth as FlowField takes it.
+std::vector<Flow> parallax_field(const std::vector<float>& depth, const StereoCamera& camera);
+
+/// Pixels of a gap that are filled unless somebody says otherwise: a fortieth of the picture's width.
+inline int default_fill(int width) { return width / 40; }
+
+/// Rows of the strips that are held at a time unless somebody says otherwise.
+inline constexpr int kStripRows = 16;
 
 enum class StereoFilter { kLanczos, kBox };
 
@@ -36,7 +47,8 @@ struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};
   StereoFilter filter = StereoFilter::kLanczos;
-  int longest_fill = 0;  ///< pixels of a gap that are filled; the film's advice is a fortieth of the width
+  RowEnds ends;               ///< whether the source is cut off at its sides, rather than over
+  int longest_fill = 0;       ///< pixels of a gap that are filled
   int width = 0, height = 0;  ///< of the whole result
   int first_row = 0, last_row = 0;
   std::optional<Plane> invented, missing;

@@ -14,7 +14,6 @@ namespace pelage {
 namespace {
 
 constexpr float kEyeSeparationMetres = 0.065f;
-constexpr int kFillFraction = 40;  // of the width
 
 [[noreturn]] void refuse(const ExrReader& reader, const std::string& why) {
   throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0}, why);
@@ -61,7 +60,8 @@ StereoCamera pick_camera(const ViewImage& image, const StereoFileParams& params)
   } else {
     const auto unit = part.attributes.find("pelage:metersPerUnit");
     const float* metres = unit == part.attributes.end() ? nullptr : std::get_if<float>(&unit->second);
-    if (!metres || !(*metres > 0)) refuse(image.reader(), "does not say how long a unit is; give --eye-separation");
+    if (!metres || !(*metres > 0))
+      refuse(image.reader(), "does not say how long a unit is; give --eye-separation");
     camera.eye_separation = kEyeSeparationMetres / *metres;
   }
   if (params.to_left) camera.eye_separation = -camera.eye_separation;
@@ -82,10 +82,14 @@ std::string other_view(const std::string& view) {
 void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, const StereoCamera& camera) {
   const ExrReader& reader = image.reader();
   const std::vector<NamedChannel>& channels = image.channels();
-  const auto color = std::find_if(image.own().begin(), image.own().end(), [&](size_t i) {
-    return image.layers().role(i) == LayerRole::kColor;
-  });
-  const size_t colors = channels[color == image.own().end() ? image.own().front() : *color].part;
+  // With the beauty if there is one, or else with whatever colour comes first.
+  const auto first = [&](auto&& is_wanted) {
+    const auto found = std::find_if(image.own().begin(), image.own().end(), is_wanted);
+    return found == image.own().end() ? std::nullopt : std::optional(channels[*found].part);
+  };
+  const auto beauty = first([&](size_t i) { return channels[i].name() == "R"; });
+  const auto any = first([&](size_t i) { return image.layers().role(i) == LayerRole::kColor; });
+  const size_t colors = beauty.value_or(any.value_or(channels[image.own().front()].part));
   for (size_t p = 0; p < reader.parts().size(); ++p) {
     BandJob::Part out{{p, reader.parts()[p]}, {}};
     ExrPart& header = out.part.header;
@@ -121,25 +125,16 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
   }
 }
 
-std::vector<Flow> parallax_of(const std::vector<float>& depth, const StereoCamera& camera) {
-  std::vector<Flow> vectors;
-  vectors.reserve(depth.size());
-  for (const float z : depth) {
-    const float distance = std::abs(z) > 0 ? std::abs(z) : std::numeric_limits<float>::infinity();
-    vectors.push_back({parallax(camera, distance), 0});
-  }
-  return vectors;
-}
-
 std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFileParams& params,
-                                      const StereoCamera& camera, const Workers& workers, PostReport& report) {
+                                      const StereoCamera& camera, const Workers& workers,
+                                      PostReport& report) {
   check_field_memory(image, params.file.memory);
   const LayerFinder& layers = image.layers();
   if (!layers.depth()) fail_missing(image, "depth", "name a layer with --depth-layer");
   std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha());
   std::vector<Flow> vectors;
   if (params.parallax.empty()) {
-    vectors = parallax_of(depth, camera);
+    vectors = parallax_field(depth, camera);
   } else {
     const auto uv = layers.vectors(params.parallax);
     if (!uv) fail_missing(image, "layer " + quote(params.parallax), "give another --parallax-layer");
@@ -190,17 +185,29 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
   job.scratch_bytes =
       static_cast<int64_t>(
           WorkBuffer::bytes_needed({0, 0, job.window.width(), strip_rows + 2 * margin}, job.scale) +
-          static_cast<size_t>(job.window.width()) * static_cast<size_t>(strip_rows) * (8 + 4 * channels.size() + 64)) *
+          static_cast<size_t>(job.window.width()) * static_cast<size_t>(strip_rows) *
+              (8 + 4 * channels.size() + 64)) *
       workers.thread_count();
-  const int fill = params.longest_fill.value_or(camera_part(image).display.width() / kFillFraction);
+  const int fill = params.longest_fill.value_or(default_fill(camera_part(image).display.width()));
   job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
     return rows_reaching(*v.field, target, job.window.width(), std::max(0, band.first - margin),
                          std::min(height, band.last + margin), {1.0f});
   };
   job.process = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band,
                     const PostLayers& layers) {
-    StereoJob stereo{v.field.get(), target, params.filter, fill, job.window.width(), height, band.first,
-                     band.last, {}, {}};
+    StereoJob stereo;
+    stereo.field = v.field.get();
+    stereo.target = target;
+    stereo.filter = params.filter;
+    // What lies beyond a data window within the frame is not unknown: there is nothing.
+    const PixelBox& canvas = v.image->canvas();
+    const PixelBox& display = camera_part(*v.image).display;
+    stereo.ends = {canvas.x0 <= display.x0, canvas.x1 >= display.x1};
+    stereo.longest_fill = fill;
+    stereo.width = job.window.width();
+    stereo.height = height;
+    stereo.first_row = band.first;
+    stereo.last_row = band.last;
     stereo.invented = job.extra_plane(0);
     stereo.missing = job.extra_plane(1);
     stereo_rows(stereo, layers, strip_rows, workers, progress);

@@ -46,15 +46,33 @@ void ViewImage::read_into(const std::vector<size_t>& wanted, int first, int last
     const PixelBox& data = reader_.parts()[p].data;
     const int y0 = std::max(first + canvas_.y0, data.y0), y1 = std::min(last + canvas_.y0, data.y1);
     if (y0 >= y1) continue;
+    const int x0 = std::max(data.x0, canvas_.x0), x1 = std::min(data.x1, canvas_.x1);
+    if (x0 >= x1) continue;
+    // A part of no view may be wider than this view's canvas: then by way of rows of its own.
+    const bool is_inside = x0 == data.x0 && x1 == data.x1;
+    const auto own_width = static_cast<size_t>(data.width());
+    const auto row_count = static_cast<size_t>(y1 - y0),
+               first_row = static_cast<size_t>(y0 - canvas_.y0 - first);
     std::vector<ExrRows> rows;
+    std::vector<float*> targets;
     for (size_t i = 0; i < wanted.size(); ++i) {
       const NamedChannel& channel = channels_[wanted[i]];
       if (channel.part != p) continue;
-      const size_t row = static_cast<size_t>(y0 - canvas_.y0 - first);
-      rows.push_back({channel.channel,
-                      words + i * plane + row * width + static_cast<size_t>(data.x0 - canvas_.x0), width});
+      targets.push_back(words + i * plane + first_row * width + static_cast<size_t>(x0 - canvas_.x0));
+      rows.push_back({channel.channel, targets.back(), width});
+    }
+    std::vector<float> wide(is_inside ? 0 : rows.size() * own_width * row_count);
+    for (size_t i = 0; i < rows.size() && !is_inside; ++i) {
+      rows[i].words = wide.data() + i * own_width * row_count;
+      rows[i].row_stride = own_width;
     }
     reader_.read(p, y0, y1, rows);
+    for (size_t i = 0; i < rows.size() && !is_inside; ++i) {
+      for (size_t y = 0; y < row_count; ++y) {
+        const float* from = rows[i].words + y * own_width + static_cast<size_t>(x0 - data.x0);
+        std::copy(from, from + (x1 - x0), targets[i] + y * width);
+      }
+    }
   }
 }
 

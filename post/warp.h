@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "post/flow_field.h"
@@ -63,7 +64,9 @@ class Warp {
   }
   /// The first of the samples low .. high whose centre is not before `edge`.
   static int first_sample(float edge, int low, int high) {
-    return static_cast<int>(std::clamp(std::ceil(edge - 0.5f), static_cast<float>(low), static_cast<float>(high)));
+    const float at = std::min(std::max(edge - 0.5f, static_cast<float>(low)), static_cast<float>(high));
+    const int below = static_cast<int>(at);  // pieces have no negative samples
+    return below + (static_cast<float>(below) < at);
   }
 
   template <class Buffer>
@@ -100,11 +103,13 @@ class Warp {
       p[c] = place(x + right, y + bottom, field_.corner(x, y, right, bottom), time);
     }
     const PixelBox& box = buffer.samples();
-    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x, p[3].x});
-    const auto [top, bottom] = std::minmax({p[0].y, p[1].y, p[2].y, p[3].y});
-    if (first_sample(left, box.x0, box.x1) >= first_sample(right, box.x0, box.x1)) return;
+    const float top = std::min(std::min(p[0].y, p[1].y), std::min(p[2].y, p[3].y));
+    const float bottom = std::max(std::max(p[0].y, p[1].y), std::max(p[2].y, p[3].y));
     const int y0 = first_sample(top, box.y0, box.y1), y1 = first_sample(bottom, box.y0, box.y1);
     if (y0 >= y1) return;
+    const float left = std::min(std::min(p[0].x, p[1].x), std::min(p[2].x, p[3].x));
+    const float right = std::max(std::max(p[0].x, p[1].x), std::max(p[2].x, p[3].x));
+    if (right <= static_cast<float>(box.x0) || left >= static_cast<float>(box.x1)) return;
     const Side sides[4] = {{p[0], p[1]}, {p[1], p[3]}, {p[2], p[3]}, {p[0], p[2]}};
     const Sample sample(field_.depth(x, y), x, y);
     for (int row = y0; row < y1; ++row) {
@@ -112,10 +117,10 @@ class Warp {
       const float centre = static_cast<float>(row) + 0.5f;
       float low = std::numeric_limits<float>::infinity(), high = -low;
       for (const Side& side : sides) {
-        if (!side.crosses(centre)) continue;
+        const bool crosses = side.crosses(centre);
         const float at = side.at(centre);
-        low = std::min(low, at);
-        high = std::max(high, at);
+        low = crosses && at < low ? at : low;
+        high = crosses && at > high ? at : high;
       }
       if (low < high) {
         buffer.put(row, first_sample(low, box.x0, box.x1), first_sample(high, box.x0, box.x1), sample);
