@@ -14,10 +14,14 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "groom/cache_report.h"
+#include "groom/color.h"
 #include "groom/groom.h"
+#include "image/field_nodes.h"
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/temporary_folder.h"
 
 namespace {
 
@@ -50,23 +54,46 @@ void operator delete(void* p, size_t) noexcept { count_release(p); }
 namespace pelage {
 namespace {
 
+/// Which coat: the usual operators, with a colour that varies along strands and over the skin, from a cache.
+struct Kind {
+  bool colored = false;
+  bool cached = false;
+};
+
 struct Coat {
   std::shared_ptr<const LimitSurface> rest = shapes::surface_of(shapes::ball_cage(10));
   MemoryLedger ledger;
   TextureLibrary textures{ledger};
+  TemporaryFolder folder;
   std::shared_ptr<const Groom> groom;
 
-  Coat() {
+  explicit Coat(const Kind& kind) {
     GroomParams params;
     params.strands = 200000;
     params.operators = stacks::usual();
+    if (kind.colored) {
+      ColorParams color;
+      color.value =
+          product_field({noise_field({2.2f, 0.45f, 1.0f, 0}), ramp_field({RampAxis::kStrand,
+                                                                          {{0, Rgb(0.16f, 0.15f, 0.15f)},
+                                                                           {0.4f, Rgb(0.2f, 0.16f, 0.15f)},
+                                                                           {0.7f, Rgb(0.52f, 0.37f, 0.25f)},
+                                                                           {1, Rgb(0.58f, 0.42f, 0.29f)}}})});
+      color.variation = 0.3f;
+      stacks::add<Color>(params.operators, color);
+    }
+    if (kind.cached) {
+      params.cache.emplace();
+      params.cache->directory.path = folder.path();
+      params.cache->freeze.name = "frizz";
+    }
     groom = Groom::create("coat", params, rest, textures, Workers(), ledger);
   }
   PosedSkin pose() const { return {{rest.get(), 1}, {}, 1, {}}; }
 };
 
 const Coat& coat() {
-  static const Coat one;
+  static const Coat one(Kind{});
   return one;
 }
 
@@ -89,13 +116,13 @@ double seconds_per_root() {
 }
 
 /// Grows all leaves and keeps them, as a renderer would.
-double grow_all(const Workers& workers, int64_t& strand_bytes) {
-  const Groom& groom = *coat().groom;
+double grow_all(const Coat& coat, const Workers& workers, int64_t& strand_bytes) {
+  const Groom& groom = *coat.groom;
   const size_t leaves = groom.follicles().leaves().size();
   std::vector<Strands> grown(leaves);
   const auto start = std::chrono::steady_clock::now();
   workers.for_each(leaves, 1, [&](WorkRange range) {
-    for (size_t leaf = range.begin; leaf < range.end; ++leaf) grown[leaf] = groom.grow(leaf, coat().pose());
+    for (size_t leaf = range.begin; leaf < range.end; ++leaf) grown[leaf] = groom.grow(leaf, coat.pose());
   });
   const double seconds = seconds_since(start);
   strand_bytes = 0;
@@ -109,13 +136,33 @@ void growth(benchmark::State& state) {
   double best = 1e30, root = 1e30;
   int64_t bytes = 0;
   for (auto _ : state) {
-    best = std::min(best, grow_all(one, bytes));
+    best = std::min(best, grow_all(coat(), one, bytes));
     root = std::min(root, seconds_per_root());
   }
   state.counters["strands_per_s"] = strands / best;
   state.counters["roots_per_strand"] = best / strands / root;
 }
 BENCHMARK(growth)->Unit(benchmark::kMillisecond)->Iterations(3);
+
+void growth_from_cache(benchmark::State& state) {
+  const Workers one(1);
+  const bool colored = state.range(0) != 0;
+  const Coat plain({colored, false}), cached({colored, true});
+  const auto strands = static_cast<double>(plain.groom->follicles().size());
+  double without = 1e30, with = 1e30;
+  int64_t bytes = 0;
+  for (auto _ : state) {
+    without = std::min(without, grow_all(plain, one, bytes));
+    with = std::min(with, grow_all(cached, one, bytes));
+  }
+  state.counters["strands_per_s"] = strands / with;
+  state.counters["times_faster"] = without / with;
+  state.counters["roots_per_strand"] = with / strands / seconds_per_root();
+  const GroomCacheReport& report = *cached.groom->cache_report();
+  state.counters["disk_bytes_per_strand"] =
+      static_cast<double>(report.offset_bytes + report.follicle_bytes) / strands;
+}
+BENCHMARK(growth_from_cache)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->Iterations(3);
 
 void growth_on_all_cores(benchmark::State& state) {
   const Workers one(1), all;
@@ -124,12 +171,12 @@ void growth_on_all_cores(benchmark::State& state) {
   int64_t bytes = 0, peak = 0;
   for (auto _ : state) {
     const double start = cpu_seconds();
-    single = std::min(single, grow_all(one, bytes));
+    single = std::min(single, grow_all(coat(), one, bytes));
     const double between = cpu_seconds();
     single_cpu = std::min(single_cpu, between - start);
     const int64_t before = bytes_in_use;
     bytes_peak = before;
-    team = std::min(team, grow_all(all, bytes));
+    team = std::min(team, grow_all(coat(), all, bytes));
     team_cpu = std::min(team_cpu, cpu_seconds() - between);
     peak = std::max(peak, bytes_peak - before);
   }

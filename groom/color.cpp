@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/color.h"
 
+#include <algorithm>
+
 #include "base/hash.h"
 #include "base/value_readers.h"
 #include "groom/strand_batch.h"
@@ -35,17 +37,24 @@ std::optional<AttributeClass> Color::colors() const {
 }
 
 void Color::apply(StrandBatch& batch) const {
+  if (batch.colors.empty()) return;
+  StrandRow factor;
+  for (size_t s = 0; s < batch.count && params_.variation > 0; ++s)
+    factor[s] = 1.0f - params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("color")));
+  StrandColor color(params_.value, batch);
   for (size_t p = 0; p < batch.colors.size(); ++p) {
+    // Not in place: the value may read the colour that the strand has.
     VectorRow value;
-    evaluate_color(params_.value, batch, static_cast<int>(p), value);
-    if (params_.variation > 0) {
-      for (size_t s = 0; s < batch.count; ++s) {
-        const float factor =
-            1.0f - params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("color")));
-        for (StrandRow& channel : value) channel[s] *= factor;
+    color.at(static_cast<int>(p), value);
+    for (size_t c = 0; c < 3; ++c) {
+      const float* __restrict from = value[c].data();
+      float* __restrict to = batch.colors[p][c].data();
+      if (params_.variation > 0) {
+        for (size_t s = 0; s < batch.count; ++s) to[s] = from[s] * factor[s];
+      } else {
+        std::copy_n(from, batch.count, to);
       }
     }
-    batch.colors[p] = value;
   }
 }
 

@@ -34,11 +34,31 @@ void visit(const FieldDependence& needs, const StrandBatch& batch, float along, 
   }
 }
 
+bool changes_by_strand(const Field& field) {
+  const FieldDependence needs = field.dependence();
+  return needs.surface || needs.attributes;
+}
+
+bool changes_along(const Field& field) {
+  const FieldDependence needs = field.dependence();
+  if (needs.along) return true;
+  // The colour that a strand has already may change along it.
+  const std::vector<std::string> names =
+      needs.attributes ? field.attribute_names() : std::vector<std::string>();
+  return std::find(names.begin(), names.end(), "color") != names.end();
+}
+
+void multiply(const StrandRow& factor, size_t count, StrandRow& product) {
+  for (size_t s = 0; s < count; ++s) product[s] *= factor[s];
+}
+
 }  // namespace
 
 void evaluate(const Field& field, const StrandBatch& batch, float along, StrandRow& out) {
-  if (field.is_constant()) {
-    out.fill(field.value({}));
+  if (!changes_by_strand(field)) {
+    FieldPoint place;
+    place.along = along;
+    out.fill(field.value(place));
     return;
   }
   visit(field.dependence(), batch, along, 0,
@@ -46,8 +66,10 @@ void evaluate(const Field& field, const StrandBatch& batch, float along, StrandR
 }
 
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out) {
-  if (field.is_constant()) {
-    const Rgb c = field.color({});
+  if (!changes_by_strand(field)) {
+    FieldPoint place;
+    place.along = batch.along(point);
+    const Rgb c = field.color(place);
     out[0].fill(c.x);
     out[1].fill(c.y);
     out[2].fill(c.z);
@@ -57,6 +79,52 @@ void evaluate_color(const Field& field, const StrandBatch& batch, int point, Vec
     const Rgb c = field.color(place);
     set_vector(out, s, V3f(c.x, c.y, c.z));
   });
+}
+
+template <class Row>
+StrandField::Factors<Row>::Factors(const Field& field, const StrandBatch& batch) {
+  const std::span<const Field> factors =
+      field.factors().empty() ? std::span<const Field>(&field, 1) : field.factors();
+  list.reserve(factors.size());
+  for (const Field& factor : factors) {
+    list.push_back({factor, changes_along(factor), changes_by_strand(factor), {}});
+    if (list.back().changes_along) continue;
+    if constexpr (std::is_same_v<Row, StrandRow>) {
+      evaluate(factor, batch, 0, list.back().fixed);
+    } else {
+      evaluate_color(factor, batch, 0, list.back().fixed);
+    }
+  }
+}
+
+template struct StrandField::Factors<StrandRow>;
+template struct StrandField::Factors<VectorRow>;
+
+const StrandRow& StrandField::at(float along) {
+  const size_t count = batch_.count;
+  if (factors_.list.size() == 1) {
+    if (!factors_.list[0].changes_along) return factors_.list[0].fixed;
+    evaluate(factors_.list[0].field, batch_, along, row_);
+    return row_;
+  }
+  // In the order of the product: the result is that of Field::value to the last bit.
+  std::fill_n(row_.begin(), count, 1.0f);
+  StrandRow value;
+  for (const Factor<StrandRow>& factor : factors_.list) {
+    if (factor.changes_along) evaluate(factor.field, batch_, along, value);
+    multiply(factor.changes_along ? value : factor.fixed, count, row_);
+  }
+  return row_;
+}
+
+void StrandColor::at(int point, VectorRow& out) {
+  const size_t count = batch_.count;
+  for (StrandRow& channel : out) std::fill_n(channel.begin(), count, 1.0f);
+  VectorRow value;
+  for (const StrandField::Factor<VectorRow>& factor : factors_.list) {
+    if (factor.changes_along) evaluate_color(factor.field, batch_, point, value);
+    for (size_t c = 0; c < 3; ++c) multiply(factor.changes_along ? value[c] : factor.fixed[c], count, out[c]);
+  }
 }
 
 }  // namespace pelage

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "groom/strand_batch.h"
 #include "image/field.h"
 
@@ -16,24 +18,42 @@ void evaluate(const Field& field, const StrandBatch& batch, float along, StrandR
 /// All three channels; `point` says whose colour the attribute "color" means.
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
-/// A field over a batch, evaluated once per strand unless it changes along strands.
+/// A field over a batch at one place of the strands after the other: a factor of a product (and any other
+/// field) that does not change along strands is evaluated once per strand, one that changes along them alone
+/// once per place.
 class StrandField {
  public:
-  StrandField(const Field& field, const StrandBatch& batch)
-      : field_(field), batch_(batch), along_(field.dependence().along) {
-    if (!along_) evaluate(field_, batch_, 0.0f, row_);
-  }
+  StrandField(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}
   /// Values at a position along the strands. The row is overwritten by the next call.
-  const StrandRow& at(float along) {
-    if (along_) evaluate(field_, batch_, along, row_);
-    return row_;
-  }
+  const StrandRow& at(float along);
 
  private:
-  const Field& field_;
+  friend class StrandColor;
+  template <class Row>
+  struct Factor {
+    const Field& field;
+    bool changes_along, changes_by_strand;
+    Row fixed;  // of those that do not change along strands
+  };
+  template <class Row>
+  struct Factors {
+    Factors(const Field& field, const StrandBatch& batch);
+    std::vector<Factor<Row>> list;
+  };
+  Factors<StrandRow> factors_;
   const StrandBatch& batch_;
-  bool along_;
   StrandRow row_;
+};
+
+/// The same for all three channels, by point.
+class StrandColor {
+ public:
+  StrandColor(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}
+  void at(int point, VectorRow& out);
+
+ private:
+  StrandField::Factors<VectorRow> factors_;
+  const StrandBatch& batch_;
 };
 
 }  // namespace pelage

@@ -42,6 +42,8 @@ std::vector<std::string> Field::attribute_names() const {
   return names;
 }
 
+std::span<const Field> Field::factors() const { return node_->factors_of(); }
+
 std::vector<std::filesystem::path> Field::files() const {
   std::vector<std::filesystem::path> files;
   node_->collect_files(files);

@@ -68,6 +68,8 @@ class Field {
   /// Names of the attributes it reads.
   std::vector<std::string> attribute_names() const;
 
+  /// What a product multiplies, in order; nothing of other fields.
+  std::span<const Field> factors() const;
   /// The files of its maps.
   std::vector<std::filesystem::path> files() const;
 

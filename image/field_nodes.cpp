@@ -213,6 +213,7 @@ struct ProductNode final : Field::Node {
   void collect_attributes(std::vector<std::string>& names) const override {
     for (const Field& factor : factors) factor.node().collect_attributes(names);
   }
+  std::span<const Field> factors_of() const override { return factors; }
   void collect_files(std::vector<std::filesystem::path>& files) const override {
     for (const Field& factor : factors) factor.node().collect_files(files);
   }

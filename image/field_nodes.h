@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Field::Node {
   virtual std::pair<float, float> range() const = 0;
   virtual std::string print() const = 0;
   virtual void collect_attributes(std::vector<std::string>&) const {}
+  virtual std::span<const Field> factors_of() const { return {}; }
   virtual void collect_files(std::vector<std::filesystem::path>&) const {}
   /// The node with its maps read, or nullptr when it has none to read.
   virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
