@@ -2,6 +2,9 @@
 #include <fstream>
 
 #include "base/file.h"
+#include "geom/closest_point.h"
+#include "geom/io/strand_file.h"
+#include "geom/tessellation.h"
 #include "tests/groom/cached_coats.h"
 
 namespace pelage {
@@ -54,6 +57,163 @@ TEST_F(GroomCacheTest, NoPointMovesByMoreThanATwentiethOfAWidth) {
       for (size_t i = 0; i < ca->values.size(); ++i) ASSERT_NEAR(ca->values[i], cb->values[i], 0.005f);
     }
   }
+}
+
+TEST_F(GroomCacheTest, APrefixIsThePrefixOfTheWhole) {
+  const auto groom = make(Coat{kEveryFrozenOperator, "frizz"});
+  const Strands whole = groom->grow(1, at_rest()), part = groom->grow(1, at_rest(), 300);
+  ASSERT_EQ(part.strand_count(), 300u);
+  EXPECT_TRUE(std::equal(part.points().begin(), part.points().end(), whole.points().begin()));
+}
+
+TEST_F(GroomCacheTest, LiveOperatorsGoOnFromTheFrozenOnes) {
+  // One that pushes out of the posed skin, one that needs rest frames behind it, and fields of all kinds.
+  const std::string operators =
+      "- length: {value: 0.4}\n"
+      "- clump: {spacing: 0.3, amount: 0.7}\n"
+      "- frizz: {amplitude: 0.01, frequency: 3}\n"
+      "- width: {root: {product: [0.01, {ramp: {along: y, knots: [[-1, 0.5], [1, 1]]}}]}, tip: 0.002}\n"
+      "- color: {value: {product: [{attribute: clump}, {ramp: {along: strand, knots: [[0, 1], [1, "
+      "0.2]]}}]}}\n"
+      "- push_out: {offset: 0.01}\n"
+      "- comb: {direction: [0, 1, 0], lift: 0.8, amount: 0.3}\n";
+  const LimitSurface pose = posed(0.3f, 0.2f);
+  View view;
+  view.focal_pixels = 1e9f;
+  const SkinMesh mesh = tessellate({&pose, 1}, view, {4, 8}, workers_);
+  const ClosestPointTree tree(mesh, 0);
+  const PosedSkin skin{{&pose, 1}, {&tree, 1}, 1, {}};
+  const auto plain = bits(*make(Coat{operators, "", 600}), skin);
+  for (const char* freeze : {"length", "clump", "frizz", "width", "color"}) {
+    const auto cold = make(Coat{operators, freeze, 600}), warm = make(Coat{operators, freeze, 600});
+    EXPECT_TRUE(warm->cache_report()->fresh);
+    const auto cached = bits(*cold, skin);
+    EXPECT_EQ(cached, bits(*warm, skin));
+    ASSERT_EQ(cached.size(), plain.size());
+    // Pushing out decides by signs, so a strand may take another way; nearly none does.
+    size_t far = 0;
+    for (size_t i = 0; i < plain.size(); ++i) far += std::fabs(plain[i] - cached[i]) > 2e-3f;
+    EXPECT_LE(far, plain.size() / 1000) << freeze;
+  }
+}
+
+TEST_F(GroomCacheTest, LengthScalesStrandsAboutTheirRootsAndNotTheirWidths) {
+  for (const char* freeze : {"", "frizz"}) {
+    const auto groom = make(Coat{kEveryFrozenOperator, freeze});
+    PosedSkin longer = at_rest();
+    longer.length = 1.7f;
+    for (size_t leaf = 0; leaf < groom->follicles().leaves().size(); ++leaf) {
+      const Strands a = groom->grow(leaf, at_rest()), b = groom->grow(leaf, longer);
+      const Box3f bound = groom->conservative_bound(leaf, longer);
+      for (size_t s = 0; s < a.strand_count(); ++s) {
+        const V3f root = a.point(a.first_point(s));
+        for (uint32_t p = a.first_point(s); p < a.first_point(s) + a.strand_points(s); ++p) {
+          EXPECT_LE((root + (a.point(p) - root) * 1.7f - b.point(p)).length(), 2e-6f);
+          EXPECT_EQ(a.radius(p), b.radius(p));
+          EXPECT_TRUE(bound.intersects(b.point(p)));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
+  const auto with = [](const std::string& amount, const std::string& amplitude) {
+    return Coat{"- length: {value: 0.5}\n- comb: {direction: [0, -1, 0]}\n- clump: {spacing: 0.3, amount: " +
+                    amount + "}\n- curl: {radius: 0.02}\n- frizz: {amplitude: " + amplitude + "}\n",
+                "frizz"};
+  };
+  const auto first = make(with("0.6", "0.01"));
+  EXPECT_EQ(first->cache_report()->resumed, 0u);
+  EXPECT_EQ(first->cache_report()->stages.front().reason, "new");
+
+  const auto frizzed = make(with("0.6", "0.02"));
+  const GroomCacheReport& last = *frizzed->cache_report();
+  EXPECT_EQ(last.resumed, 4u);
+  EXPECT_EQ(last.summary(), "stale from frizz on (amplitude: 0.01 -> 0.02)");
+
+  const auto clumped = make(with("0.5", "0.02"));
+  const GroomCacheReport& middle = *clumped->cache_report();
+  EXPECT_EQ(middle.resumed, 2u);
+  EXPECT_EQ(middle.summary(), "stale from clump on (amount: 0.6 -> 0.5)");
+  EXPECT_EQ(middle.stages.back().reason, "follows");
+
+  // The same strands as when nothing is there to go on from.
+  const auto resumed = bits(*clumped, at_rest());
+  std::filesystem::remove_all(cache());
+  EXPECT_EQ(resumed, bits(*make(with("0.5", "0.02")), at_rest()));
+  EXPECT_TRUE(make(with("0.5", "0.02"))->cache_report()->fresh);
+}
+
+TEST_F(GroomCacheTest, ImportedStrandsKeepTheirGapsAndTheirPointCounts) {
+  const auto path = folder_.path() / "strands.hair";
+  StrandArrays arrays;
+  arrays.first_point = {0};
+  TestRandom random(3);
+  for (uint64_t i = 0; i < 700; ++i) {
+    const V3f out = random.direction();
+    const uint32_t count = 3 + static_cast<uint32_t>(i / 100 % 4);
+    for (uint32_t p = 0; p < count; ++p) {
+      const V3f at = out * (1.2f + 0.1f * static_cast<float>(p)) + random.direction() * 0.02f;
+      arrays.points.insert(arrays.points.end(), {at.x, at.y, at.z, 0.003f * random.between(0.5f, 1)});
+    }
+    arrays.first_point.push_back(arrays.first_point.back() + count);
+    arrays.ids.push_back(i);
+  }
+  write_strands(path, Strands(std::move(arrays)));
+  GroomParams params =
+      scene_text::read<GroomParams>("strands_file: " + path.string() + "\nleaf_strands: 300");
+  params.operators = scene_text::read<OperatorList>("- frizz: {amplitude: 0.01}\n- length: {scale: 0.9}\n");
+  for (const bool on_skin : {true, false}) {
+    if (!on_skin) params.skin = {};
+    const auto rest = on_skin ? rest_ : nullptr;
+    const M44f turn = M44f().setEulerAngles(V3f(0.3f, 1, 0)) * M44f().translate(V3f(1, 2, 3));
+    const LimitSurface pose = posed(0.5f, 0.1f);
+    const PosedSkin skin =
+        on_skin ? PosedSkin{{&pose, 1}, {}, 1.2f, {}} : PosedSkin{{}, {}, 1.2f, {&turn, 1}};
+    params.cache.reset();
+    const auto plain = all(*Groom::create("i", params, rest, textures_, workers_, ledger_), skin);
+    params.cache.emplace();
+    params.cache->directory.path = cache();
+    params.cache->freeze.name = "length";
+    const auto cold = Groom::create("i", params, rest, textures_, workers_, ledger_);
+    const auto warm = Groom::create("i", params, rest, textures_, workers_, ledger_);
+    EXPECT_TRUE(warm->cache_report()->fresh);
+    EXPECT_EQ(bits(*cold, skin), bits(*warm, skin));
+    const auto cached = all(*warm, skin);
+    ASSERT_EQ(plain.size(), cached.size());
+    for (size_t leaf = 0; leaf < plain.size(); ++leaf) {
+      ASSERT_EQ(plain[leaf].point_count(), cached[leaf].point_count());
+      for (size_t p = 0; p < plain[leaf].point_count(); ++p)
+        ASSERT_LE((plain[leaf].point(p) - cached[leaf].point(p)).length(), 0.003f / 20);
+    }
+  }
+}
+
+TEST_F(GroomCacheTest, StrandsTooThinForSixteenBitsAreKeptInFull) {
+  const Coat thin{"- length: {value: 2}\n- curl: {radius: 0.05}\n- width: {root: 0.00002, tip: 0.00001}\n",
+                  "width"};
+  const auto plain = all(*make(Coat{thin.operators, ""}), at_rest());
+  const auto cached = all(*make(thin), at_rest());
+  for (size_t leaf = 0; leaf < plain.size(); ++leaf) {
+    for (size_t p = 0; p < plain[leaf].point_count(); ++p)
+      ASSERT_LE((plain[leaf].point(p) - cached[leaf].point(p)).length(), 0.00002f / 20 + 3e-7f);
+  }
+}
+
+TEST_F(GroomCacheTest, FreezingNamesAnOperatorThatCanBeFrozen) {
+  const auto message = [&](const std::string& freeze) -> std::string {
+    try {
+      make(Coat{"- length: {value: 1}\n- push_out: {}\n- frizz: {}\n", freeze});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("frizzy").find("did you mean 'frizz'"), std::string::npos) << message("frizzy");
+  EXPECT_NE(message("push_out").find("cannot be frozen"), std::string::npos);
+  EXPECT_NE(message("frizz").find("'push_out'"), std::string::npos);
+  EXPECT_EQ(message("length"), "");
 }
 
 }  // namespace
