@@ -52,7 +52,8 @@ struct FrozenGrowth {
   const GroomIdentity& identity;
   size_t frozen = 0;  ///< operators [0, frozen) run
   const ContentStore& store;
-  const WarningSink& warn;
+  const WarningSink& warn;          ///< of damaged files
+  const WarningSink& cannot_store;  ///< of files that cannot be written
   const Workers& workers;
   Progress& progress;
 

@@ -108,12 +108,6 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   }
   stack.prepare(result.resumed, frozen, context);
 
-  // A folder that takes nothing is told of once.
-  bool told = false;
-  const WarningSink once = [&](const std::string& line) {
-    if (!told) warn(line);
-    told = true;
-  };
   std::vector<std::unique_ptr<ContentStore::Writer>> writers;
   for (size_t i = result.resumed; i < frozen; ++i) {
     for (StrandReach& reach : result.reaches) reach = stack.reach(reach, i, i + 1);
@@ -143,7 +137,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
     }
   }
   progress.end();
-  for (const auto& writer : writers) writer->commit(once);
+  for (const auto& writer : writers) writer->commit(cannot_store);
   return result;
 }
 

@@ -51,6 +51,12 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   };
   open(warn);
   report->fresh = report->stored = frozen.has_value();
+  // A folder that takes nothing is told of once.
+  bool told = false;
+  const WarningSink cannot_store = [&](const std::string& line) {
+    if (!told) warn(line);
+    told = true;
+  };
   if (!frozen) {
     store->sweep();
     const ContentStore::Lock lock = store->lock("offsets", offset_key);
@@ -58,14 +64,14 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     if (!have_follicles) {
       stack->prepare_coverage(context);
       source.grown = place_follicles(params, context, seed);
-      store_follicles(*store, follicle_key, source.grown, warn);
+      store_follicles(*store, follicle_key, source.grown, cannot_store);
     }
     if (!frozen) {
-      const FrozenGrowth growth{source, *stack, identity,        frozen_end,
-                                *store, warn,   context.workers, progress};
+      const FrozenGrowth growth{source, *stack,       identity,        frozen_end, *store,
+                                warn,   cannot_store, context.workers, progress};
       FrozenGrowth::Result grown = growth.run(context, params.leaf_strands);
       report->resumed = grown.resumed;
-      report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, warn);
+      report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
       // Read back, so that what is in memory may go.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
       if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), ledger);
