@@ -36,17 +36,34 @@ std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
   return files;
 }
 
+PoseSequence pose_sequence(const PosesParams& params, const ControlMesh& cage, MemoryLedger& ledger) {
+  return PoseSequence(pose_files(params), params.first, params.cycle, cage.positions.size(), ledger,
+                      params.frames_per_pose);
+}
+
 Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, MemoryLedger& ledger) {
   require_file(params.mesh.path, params.mesh.position);
   const ControlMesh cage = read_obj(params.mesh.path);
   const auto topology = share(
       SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
   Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage, {}};
-  if (params.poses) {
-    skin.poses.emplace(pose_files(*params.poses), params.poses->first, params.poses->cycle,
-                       cage.positions.size(), ledger, params.poses->frames_per_pose);
-  }
+  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, cage, ledger));
   return skin;
+}
+
+/// One crowd after the other, each clear of those before it.
+std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene) {
+  std::vector<std::vector<CrowdMember>> crowds;
+  std::vector<PlacedFootprint> taken;
+  for (const auto& [name, position, params] : scene.crowds.items) {
+    std::vector<Footprint> footprints;
+    for (const NameReference& of : params.of)
+      footprints.push_back(scene.characters.find(of.name)->value.footprint);
+    crowds.push_back(make_crowd(name, position, params, footprints, taken));
+    for (const CrowdMember& member : crowds.back())
+      taken.push_back(placed_footprint(member, footprints[member.prototype]));
+  }
+  return crowds;
 }
 
 }  // namespace
@@ -64,9 +81,15 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
   for (const auto& topology : topologies) {
     assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
   }
-  for (const auto& [name, position, params] : scene.crowds.items) {
-    assets->crowds.push_back(make_crowd(name, position, params));
+  for (const auto& [name, position, params] : scene.characters.items) {
+    for (size_t part = 0; part < params.parts.size(); ++part) {
+      const auto& [skin, material, grooms, poses] = params.parts[part];
+      if (!poses) continue;
+      const ControlMesh& cage = assets->skins.at(skin.name).cage;
+      assets->part_poses.emplace(std::pair(name, part), pose_sequence(*poses, cage, ledger));
+    }
   }
+  assets->crowds = make_crowds(scene);
   for (const auto& [name, position, params] : scene.grooms.items) {
     const auto skin = assets->skins.find(params.skin.name);
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;

@@ -30,6 +30,8 @@ struct Assets {
   TextureLibrary textures;
   std::map<std::string, Skin> skins;
   std::map<std::string, std::shared_ptr<const Groom>> grooms;
+  /// Poses that a character's part has of its own, by the name of the character and the index of the part.
+  std::map<std::pair<std::string, size_t>, PoseSequence> part_poses;
   std::vector<std::vector<CrowdMember>> crowds;  ///< in the order of the scene
   std::vector<MaterialParams> materials;         ///< in the order of the scene
   std::vector<MemoryCharge> charges;

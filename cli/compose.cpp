@@ -32,14 +32,16 @@ class Composer {
 
   void add(const DrawnCharacter& character) {
     Box3f box;
-    for (const PartParams& part : character.params->parts) add_part(character, part, box);
+    for (size_t part = 0; part < character.params->parts.size(); ++part) add_part(character, part, box);
     if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
   }
 
  private:
-  void add_part(const DrawnCharacter& character, const PartParams& part, Box3f& box) {
+  void add_part(const DrawnCharacter& character, size_t index, Box3f& box) {
+    const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
-    CharacterPose pose = pose_character(character, skin, topology_of(part.skin.name), scene_.camera, frame_);
+    CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
+    if (!scene_.render.shared_topology) pose.topology = own_topology(part.skin.name);
     for (const auto& groom : part.grooms.items) {
       if (assets_.grooms.at(groom.name)->needs_closest_point())
         pose.push_out_view = world_.scene.camera.view();
@@ -61,14 +63,13 @@ class Composer {
     }
   }
 
-  /// Characters of one cage share one topology, unless the scene asks what that is worth.
-  std::shared_ptr<const SurfaceTopology> topology_of(const std::string& skin) {
-    const auto& shared = assets_.skins.at(skin).rest->shared_topology();
-    if (scene_.render.shared_topology) return shared;
+  /// What sharing a topology saves is measured by not doing it.
+  std::shared_ptr<const SurfaceTopology> own_topology(const std::string& skin) {
     const SkinParams& params = scene_.skins.find(skin)->value;
-    charge(shared->bytes());
-    return SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
-                                   params.mesh.path.string());
+    auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
+                                            params.mesh.path.string());
+    charge(topology->bytes());
+    return topology;
   }
 
   void count(const Groom& groom, const PosedCharacterSkin& skin) {

@@ -25,14 +25,29 @@ M44f to_world(const DrawnCharacter& character, double time) {
   return scale_of(*character.member) * own * placement_of(*character.member);
 }
 
-void add_pose(const DrawnCharacter& character, const Assets::Skin& skin, double time, PosedCages& cages) {
-  const M44f matrix = to_world(character, time);
-  const double shown =
-      time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
-  std::vector<V3f> cage = skin.poses ? skin.poses->positions(shown) : skin.cage.positions;
-  for (V3f& point : cage) point *= matrix;
-  cages.cages.push_back(std::move(cage));
-  cages.transforms.push_back(matrix);
+/// What moves one part of a character.
+struct Motion {
+  const DrawnCharacter& character;
+  const std::vector<V3f>& rest;
+  const PoseSequence* poses;  // null: at rest
+
+  bool moves() const { return poses || pelage::moves(character.params->transform); }
+  void add_pose(double time, PosedCages& cages) const {
+    const M44f matrix = to_world(character, time);
+    const double shown =
+        time + character.params->frame_offset + (character.member ? character.member->frame_offset : 0);
+    std::vector<V3f> cage = poses ? poses->positions(shown) : rest;
+    for (V3f& point : cage) point *= matrix;
+    cages.cages.push_back(std::move(cage));
+    cages.transforms.push_back(matrix);
+  }
+};
+
+Motion motion_of(const DrawnCharacter& character, size_t part, const Assets& assets) {
+  const Assets::Skin& skin = assets.skins.at(character.params->parts[part].skin.name);
+  const auto own = assets.part_poses.find({character.prototype, part});
+  if (own != assets.part_poses.end()) return {character, skin.cage.positions, &own->second};
+  return {character, skin.cage.positions, skin.poses ? &*skin.poses : nullptr};
 }
 
 }  // namespace
@@ -40,39 +55,40 @@ void add_pose(const DrawnCharacter& character, const Assets::Skin& skin, double 
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets) {
   std::vector<DrawnCharacter> drawn;
   for (const auto& [name, position, params] : scene.characters.items) {
-    if (params.drawn.value_or(!is_prototype(scene, name))) drawn.push_back({name, &params, {}});
+    if (params.drawn.value_or(!is_prototype(scene, name))) drawn.push_back({name, name, &params, {}});
   }
   for (size_t crowd = 0; crowd < scene.crowds.items.size(); ++crowd) {
     const auto& [name, position, params] = scene.crowds.items[crowd];
     const std::vector<CrowdMember>& members = assets.crowds[crowd];
     for (size_t i = 0; i < members.size(); ++i) {
       const std::string& prototype = params.of[members[i].prototype].name;
-      drawn.push_back({name + "." + std::to_string(i), &scene.characters.find(prototype)->value, members[i]});
+      drawn.push_back(
+          {name + "." + std::to_string(i), prototype, &scene.characters.find(prototype)->value, members[i]});
     }
   }
   return drawn;
 }
 
-CharacterPose pose_character(const DrawnCharacter& character, const Assets::Skin& skin,
-                             std::shared_ptr<const SurfaceTopology> topology, const CameraParams& camera,
-                             double frame) {
+CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,
+                             const CameraParams& camera, double frame) {
   CharacterPose pose;
-  pose.topology = std::move(topology);
+  pose.topology = assets.skins.at(character.params->parts[part].skin.name).rest->shared_topology();
   pose.scale = character.params->transform.scale.at(frame);
   if (character.member) {
     const V3f& axes = character.member->scale;
     pose.scale *= axes.x == axes.y && axes.y == axes.z ? axes.x : std::cbrt(axes.x * axes.y * axes.z);
     pose.length = character.member->length;
   }
+  const Motion motion = motion_of(character, part, assets);
   const double open = frame + camera.shutter.x, length = double(camera.shutter.y) - camera.shutter.x;
-  if (!(skin.poses || moves(character.params->transform))) {
-    add_pose(character, skin, frame, pose.shutter);
+  if (!motion.moves()) {
+    motion.add_pose(frame, pose.shutter);
   } else if (!(length > 0)) {
-    add_pose(character, skin, open, pose.shutter);
+    motion.add_pose(open, pose.shutter);
   } else {
     for (int key = 0; key < camera.motion_keys; ++key)
-      add_pose(character, skin, open + length * key / (camera.motion_keys - 1), pose.shutter);
-    for (double end : {frame - 0.5, frame + 0.5}) add_pose(character, skin, end, pose.frame_ends);
+      motion.add_pose(open + length * key / (camera.motion_keys - 1), pose.shutter);
+    for (double end : {frame - 0.5, frame + 0.5}) motion.add_pose(end, pose.frame_ends);
   }
   return pose;
 }

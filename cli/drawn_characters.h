@@ -13,7 +13,8 @@ namespace pelage {
 
 /// A character that stands in the picture: by itself, or as one animal of a crowd.
 struct DrawnCharacter {
-  std::string name;  ///< "rat", or "colony.17" for an animal of a crowd, counted from 0
+  std::string name;       ///< "rat", or "colony.17" for an animal of a crowd, counted from 0
+  std::string prototype;  ///< the character of the scene that it is
   const CharacterParams* params = nullptr;
   std::optional<CrowdMember> member;
 };
@@ -21,10 +22,9 @@ struct DrawnCharacter {
 /// All of a scene, characters first, then crowds, in the order of the scene. Refers to `scene`.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
-/// The posed cages of one skin of a character: over the shutter, and at the ends of the frame's interval when
-/// something moves while the shutter is open. `topology` is that of the skin, or an equal one.
-CharacterPose pose_character(const DrawnCharacter& character, const Assets::Skin& skin,
-                             std::shared_ptr<const SurfaceTopology> topology, const CameraParams& camera,
-                             double frame);
+/// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval when
+/// something moves while the shutter is open.
+CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,
+                             const CameraParams& camera, double frame);
 
 }  // namespace pelage

@@ -68,9 +68,6 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   };
   if (crowd.of.empty()) refuse(" is made of no character");
   for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
-  for (const V3f& disc : crowd.footprint) {
-    if (!(disc.z >= 0)) refuse(": a disc [x, z, radius] of the footprint has a negative radius");
-  }
   const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
 }
@@ -90,6 +87,11 @@ void check_references(const SceneDescription& scene, Problems& problems) {
   for (const auto& [name, position, character] : scene.characters.items) {
     if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
     for (const PartParams& part : character.parts) check_part(scene, part, problems);
+    for (const V3f& disc : character.footprint) {
+      if (!(disc.z >= 0))
+        problems.add(position, "character " + quote(name) +
+                                   ": a disc [x, z, radius] of the footprint has a negative radius");
+    }
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
 }

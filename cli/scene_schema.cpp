@@ -64,6 +64,8 @@ const Schema<PartParams>& PartParams::schema() {
     s.key("material", &PartParams::material, {.help = "Name of the material of the skin", .required = true});
     s.key("grooms", &PartParams::grooms,
           {.help = "Grooms on this skin, each with its material: {under: fur}"});
+    s.key("poses", &PartParams::poses,
+          {.help = "What this character does with the skin", .default_text = "the poses of the skin"});
     return s;
   }();
   return table;
@@ -89,6 +91,10 @@ const Schema<CharacterParams>& CharacterParams::schema() {
           {.help = "Where it stands", .default_text = "at the origin"});
     s.key("frame_offset", &CharacterParams::frame_offset,
           {.unit = "frames", .help = "Added to the frame to choose the pose; may be a fraction"});
+    s.key("footprint", &CharacterParams::footprint,
+          {.unit = "scene units",
+           .help = "Ground that it covers in a crowd: discs [x, z, radius] about its origin",
+           .default_text = "its origin"});
     s.key("drawn", &CharacterParams::drawn,
           {.help = "Whether it stands in the picture by itself",
            .default_text = "unless a crowd is made of it"});

@@ -63,7 +63,8 @@ struct SkinParams {
 struct PartParams {
   NameReference skin;
   NameReference material;
-  Named<NameReference> grooms;  ///< name of a groom -> name of its material
+  Named<NameReference> grooms;       ///< name of a groom -> name of its material
+  std::optional<PosesParams> poses;  ///< instead of those of the skin
   static const Schema<PartParams>& schema();
 };
 
@@ -79,6 +80,7 @@ struct CharacterParams {
   std::vector<PartParams> parts;
   TransformParams transform;
   float frame_offset = 0;     ///< added to the frame to get the pose
+  Footprint footprint;        ///< discs (x, z, radius) on the ground, of an animal of scale 1
   std::optional<bool> drawn;  ///< none: unless a crowd is made of it
   static const Schema<CharacterParams>& schema();
 };

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the small things: ground.obj, patch.obj, pebble.obj and imported.hair. Needs only Python 3."""
+"""Writes the small things: ground.obj, colony/floor.obj, patch.obj, pebble.obj and imported.hair. Needs only Python 3."""
 import math
 import pathlib
 import random
@@ -40,6 +40,13 @@ def sweep(s, t):
         turn = (walk - floor) / SWEEP_BEND
         return (x, SWEEP_BEND * (1 - math.cos(turn)), SWEEP_BACK - SWEEP_BEND * math.sin(turn))
     return (x, SWEEP_BEND + walk - floor - arc, SWEEP_BACK - SWEEP_BEND)
+
+
+# ---- the floor under the colonies ----
+
+def floor(s, t):
+    """Level ground, 40 m across."""
+    return (4000 * (s - 0.5), 0.0, 4000 * (0.5 - t))
 
 
 # ---- a small patch of skin for tuft.yaml ----
@@ -123,6 +130,7 @@ def write_hair(path):
 def main():
     write_grid("ground.obj", "A sweep: floor and wall in one piece, centimetres, +y up, the wall toward -z.",
                8, 16, sweep)
+    write_grid("colony/floor.obj", "Level ground, 40 m across, +y up.", 4, 4, floor)
     write_grid("patch.obj", "A low mound of skin, 4 cm across, +y up.", 6, 6, patch)
     cube_sphere(HERE / "pebble.obj", 6)
     write_hair(HERE / "imported.hair")

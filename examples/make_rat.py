@@ -9,6 +9,7 @@ sys.path.insert(0, str(HERE / "rat"))
 
 import cage  # noqa: E402
 import eyes  # noqa: E402
+import idle  # noqa: E402
 import maps  # noqa: E402
 import mesh  # noqa: E402
 import walk  # noqa: E402
@@ -18,16 +19,21 @@ COMMENT = ["Written by examples/make_rat.py. Centimetres, +y up, the nose toward
            "Catmull-Clark control cage, closed, counter-clockwise seen from outside."]
 
 
+def write_poses(name, motion, files, skins, atlases):
+    for pose, shapes in enumerate(motion.cycle(skins), 1):
+        for skin, points in shapes.items():
+            mesh.write_obj(HERE / "poses" / ("%s.%04d.obj" % (files[skin], pose)), skins[skin], points,
+                           COMMENT + ["Pose %d of the %s." % (pose, name)], atlases[skin].uv)
+
+
 def main():
     skins = {"rat": cage.build(), "eyes": eyes.build()}
     atlases = {"rat": Atlas(skins["rat"]), "eyes": Atlas(skins["eyes"], texels_per_cm=120)}
     for name, skin in skins.items():
         mesh.write_obj(HERE / (name + ".obj"), skin, skin.points, COMMENT, atlases[name].uv)
     (HERE / "poses").mkdir(exist_ok=True)
-    for pose, shapes in enumerate(walk.cycle(skins), 1):
-        for name, points in shapes.items():
-            mesh.write_obj(HERE / "poses" / ("%s.%04d.obj" % ({"rat": "walk"}.get(name, name), pose)),
-                           skins[name], points, COMMENT + ["Pose %d of the walk." % pose], atlases[name].uv)
+    write_poses("walk", walk, {"rat": "walk", "eyes": "eyes"}, skins, atlases)
+    write_poses("idle", idle, {"rat": "idle", "eyes": "idle_eyes"}, skins, atlases)
     maps.write(HERE / "maps", skins["rat"], atlases["rat"])
 
 

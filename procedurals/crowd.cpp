@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/hash.h"
-#include "procedurals/crowd_placement.h"
 
 namespace pelage {
 
@@ -54,7 +53,8 @@ Footprint scaled(const Footprint& footprint, const V3f& scale) {
 }  // namespace
 
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
-                                    const CrowdParams& params) {
+                                    const CrowdParams& params, const std::vector<Footprint>& footprints,
+                                    const std::vector<PlacedFootprint>& obstacles) {
   constexpr float to_radians = std::numbers::pi_v<float> / 180;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed),
                                content_hash(std::as_bytes(std::span(name.data(), name.size()))).low);
@@ -62,12 +62,13 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
   CrowdRules rules;
   for (size_t i = 0; i < static_cast<size_t>(params.count); ++i) {
     members.push_back(vary(params, Dice(seed, i)));
-    rules.footprints.push_back(scaled(params.footprint, members.back().scale));
+    rules.footprints.push_back(scaled(footprints[members.back().prototype], members.back().scale));
   }
   rules.spacing = params.spacing;
   rules.heading = params.heading.value * to_radians;
   rules.heading_variation = params.heading.variation * to_radians;
   rules.seed = seed;
+  rules.obstacles = obstacles;
   const GroundArea area(params.area);
   std::vector<CrowdPlace> places;
   try {
@@ -80,6 +81,10 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
     members[i].heading = places[i].heading;
   }
   return members;
+}
+
+PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint) {
+  return {scaled(footprint, member.scale), {V2f(member.position.x, member.position.z), member.heading}};
 }
 
 M44f scale_of(const CrowdMember& member) {

@@ -7,6 +7,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "base/vector.h"
+#include "procedurals/crowd_placement.h"
 #include "procedurals/ground_area.h"
 
 namespace pelage {
@@ -47,7 +48,6 @@ struct CrowdParams {
   int64_t seed = 0;
   AreaParams area;
   float spacing = 0;
-  std::vector<V3f> footprint;  ///< discs (x, z, radius)
   CrowdHeadingParams heading;
   CrowdPhaseParams phase;
   CrowdScaleParams scale;
@@ -67,10 +67,15 @@ struct CrowdMember {
   Rgb tint{1};       ///< multiplies the colours of its hair and skins
 };
 
-/// The animals of a crowd, the same for the same parameters and name. Throws Error (kInput) when they do not
-/// fit into their area; `named_at` is where the crowd stands in the scene.
+/// The animals of a crowd, a function of the arguments. `footprints`: of each of its prototypes; `obstacles`:
+/// of other crowds. Throws Error (kInput) when they do not fit into their area; `named_at` is where the crowd
+/// stands in the scene.
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
-                                    const CrowdParams& params);
+                                    const CrowdParams& params, const std::vector<Footprint>& footprints,
+                                    const std::vector<PlacedFootprint>& obstacles = {});
+
+/// The ground that an animal covers, for the `footprint` of its prototype.
+PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint);
 
 /// Scales, turns about y and moves, in this order (row vectors: p * M); what a prototype's own transform does
 /// stands between the scale and the turn.

@@ -77,7 +77,8 @@ const Schema<CrowdParams>& CrowdParams::schema() {
         "crowd",
         "Many animals from a few characters, each with a pose, size, hair length and colour of its own, "
         "spread "
-        "evenly over an area and pushed apart where they stand too close. Every number is a function of seed "
+        "evenly over an area and pushed apart where they stand too close; crowds keep clear of those that "
+        "stand above them in the scene. Every number is a function of seed "
         "and name, not of the frame. A character that a crowd is made of is not drawn by itself unless it "
         "says "
         "`drawn: true`.");
@@ -89,12 +90,8 @@ const Schema<CrowdParams>& CrowdParams::schema() {
     s.key("area", &CrowdParams::area, {.help = "Where their origins may be", .required = true});
     s.key("spacing", &CrowdParams::spacing,
           {.unit = "scene units",
-           .help = "Least distance between two footprints; between two origins when there is no footprint",
+           .help = "Least distance between two footprints; between origins where characters have none",
            .min = 0});
-    s.key("footprint", &CrowdParams::footprint,
-          {.unit = "scene units",
-           .help = "Ground that an animal of scale 1 covers: discs [x, z, radius] about its origin",
-           .default_text = "its origin"});
     s.key("heading", &CrowdParams::heading, {.help = "Which way they look", .default_text = "any way"});
     s.key("phase", &CrowdParams::phase,
           {.help = "Which pose they show", .default_text = "that of the frame"});

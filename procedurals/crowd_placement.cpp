@@ -15,6 +15,7 @@ namespace pelage {
 namespace {
 
 constexpr int kRounds = 40, kSweepsPerRound = 80;
+constexpr size_t kOneInSoManyJumps = 100;
 constexpr int kJumps = 100;          // places that are tried for one that is stuck
 constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
 constexpr double kDensest = 0.9069;  // of equal discs in the plane
@@ -28,6 +29,7 @@ struct Body {
   std::vector<V3f> discs;  // a point is a disc of radius 0
   float reach = 0;         // farthest point of the footprint from the origin
   float inertia = 1;       // against turning, for a mass of 1
+  float yields = 1;        // 0: it stands fast
   float sine = 0, cosine = 1;
 
   void turn_to(float heading) {
@@ -134,23 +136,24 @@ class Crowd {
     const float touching = 2 * reach + rules_.spacing * (1 + 2 * kMargin);
     if (!(touching > 0)) return 0;
     const Neighbours neighbours(bodies_, area_.min(), std::max(touching, 1e-6f * std::max(size.x, size.y)));
-    stuck_.clear();
-    size_t contacts = 0;
+    contacts_.clear();
     neighbours.each_pair([&](uint32_t i, uint32_t j) {
-      if (!separate(i, j)) return;
-      ++contacts;
-      stuck_.push_back(std::max(i, j));
+      const float depth = separate(i, j);
+      if (depth > 0) contacts_.push_back({depth, bodies_[j].yields > 0 ? j : i});
     });
-    std::sort(stuck_.begin(), stuck_.end());
-    stuck_.erase(std::unique(stuck_.begin(), stuck_.end()), stuck_.end());
-    return contacts;
+    return contacts_.size();
   }
 
-  /// Moves one of every pair of the last sweep, such as two that are hooked into each other, to the place
-  /// with most room of some that are tried.
+  /// Moves one of each of the pairs that were closest in the last sweep, such as two that are hooked into
+  /// each other, to the place with most room of some that are tried.
   void jump(uint64_t round) {
     const V2f size = area_.max() - area_.min();
-    for (uint32_t i : stuck_) {
+    std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
+      return a.depth != b.depth ? a.depth > b.depth : a.body < b.body;
+    });
+    const size_t most_jumps = 1 + bodies_.size() / kOneInSoManyJumps;
+    for (size_t n = 0; n < std::min(most_jumps, contacts_.size()); ++n) {
+      const uint32_t i = contacts_[n].body;
       CrowdPlace best = bodies_[i].place;
       float most = -std::numeric_limits<float>::infinity();
       for (uint64_t attempt = 0; attempt < kJumps; ++attempt) {
@@ -187,49 +190,53 @@ class Crowd {
     return room;
   }
 
-  bool separate(uint32_t i, uint32_t j) {
+  /// Returns by how much two animals were too close; 0 when they were not.
+  float separate(uint32_t i, uint32_t j) {
     Body &a = bodies_[i], &b = bodies_[j];
     const float far = a.reach + b.reach + rules_.spacing;
-    if ((b.place.position - a.place.position).length2() > far * far) return false;
-    bool touched = false;
+    if ((b.place.position - a.place.position).length2() > far * far) return 0;
+    if (a.yields + b.yields == 0) return 0;
+    float deepest = 0;
     for (size_t p = 0; p < a.discs.size(); ++p) {
-      for (size_t q = 0; q < b.discs.size(); ++q) touched |= separate(a, p, b, q, hash64(rules_.seed, i, j));
+      for (size_t q = 0; q < b.discs.size(); ++q)
+        deepest = std::max(deepest, separate(a, p, b, q, hash64(rules_.seed, i, j)));
     }
-    if (touched) {
+    if (deepest > 0) {
       settle(a);
       settle(b);
     }
-    return touched;
+    return deepest;
   }
 
   /// One contact, solved as position based dynamics does [Mueller07]: both bodies give way, in the ratio in
   /// which they can be moved at this point.
-  bool separate(Body& a, size_t p, Body& b, size_t q, uint64_t tie) {
+  float separate(Body& a, size_t p, Body& b, size_t q, uint64_t tie) {
     const V2f lever_a = a.lever(p), lever_b = b.lever(q);
     V2f apart = b.place.position + lever_b - a.place.position - lever_a;
     const float wanted = a.discs[p].z + b.discs[q].z + rules_.spacing;
     const float length = apart.length();
-    if (length >= wanted) return false;
+    if (length >= wanted) return 0;
     const float angle = 2 * kPi * unit_float(tie);  // on one point: any direction, always the same
     apart = length > 1e-6f * wanted ? apart / length : V2f(std::sin(angle), std::cos(angle));
     // d(lever)/d(heading) is the lever turned by a quarter: (z, -x).
     const float turn_a = lever_a.y * apart.x - lever_a.x * apart.y;
     const float turn_b = lever_b.y * apart.x - lever_b.x * apart.y;
     const bool turns = rules_.heading_variation > 0;
-    const float give_a = 1 + (turns ? turn_a * turn_a / a.inertia : 0);
-    const float give_b = 1 + (turns ? turn_b * turn_b / b.inertia : 0);
+    const float give_a = a.yields * (1 + (turns ? turn_a * turn_a / a.inertia : 0));
+    const float give_b = b.yields * (1 + (turns ? turn_b * turn_b / b.inertia : 0));
     const float push = (wanted * (1 + kMargin) - length) / (give_a + give_b);
-    a.place.position -= apart * push;
-    b.place.position += apart * push;
+    a.place.position -= apart * (push * a.yields);
+    b.place.position += apart * (push * b.yields);
     if (turns) {
-      a.turn_to(a.place.heading - push * turn_a / a.inertia);
-      b.turn_to(b.place.heading + push * turn_b / b.inertia);
+      a.turn_to(a.place.heading - push * a.yields * turn_a / a.inertia);
+      b.turn_to(b.place.heading + push * b.yields * turn_b / b.inertia);
     }
-    return true;
+    return wanted - length;
   }
 
   /// Back into the area and the allowed headings.
   void settle(Body& body) const {
+    if (body.yields == 0) return;
     body.place.position = area_.nearest(body.place.position);
     if (rules_.heading_variation >= kPi) return;
     const float most = rules_.heading_variation;
@@ -239,7 +246,11 @@ class Crowd {
   const GroundArea& area_;
   const CrowdRules& rules_;
   std::vector<Body> bodies_;
-  std::vector<uint32_t> stuck_;  // one of each pair of the last sweep
+  struct Contact {
+    float depth;
+    uint32_t body;  // one of the two that can move
+  };
+  std::vector<Contact> contacts_;  // of the last sweep
 };
 
 /// Refuses at once what cannot be: more discs than the area, widened by what may stand over its border, has
@@ -276,6 +287,10 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
     bodies.push_back(
         body_of(rules.footprints[i], {points[i], rules.heading + rules.heading_variation * turn}));
   }
+  for (const PlacedFootprint& obstacle : rules.obstacles) {
+    bodies.push_back(body_of(obstacle.footprint, obstacle.place));
+    bodies.back().yields = 0;
+  }
   Crowd crowd(area, rules, std::move(bodies));
   size_t contacts = 1;
   for (uint64_t round = 0; round < kRounds && contacts > 0; ++round) {
@@ -289,7 +304,7 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
                             count, contacts, rules.spacing));
   }
   std::vector<CrowdPlace> places;
-  for (const Body& body : crowd.bodies()) places.push_back(body.place);
+  for (size_t i = 0; i < count; ++i) places.push_back(crowd.bodies()[i].place);
   return places;
 }
 

@@ -18,6 +18,12 @@ struct CrowdPlace {
   float heading = 0;  ///< radians about y; 0 looks along +z, a quarter turn along +x
 };
 
+/// An animal that stands already.
+struct PlacedFootprint {
+  Footprint footprint;
+  CrowdPlace place;
+};
+
 /// What a placement has to keep to.
 struct CrowdRules {
   std::vector<Footprint> footprints;  ///< one per animal; an empty one is the point it stands on
@@ -25,6 +31,7 @@ struct CrowdRules {
   float heading = 0;                  ///< middle of the allowed headings, radians
   float heading_variation = 0;        ///< farthest from it, radians
   uint64_t seed = 0;
+  std::vector<PlacedFootprint> obstacles;  ///< keep clear of these by `spacing` too; they do not move
 };
 
 /// Spreads animals evenly over an area, then pushes and turns those that are too close until none is.

@@ -73,6 +73,17 @@ TEST_F(CrowdCompositionTest, CoatsOfEqualPosesAreUniqueOnce) {
   EXPECT_EQ(world.strands_unique, 400);
 }
 
+TEST_F(CrowdCompositionTest, APartMayHavePosesOfItsOwn) {
+  const Override own = {"characters.walker.parts.0.poses", "{files: \"" + scene_.path("cube.%04d.obj") +
+                                                               "\", first: 2, count: 2, frames_per_pose: 4}"};
+  const auto place_of = [](const World& world) {
+    return world.scene.skins[0].skin->bound(BoundSpan::kShutter).center().x /
+           2;  // the walker is twice as large
+  };
+  EXPECT_NEAR(place_of(compose_frame(3)), 3, 1e-4f);
+  EXPECT_NEAR(place_of(compose_frame(3, {own})), 2.25f, 1e-4f);
+}
+
 TEST_F(CrowdCompositionTest, ScalesAndColoursReachWhatIsDrawn) {
   const World world = compose_frame(
       1,

@@ -149,8 +149,8 @@ TEST_F(SceneSchema, CrowdsAreChecked) {
   EXPECT_EQ(problems(with("of: []" + area)), Lines{"s:21:3: crowd 'herd' is made of no character"});
   EXPECT_EQ(problems(with("of: [rat], count: 3, area: {type: polygon, points: [[0, 0], [1, 1]]}")),
             Lines{"s:21:3: crowd 'herd': its area needs at least three points"});
-  EXPECT_EQ(problems(with("of: [rat], footprint: [[0, 0, -1]]" + area)),
-            Lines{"s:21:3: crowd 'herd': a disc [x, z, radius] of the footprint has a negative radius"});
+  EXPECT_EQ(problems(with("of: [rat]" + area), {{"characters.rat.footprint", "[[0, 0, -1]]"}}),
+            Lines{"s:13:3: character 'rat': a disc [x, z, radius] of the footprint has a negative radius"});
   EXPECT_EQ(problems(with("of: [rat], heading: {variation: 200}" + area)),
             Lines{"s:21:42: expected a number 0 .. 180, got 200"});
 }

@@ -104,6 +104,19 @@ TEST_P(CrowdPlacementTest, WithoutSpacingTheyAreSpreadEvenly) {
   EXPECT_LT(close, 20);
 }
 
+TEST_P(CrowdPlacementTest, KeepsClearOfWhatStandsThere) {
+  const GroundArea area(GetParam());
+  CrowdRules first = rules(4, kRat, 1), second = rules(static_cast<size_t>(area.surface() / 400), kRat, 1);
+  const auto standing = place_crowd(area, first);
+  for (const CrowdPlace& place : standing) second.obstacles.push_back({kRat, place});
+  const auto places = place_crowd(area, second);
+  expect_kept(area, second, places);
+  for (const PlacedFootprint& obstacle : second.obstacles) {
+    for (const CrowdPlace& place : places)
+      EXPECT_GE(footprint_distance(kRat, obstacle.place, kRat, place), 1 - 1e-4f);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Areas, CrowdPlacementTest,
                          testing::Values(AreaParams(RectangleAreaParams{}), AreaParams(turned_rectangle()),
                                          AreaParams(DiscAreaParams{}), AreaParams(wedge())));
@@ -161,7 +174,7 @@ CrowdParams colony() {
 }
 
 TEST(Crowd, EveryAnimalIsItsOwnWithinWhatIsAllowed) {
-  const auto members = make_crowd("colony", {}, colony());
+  const auto members = make_crowd("colony", {}, colony(), {{}, {}});
   ASSERT_EQ(members.size(), 200u);
   std::set<float> phases, widths, lengths, reds;
   size_t of[2] = {};
@@ -189,7 +202,7 @@ TEST(Crowd, EveryAnimalIsItsOwnWithinWhatIsAllowed) {
 }
 
 TEST(Crowd, TwoCrowdsOfOneSeedDiffer) {
-  const auto a = make_crowd("a", {}, colony()), b = make_crowd("b", {}, colony());
+  const auto a = make_crowd("a", {}, colony(), {{}, {}}), b = make_crowd("b", {}, colony(), {{}, {}});
   EXPECT_NE(a[0].position, b[0].position);
   EXPECT_NE(a[0].frame_offset, b[0].frame_offset);
 }
@@ -209,7 +222,7 @@ TEST(Crowd, NamesWhatDoesNotFit) {
   CrowdParams params = colony();
   params.spacing = 50;
   try {
-    make_crowd("colony", {"s.yaml", 7, 3}, params);
+    make_crowd("colony", {"s.yaml", 7, 3}, params, {{}, {}});
     FAIL() << "they fitted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInput);

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the example colonies show, by their posed skins: no hair is grown.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "base/parallel.h"
+#include "cli/compose.h"
+#include "cli/drawn_characters.h"
+#include "procedurals/crowd_placement.h"
+
+namespace pelage {
+namespace {
+
+class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>> {
+ protected:
+  ColonyTest() {
+    const auto file = std::filesystem::path(PELAGE_SOURCE_DIR) / "examples" / GetParam().first;
+    scene_ = load_scene(file, {{"grooms.under.strands", "10"},
+                               {"grooms.guard.strands", "10"},
+                               {"grooms.whiskers.strands", "10"},
+                               {"camera.shutter", "[0, 0]"}});
+    assets_ = load_assets(scene_, workers_, ledger_);
+  }
+
+  /// Height in pixels of what is in the picture of a skin.
+  static float visible_height(const SkinPart& part, const Camera& camera, const ImageParams& image) {
+    const SkinMesh mesh = part.skin->tessellate(camera.view());
+    float low = std::numeric_limits<float>::infinity(), high = -low;
+    for (size_t i = 0; i < mesh.vertex_count(); ++i) {
+      const auto at = camera.project(mesh.position(i), 0);
+      if (!at || at->x < 0 || at->x > static_cast<float>(image.width)) continue;
+      low = std::min(low, std::clamp(at->y, 0.0f, static_cast<float>(image.height)));
+      high = std::max(high, std::clamp(at->y, 0.0f, static_cast<float>(image.height)));
+    }
+    return std::max(0.0f, high - low);
+  }
+
+  Workers workers_{2};
+  MemoryLedger ledger_;
+  SceneDescription scene_;
+  std::unique_ptr<Assets> assets_;
+};
+
+TEST_P(ColonyTest, IsInTheFrameAndTallInFront) {
+  const World world = compose(scene_, *assets_, 1, workers_, ledger_);
+  const int64_t rats = GetParam().second;
+  std::vector<float> heights;
+  for (const SkinPart& part : world.scene.skins) {
+    if (!part.name.ends_with(".rat")) continue;
+    heights.push_back(visible_height(part, world.scene.camera, scene_.image));
+  }
+  EXPECT_GE(world.characters_in_frame - 1, rats * 9 / 10);  // the floor is one too
+  std::sort(heights.rbegin(), heights.rend());
+  if (rats >= 100) {
+    EXPECT_EQ(scene_.image.height, 720);
+    EXPECT_GT(heights.at(9), 200);
+  }
+}
+
+TEST_P(ColonyTest, NoRatStandsInAnother) {
+  std::vector<PlacedFootprint> rats;
+  for (size_t crowd = 0; crowd < assets_->crowds.size(); ++crowd) {
+    for (const CrowdMember& member : assets_->crowds[crowd]) {
+      const NameReference& of = scene_.crowds.items[crowd].value.of[member.prototype];
+      rats.push_back(placed_footprint(member, scene_.characters.find(of.name)->value.footprint));
+    }
+  }
+  ASSERT_EQ(static_cast<int64_t>(rats.size()), GetParam().second);
+  for (size_t i = 0; i < rats.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) {
+      if ((rats[i].place.position - rats[j].place.position).length() > 45) continue;
+      EXPECT_GE(footprint_distance(rats[i].footprint, rats[i].place, rats[j].footprint, rats[j].place),
+                scene_.crowds.items.back().value.spacing - 1e-3f);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, ColonyTest,
+                         testing::Values(std::pair<const char*, int64_t>("colony_small.yaml", 25),
+                                         std::pair<const char*, int64_t>("colony_100.yaml", 100),
+                                         std::pair<const char*, int64_t>("colony.yaml", 1000)));
+
+}  // namespace
+}  // namespace pelage
