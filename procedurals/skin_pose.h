@@ -21,7 +21,7 @@ struct SkinPose {
   float scale = 1;
   float length = 1;
 
-  PosedSkin skin() const { return {keys, trees, scale, transforms}; }
+  PosedSkin skin() const { return {keys, trees, scale, transforms, length}; }
   size_t bytes() const;
 };
 

@@ -115,6 +115,27 @@ TEST_F(CrowdCompositionTest, StrandsScaleByTheCubeRootOfTheDeterminant) {
               0.1f);  // push_out bends a little
 }
 
+TEST_F(CrowdCompositionTest, HairIsLongerButNotThicker) {
+  const Override plain = {"grooms.coat.operators",
+                          "[{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.01}}]"};
+  const auto first_of = [&](const std::string& length) {
+    return compose_frame(1, {plain, crowd("length: {value: " + length + ", variation: 0.2}")})
+        .scene.fur[0]
+        .procedurals[0]
+        ->split()[0]
+        ->generate();
+  };
+  const Strands one = first_of("1"), three = first_of("3");
+  const auto size = [](const Strands& strands) {
+    return (strands.point(strands.first_point(0) + 4) - strands.point(strands.first_point(0))).length();
+  };
+  const float varied = assets_->crowds[0][0].length / 3;
+  EXPECT_NE(varied, 1);
+  EXPECT_NEAR(size(three) / size(one), 3, 1e-3f);
+  EXPECT_EQ(one.point(one.first_point(0)), three.point(three.first_point(0)));
+  EXPECT_NEAR(three.radius(three.first_point(0)), one.radius(one.first_point(0)), 1e-6f);
+}
+
 TEST_F(CrowdCompositionTest, OnlyWhatTheCameraSeesIsInTheFrame) {
   EXPECT_EQ(compose_frame(1).characters_in_frame, 2);
   const World away = compose_frame(1, {{"camera.look_at", "[1, 0, 30]"}});
