@@ -19,6 +19,8 @@ class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>
     scene_ = load_scene(file, {{"grooms.under.strands", "10"},
                                {"grooms.guard.strands", "10"},
                                {"grooms.whiskers.strands", "10"},
+                               {"grooms.under.cache", "null"},
+                               {"grooms.guard.cache", "null"},
                                {"camera.shutter", "[0, 0]"}});
     assets_ = load_assets(scene_, workers_, ledger_);
   }
