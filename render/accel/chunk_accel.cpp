@@ -13,6 +13,9 @@ namespace pelage {
 namespace {
 
 constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
+// Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
+// times finer than the given ones; before a chunk is grown, always.
+constexpr size_t kFiner = 8;
 
 float area(const Box3f& box) {
   if (box.isEmpty()) return 0;
@@ -126,23 +129,28 @@ ChunkAccel::~ChunkAccel() = default;
 
 void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger,
                             const Workers& workers) {
+  given_parts_.reserve(bounds.size());
   for (const ChunkBounds& chunk : bounds) {
+    given_parts_.push_back(static_cast<uint32_t>(chunk.part_count()));
     for (size_t part = 0; part < chunk.part_count(); ++part) bounds_area_ += area(chunk.box(part, 0));
   }
   tree_ = std::make_unique<ChunkTree>(bounds, workers);
-  charges_.emplace_back(ledger, MemoryTag::kChunks, static_cast<int64_t>(tree_->bytes()));
+  charges_.emplace_back(ledger, MemoryTag::kChunks,
+                        static_cast<int64_t>(tree_->bytes() + bounds.size() * sizeof(uint32_t)));
 }
 
 /// Calls visit(chunk) for every chunk that the ray may meet before far(), which may become smaller from visit
 /// to visit; ends when a visit returns false.
 template <class Far, class Visit>
-void ChunkAccel::visit_chunks(const Ray& ray, TraceThread& thread, const Far& far, const Visit& visit) const {
+void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
+                              const Visit& visit) const {
   Scratch& scratch = scratch_[static_cast<size_t>(thread.worker)];
   scratch.next_ray();
-  ChunkWalk walk(*tree_, ray);
-  const auto enter = [&](uint32_t chunk, float entry) {
+  ChunkWalk walk(*tree_, ray, order);
+  // Where the ray enters the chunk by what is known of it; infinity when it does not.
+  const auto enter = [&](uint32_t chunk, float entry, bool resident) {
     const PartBoxes* boxes = growth_->learned(chunk);
-    if (!boxes) return entry;
+    if (!boxes || (resident && boxes->count() < kFiner * given_parts_[chunk])) return entry;
     thread.counts.box_tests += static_cast<int64_t>(boxes->count());
     return boxes->enter(walk.slabs(), far());
   };
@@ -156,9 +164,10 @@ void ChunkAccel::visit_chunks(const Ray& ray, TraceThread& thread, const Far& fa
   bool goes_on = true;
   while (goes_on && walk.next(far(), chunk, entry)) {
     if (!scratch.first_time(chunk)) continue;
-    entry = enter(chunk, entry);
+    const bool resident = residency_->is_resident(chunk);
+    entry = enter(chunk, entry, resident);
     if (!(entry <= far())) continue;
-    if (residency_->is_resident(chunk)) {
+    if (resident) {
       goes_on = visit_one(chunk);
     } else {
       scratch.waiting.push_back({entry, chunk});
@@ -169,8 +178,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, TraceThread& thread, const Far& fa
   std::sort(scratch.waiting.begin(), scratch.waiting.end());
   for (const Scratch::Waiting& waiting : scratch.waiting) {
     if (waiting.entry > far()) return;
-    // It may have been grown since for another thread's ray, or for this one's.
-    if (!(enter(waiting.chunk, waiting.entry) <= far())) continue;
+    // Another thread may have grown it meanwhile, and its boxes may be known now.
+    if (!(enter(waiting.chunk, waiting.entry, false) <= far())) continue;
     if (!visit_one(waiting.chunk)) return;
   }
 }
@@ -179,7 +188,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   NearestSoFar nearest;
   if (!is_finite(ray)) return nearest.hit;
   visit_chunks(
-      ray, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
+      ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
       [&](uint32_t chunk) {
         const bool found = residency_->visit(chunk, thread.worker, [&](Resident& unit) {
           return static_cast<const EmbreeChunk&>(unit).closest(ray, nearest, thread.met);
@@ -195,7 +204,7 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
   Crossings crossings;
   bool blocked = false;
   visit_chunks(
-      ray, thread, [&] { return ray.far; },
+      ray, ChunkWalk::Order::kLongestFirst, thread, [&] { return ray.far; },
       [&](uint32_t chunk) {
         const size_t before = crossings.reports();
         blocked = !residency_->visit(chunk, thread.worker, [&](Resident& unit) {

@@ -60,7 +60,8 @@ class ChunkAccel final : public Accel {
 
   void build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger, const Workers& workers);
   template <class Far, class Visit>
-  void visit_chunks(const Ray& ray, TraceThread& thread, const Far& far, const Visit& visit) const;
+  void visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
+                    const Visit& visit) const;
 
   const ChunkAccelOptions options_;
   EmbreeDevice device_;
@@ -68,6 +69,7 @@ class ChunkAccel final : public Accel {
   std::unique_ptr<Growth> growth_;
   std::unique_ptr<Residency> residency_;
   std::unique_ptr<ChunkTree> tree_;
+  std::vector<uint32_t> given_parts_;   // boxes of each chunk in the tree
   std::unique_ptr<Scratch[]> scratch_;  // one per thread
   std::vector<MemoryCharge> charges_;
   double bounds_area_ = 0;

@@ -47,11 +47,15 @@ class ChunkTree {
 /// One ray on its way through a ChunkTree.
 class ChunkWalk {
  public:
-  ChunkWalk(const ChunkTree& tree, const Ray& ray);
+  enum class Order {
+    kFrontToBack,   ///< for a ray that looks for the nearest
+    kLongestFirst,  ///< by the ray's way through a box: for one that looks for anything in its way
+  };
+  ChunkWalk(const ChunkTree& tree, const Ray& ray, Order order);
 
   /// The next chunk that has a box which the ray meets between its near end and `far`, and where it enters
-  /// that box at the earliest; nearer ones first, as far as the tree separates them. A chunk comes as often
-  /// as it has such boxes. False when there is none. `far` may become smaller from call to call.
+  /// that box at the earliest; in the order asked for, as far as the tree separates them. A chunk comes as
+  /// often as it has such boxes. False when there is none. `far` may become smaller from call to call.
   bool next(float far, uint32_t& chunk, float& entry);
 
   const RaySlabs& slabs() const { return slabs_; }
@@ -67,9 +71,10 @@ class ChunkWalk {
 
   const ChunkTree& tree_;
   const RaySlabs slabs_;
+  const Order order_;
   int64_t nodes_tested_ = 0;
   size_t count_ = 0;
-  std::array<Entry, 128> stack_;  // farthest first; see kMaxDepth of the builder
+  std::array<Entry, 128> stack_;  // the next one last; see kMaxSahDepth of the builder
 };
 
 }  // namespace pelage

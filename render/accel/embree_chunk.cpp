@@ -2,6 +2,7 @@
 #include "render/accel/embree_chunk.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/parallel.h"
 #include "render/accel/embree_query.h"
@@ -10,12 +11,26 @@
 namespace pelage {
 namespace {
 
-// What Embree allocates beyond the geometry, found by measuring trees over strands of every kind and size, 1
-// to 4 motion keys (chunk_bytes_test walks over them again).
-constexpr size_t kPerScene = 16 * 1024;  // the scene itself, the ends of its blocks
-constexpr size_t kPerCurve = 60;         // of a tree without motion; 38 to 45 are usual
-constexpr size_t kPerMovingCurve = 105;  // and per pair of motion keys: time may be split between any two
-constexpr size_t kWhileBuilding = 80;    // per primitive and pair of keys
+// What Embree allocates, found by measuring trees over strands and skins of every kind and size, 1 to 4
+// motion keys; embree_chunk_test walks over them again.
+constexpr size_t kPerScene = 4096;       // the first node, the ends of its blocks
+constexpr size_t kPerPrimitive = 52;     // of a tree without motion; 40 to 44 are usual
+constexpr size_t kPerFew = 140;          // of the first primitives, whose nodes are half empty
+constexpr size_t kFew = 48;              // how many those are
+constexpr size_t kReference = 32;        // of each primitive while the tree is built, in powers of two
+constexpr size_t kPerMoving = 95;        // and per pair of motion keys: time may be split between any two
+constexpr size_t kMovingReference = 80;  // of each primitive and pair of keys while the tree is built
+
+size_t tree_bytes_bound(size_t primitives, size_t pairs_of_keys) {
+  if (primitives == 0) return kPerScene;
+  const size_t few = kPerScene + kPerFew * std::min(primitives, kFew) * std::max<size_t>(pairs_of_keys, 1);
+  if (pairs_of_keys == 0) return few + kPerPrimitive * primitives;
+  return few + kPerMoving * primitives * pairs_of_keys;
+}
+size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
+  if (pairs_of_keys == 0) return kReference * std::bit_ceil(std::max<size_t>(primitives, 1));
+  return kMovingReference * primitives * pairs_of_keys;
+}
 
 /// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
 void pad_for_embree(std::vector<float>& positions) {
@@ -239,17 +254,16 @@ CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
 
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {
   const auto keys = static_cast<size_t>(n.motion_keys);
-  const size_t pairs = std::max<size_t>(keys - 1, 1);
   const size_t primitives = n.segments + n.triangles;
-  const size_t tree = kPerScene + primitives * (keys == 1 ? kPerCurve : kPerMovingCurve * pairs);
   const size_t grown = 16 * keys * n.points + n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) +
                        n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
-                       sizeof(float) * (n.points + n.attribute_floats) + 4096;
-  const size_t skin = 24 * keys * n.vertices + 40 * n.triangles;  // positions and normals; indices, faces, uv
+                       sizeof(float) * (n.points + n.attribute_floats) + kPerScene;
+  // Positions and normals; indices, faces and corners. Positions again: they may be copied to be padded.
+  const size_t skin = (24 + 12) * keys * n.vertices + 40 * n.triangles;
   const size_t packed = PackedStrands::bytes_bound(n);
-  return sizeof(EmbreeChunk) + skin +
-         std::max(grown + std::max(packed, n.growth_bytes),
-                  packed + tree + primitives * kWhileBuilding * pairs);
+  const size_t built =
+      packed + tree_bytes_bound(primitives, keys - 1) + reference_bytes_bound(primitives, keys - 1);
+  return sizeof(EmbreeChunk) + skin + std::max(grown + std::max(packed, n.growth_bytes), built);
 }
 
 }  // namespace pelage

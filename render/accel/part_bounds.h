@@ -27,8 +27,8 @@ class PartBoxes {
   float enter(const RaySlabs& ray, float far) const {
     float nearest = std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < boxes_.size(); ++i) {
-      Four enter;
-      const auto met = ray.meet(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter);
+      Four enter, leave;
+      const auto met = ray.meet(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter, leave);
       for (size_t lane = 0; lane < 4; ++lane) {
         if (met[lane]) nearest = std::min(nearest, enter[lane]);
       }

@@ -38,11 +38,12 @@ class RaySlabs {
 
   float near() const { return near_; }
 
-  /// Which of the boxes the ray meets between its near end and `far`: lanes of -1, others 0. `enter` becomes
-  /// where it enters them at the earliest. `motion`, if any: how far their sides move until shutter close.
-  auto meet(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter) const {
+  /// Which of the boxes the ray meets between its near end and `far`: lanes of -1, others 0. `enter` and
+  /// `leave` become where it enters them at the earliest and leaves them at the latest. `motion`, if any: how
+  /// far their sides move until shutter close.
+  auto meet(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
     enter = four(near_);
-    Four leave = four(far);
+    leave = four(far);
     for (size_t i = 0; i < 3; ++i) {
       const Axis& axis = axes_[i];
       Four near_side = boxes[i][axis.near_side], far_side = boxes[i][1 - axis.near_side];
