@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -117,8 +118,13 @@ int run_grow(const Options& options) {
   run.statistics().characters_in_frame = world.characters_in_frame;
 
   std::vector<Strands> grown;
+  std::set<std::string> seen;
   for (const FurPart& part : world.scene.fur) {
-    if (!options.groom.empty() && groom_of(part) != options.groom) continue;
+    const std::string groom = groom_of(part);
+    if (!options.groom.empty() && groom != options.groom) continue;
+    // Without a file to write, it is enough to see each coat once, not on every animal of a crowd.
+    if (options.output.empty() && (assets->grooms.at(groom)->cache_report() || !seen.insert(groom).second))
+      continue;
     Growth growth = grow(part, run);
     if (run.display().cancelled()) return kInterruptedExitCode;
     report(part.name, growth, run.workers().thread_count());

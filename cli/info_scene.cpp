@@ -50,6 +50,12 @@ std::string describe(const CharacterParams& character) {
   return text;
 }
 
+std::string describe(const CrowdParams& crowd) {
+  std::string text;
+  for (const NameReference& of : crowd.of) text += (text.empty() ? "" : ", ") + of.name;
+  return fmt::format("{} of {}", crowd.count, text);
+}
+
 std::string describe(const LightParams& light) { return kind_of(light); }
 std::string describe(const MaterialParams& material) { return kind_of(material); }
 
@@ -68,7 +74,9 @@ std::string describe_scene(const SceneDescription& scene) {
                                  scene.render.samples, scene.render.bounces, shown(scene.render.integrator));
   text +=
       section("skins", scene.skins) + section("grooms", scene.grooms) + section("materials", scene.materials);
-  return text + section("characters", scene.characters) + section("lights", scene.lights);
+  text += section("characters", scene.characters);
+  if (!scene.crowds.items.empty()) text += section("crowds", scene.crowds);
+  return text + section("lights", scene.lights);
 }
 
 }  // namespace pelage

@@ -21,6 +21,7 @@ class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>
                                {"grooms.whiskers.strands", "10"},
                                {"grooms.under.cache", "null"},
                                {"grooms.guard.cache", "null"},
+                               {"grooms.whiskers.cache", "null"},
                                {"camera.shutter", "[0, 0]"}});
     assets_ = load_assets(scene_, workers_, ledger_);
   }

@@ -25,7 +25,8 @@ class Examples(unittest.TestCase):
         # All its rats in a picture of a few pixels; the cache of its coats stays out of the tree.
         with tempfile.TemporaryDirectory() as folder:
             overrides = ["image.width=32", "image.height=18", "render.samples=1", "render.lod.enabled=false",
-                         "grooms.under.cache.directory=" + folder, "grooms.guard.cache.directory=" + folder]
+                         "grooms.under.cache.directory=" + folder, "grooms.guard.cache.directory=" + folder,
+                         "grooms.whiskers.cache.directory=" + folder]
             command = [PELAGE, "render", EXAMPLES / "colony_small.yaml", "-o", folder + "/colony.exr", "--quiet",
                        "--stats", folder + "/stats.json"]
             for override in overrides:
