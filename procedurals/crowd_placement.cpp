@@ -16,6 +16,9 @@ namespace {
 
 constexpr int kRounds = 40, kSweepsPerRound = 80;
 constexpr size_t kOneInSoManyJumps = 100;
+// What keeps a crowd of a million from taking hours: places of others that jumps of a round look at, and
+// animals that sweeps visit in all.
+constexpr size_t kMostComparisons = 100'000'000, kMostVisits = 200'000'000;
 constexpr int kJumps = 100;          // places that are tried for one that is stuck
 constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
 constexpr double kDensest = 0.9069;  // of equal discs in the plane
@@ -151,7 +154,8 @@ class Crowd {
     std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
       return a.depth != b.depth ? a.depth > b.depth : a.body < b.body;
     });
-    const size_t most_jumps = 1 + bodies_.size() / kOneInSoManyJumps;
+    const size_t most_jumps =
+        1 + std::min(bodies_.size() / kOneInSoManyJumps, kMostComparisons / (kJumps * bodies_.size()));
     for (size_t n = 0; n < std::min(most_jumps, contacts_.size()); ++n) {
       const uint32_t i = contacts_[n].body;
       CrowdPlace best = bodies_[i].place;
@@ -292,10 +296,14 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
     bodies.back().yields = 0;
   }
   Crowd crowd(area, rules, std::move(bodies));
-  size_t contacts = 1;
+  size_t contacts = 1, visits = 0;
   for (uint64_t round = 0; round < kRounds && contacts > 0; ++round) {
     if (round > 0) crowd.jump(round);
-    for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0; ++sweep) contacts = crowd.sweep();
+    for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0 && visits <= kMostVisits; ++sweep) {
+      contacts = crowd.sweep();
+      visits += crowd.bodies().size();
+    }
+    if (visits > kMostVisits) break;
   }
   if (contacts > 0) {
     throw Error(ErrorKind::kInput,
