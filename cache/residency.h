@@ -118,6 +118,7 @@ class Residency {
     std::atomic<bool> hit{false};   // since it was grown
     bool growing = false;           // this and the following: guarded by mutex_
     bool touched = false;
+    uint8_t credit = 0;  // rounds of the clock's hand that it may stay unused
     size_t bytes = 0;
   };
   struct alignas(64) Hazard {
