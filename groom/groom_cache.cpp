@@ -61,6 +61,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     store->sweep();
     const ContentStore::Lock lock = store->lock("offsets", offset_key);
     open([](const std::string&) {});  // another process may have been at it; damage has been told of
+    report->fresh = report->stored = frozen.has_value();
     if (!have_follicles) {
       stack->prepare_coverage(context);
       source.grown = place_follicles(params, context, seed);
@@ -76,6 +77,10 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
       if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), ledger);
     }
+  }
+  // What was made the last time does not matter where what is needed is there.
+  for (GroomCacheReport::Stage& stage : report->stages) {
+    if (report->fresh) stage = {stage.name, true, ""};
   }
   if (!before || before->stages().back().hash != now.stages().back().hash) now.write(*store, name);
   stack->prepare(frozen_end, stack->size(), context);

@@ -21,6 +21,11 @@ void fuzz_exr(std::span<const uint8_t> bytes);
 /// The text of a scene, through YAML and every schema; no asset is read.
 void fuzz_scene(std::span<const uint8_t> bytes);
 
+/// A file of a content store, and what `pelage info` says of it.
+void fuzz_cache(std::span<const uint8_t> bytes);
+/// A leaf of an operator cache, as if its checksum were right; and a layer of one.
+void fuzz_leaf(std::span<const uint8_t> bytes);
+
 /// A file of this process that holds `bytes`; its name ends in `ending`.
 std::filesystem::path fuzz_file(std::span<const uint8_t> bytes, const std::string& ending);
 

@@ -31,7 +31,9 @@ INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
                                          Replay{"obj", fuzz_obj, obj_corpus, 400, 64 << 20},
                                          Replay{"hdr", fuzz_hdr, hdr_corpus, 200, 256 << 20},
                                          Replay{"exr", fuzz_exr, exr_corpus, 200, 256 << 20},
-                                         Replay{"scene", fuzz_scene, scene_corpus, 400, 16 << 20}),
+                                         Replay{"scene", fuzz_scene, scene_corpus, 400, 16 << 20},
+                                         Replay{"cache", fuzz_cache, cache_corpus, 400, 4 << 20},
+                                         Replay{"leaf", fuzz_leaf, leaf_corpus, 400, 16 << 20}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Fuzz, SurvivesItsCorpus) {

@@ -143,6 +143,10 @@ TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   std::filesystem::remove_all(cache());
   EXPECT_EQ(resumed, bits(*make(with("0.5", "0.02")), at_rest()));
   EXPECT_TRUE(make(with("0.5", "0.02"))->cache_report()->fresh);
+  make(with("0.6", "0.02"));
+  const auto again = make(with("0.5", "0.02"));
+  for (const GroomCacheReport::Stage& stage : again->cache_report()->stages)
+    EXPECT_TRUE(stage.fresh) << stage.reason;
 }
 
 TEST_F(GroomCacheTest, ImportedStrandsKeepTheirGapsAndTheirPointCounts) {
