@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 
+#include "base/heap.h"
 #include "cli/commands.h"
 #include "cli/report_error.h"
 
@@ -48,6 +49,7 @@ int run_command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  pelage::keep_heap_small();
   const int code = run_command_line(argc, argv);
   // What was printed but did not arrive (a full disk) is a failure too.
   if (code == 0 && (!std::cout.flush() || std::fflush(stdout) != 0)) return 1;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/heap.h"
 #include "base/parallel.h"
 #include "render/accel/embree_query.h"
 #include "render/accel/flush_denormals.h"
@@ -24,12 +25,14 @@ constexpr size_t kMovingReference = 80;  // of each primitive and pair of keys w
 size_t tree_bytes_bound(size_t primitives, size_t pairs_of_keys) {
   if (primitives == 0) return kPerScene;
   const size_t few = kPerScene + kPerFew * std::min(primitives, kFew) * std::max<size_t>(pairs_of_keys, 1);
-  if (pairs_of_keys == 0) return few + kPerPrimitive * primitives;
-  return few + kPerMoving * primitives * pairs_of_keys;
+  const size_t tree =
+      few + (pairs_of_keys == 0 ? kPerPrimitive * primitives : kPerMoving * primitives * pairs_of_keys);
+  // Embree takes about 20 blocks, each of which may end in a page that is partly used.
+  return tree + 4096 * std::min<size_t>(tree / kHeapPages, 32);
 }
 size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
-  if (pairs_of_keys == 0) return kReference * std::bit_ceil(std::max<size_t>(primitives, 1));
-  return kMovingReference * primitives * pairs_of_keys;
+  if (pairs_of_keys == 0) return heap_bytes(kReference * std::bit_ceil(std::max<size_t>(primitives, 1)));
+  return heap_bytes(kMovingReference * primitives * pairs_of_keys);
 }
 
 /// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
@@ -133,7 +136,7 @@ struct EmbreeChunk::Filters {
 
 EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& options,
                          const EmbreeDevice& device, SegmentPatterns& patterns)
-    : options_(options), part_(contents.part) {
+    : options_(options), device_(device), part_(contents.part) {
   size_t held = sizeof(*this);
   if (auto* fur = std::get_if<FurContents>(&contents.geometry)) {
     // Emptied before the tree is built, so that the two never stand side by side.
@@ -146,42 +149,46 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& optio
     held += skin_.bytes();
   }
   {
+    const auto lock = device_.one_at_a_time();
     const EmbreeMeter meter;
     Workers::alone().lend_to_library([&] {
       // Embree's own threads of this moment: the calling one.
       const FlushDenormals flush;
-      build(device);
+      build();
     });
     held += static_cast<size_t>(meter.held());
     build_peak_ = static_cast<size_t>(meter.peak());
   }
   bytes_ = held;
   try {
-    device.rethrow_of_thread();
+    device_.rethrow_of_thread();
   } catch (...) {
     rtcReleaseScene(scene_);
     throw;
   }
 }
 
-EmbreeChunk::~EmbreeChunk() { rtcReleaseScene(scene_); }
+EmbreeChunk::~EmbreeChunk() {
+  const auto lock = device_.one_at_a_time();
+  rtcReleaseScene(scene_);
+}
 
-void EmbreeChunk::build(const EmbreeDevice& device) {
-  scene_ = rtcNewScene(device.get());
+void EmbreeChunk::build() {
+  scene_ = rtcNewScene(device_.get());
   if (!scene_) return;
   rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | kEmbreeFilterFlag));
   if (strands_) {
-    add_curves(device);
+    add_curves();
   } else {
-    add_skin(device);
+    add_skin();
   }
   rtcCommitScene(scene_);
 }
 
-void EmbreeChunk::add_curves(const EmbreeDevice& device) {
+void EmbreeChunk::add_curves() {
   const PackedStrands& strands = *strands_;
   if (strands.segment_count() == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device.get(), embree_curve_type(strands.basis(), options_.shape));
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), embree_curve_type(strands.basis(), options_.shape));
   if (!geometry) return;
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(strands.motion_keys()));
   for (int key = 0; key < strands.motion_keys(); ++key) {
@@ -197,9 +204,9 @@ void EmbreeChunk::add_curves(const EmbreeDevice& device) {
   rtcReleaseGeometry(geometry);
 }
 
-void EmbreeChunk::add_skin(const EmbreeDevice& device) {
+void EmbreeChunk::add_skin() {
   if (skin_.triangle_count() == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   if (!geometry) return;
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(skin_.motion_keys));
   for (int key = 0; key < skin_.motion_keys; ++key) {

@@ -64,13 +64,14 @@ class EmbreeChunk final : public Resident {
   struct LightQuery;
   struct Filters;
 
-  void build(const EmbreeDevice& device);
-  void add_curves(const EmbreeDevice& device);
-  void add_skin(const EmbreeDevice& device);
+  void build();
+  void add_curves();
+  void add_skin();
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
   bool opaque() const { return !strands_ || strands_->opaque(); }
 
   EmbreeChunkOptions options_;
+  const EmbreeDevice& device_;
   uint32_t part_ = 0;
   std::optional<PackedStrands> strands_;  // or skin_
   SkinMesh skin_;

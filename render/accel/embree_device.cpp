@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/heap.h"
 #include "render/memory_budget.h"
 
 namespace pelage {
@@ -53,6 +54,14 @@ void EmbreeDevice::rethrow_of_thread() const {
   throw Error(ErrorKind::kFailed, fmt::format("Embree: error {}", static_cast<int>(code)));
 }
 
+std::unique_lock<std::mutex> EmbreeDevice::one_at_a_time() const {
+#ifdef PELAGE_STD_THREADS
+  return std::unique_lock(building_);
+#else
+  return {};
+#endif
+}
+
 void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcept {
   auto& device = *static_cast<EmbreeDevice*>(self);
   std::lock_guard lock(device.mutex_);
@@ -84,7 +93,8 @@ EmbreeMeter::EmbreeMeter() {
 EmbreeMeter::~EmbreeMeter() { meter_of_thread = nullptr; }
 
 void EmbreeMeter::count(int64_t bytes) {
-  held_ += bytes;
+  const auto size = static_cast<int64_t>(heap_bytes(static_cast<size_t>(bytes < 0 ? -bytes : bytes)));
+  held_ += bytes < 0 ? -size : size;
   peak_ = std::max(peak_, held_);
 }
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/heap.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace pelage {
+namespace {
+
+constexpr size_t kPage = 4096;
+constexpr size_t kHeader = 16;  // before the block, in its first page
+
+}  // namespace
+
+void keep_heap_small() {
+#if defined(__GLIBC__)
+  // A threshold of one's own also keeps the library from raising it whenever a large block is freed.
+  mallopt(M_MMAP_THRESHOLD, static_cast<int>(kHeapPages));
+  // Linux allows a process 65,530 mappings; half of them are left for others.
+  mallopt(M_MMAP_MAX, 30000);
+#endif
+}
+
+size_t heap_bytes(size_t bytes) {
+  if (bytes + kHeader < kHeapPages) return bytes;
+  return (bytes + kHeader + kPage - 1) / kPage * kPage;
+}
+
+}  // namespace pelage
