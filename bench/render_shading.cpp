@@ -173,9 +173,13 @@ int register_model() {
   add(": sample, eval and pdf", model_sample);
   return 0;
 }
-const int kModels[] = {register_model<LambertCylinderParams>(), register_model<KajiyaKayParams>(),
-                       register_model<MarschnerParams>(), register_model<DeonParams>(),
-                       register_model<ChiangParams>()};
+const int kModels[] = {register_model<LambertCylinderParams>(),
+                       register_model<KajiyaKayParams>(),
+                       register_model<MarschnerParams>(),
+                       register_model<DeonParams>(),
+                       register_model<ChiangParams>(),
+                       register_model<YanFastParams>(),
+                       register_model<YanParams>()};
 
 std::unique_ptr<Light> rectangle() {
   Rectangle shape;

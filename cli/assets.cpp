@@ -2,6 +2,7 @@
 #include "cli/assets.h"
 
 #include "geom/io/obj_file.h"
+#include "render/fibre/fibre_material.h"
 
 namespace pelage {
 
@@ -95,8 +96,9 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
     assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger, hooks);
   }
+  const WarningSink warn = hooks.warn ? hooks.warn : [](const std::string&) {};
   for (const auto& [name, position, params] : scene.materials.items) {
-    assets->materials.push_back(with_textures(params, assets->textures));
+    assets->materials.push_back(with_tables(with_textures(params, assets->textures), workers, warn));
   }
   return assets;
 }

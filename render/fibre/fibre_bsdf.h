@@ -12,6 +12,7 @@
 #include "render/fibre/kajiya_kay.h"
 #include "render/fibre/lambert_cylinder.h"
 #include "render/fibre/marschner.h"
+#include "render/fibre/yan.h"
 
 namespace pelage {
 
@@ -24,8 +25,8 @@ namespace pelage {
 /// to tip.
 class FibreBsdf {
  public:
-  using Model =
-      std::variant<ConeShellBsdf, LambertCylinderBsdf, KajiyaKayBsdf, ChiangBsdf, DeonBsdf, MarschnerBsdf>;
+  using Model = std::variant<ConeShellBsdf, LambertCylinderBsdf, KajiyaKayBsdf, ChiangBsdf, DeonBsdf,
+                             MarschnerBsdf, YanFastBsdf, YanBsdf>;
 
   template <class AnyModel>
   requires std::is_constructible_v<Model, AnyModel> FibreBsdf(AnyModel&& model)

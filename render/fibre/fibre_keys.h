@@ -38,11 +38,14 @@ void add_eta_key(Schema<P>& s) {
   s.key("eta", &P::eta, {.help = "Index of refraction of the fibre", .min = 1.05, .max = 3});
 }
 
+inline KeyOptions field_key() {
+  return {.help =
+              "near: what a ray meets depends on where across the fibre it does; far: all places across "
+              "count alike"};
+}
 template <class P>
 void add_field_key(Schema<P>& s) {
-  s.key("field", &P::field,
-        {.help = "near: what a ray meets depends on where across the fibre it does; far: all places across "
-                 "count alike"});
+  s.key("field", &P::field, field_key());
 }
 
 }  // namespace pelage

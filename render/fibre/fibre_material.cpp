@@ -27,6 +27,16 @@ bool is_far(const MaterialParams& params) {
 
 }  // namespace
 
+MaterialParams with_tables(MaterialParams params, const Workers& workers, const WarningSink& warn) {
+  if (auto* yan = std::get_if<YanParams>(&params)) {
+    const YanOptics optics = yan->optics();
+    yan->made = yan->tables.path.empty()
+                    ? MedullaTables::make(optics, workers)
+                    : MedullaTables::find_or_make(optics, ContentStore(yan->tables.path), workers, warn);
+  }
+  return params;
+}
+
 FibreMaterial::Model FibreMaterial::make(const MaterialParams& params) {
   PELAGE_CHECK(is_one(params));
   return std::visit(Overloaded{[](const ConeShellParams& p) -> Model { return ConeShellMaterial(p); },
@@ -34,6 +44,8 @@ FibreMaterial::Model FibreMaterial::make(const MaterialParams& params) {
                                [](const ChiangParams& p) -> Model { return ChiangMaterial(p); },
                                [](const DeonParams& p) -> Model { return DeonMaterial(p); },
                                [](const MarschnerParams& p) -> Model { return MarschnerMaterial(p); },
+                               [](const YanFastParams& p) -> Model { return YanFastMaterial(p); },
+                               [](const YanParams& p) -> Model { return YanMaterial(p); },
                                [](const auto&) -> Model { return LambertCylinder{}; }},
                     params);
 }

@@ -16,6 +16,10 @@ struct FibrePoint {
   Rgb color{0};           ///< the material's colour there
 };
 
+/// The parameters with the tables that their model needs found or made: once per run rather than once per
+/// frame. `warn` is told of damaged files.
+MaterialParams with_tables(MaterialParams params, const Workers& workers, const WarningSink& warn);
+
 /// A material for fibres: what all its points share, made once. Thread safety: const members may be called
 /// from any thread.
 class FibreMaterial {
@@ -36,7 +40,7 @@ class FibreMaterial {
  private:
   struct LambertCylinder {};
   using Model = std::variant<ConeShellMaterial, LambertCylinder, KajiyaKayMaterial, ChiangMaterial,
-                             DeonMaterial, MarschnerMaterial>;
+                             DeonMaterial, MarschnerMaterial, YanFastMaterial, YanMaterial>;
   static Model make(const MaterialParams& params);
 
   Model model_;

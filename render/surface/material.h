@@ -8,6 +8,7 @@
 #include "base/value_readers.h"
 #include "image/field.h"
 #include "render/fibre/fibre_params.h"
+#include "render/fibre/yan_params.h"
 
 namespace pelage {
 
@@ -56,8 +57,9 @@ struct ConeShellParams : FibreParams {
   static const Schema<ConeShellParams>& schema();
 };
 
-using MaterialParams = std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams,
-                                    KajiyaKayParams, MarschnerParams, DeonParams, ChiangParams>;
+using MaterialParams =
+    std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams, KajiyaKayParams,
+                 MarschnerParams, DeonParams, ChiangParams, YanFastParams, YanParams>;
 
 /// What all models of fibres have; null for a material of skins.
 const FibreParams* fibre_params(const MaterialParams& material);

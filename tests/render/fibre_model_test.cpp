@@ -47,6 +47,17 @@ std::vector<Variation> variations() {
                    }),
                    false, beta < 5 ? 3 : 1});
   }
+  for (YanPreset preset : {YanPreset::kNone, YanPreset::kRowA, YanPreset::kRowB}) {
+    const auto medulla = [&](auto& p) {
+      p.preset = preset;
+      if (preset == YanPreset::kRowB) p.alpha = 8, p.beta_m = 20, p.beta_n = 40;
+    };
+    const std::string name = std::to_string(static_cast<int>(preset));
+    all.push_back({"yan-fast " + name, changed<YanFastParams>(medulla), true, 2});
+    auto yan = changed<YanParams>(medulla);
+    yan.made = MedullaTables::make(yan.optics(), Workers(2), 500);
+    all.push_back({"yan " + name, yan, true, 2});
+  }
   return all;
 }
 
@@ -54,18 +65,21 @@ struct Case : Variation {
   FibrePoint point;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  for (const Variation& v : variations()) {
-    int i = 0;
-    for (float theta : {0.0f, -0.7f, 1.35f}) {
-      const float h = std::array{0.3f, -0.85f, 0.6f}[i++];
-      Case c{v, fibre_point_at(theta, h)};
-      c.name += ", theta_o " + std::to_string(theta) + ", h " + std::to_string(h);
-      all.push_back(std::move(c));
+const std::vector<Case>& cases() {
+  static const std::vector<Case> made = [] {
+    std::vector<Case> all;
+    for (const Variation& v : variations()) {
+      int i = 0;
+      for (float theta : {0.0f, -0.7f, 1.35f}) {
+        const float h = std::array{0.3f, -0.85f, 0.6f}[i++];
+        Case c{v, fibre_point_at(theta, h)};
+        c.name += ", theta_o " + std::to_string(theta) + ", h " + std::to_string(h);
+        all.push_back(std::move(c));
+      }
     }
-  }
-  return all;
+    return all;
+  }();
+  return made;
 }
 
 /// No lobe is aligned with it: midpoints do not fall on edges together, and poles are like any other place.
@@ -96,7 +110,7 @@ TEST(FibreModels, PdfIntegratesToOneAndRhoToAlbedo) {
 }
 
 TEST(FibreModels, SamplersPassChiSquare) {
-  const std::vector<Case> all = cases();
+  const std::vector<Case>& all = cases();
   const double level = sidak_level(1e-3, all.size());
   uint64_t seed = 700;
   for (const Case& c : all) {
@@ -120,7 +134,7 @@ TEST(FibreModels, SamplersPassChiSquare) {
 }
 
 TEST(FibreModels, SamplesAgreeWithEvalAndAverageToAlbedo) {
-  const std::vector<Case> all = cases();
+  const std::vector<Case>& all = cases();
   const double level = sidak_level(1e-3, 3.0 * all.size());
   for (const Case& c : all) {
     const FibreMaterial material(c.params);
@@ -146,6 +160,11 @@ TEST(FibreModels, WhiteFibresGiveBackWhatTheyGet) {
   for (Case c : cases()) {
     c.point.color = Rgb(1);
     if (auto* p = std::get_if<KajiyaKayParams>(&c.params)) p->diffuse = 0.5f, p->specular = Rgb(0.5f);
+    const auto clear = [](auto* p) {
+      if (p) p->sigma_ca = p->sigma_ma = Rgb(0);
+    };
+    clear(std::get_if<YanFastParams>(&c.params));
+    clear(std::get_if<YanParams>(&c.params));
     const FibreMaterial material(c.params);
     const FibreBsdf bsdf = material.at(c.point);
     TestRandom random(91);
@@ -170,6 +189,13 @@ TEST(FibreModels, ExtremesStayFinite) {
   extremes.push_back(changed<MarschnerParams>([](auto& p) { p.beta = p.azimuthal_width = 0.5f; }));
   extremes.push_back(changed<KajiyaKayParams>([](auto& p) { p.exponent = 1000; }));
   extremes.push_back(LambertCylinderParams{});
+  extremes.push_back(changed<YanFastParams>([](auto& p) { p.kappa = 0, p.sigma_ms = 40; }));
+  extremes.push_back(changed<YanFastParams>([](auto& p) { p.kappa = 0.98f, p.sigma_ms = 40, p.g = -0.9f; }));
+  YanParams thick;
+  thick.kappa = 0.98f;
+  thick.layers = 10;
+  thick.made = MedullaTables::make(thick.optics(), Workers(2), 50);
+  extremes.push_back(thick);
   for (const MaterialParams& params : extremes) {
     const FibreMaterial material(params);
     TestRandom random(13);
@@ -231,9 +257,10 @@ TEST(FibreModels, TheCuticleLeansTheHighlightsApart) {
   const auto chiang = changed<ChiangParams>([](auto& p) { p.beta_m = 0.15f, p.alpha = 3; });
   const auto deon = changed<DeonParams>([](auto& p) { p.beta = 4, p.alpha = -3; });
   const auto marschner = changed<MarschnerParams>([](auto& p) { p.beta = 2, p.alpha = -3; });
+  const auto yan = changed<YanFastParams>([](auto& p) { p.beta_m = 4, p.alpha = 3; });
   const float a = 3 * kPi / 180;
   for (const MaterialParams& params :
-       {MaterialParams(chiang), MaterialParams(deon), MaterialParams(marschner)}) {
+       {MaterialParams(chiang), MaterialParams(deon), MaterialParams(marschner), MaterialParams(yan)}) {
     EXPECT_NEAR(peak(params, LobeGroup::kPrimary, 0), -0.2f - 2 * a, 0.02f);
     EXPECT_GT(peak(params, LobeGroup::kSecondary, 0), -0.2f + 2 * a);
   }

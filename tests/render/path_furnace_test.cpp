@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/fibre/medulla_tables.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/path_scene.h"
 
@@ -101,7 +102,13 @@ TEST(PathFurnace, WhiteFibresOfPhysicalModelsVanish) {
   chiang.color = Field(Rgb(1));
   DeonParams deon;
   deon.color = Field(Rgb(1));
-  for (const MaterialParams& material : {MaterialParams(chiang), MaterialParams(deon)}) {
+  YanFastParams fast;
+  fast.color = Field(Rgb(1));
+  YanParams yan;
+  yan.color = Field(Rgb(1));
+  yan.made = MedullaTables::make(yan.optics(), Workers(2), 500);
+  for (const MaterialParams& material :
+       {MaterialParams(chiang), MaterialParams(deon), MaterialParams(fast), MaterialParams(yan)}) {
     PathScene scene(24, 24);
     RandomStrandOptions o;
     o.strands = 400;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "render/fibre/azimuthal.h"
+#include "render/fibre/separable_bsdf.h"
+
+namespace pelage {
+
+/// A fibre with a medulla, met at one h: the lobes of what is not scattered, and one of what is. `Scattered`
+/// has density(FibreAngles) and draw(u), which gives the sine of theta_i and phi.
+///
+/// Every lobe is drawn exactly: weights differ by colour alone.
+template <class Scattered>
+class MedullaBsdf {
+ public:
+  MedullaBsdf(const SeparableBsdf<WrappedGaussian>& straight, const Scattered& scattered,
+              const Rgb& amplitude)
+      : straight_(straight), scattered_(scattered), amplitude_(amplitude) {
+    const Rgb a = straight_.albedo();
+    const float s = amplitude_.x + amplitude_.y + amplitude_.z, total = s + a.x + a.y + a.z;
+    choice_ = total > 0 ? s / total : 0;
+  }
+
+  FibreValue eval(const V3f& wi) const {
+    const FibreAngles a = straight_.frame().angles(wi);
+    FibreValue value = straight_.eval(a);
+    const float density = scattered_.density(a);
+    value[LobeGroup::kDiffuse] += amplitude_ * density;
+    value.pdf = (1 - choice_) * value.pdf + choice_ * density;
+    return value;
+  }
+
+  std::optional<FibreSample> sample(const V3f& u) const {
+    FibreSample s;
+    if (u.z < choice_) {
+      const auto [sine, phi] = scattered_.draw({u.x, u.y, std::min(u.z / choice_, kBelowOne)});
+      s.wi = straight_.frame().direction(sine, std::sqrt(std::max(0.0f, (1 - sine) * (1 + sine))), phi);
+    } else {
+      s.wi = straight_.draw({u.x, u.y, std::min((u.z - choice_) / (1 - choice_), kBelowOne)});
+    }
+    s.value = eval(s.wi);
+    if (!(s.value.pdf > 0)) return std::nullopt;
+    return s;
+  }
+
+  Rgb albedo() const { return straight_.albedo() + amplitude_; }
+
+ private:
+  SeparableBsdf<WrappedGaussian> straight_;
+  Scattered scattered_;
+  Rgb amplitude_;
+  float choice_;
+};
+
+/// A direction about a fibre.
+struct DrawnAngles {
+  float sin_theta;
+  float phi;
+};
+
+}  // namespace pelage

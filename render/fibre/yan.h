@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "render/fibre/matched_absorption.h"
+#include "render/fibre/medulla_bsdf.h"
+#include "render/fibre/medulla_tables.h"
+#include "render/fibre/path_lengths.h"
+#include "render/fibre/wigner_scatter.h"
+#include "render/fibre/yan_params.h"
+
+namespace pelage {
+
+using YanFastBsdf = MedullaBsdf<WignerScatter>;
+using YanBsdf = MedullaBsdf<TabulatedScatter>;
+
+/// Light at one h before the medulla scatters it [Yan17, section 4]: with T what a leg of the way leaves
+/// unscattered, R = F, the unscattered ways are those of a clear fibre whose legs transmit T, and
+/// (1 - F) (1 - T) / (1 - F T) is scattered; these add up to 1.
+struct MedullaCrossing {
+  MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h);
+
+  FibreCrossing surface;
+  float in_cortex, in_medulla;  ///< 3-D lengths of a leg
+  float unscattered;            ///< T
+  float scattered() const {
+    const float f = surface.reflectance;
+    return (1 - f) * (1 - unscattered) / std::max(1 - f * unscattered, 1e-6f);
+  }
+};
+
+/// What `yan` and `yan-fast` share: everything but the lobe of scattered light.
+///
+/// Longitudinal functions are those of d'Eon with the variances of the paper's Gaussians, so that energy is
+/// exact; azimuthal ones are Gaussians of deviation sqrt(p + 1) beta_n. Tilts have the signs of
+/// ChiangMaterial: +2 alpha for R, -alpha for TT, -3 alpha for TRT.
+class MedullaFibre {
+ public:
+  explicit MedullaFibre(const YanOptics& optics);
+
+  const YanOptics& optics() const { return optics_; }
+  SeparableBsdf<WrappedGaussian> straight(const FibreFrame& frame, const MedullaCrossing& crossing,
+                                          const Rgb& sigma_ca, const Rgb& sigma_ma) const;
+
+ private:
+  YanOptics optics_;
+  LobeWidths<WrappedGaussian> widths_;
+};
+
+/// Constants of a `yan-fast` material. Scattered light leaves as rho = A cos(theta_i) / pi^2 (1 + b
+/// cos(phi)), what light traced through such fibres does nearly; b and the lengths that A is absorbed over
+/// are found by tracing, by inclination, when the material is made.
+class YanFastMaterial {
+ public:
+  explicit YanFastMaterial(const YanFastParams& params);
+  YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+
+ private:
+  struct Scattering {
+    PathLengths lengths;
+    float balance = 0;
+  };
+  static constexpr int kInclinations = 4;
+  Scattering scattering_at(float sin_theta) const;
+
+  MedullaFibre fibre_;
+  std::array<Scattering, kInclinations> scattering_;  // over |sin theta_o|
+  MatchedAbsorption by_color_;
+};
+
+/// Constants of a `yan` material: scattered light by tables over inclination and h. Refers to the tables,
+/// which it shares.
+class YanMaterial {
+ public:
+  explicit YanMaterial(const YanParams& params);
+  YanBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+
+ private:
+  MedullaFibre fibre_;
+  std::shared_ptr<const MedullaTables> tables_;
+  MatchedAbsorption by_color_;
+};
+
+}  // namespace pelage
