@@ -96,6 +96,29 @@ TEST(PathFurnace, ATangleOfWhiteFibresVanishes) {
   expect_white(result, 2e-3);
 }
 
+/// Light that goes through a fibre leaves on its far side: by direct light alone, where a ray that met its
+/// own fibre again would be lost.
+TEST(PathFurnace, ASingleWhiteFibreOfPhysicalModelsDoesNotShadowItself) {
+  ChiangParams chiang;
+  chiang.color = Field(Rgb(1));
+  YanFastParams fast;
+  fast.color = Field(Rgb(1));
+  for (const MaterialParams& material : {MaterialParams(chiang), MaterialParams(fast)}) {
+    for (CurveShape shape : {CurveShape::kFlat, CurveShape::kRound}) {
+      for (float slant : {0.0f, 0.9f}) {
+        PathScene scene(24, 24);
+        const V3f axis(0, std::cos(slant), std::sin(slant));
+        scene.add_fur(one_strand({-8.0f * axis, -3.0f * axis, 3.0f * axis, 8.0f * axis}, 0.4f), material);
+        scene.add_sky(Rgb(1));
+        scene.camera.fov = 2.0f;
+        scene.render.curves = shape;
+        scene.render.bounces = 0;
+        expect_white(scene.run(), 3e-3);
+      }
+    }
+  }
+}
+
 /// The physical models return all that a fibre does not absorb, and so does a tangle of such fibres.
 TEST(PathFurnace, WhiteFibresOfPhysicalModelsVanish) {
   ChiangParams chiang;
