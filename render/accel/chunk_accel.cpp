@@ -163,7 +163,14 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   float entry = 0;
   bool goes_on = true;
   while (goes_on && walk.next(far(), chunk, entry)) {
-    if (!scratch.first_time(chunk)) continue;
+    if (!scratch.first_time(chunk)) {
+      // Boxes do not come strictly in order: one of a chunk that waits may be entered before those seen so
+      // far.
+      for (Scratch::Waiting& waiting : scratch.waiting) {
+        if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
+      }
+      continue;
+    }
     const bool resident = residency_->is_resident(chunk);
     entry = enter(chunk, entry, resident);
     if (!(entry <= far())) continue;
