@@ -264,5 +264,25 @@ TEST_F(ChunkAccelTest, RaysThatAreNotFiniteMeetNothing) {
   EXPECT_EQ(accel->transmittance(ray, thread), 1.0f);
 }
 
+// A ray that finds nothing grown: chunks wait for each other, and their boxes do not come in order.
+TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
+  RandomChunkOptions crowded;
+  crowded.strands = 500;
+  const TestChunks chunks = random_chunks(7, crowded);
+  const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
+  const FlushDenormals flush;
+  const std::vector<ChunkBounds> bounds = chunks.bounds(40);
+  TraceThread a, b;
+  uint64_t strands = 0;
+  for (uint64_t i = 0; i < 300; ++i) {
+    const Ray ray = inner_ray(9, i);
+    const Hit expected = oracle->closest(ray, a), cold = make(chunks, bounds)->closest(ray, b);
+    ASSERT_EQ(cold.strand_id, expected.strand_id) << i;
+    ASSERT_EQ(cold.distance, expected.distance) << i;
+    strands += expected.kind == HitKind::kStrand;
+  }
+  EXPECT_GT(strands, 50u);
+}
+
 }  // namespace
 }  // namespace pelage
