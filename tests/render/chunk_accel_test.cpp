@@ -274,14 +274,14 @@ TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
   const std::vector<ChunkBounds> bounds = chunks.bounds(40);
   TraceThread a, b;
   uint64_t strands = 0;
-  for (uint64_t i = 0; i < 300; ++i) {
+  for (uint64_t i = 0; i < 40; ++i) {
     const Ray ray = inner_ray(9, i);
     const Hit expected = oracle->closest(ray, a), cold = make(chunks, bounds)->closest(ray, b);
     ASSERT_EQ(cold.strand_id, expected.strand_id) << i;
     ASSERT_EQ(cold.distance, expected.distance) << i;
     strands += expected.kind == HitKind::kStrand;
   }
-  EXPECT_GT(strands, 50u);
+  EXPECT_GT(strands, 10u);
 }
 
 }  // namespace
