@@ -14,6 +14,7 @@ namespace pelage {
 /// hand it up; nothing registers itself. Counts are of the whole run, over all frames.
 struct Statistics {
   double wall_s = 0;
+  double first_pixel_s = 0;  ///< from the start of the run until the first tile of the first frame was done
   double cpu_s = 0;
   int64_t peak_rss_bytes = 0;
   int64_t baseline_rss_bytes = 0;        ///< resident set when the command line had been parsed

@@ -30,6 +30,7 @@ std::string statistics_json(const Statistics& s) {
       {"version", version()},
       {"wall_s", s.wall_s},
       {"cpu_s", s.cpu_s},
+      {"first_pixel_s", s.first_pixel_s},
       {"peak_rss_bytes", s.peak_rss_bytes},
       {"baseline_rss_bytes", s.baseline_rss_bytes},
       {"peak_anonymous_bytes", s.peak_anonymous_bytes},
