@@ -35,10 +35,10 @@ class ProgressDisplay final : public Progress {
   void end() override;
   bool cancelled() const override { return cancelled_(); }
 
-  /// A line for the user that does not tear the bar: warnings, what was written. Not shown when quiet.
-  void note(std::string_view line);
+  /// Does not tear the bar. Not shown when quiet.
+  void note(std::string_view line) override;
   /// The same for what went wrong and did not stop the run: shown when quiet, too.
-  void warn(std::string_view line);
+  void warn(std::string_view line) override;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -32,9 +32,13 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   run.statistics().strands_described += world.strands_described;
   run.statistics().strands_unique += world.strands_unique;
   run.statistics().characters_in_frame += world.characters_in_frame;
+  const double posed = run.seconds();
   const FrameResult result =
       render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
 
+  if (run.statistics().first_pixel_s == 0) {
+    run.statistics().first_pixel_s = posed + result.first_tile_s;
+  }
   const double seconds = run.seconds() - began;
   FrameHeader header;
   header.frame = frame;

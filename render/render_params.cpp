@@ -39,6 +39,9 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,
           {.help = "Limit for strands, trees, skins, caches and film; running into it is an error"});
+    s.key("compact_attributes", &RenderParams::compact_attributes,
+          {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "
+                   "false holds them as they were computed"});
     s.key("bounds", &RenderParams::bounds,
           {.help = "How the boxes are found that rays are tested against before hair is grown. `none`: not "
                    "needed, all hair is grown at once; `user`: conservative ones times `bounds_factor`; "

@@ -54,6 +54,7 @@ struct RenderParams {
   int bounces = 4;  ///< 0 = direct light only
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
+  bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
   float bounds_factor = 1;  ///< of BoundingStrategy::kUser
   LodParams lod;

@@ -118,7 +118,13 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
   if (!options.eager) build_tree(bounds, ledger, workers);
   residency_ = std::make_unique<Residency>(*growth_, chunks, options.threads,
                                            MemoryBudget{options.memory_limit}, ledger, MemoryTag::kChunks);
-  if (!options.eager) return;
+  if (!options.eager) {
+    int64_t all = ledger.budgeted();
+    for (uint32_t chunk = 0; chunk < chunks; ++chunk)
+      all += static_cast<int64_t>(growth_->reserve_bytes(chunk));
+    fits_ = options.memory_limit == 0 || all <= static_cast<int64_t>(options.memory_limit);
+    return;
+  }
   residency_->grow_all(workers, progress);
   if (progress.cancelled()) return;
   for (uint32_t chunk = 0; chunk < chunks; ++chunk) bounds[chunk] = growth_->learned(chunk)->bounds();

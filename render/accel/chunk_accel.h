@@ -50,6 +50,8 @@ class ChunkAccel final : public Accel {
   bool opaque() const override { return options_.opaque; }
   Box3f bounds() const override { return tree_->bounds(); }
 
+  /// Whether the memory limit held all chunks together when the accelerator was made.
+  bool fits() const { return fits_; }
   ResidencyCounts counts() const { return residency_->counts(); }
   /// Sum of the surface areas of the boxes that rays are tested against first, at shutter open.
   double bounds_area() const { return bounds_area_; }
@@ -73,6 +75,7 @@ class ChunkAccel final : public Accel {
   std::unique_ptr<Scratch[]> scratch_;  // one per thread
   std::vector<MemoryCharge> charges_;
   double bounds_area_ = 0;
+  bool fits_ = true;
 };
 
 }  // namespace pelage

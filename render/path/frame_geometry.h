@@ -2,47 +2,38 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "base/ledger.h"
 #include "base/progress.h"
 #include "base/statistics.h"
-#include "render/accel/accel.h"
-#include "render/fibre/cone_shell_bsdf.h"
-#include "render/render_scene.h"
+#include "render/accel/chunk_accel.h"
+#include "render/path/frame_chunks.h"
 
 namespace pelage {
 
-class Workers;
-
-/// One grown leaf of a fur part.
-struct FurBatch {
-  Strands strands;
-  std::vector<float> opacity;  ///< per point, or empty: opaque
-  uint32_t part = 0;           ///< of RenderScene::fur
-};
-
-/// All fur of a frame, grown, and the tree over fur and skins. Immutable once made.
+/// The geometry of a frame: chunks, the boxes around them, and what rays are traced with. Chunks are grown when
+/// a ray needs them, unless the scene asks for everything up front.
 class FrameGeometry {
  public:
-  /// Splits all procedurals, grows their leaves in parallel and builds the tree. Adds strands and chunks to
-  /// `statistics`. Throws Error; kInput when a material reads an attribute that the strands do not have.
-  /// Returns null when cancelled before everything was grown.
+  /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
+  /// one chunk per thread. Returns null when cancelled.
   static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Workers& workers,
                                                    Progress& progress, MemoryLedger& ledger,
                                                    Statistics& statistics);
 
-  const Accel& accel() const { return *accel_; }
+  const Accel& accel() const { return accel_; }
+  /// Whether all chunks together fit the budget, so that none is ever evicted.
+  bool fits() const { return accel_.fits(); }
+  /// Adds what was grown, evicted and tested.
+  void add_to(Statistics& statistics) const;
 
  private:
-  std::vector<const SkinMesh*> tessellate_skins(const RenderScene& scene, const Workers& workers,
-                                                MemoryLedger& ledger);
+  FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
+                const ChunkAccelOptions& options, const Workers& workers, Progress& progress,
+                MemoryLedger& ledger);
 
-  std::vector<FurBatch> batches_;
-  std::vector<SkinMesh> skins_;
-  std::vector<MemoryCharge> charges_;
-  std::unique_ptr<Accel> accel_;
+  std::unique_ptr<const FrameChunks> chunks_;
+  ChunkAccel accel_;
 };
 
 }  // namespace pelage

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "render/accel/flush_denormals.h"
 #include "render/memory_budget.h"
 #include "render/path/frame_geometry.h"
@@ -16,16 +16,6 @@ namespace pelage {
 namespace {
 
 constexpr int kTileSide = 16;
-
-class Stopwatch {
- public:
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// How many lobe groups a material uses, from the first.
 int lobe_groups(const MaterialParams& material) {
@@ -68,14 +58,21 @@ class FrameLoop {
           return;
         }
         progress_.advance(trace(tiles_[i], first, last, scratch_[static_cast<size_t>(range.worker)]));
+        double none = 0;
+        if (first == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
       }
     });
     return whole;
   }
 
+  /// Seconds from the start of the loop until the first tile was done.
+  double first_tile_s() const { return first_tile_s_; }
+
   void add_to(Statistics& statistics) const {
     statistics.samples_rejected += rejected_;
     for (const PathScratch& scratch : scratch_) {
+      statistics.box_tests += scratch.thread.counts.box_tests;
+      statistics.chunk_visits += scratch.thread.counts.chunk_visits;
       statistics.rays["camera"] += scratch.rays.camera;
       statistics.rays["shadow"] += scratch.rays.shadow;
       statistics.rays["indirect"] += scratch.rays.indirect;
@@ -103,6 +100,8 @@ class FrameLoop {
   const std::vector<Tile> tiles_;
   std::vector<PathScratch> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};
+  const Stopwatch clock_;
+  std::atomic<double> first_tile_s_{0};
 };
 
 }  // namespace
@@ -125,12 +124,15 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
   const auto samples = static_cast<uint32_t>(scene.render.samples);
   progress.begin("render", static_cast<double>(result.film.width()) * result.film.height() * samples);
   while (result.samples < samples && !result.partial) {
-    const uint32_t next = std::min(samples, std::max(1u, 2 * result.samples));
+    // Where chunks come and go, each tile is finished while what it needs is there.
+    const uint32_t next = geometry->fits() ? std::min(samples, std::max(1u, 2 * result.samples)) : samples;
     result.partial = !loop.pass(result.samples, next);
     if (!result.partial) result.samples = next;
   }
   progress.end();
   loop.add_to(statistics);
+  geometry->add_to(statistics);
+  result.first_tile_s = preparing.seconds() - rendering.seconds() + loop.first_tile_s();
   statistics.stages_s["render"] += rendering.seconds();
   return result;
 }

@@ -83,7 +83,7 @@ Rgb strand_color(const Field& field, const Strands& strands,
 }
 
 std::vector<float> point_opacities(const Field& opacity, const Strands& strands, const FurPart& part) {
-  if (opacity.is_constant() && opacity.value({}) >= 1) return {};
+  if (is_opaque(opacity)) return {};
   const std::vector<const StrandAttribute*> attributes = find_attributes(opacity, strands, part.name);
   std::vector<float> result(strands.point_count(), 1.0f);
   bool opaque = true;

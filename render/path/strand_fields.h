@@ -32,6 +32,9 @@ Rgb strand_color(const Field& field, const Strands& strands,
                  std::span<const StrandAttribute* const> attributes, const LimitSurface* rest,
                  const StrandPlace& place);
 
+/// Whether a field of a fibre material says that strands are opaque everywhere.
+inline bool is_opaque(const Field& opacity) { return opacity.is_constant() && opacity.value({}) >= 1; }
+
 /// Opacity at every control point, or nothing when it is 1 everywhere.
 std::vector<float> point_opacities(const Field& opacity, const Strands& strands, const FurPart& part);
 

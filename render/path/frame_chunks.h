@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "base/ledger.h"
+#include "base/progress.h"
+#include "render/accel/chunk_grower.h"
+#include "render/render_scene.h"
+
+namespace pelage {
+
+class Workers;
+
+/// The chunks of a frame: first the leaves of all coats, then one per skin. Knows how to make each of them from
+/// the scene, which it refers to.
+class FrameChunks final : public ChunkGrower {
+ public:
+  /// Splits every coat down to its leaves and finds out how large skins will be. Throws Error (kInput) for a
+  /// coat whose material is not one for fibres.
+  FrameChunks(const RenderScene& scene, const Workers& workers);
+
+  ChunkContents grow(uint32_t chunk) const override;
+  ChunkCounts counts(uint32_t chunk) const override;
+
+  size_t size() const { return leaves_.size() + skin_sizes_.size(); }
+  /// The leaves: chunks 0, 1, 2 ...
+  const std::vector<const Procedural*>& leaves() const { return leaves_; }
+  /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
+  /// points. Throws what growing throws. Chunks are without boxes when cancelled.
+  std::vector<ChunkBounds> bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger) const;
+  /// Whether the material of every coat is opaque everywhere.
+  bool opaque() const;
+  /// Strands that grow() made so far.
+  int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
+
+ private:
+  void collect(const Procedural& procedural, uint32_t part);
+
+  const RenderScene& scene_;
+  std::vector<std::unique_ptr<Procedural>> made_;  // on the way down
+  std::vector<const Procedural*> leaves_;
+  std::vector<uint32_t> parts_;  // of RenderScene::fur, per leaf
+  std::vector<TessellationSize> skin_sizes_;
+  mutable std::atomic<int64_t> strands_grown_{0};
+};
+
+}  // namespace pelage
