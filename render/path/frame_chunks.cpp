@@ -86,9 +86,8 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
 }
 
 bool FrameChunks::opaque() const {
-  return std::all_of(scene_.fur.begin(), scene_.fur.end(), [&](const FurPart& part) {
-    return is_opaque(fibre_material(scene_, part).opacity);
-  });
+  return std::all_of(scene_.fur.begin(), scene_.fur.end(),
+                     [&](const FurPart& part) { return is_opaque(fibre_material(scene_, part).opacity); });
 }
 
 std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& progress,

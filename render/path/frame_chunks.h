@@ -14,8 +14,8 @@ namespace pelage {
 
 class Workers;
 
-/// The chunks of a frame: first the leaves of all coats, then one per skin. Knows how to make each of them from
-/// the scene, which it refers to.
+/// The chunks of a frame: first the leaves of all coats, then one per skin. Knows how to make each of them
+/// from the scene, which it refers to.
 class FrameChunks final : public ChunkGrower {
  public:
   /// Splits every coat down to its leaves and finds out how large skins will be. Throws Error (kInput) for a

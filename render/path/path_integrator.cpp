@@ -42,22 +42,21 @@ class FrameLoop {
         workers_(workers),
         progress_(progress),
         film_(film),
-        tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
         scratch_(static_cast<size_t>(workers.thread_count())) {
     for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
   }
 
-  /// Adds samples `first` .. `last` - 1 to every pixel. Returns false when cancelled on the way.
-  bool pass(uint32_t first, uint32_t last) {
+  /// Adds samples `first` .. `last` - 1 to every pixel of the tiles. Returns false when cancelled on the way.
+  bool pass(const std::vector<Tile>& tiles, uint32_t first, uint32_t last) {
     std::atomic<bool> whole{true};
-    workers_.for_each(tiles_.size(), 1, [&](WorkRange range) {
+    workers_.for_each(tiles.size(), 1, [&](WorkRange range) {
       const FlushDenormals flush;
       for (size_t i = range.begin; i < range.end; ++i) {
         if (progress_.cancelled()) {
           whole = false;
           return;
         }
-        progress_.advance(trace(tiles_[i], first, last, scratch_[static_cast<size_t>(range.worker)]));
+        progress_.advance(trace(tiles[i], first, last, scratch_[static_cast<size_t>(range.worker)]));
         double none = 0;
         if (first == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
       }
@@ -97,7 +96,6 @@ class FrameLoop {
   const Workers& workers_;
   Progress& progress_;
   Film& film_;
-  const std::vector<Tile> tiles_;
   std::vector<PathScratch> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};
   const Stopwatch clock_;
@@ -120,13 +118,16 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
 
   const Stopwatch rendering;
   const PathTracer tracer(scene, geometry->accel(), result.film.layers(), options);
+  const std::vector<Tile> tiles = tiles_along_curve(result.film.width(), result.film.height(), kTileSide);
   FrameLoop loop(tracer, workers, progress, result.film);
   const auto samples = static_cast<uint32_t>(scene.render.samples);
   progress.begin("render", static_cast<double>(result.film.width()) * result.film.height() * samples);
   while (result.samples < samples && !result.partial) {
     // Where chunks come and go, each tile is finished while what it needs is there.
-    const uint32_t next = geometry->fits() ? std::min(samples, std::max(1u, 2 * result.samples)) : samples;
-    result.partial = !loop.pass(result.samples, next);
+    const bool stays = geometry->fits();
+    const uint32_t next = stays ? std::min(samples, std::max(1u, 2 * result.samples)) : samples;
+    const bool grows = stays && result.samples == 0;
+    result.partial = !loop.pass(grows ? scattered(tiles) : tiles, result.samples, next);
     if (!result.partial) result.samples = next;
   }
   progress.end();

@@ -45,4 +45,16 @@ std::vector<Tile> tiles_along_curve(int width, int height, int side) {
   return tiles;
 }
 
+std::vector<Tile> scattered(const std::vector<Tile>& tiles) {
+  std::vector<Tile> result;
+  result.reserve(tiles.size());
+  const int bits = std::bit_width(std::bit_ceil(tiles.size())) - 1;
+  for (size_t i = 0; i < size_t(1) << bits; ++i) {
+    size_t reversed = 0;
+    for (int bit = 0; bit < bits; ++bit) reversed |= (i >> bit & 1) << (bits - 1 - bit);
+    if (reversed < tiles.size()) result.push_back(tiles[reversed]);
+  }
+  return result;
+}
+
 }  // namespace pelage

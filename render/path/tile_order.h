@@ -16,4 +16,8 @@ struct Tile {
 /// neighbours, so that what one of them made the fur grow for is there for the next.
 std::vector<Tile> tiles_along_curve(int width, int height, int side);
 
+/// The same tiles so that those which follow each other lie far apart, like the numbers of van der Corput
+/// [Corput35]: threads that begin together do not all wait for the same fur to grow.
+std::vector<Tile> scattered(const std::vector<Tile>& tiles);
+
 }  // namespace pelage

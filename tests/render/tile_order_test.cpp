@@ -32,5 +32,21 @@ TEST(TileOrder, TilesThatFollowEachOtherTouch) {
   }
 }
 
+TEST(TileOrder, ScatteredTilesAreTheSameOnesFarApart) {
+  for (size_t count : {size_t(0), size_t(1), size_t(2), size_t(37), size_t(1024)}) {
+    std::vector<Tile> tiles(count);
+    for (size_t i = 0; i < count; ++i) tiles[i].x0 = static_cast<int>(i);
+    const std::vector<Tile> apart = scattered(tiles);
+    std::vector<int> places;
+    for (const Tile& tile : apart) places.push_back(tile.x0);
+    for (size_t i = 3; i < count && i < 16; ++i) {
+      for (size_t j = i - 3; j < i; ++j)
+        EXPECT_GE(std::abs(places[i] - places[j]), static_cast<int>(count / 8)) << i;
+    }
+    std::sort(places.begin(), places.end());
+    for (size_t i = 0; i < count; ++i) EXPECT_EQ(places[i], static_cast<int>(i));
+  }
+}
+
 }  // namespace
 }  // namespace pelage
