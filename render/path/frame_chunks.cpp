@@ -97,7 +97,7 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& p
   options.factor = scene_.render.bounds_factor;
   std::vector<ChunkBounds> bounds =
       bound_chunks(options, leaves_, workers, progress, ledger,
-                   [&progress](const std::string& line) { progress.note("warning: " + line); });
+                   [&progress](const std::string& line) { progress.warn(line); });
   for (const SkinPart& part : scene_.skins) {
     ChunkBounds box;
     box.keys = bound_keys(options.strategy);

@@ -374,6 +374,7 @@ TEST(Bounding, LeavesEarlyWhenCancelled) {
     void advance(double) override { ++done; }
     void end() override {}
     void note(std::string_view) override {}
+  void warn(std::string_view) override {}
     bool cancelled() const override { return true; }
     std::atomic<int> done{0};
   } progress;

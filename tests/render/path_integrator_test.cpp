@@ -100,6 +100,7 @@ TEST(PathIntegrator, CountsWhatItDid) {
 class Impatient final : public Progress {
  public:
   void note(std::string_view) override {}
+  void warn(std::string_view) override {}
   explicit Impatient(double patience) : patience_(patience) {}
   void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }
   void advance(double amount) override {
