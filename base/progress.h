@@ -14,10 +14,10 @@ class Progress {
   virtual void begin(std::string_view stage, double total) = 0;
   virtual void advance(double amount) = 0;
   virtual void end() = 0;
-  /// A line for the user, between or within stages.
-  virtual void note(std::string_view line) = 0;
+  /// A line for the user, between or within stages; where nobody looks, nothing happens.
+  virtual void note(std::string_view /*line*/) {}
   /// The same for what went wrong and did not stop the run.
-  virtual void warn(std::string_view line) = 0;
+  virtual void warn(std::string_view /*line*/) {}
   /// True once the user has asked to stop (Ctrl-C): loops finish what they hold and leave.
   virtual bool cancelled() const = 0;
 };
@@ -28,8 +28,6 @@ class NoProgress final : public Progress {
   void begin(std::string_view, double) override {}
   void advance(double) override {}
   void end() override {}
-  void note(std::string_view) override {}
-  void warn(std::string_view) override {}
   bool cancelled() const override { return false; }
 };
 

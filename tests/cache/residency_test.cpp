@@ -294,8 +294,6 @@ TEST_F(ResidencyTest, EagerlyRefusesWhatDoesNotFit) {
 TEST_F(ResidencyTest, EagerlyStopsWhenCancelled) {
   class StopAtTen final : public Progress {
    public:
-    void note(std::string_view) override {}
-  void warn(std::string_view) override {}
     void begin(std::string_view, double) override {}
     void advance(double amount) override { done_.fetch_add(static_cast<int>(amount)); }
     void end() override {}

@@ -373,8 +373,6 @@ TEST(Bounding, LeavesEarlyWhenCancelled) {
     void begin(std::string_view, double) override {}
     void advance(double) override { ++done; }
     void end() override {}
-    void note(std::string_view) override {}
-  void warn(std::string_view) override {}
     bool cancelled() const override { return true; }
     std::atomic<int> done{0};
   } progress;

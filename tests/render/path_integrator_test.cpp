@@ -99,8 +99,6 @@ TEST(PathIntegrator, CountsWhatItDid) {
 /// Asks to stop once enough work has been reported.
 class Impatient final : public Progress {
  public:
-  void note(std::string_view) override {}
-  void warn(std::string_view) override {}
   explicit Impatient(double patience) : patience_(patience) {}
   void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }
   void advance(double amount) override {
