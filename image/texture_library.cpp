@@ -6,8 +6,8 @@
 #include <system_error>
 
 #include "base/file.h"
-#include "base/module.h"
 #include "base/memory_sample.h"
+#include "base/module.h"
 #include "image/exr_check.h"
 #include "image/reader_module.h"
 #include "image/texture.h"
