@@ -70,6 +70,9 @@ struct FrozenGrowth {
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;
 };
 
+/// The file of the state behind an operator whose stage has this hash.
+std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands);
+
 /// A layer or the offsets: the same strands in another layout of leaves stand in another file.
 ContentHash in_leaves(const ContentHash& hash, int leaf_strands);
 

@@ -82,6 +82,10 @@ ContentHash in_leaves(const ContentHash& hash, int leaf_strands) {
   return ContentHasher().add(hash).add("leaves").add(leaf_strands).digest();
 }
 
+std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands) {
+  return store.file(kKind, in_leaves(stage, leaf_strands));
+}
+
 bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const {
   if (layer.section_count() != reaches.size() + 1 ||
       layer.section(0).size() != reaches.size() * sizeof(StrandReach)) {

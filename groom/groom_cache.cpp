@@ -18,6 +18,18 @@ size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   return end;
 }
 
+/// Layers are large and serve the next edit only: those of operators that are no longer so go. The offsets
+/// stay, for whoever takes an edit back.
+void remove_old_layers(const ContentStore& store, const GroomManifest& before, const GroomManifest& now,
+                       int leaf_strands) {
+  for (const GroomStage& old : before.stages()) {
+    const bool current = std::any_of(now.stages().begin(), now.stages().end(),
+                                     [&](const GroomStage& stage) { return stage.hash == old.hash; });
+    std::error_code ignored;
+    if (!current) std::filesystem::remove(layer_file(store, old.hash, leaf_strands), ignored);
+  }
+}
+
 }  // namespace
 
 void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
@@ -72,6 +84,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
                                 warn,   cannot_store, context.workers, progress};
       FrozenGrowth::Result grown = growth.run(context, params.leaf_strands);
       report->resumed = grown.resumed;
+      if (before) remove_old_layers(*store, *before, now, params.leaf_strands);
       report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
       // Read back, so that what is in memory may go.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);

@@ -138,6 +138,9 @@ TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   EXPECT_EQ(middle.summary(), "stale from clump on (amount: 0.6 -> 0.5)");
   EXPECT_EQ(middle.stages.back().reason, "follows");
 
+  EXPECT_EQ(files("layer").size(), 4u) << "those that nothing can go on from are gone";
+  EXPECT_EQ(files("offsets").size(), 3u);
+
   // The same strands as when nothing is there to go on from.
   const auto resumed = bits(*clumped, at_rest());
   std::filesystem::remove_all(cache());
@@ -218,6 +221,35 @@ TEST_F(GroomCacheTest, FreezingNamesAnOperatorThatCanBeFrozen) {
   EXPECT_NE(message("push_out").find("cannot be frozen"), std::string::npos);
   EXPECT_NE(message("frizz").find("'push_out'"), std::string::npos);
   EXPECT_EQ(message("length"), "");
+}
+
+TEST_F(GroomCacheTest, RandomStacksKeepTheirTolerance) {
+  const std::vector<std::string> choice{"- length: {scale: 0.8, variation: 0.5}\n",
+                                        "- comb: {direction: [1, 0.3, 0], lift: 0.2, curve: 0.7}\n",
+                                        "- bend: {direction: [0, 0, 1], angle: 80}\n",
+                                        "- clump: {spacing: 0.4, amount: 0.8, strays: 0.2}\n",
+                                        "- curl: {radius: 0.04, turns: 3}\n",
+                                        "- frizz: {amplitude: 0.05, frequency: 4}\n",
+                                        "- noise: {amplitude: 0.1, frequency: 3}\n",
+                                        "- color: {value: [0.2, 0.5, 3], variation: 1}\n",
+                                        "- width: {root: 0.004, tip: 0.006, profile: 3, variation: 0.9}\n"};
+  TestRandom random(11);
+  const LimitSurface pose = posed(1.1f, 0.2f);
+  const PosedSkin skin{{&pose, 1}, {}, 0.7f, {}};
+  for (int round = 0; round < 12; ++round) {
+    Coat coat{"- length: {value: 1.5}\n", "frizz", 400, 150, 2 + static_cast<int>(random.unit() * 14)};
+    for (int i = 0; i < 4; ++i) coat.operators += choice[static_cast<size_t>(random.unit() * 8.999f)];
+    coat.operators += "- frizz: {amplitude: 0.01, frequency: 2}\n- width: {root: 0.006, tip: 0.001}\n";
+    Coat uncached = coat;
+    uncached.freeze.clear();
+    const auto plain = all(*make(uncached), skin), cached = all(*make(coat), skin);
+    for (size_t leaf = 0; leaf < plain.size(); ++leaf) {
+      for (size_t p = 0; p < plain[leaf].point_count(); ++p) {
+        ASSERT_LE((plain[leaf].point(p) - cached[leaf].point(p)).length(), 0.7f * 0.006f / 20)
+            << coat.operators;
+      }
+    }
+  }
 }
 
 }  // namespace
