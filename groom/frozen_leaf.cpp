@@ -52,9 +52,12 @@ std::optional<FrozenLeaf> FrozenLeaf::read(std::span<const std::byte> bytes) {
   std::copy_n(header.color_step, 3, leaf.color_step_);
   leaf.width_profile_.resize(header.width_points);
   leaf.color_profile_.resize(size_t(header.color_profile_rows) * 3);
-  std::memcpy(leaf.width_profile_.data(), bytes.data() + sizeof(header), leaf.width_profile_.size() * 4);
-  std::memcpy(leaf.color_profile_.data(), bytes.data() + sizeof(header) + leaf.width_profile_.size() * 4,
-              leaf.color_profile_.size() * 4);
+  size_t from = sizeof(header);
+  for (std::vector<float>* profile : {&leaf.width_profile_, &leaf.color_profile_}) {
+    const auto values = bytes.subspan(from, profile->size() * 4);
+    std::copy(values.begin(), values.end(), std::as_writable_bytes(std::span(*profile)).begin());
+    from += values.size();
+  }
   if (!good_floats(leaf.width_profile_) || !good_floats(leaf.color_profile_) ||
       !good_floats({header.width_step, header.color_step[0], header.color_step[1], header.color_step[2]})) {
     return {};

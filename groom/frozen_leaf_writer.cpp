@@ -209,9 +209,11 @@ std::vector<std::byte> FrozenLeafWriter::finish() const {
     total += FrozenLeaf::Layout(form, block.count, static_cast<int>(block.points)).end;
   std::vector<std::byte> bytes(total);
   std::memcpy(bytes.data(), &header, sizeof(header));
-  std::memcpy(bytes.data() + sizeof(header), width.profile.data(), width.profile.size() * 4);
-  std::memcpy(bytes.data() + sizeof(header) + width.profile.size() * 4, color.profile.data(),
-              color.profile.size() * 4);
+  std::byte* profiles = bytes.data() + sizeof(header);
+  for (const std::vector<float>* profile : {&width.profile, &color.profile}) {
+    const auto from = std::as_bytes(std::span(*profile));
+    profiles = std::copy(from.begin(), from.end(), profiles);
+  }
   for (size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
     const uint16_t shape[2] = {static_cast<uint16_t>(block.count), static_cast<uint16_t>(block.points)};
