@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cli/measure/variant.h"
+#include "cli/report/report.h"
+#include "cli/scene_schema.h"
+
+namespace pelage {
+
+/// What an experiment found.
+struct Measured {
+  Report report;  ///< without the facts of the machine and the runs, which are the same for all experiments
+  std::vector<Outcome> outcomes;
+};
+
+// One function per experiment. Each runs its variants until all are done or the display says that the user wants to
+// stop, and reports on those that were run. Throws Error (kFailed) when the folder cannot be written.
+
+/// Every bounding strategy: time, memory, growth, box tests, lost pixels.
+Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
+/// Memory budgets from the whole of what the chunks take down to what is refused.
+Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
+/// Growth with and without the operator cache, and by operator.
+Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
+}  // namespace pelage

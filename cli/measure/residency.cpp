@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "cli/measure/caches.h"
+#include "cli/measure/experiments.h"
+#include "cli/measure/memory_plots.h"
+#include "cli/measure/outcome_table.h"
+#include "cli/measure/picture_difference.h"
+
+namespace pelage {
+namespace {
+
+// Shares of the peak chunk bytes; those below the third row are tried until one is refused.
+constexpr double kShares[] = {1, 0.5, 0.25, 0.1, 0.05, 0.03};
+constexpr double kSmallShares[] = {0.02, 0.01, 0.005, 0.0025, 0.001};
+constexpr const char* kUnlimited = "1T";
+
+struct Budget {
+  double bytes = NAN;  // not-a-number: no limit
+  double share = NAN;  // of the chunks
+};
+
+Variant limited(const std::string& id, const std::string& title, const std::string& memory) {
+  return {id, title, "render", {"--set", "render.memory=" + memory, "--sample-memory", "0.01"}};
+}
+
+// What a refusal says would do: "...; 120M would do".
+double least_bytes(const Outcome& refused) {
+  std::smatch found;
+  const std::string text = refused.error();
+  if (!std::regex_search(text, found, std::regex("([0-9]+)M would do"))) return NAN;
+  return std::stod(found[1]) * (1 << 20);
+}
+
+// Beside the chunks, at most this much of the budget was taken at any time.
+double fixed_bytes(const Outcome& unlimited) {
+  double bytes = 0;
+  for (const char* tag : {"film", "skins", "operator_cache", "reflection_cache"}) {
+    const double of_tag = unlimited.number(std::string("memory_bytes.") + tag);
+    bytes += std::isfinite(of_tag) ? of_tag : 0;
+  }
+  return bytes;
+}
+
+class Sweep {
+ public:
+  Sweep(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display)
+      : display_(display), runner_(setup, display, 2 + std::size(kShares) + 2),
+        cache_arguments_(CacheFolders(scene, setup.folder).arguments("residency")) {}
+
+  void run() {
+    Variant warm_up = limited("warm-up", "warm-up", kUnlimited);
+    warm_up.once = true;
+    add(warm_up, {});
+    if (done()) return;
+    add(limited("unlimited", "unlimited", kUnlimited), {});
+    const Outcome& unlimited = outcomes.back();
+    const double chunks = unlimited.number("memory_bytes.chunks"), fixed = fixed_bytes(unlimited);
+    if (!(chunks > 0)) return;
+    const auto try_share = [&](double share) {
+      const double bytes = fixed + share * chunks;
+      add(limited(fmt::format("budget-{:g}", 100 * share), fmt::format("{:g} %", 100 * share),
+                  fmt::format("{:.0f}", bytes)),
+          {bytes, share});
+    };
+    for (const double share : kShares) {
+      if (!done()) try_share(share);
+    }
+    for (const double share : kSmallShares) {
+      if (!done() && outcomes.back().succeeded()) try_share(share);
+    }
+    if (done() || !outcomes.back().refused()) return;
+    // Refused budgets name the least that would do: the last row tells whether it does.
+    const double least = least_bytes(outcomes.back());
+    if (std::isfinite(least)) {
+      add(limited("least", "least", fmt::format("{:.0f}", least)), {least, (least - fixed) / chunks});
+    }
+  }
+
+  bool done() const { return display_.cancelled() || (!outcomes.empty() && outcomes.size() <= 2 && !outcomes.back().succeeded()); }
+  const VariantRunner& runner() const { return runner_; }
+
+  std::vector<Outcome> outcomes;
+  std::vector<Budget> budgets;
+
+ private:
+  void add(Variant variant, const Budget& budget) {
+    variant.arguments.insert(variant.arguments.end(), cache_arguments_.begin(), cache_arguments_.end());
+    outcomes.push_back(runner_.run(variant));
+    budgets.push_back(budget);
+  }
+
+  ProgressDisplay& display_;
+  VariantRunner runner_;
+  std::vector<std::string> cache_arguments_;
+};
+
+Cell same_pixels(const VariantRunner& runner, const Outcome& unlimited, const Outcome& outcome) {
+  if (!unlimited.succeeded() || !outcome.succeeded()) return Text{"–"};
+  const auto difference = compare_picture_files(runner.picture(unlimited.variant), runner.picture(outcome.variant));
+  if (!difference) return Text{"not comparable"};
+  return Text{difference->differing == 0 ? "identical" : fmt::format("{} differ", difference->differing)};
+}
+
+LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, const std::string& axis,
+                     const std::string& caption) {
+  LinePlot plot;
+  plot.caption = caption;
+  plot.half = plot.markers = true;
+  plot.x = {"budget for chunks, of their unlimited peak", Quantity::kPercent, true};
+  const std::vector<double> shares = column_values(table, "budget_share");
+  for (const std::string& key : keys) {
+    const Table column = select(table, {key}, "");
+    plot.y = {axis, column.columns.at(0).quantity};
+    Series series{column.columns.at(0).title, {}};
+    const std::vector<double> values = column_values(table, key);
+    for (size_t i = shares.size(); i-- > 0;) {
+      if (std::isfinite(shares[i]) && std::isfinite(values[i])) series.points.emplace_back(shares[i], values[i]);
+    }
+    std::sort(series.points.begin(), series.points.end());
+    plot.lines.push_back(std::move(series));
+  }
+  return plot;
+}
+
+}  // namespace
+
+Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display) {
+  Sweep sweep(scene, setup, display);
+  sweep.run();
+  Measured measured;
+  measured.outcomes = std::move(sweep.outcomes);
+  const std::vector<Outcome>& outcomes = measured.outcomes;
+  const auto index = [&](const Outcome& o) { return static_cast<size_t>(&o - outcomes.data()); };
+
+  Report& report = measured.report;
+  report.title = "Geometry under a memory budget";
+  report.data = outcome_table(outcomes);
+  Table& data = report.data;
+  add_column(data, {"budget_bytes", "render.memory", Quantity::kBytes}, outcomes,
+             [&](const Outcome& o) -> Cell { return sweep.budgets[index(o)].bytes; });
+  add_column(data, {"budget_share", "of chunks", Quantity::kPercent}, outcomes,
+             [&](const Outcome& o) -> Cell { return sweep.budgets[index(o)].share; });
+  const Outcome* unlimited = outcomes.size() > 1 ? &outcomes[1] : nullptr;
+  add_column(data, {"pixels", "pixels", Quantity::kRatio}, outcomes, [&](const Outcome& o) -> Cell {
+    return unlimited ? same_pixels(sweep.runner(), *unlimited, o) : Text{"–"};
+  });
+  add_column(data, {"message", "message", Quantity::kRatio}, outcomes,
+             [](const Outcome& o) -> Cell { return Text{o.error()}; });
+
+  double smallest = NAN, slowdown = NAN;
+  for (size_t i = 2; i < outcomes.size(); ++i) {
+    if (!outcomes[i].succeeded() || !(std::isnan(smallest) || sweep.budgets[i].bytes < smallest)) continue;
+    smallest = sweep.budgets[i].bytes;
+    slowdown = outcomes[i].number("wall_s") / outcomes[1].number("wall_s");
+  }
+  if (std::isfinite(smallest)) {
+    report.abstract = fmt::format(
+        "The smallest budget that was rendered in is {:.1f} MiB; it took {:.2f} times as long as without a limit.",
+        smallest / (1 << 20), slowdown);
+  }
+  report.sections.push_back(
+      {"Method",
+       {Paragraph{fmt::format(
+            "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
+            "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited run and F "
+            "the sum of the peaks of film, skins and caches there; F is an upper bound of what these need at one time. "
+            "Every budget is run {} time{}; numbers are those of the run of median wall time. Budgets go down until "
+            "one is refused (exit code 4), which is a result; the row least, if any, is what the refusal says would "
+            "do.",
+            setup.repeat, setup.repeat == 1 ? "" : "s")},
+        Paragraph{"Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent for "
+                  "memory or for a chunk that another thread grows. Pixels are identical when every bit of every "
+                  "channel is that of the unlimited run. " +
+                  ledger_text(outcomes)}}});
+  report.sections.push_back(
+      {"Time and growth",
+       {select(data, {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
+                      "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
+               "Cost of each budget."),
+        budget_plot(data, {"wall_s"}, "wall time", "Wall time against the budget."),
+        budget_plot(data, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
+        budget_plot(data, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
+                    "Peaks of the resident set and of the chunks against the budget."),
+        budget_plot(data, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}});
+  Table refusals = select(data, {"variant", "budget_bytes", "message"}, "What refused budgets were told.");
+  std::erase_if(refusals.rows, [](const auto& row) { return std::get<Text>(row.back()).text.empty(); });
+  if (!refusals.rows.empty()) report.sections.back().blocks.push_back(std::move(refusals));
+  Section memory{"Memory", {resident_plot(outcomes, "Resident memory over time (anonymous and file-backed).")}};
+  for (LinePlot& plot : tag_plots(outcomes)) memory.blocks.push_back(std::move(plot));
+  report.sections.push_back(std::move(memory));
+  return measured;
+}
+
+}  // namespace pelage

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/measure/experiments.h"
+#include "cli/measure/machine.h"
+#include "cli/report/report_csv.h"
+#include "cli/report/report_html.h"
+#include "cli/report/report_json.h"
+#include "cli/report_error.h"
+#include "cli/signals.h"
+
+namespace pelage {
+namespace {
+
+const char* experiment_name(Experiment experiment) {
+  return experiment == Experiment::kBounds ? "bounds" : experiment == Experiment::kGrowth ? "growth" : "residency";
+}
+
+MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
+  MeasureSetup setup;
+  setup.program = own_program();
+  setup.scene = options.input;
+  setup.repeat = options.repeat;
+  setup.folder = options.output;
+  if (options.output.empty()) {
+    setup.folder =
+        std::filesystem::path(options.input).stem().string() + "_" + experiment_name(options.experiment);
+  }
+  for (const Override& override : options.overrides)
+    setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
+  // One frame is what pictures, timelines and counts are compared of.
+  setup.arguments.insert(setup.arguments.end(),
+                         {"--frames", fmt::format("{}", scene.frames.frames.front())});
+  if (options.threads > 0)
+    setup.arguments.insert(setup.arguments.end(), {"--threads", std::to_string(options.threads)});
+  return setup;
+}
+
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
+                        ProgressDisplay& display) {
+  switch (options.experiment) {
+    case Experiment::kBounds:
+      return measure_bounds(scene, setup, display);
+    case Experiment::kGrowth:
+      return measure_growth(scene, setup, display);
+    case Experiment::kResidency:
+      return measure_residency(scene, setup, display);
+  }
+  return {};
+}
+
+}  // namespace
+
+int run_measure(const Options& options) {
+  const SignalGuard signals;
+  ProgressDisplay display(options.progress, &SignalGuard::interrupted);
+  const SceneDescription scene = load_scene(options.input, options.overrides);
+  const MeasureSetup setup = setup_of(options, scene);
+  write_whole(setup.folder / "report.json", "{}\n");  // a folder that takes nothing is found before anything is run
+
+  auto facts = machine_facts();
+  Measured measured = run_experiment(options, scene, setup, display);
+  const bool interrupted = display.cancelled();
+  Report& report = measured.report;
+  report.experiment = experiment_name(options.experiment);
+  report.title += ": " + std::filesystem::path(options.input).filename().string();
+  std::vector<std::string> command{"pelage", "measure", report.experiment, options.input};
+  command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
+  report.facts = {{"Scene", options.input}, {"Scene hash", scene.hash}, {"Arguments", shell_text(command)}};
+  report.facts.insert(report.facts.end(), facts.begin(), facts.end());
+  if (interrupted) report.abstract = "Interrupted: only some variants were run. " + report.abstract;
+  report.runs = runs_json(measured.outcomes);
+
+  write_whole(setup.folder / "report.json", report_json(report));
+  write_whole(setup.folder / "report.csv", csv_text(report.data));
+  write_whole(setup.folder / "report.html", report_html(report));
+  std::cout << (setup.folder / "report.html").string() << "\n";
+  if (interrupted) return kInterruptedExitCode;
+  // A refused budget is an answer where budgets are the question; everything else that did not end well is not.
+  const bool answered = std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
+    return outcome.succeeded() || (options.experiment == Experiment::kResidency && outcome.refused());
+  });
+  return answered ? 0 : exit_code(ErrorKind::kFailed);
+}
+
+}  // namespace pelage

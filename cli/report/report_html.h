@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/report/report.h"
+
+namespace pelage {
+
+/// A report as one HTML page that needs nothing else: style sheet, plots (SVG) and pictures (PNG) stand in
+/// it, there are no scripts. Tables and figures are numbered. Well-formed as XML too. Made to be printed.
+std::string report_html(const Report& report);
+
+}  // namespace pelage
