@@ -16,6 +16,8 @@ int run(const pelage::Options& options) {
       return pelage::run_render(options);
     case Command::kGrow:
       return pelage::run_grow(options);
+    case Command::kMeasure:
+      return pelage::run_measure(options);
     case Command::kInfo:
       return pelage::run_info(options);
     case Command::kConvert:

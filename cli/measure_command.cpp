@@ -19,7 +19,9 @@ namespace pelage {
 namespace {
 
 const char* experiment_name(Experiment experiment) {
-  return experiment == Experiment::kBounds ? "bounds" : experiment == Experiment::kGrowth ? "growth" : "residency";
+  return experiment == Experiment::kBounds   ? "bounds"
+         : experiment == Experiment::kGrowth ? "growth"
+                                             : "residency";
 }
 
 MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
@@ -35,8 +37,7 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
   // One frame is what pictures, timelines and counts are compared of.
-  setup.arguments.insert(setup.arguments.end(),
-                         {"--frames", fmt::format("{}", scene.frames.frames.front())});
+  setup.arguments.insert(setup.arguments.end(), {"--frames", fmt::format("{}", scene.frames.frames.front())});
   if (options.threads > 0)
     setup.arguments.insert(setup.arguments.end(), {"--threads", std::to_string(options.threads)});
   return setup;
@@ -68,7 +69,8 @@ int run_measure(const Options& options) {
   ProgressDisplay display(options.progress, &SignalGuard::interrupted);
   const SceneDescription scene = load_scene(options.input, options.overrides);
   const MeasureSetup setup = setup_of(options, scene);
-  write_whole(setup.folder / "report.json", "{}\n");  // a folder that takes nothing is found before anything is run
+  write_whole(setup.folder / "report.json",
+              "{}\n");  // a folder that takes nothing is found before anything is run
 
   auto facts = machine_facts();
   Measured measured = run_experiment(options, scene, setup, display);
@@ -88,10 +90,12 @@ int run_measure(const Options& options) {
   write_whole(setup.folder / "report.html", report_html(report));
   std::cout << (setup.folder / "report.html").string() << "\n";
   if (interrupted) return kInterruptedExitCode;
-  // A refused budget is an answer where budgets are the question; everything else that did not end well is not.
-  const bool answered = std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
-    return outcome.succeeded() || (options.experiment == Experiment::kResidency && outcome.refused());
-  });
+  // A refused budget is an answer where budgets are the question; everything else that did not end well is
+  // not.
+  const bool answered =
+      std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
+        return outcome.succeeded() || (options.experiment == Experiment::kResidency && outcome.refused());
+      });
   return answered ? 0 : exit_code(ErrorKind::kFailed);
 }
 

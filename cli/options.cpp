@@ -20,7 +20,7 @@ namespace {
 
 // What the parser leaves as text until it is checked here, so that every message is ours.
 struct Texts {
-  std::string frames, memory, progress, basis, stats;
+  std::string frames, memory, progress, basis, stats, experiment;
   std::vector<std::string> set;
   std::vector<std::string> section;  // its words
   bool quiet = false;
@@ -37,14 +37,9 @@ void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
       ->type_name("KEY=VALUE");
 }
 
-void add_run_flags(CLI::App& command, Options& options, Texts& texts,
-                   const char* memory_help = "Memory budget, such as 512M or 4G (render.memory)") {
-  command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
-  command
-      .add_option("--sample-memory", options.sample_memory_s,
-                  "Sample memory every so many seconds, for the timeline in --stats")
-      ->check(CLI::Range(0.001, 3600.0))
-      ->type_name("SECONDS");
+constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (render.memory)";
+
+void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
   command.add_option("--threads", options.threads, "Threads to use (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
@@ -53,6 +48,16 @@ void add_run_flags(CLI::App& command, Options& options, Texts& texts,
   command.add_option("--progress", texts.progress, "How to show progress: bar, plain or json")
       ->type_name("STYLE")
       ->excludes(quiet);
+}
+
+void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help = kMemoryHelp) {
+  command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
+  command
+      .add_option("--sample-memory", options.sample_memory_s,
+                  "Sample memory every so many seconds, for the timeline in --stats")
+      ->check(CLI::Range(0.001, 3600.0))
+      ->type_name("SECONDS");
+  add_parallel_flags(command, options, texts, memory_help);
 }
 
 void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
@@ -85,6 +90,21 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   grow->add_option("--frames", texts.frames, "Frame whose pose to grow on")->type_name("FRAME");
   add_run_flags(*grow, options, texts);
 
+  CLI::App* measure = app.add_subcommand(
+      "measure", "Run the program once per variant of an experiment and report: JSON, CSV, HTML");
+  measure->add_option("EXPERIMENT", texts.experiment, "bounds, growth or residency")->required();
+  add_scene_flags(*measure, options, texts);
+  measure
+      ->add_option("-o,--output", options.output,
+                   "Folder for the report and all runs (default: the scene's name and the experiment's)")
+      ->type_name("DIR");
+  measure->add_option("--frames", texts.frames, "Frame to measure (default: the scene's first)")
+      ->type_name("FRAME");
+  measure->add_option("--repeat", options.repeat, "Runs of each variant; that of the median time counts (3)")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  add_parallel_flags(*measure, options, texts, kMemoryHelp);
+
   CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");
   info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
   info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
@@ -113,13 +133,10 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{{"render", Command::kRender},
-                                                    {"grow", Command::kGrow},
-                                                    {"info", Command::kInfo},
-                                                    {"convert", Command::kConvert},
-                                                    {"motionblur", Command::kMotionBlur},
-                                                    {"stereo", Command::kStereo},
-                                                    {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{
+      {"render", Command::kRender}, {"grow", Command::kGrow},       {"measure", Command::kMeasure},
+      {"info", Command::kInfo},     {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo}, {"manual", Command::kManual}};
   return names;
 }
 
@@ -177,6 +194,19 @@ CurveBasis parse_basis(const std::string& text) {
   return static_cast<CurveBasis>(found - names.begin());
 }
 
+Experiment parse_experiment(const std::string& text) {
+  static const std::map<std::string, Experiment> built{{"bounds", Experiment::kBounds},
+                                                       {"growth", Experiment::kGrowth},
+                                                       {"residency", Experiment::kResidency}};
+  static const std::vector<std::string> promised{"lod", "accel", "shading", "samplers", "scaling"};
+  if (const auto found = built.find(text); found != built.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, experiment] : built) names.push_back(name);
+  if (std::find(promised.begin(), promised.end(), text) != promised.end())
+    fail("the experiment " + quote(text) + " is not built yet; there are bounds, growth and residency");
+  fail("there is no experiment " + quote(text) + suggest(text, names));
+}
+
 void interpret(const Texts& texts, Options& options) {
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
@@ -195,6 +225,7 @@ void interpret(const Texts& texts, Options& options) {
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;
   if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
+  if (!texts.experiment.empty()) options.experiment = parse_experiment(texts.experiment);
   options.progress = parse_progress(texts);
   interpret_post(texts.post, options);
 }

@@ -14,7 +14,9 @@
 
 namespace pelage {
 
-enum class Command { kRender, kGrow, kInfo, kConvert, kMotionBlur, kStereo, kManual };
+enum class Command { kRender, kGrow, kMeasure, kInfo, kConvert, kMotionBlur, kStereo, kManual };
+
+enum class Experiment { kBounds, kGrowth, kResidency };
 
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
@@ -35,6 +37,9 @@ struct Options {
   std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between two samples
   int threads = 0;                        ///< --threads; 0: all that the process may use
   ProgressStyle progress = ProgressStyle::kAuto;
+
+  Experiment experiment = Experiment::kBounds;  ///< measure
+  int repeat = 3;                               ///< measure: runs of each variant
 
   std::string groom;     ///< grow: only this one; empty: all
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh

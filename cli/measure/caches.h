@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// Folders of an experiment's own in place of those that the grooms of a scene keep their caches in, so that it
-/// decides what is cold and what is warm, and leaves the scene's caches alone.
+/// Folders of an experiment's own in place of those that the grooms of a scene keep their caches in, so that
+/// it decides what is cold and what is warm, and leaves the scene's caches alone.
 class CacheFolders {
  public:
   CacheFolders(const SceneDescription& scene, const std::filesystem::path& folder);

@@ -15,14 +15,16 @@ struct Measured {
   std::vector<Outcome> outcomes;
 };
 
-// One function per experiment. Each runs its variants until all are done or the display says that the user wants to
-// stop, and reports on those that were run. Throws Error (kFailed) when the folder cannot be written.
+// One function per experiment. Each runs its variants until all are done or the display says that the user
+// wants to stop, and reports on those that were run. Throws Error (kFailed) when the folder cannot be
+// written.
 
 /// Every bounding strategy: time, memory, growth, box tests, lost pixels.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
 
 /// Memory budgets from the whole of what the chunks take down to what is refused.
-Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup,
+                           ProgressDisplay& display);
 
 /// Growth with and without the operator cache, and by operator.
 Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);

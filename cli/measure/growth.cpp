@@ -26,8 +26,7 @@ GroomVariants variants_of(const Named<GroomParams>::Item& item, const MeasureSet
     return made;
   };
   const std::string directory = yaml_quoted(v.cache.string());
-  const std::string cached =
-      item.value.cache ? ".directory=" + directory : "={directory: " + directory + "}";
+  const std::string cached = item.value.cache ? ".directory=" + directory : "={directory: " + directory + "}";
   v.uncached = variant("uncached", "=null");
   v.cold = variant("cold", cached);
   v.warm = variant("warm", cached);
@@ -71,9 +70,10 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
       const double saved = uncached.number("wall_s") - warm.number("wall_s");
       const double extra = cold.number("wall_s") - uncached.number("wall_s");
       const double runs = saved > 0 ? std::fmax(1, 1 + std::ceil(extra / saved)) : INFINITY;
-      summary.rows.push_back({Text{v.groom}, warm.number("strands_generated"), uncached.number("stages_s.grow"),
-                              warm.number("stages_s.grow"), rate(warm) / rate(uncached), cold.number("wall_s"),
-                              uncached.number("wall_s"), warm.number("wall_s"), runs, disk, disk / strands});
+      summary.rows.push_back({Text{v.groom}, warm.number("strands_generated"),
+                              uncached.number("stages_s.grow"), warm.number("stages_s.grow"),
+                              rate(warm) / rate(uncached), cold.number("wall_s"), uncached.number("wall_s"),
+                              warm.number("wall_s"), runs, disk, disk / strands});
       rates.groups.push_back(v.groom);
       rates.series[0].values.push_back(rate(uncached));
       rates.series[1].values.push_back(rate(warm));
@@ -85,24 +85,29 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
   report.data = outcome_table(outcomes);
   add_column(report.data, {"strands_per_s", "strands per second", Quantity::kRate}, outcomes,
              [](const Outcome& o) -> Cell { return rate(o); });
-  report.sections.push_back(
-      {"Method",
-       {Paragraph{fmt::format(
-            "Each groom is grown on its own, all leaves of all its coats once, by pelage grow: without a cache, with a "
-            "cache that is empty (the run fills it), and with the cache so filled. Every variant runs {} time{} in "
-            "processes of its own, the run of median wall time is reported. Growth is the stage in which strands are "
-            "made; preparing operators (clump centres, guides) and filling the cache are in the time of the run. Runs "
-            "to break even: after so many runs, the one that filled the cache included, less time was spent than "
-            "without. Files are read from the page cache. Bytes on disk are those of all files of the cache, by the "
-            "strands of the groom.",
-            setup.repeat, setup.repeat == 1 ? "" : "s")}}});
+  report.sections.push_back({"Method",
+                             {Paragraph{fmt::format("Each groom is grown on its own, all leaves of all its "
+                                                    "coats once, by pelage grow: without a cache, with a "
+                                                    "cache that is empty (the run fills it), and with the "
+                                                    "cache so filled. Every variant runs {} time{} in "
+                                                    "processes of its own, the run of median wall time is "
+                                                    "reported. Growth is the stage in which strands are "
+                                                    "made; preparing operators (clump centres, guides) and "
+                                                    "filling the cache are in the time of the run. Runs "
+                                                    "to break even: after so many runs, the one that filled "
+                                                    "the cache included, less time was spent than "
+                                                    "without. Files are read from the page cache. Bytes on "
+                                                    "disk are those of all files of the cache, by the "
+                                                    "strands of the groom.",
+                                                    setup.repeat, setup.repeat == 1 ? "" : "s")}}});
   report.sections.push_back({"Cached against uncached", {std::move(summary), std::move(rates)}});
   report.sections.push_back(
-      {"Runs", {select(report.data, {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
-                                     "stage_read_s", "stage_grow_s", "strands_generated", "strands_per_s",
-                                     "peak_rss_bytes"},
-                       "Every variant."),
-                stage_plot(report.data, outcomes, "Wall time by stage of the run.")}});
+      {"Runs",
+       {select(report.data,
+               {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "stage_read_s",
+                "stage_grow_s", "strands_generated", "strands_per_s", "peak_rss_bytes"},
+               "Every variant."),
+        stage_plot(report.data, outcomes, "Wall time by stage of the run.")}});
   return measured;
 }
 

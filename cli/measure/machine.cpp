@@ -60,13 +60,14 @@ std::string processor_name(const std::string& cpuinfo) {
 }
 
 std::vector<std::pair<std::string, std::string>> machine_facts() {
-  return {{"Program", std::string("pelage ") + version()},
-          {"Processor", processor_name(text_of("/proc/cpuinfo"))},
-          {"Cores", fmt::format("{} usable of {}", available_processors(), std::thread::hardware_concurrency())},
-          {"Memory", memory_text()},
-          {"System", system_text()},
-          {"Load average", load_text()},
-          {"Date", date_text()}};
+  return {
+      {"Program", std::string("pelage ") + version()},
+      {"Processor", processor_name(text_of("/proc/cpuinfo"))},
+      {"Cores", fmt::format("{} usable of {}", available_processors(), std::thread::hardware_concurrency())},
+      {"Memory", memory_text()},
+      {"System", system_text()},
+      {"Load average", load_text()},
+      {"Date", date_text()}};
 }
 
 }  // namespace pelage

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// What a reader of a report wants to know of where it was measured: processor, cores, memory, system, load, date
-/// (UTC), program version. "unknown" where the system does not say.
+/// What a reader of a report wants to know of where it was measured: processor, cores, memory, system, load,
+/// date (UTC), program version. "unknown" where the system does not say.
 std::vector<std::pair<std::string, std::string>> machine_facts();
 
 /// "model name" of a text as in /proc/cpuinfo; "unknown" without one.

@@ -25,7 +25,8 @@ Rows thinned(const Rows& rows) {
 }
 
 bool has_timeline(const VariantRun* run) {
-  return run && !run->statistics->timeline().empty() && run->statistics->timeline_columns().size() > kFirstTag;
+  return run && !run->statistics->timeline().empty() &&
+         run->statistics->timeline_columns().size() > kFirstTag;
 }
 
 bool is_used(const Rows& rows, size_t column) {
@@ -60,7 +61,8 @@ std::vector<LinePlot> tag_plots(const std::vector<Outcome>& outcomes) {
     last = std::max(last, rows.back()[kSeconds]);
     for (const auto& row : rows) most = std::max(most, row[kAnonymous]);
     used.resize(std::max(used.size(), rows.front().size()));
-    for (size_t tag = kFirstTag; tag < rows.front().size(); ++tag) used[tag] = used[tag] || is_used(rows, tag);
+    for (size_t tag = kFirstTag; tag < rows.front().size(); ++tag)
+      used[tag] = used[tag] || is_used(rows, tag);
   }
   std::vector<LinePlot> plots;
   for (const Outcome& outcome : outcomes) {

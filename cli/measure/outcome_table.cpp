@@ -47,7 +47,8 @@ void add_column(Table& table, const Column& column, const std::vector<Outcome>& 
 
 Table outcome_table(const std::vector<Outcome>& outcomes) {
   Table table;
-  const auto add = [&](const std::string& key, const std::string& title, Quantity quantity, const auto& value) {
+  const auto add = [&](const std::string& key, const std::string& title, Quantity quantity,
+                       const auto& value) {
     add_column(table, {key, title, quantity}, outcomes, value);
   };
   const auto number = [&](const std::string& key, const std::string& title, Quantity quantity,
@@ -61,7 +62,8 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   add("status", "status", Quantity::kRatio, [](const Outcome& o) -> Cell { return Text{o.status()}; });
   add("runs", "runs", Quantity::kCount, [](const Outcome& o) -> Cell { return double(o.runs.size()); });
   number("wall_s", "time", Quantity::kSeconds, "wall_s");
-  add("wall_least_s", "least", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.fastest_wall_s(); });
+  add("wall_least_s", "least", Quantity::kSeconds,
+      [](const Outcome& o) -> Cell { return o.fastest_wall_s(); });
   add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.slowest_wall_s(); });
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
@@ -109,8 +111,9 @@ std::vector<std::string> keys_with(const Table& table, const std::string& prefix
   return keys;
 }
 
-BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::vector<std::string>& keys,
-                    const std::string& axis, const std::string& caption) {
+BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,
+                    const std::vector<std::string>& keys, const std::string& axis,
+                    const std::string& caption) {
   BarPlot plot;
   plot.caption = caption;
   plot.value.label = axis;
@@ -142,7 +145,8 @@ std::string ledger_text(const std::vector<Outcome>& outcomes) {
   }
   if (!at) return "No run told how much of its memory the ledger explains.";
   return fmt::format(
-      "Ledger against kernel: when the anonymous resident pages were at their highest, the ledger's tags and the "
+      "Ledger against kernel: when the anonymous resident pages were at their highest, the ledger's tags and "
+      "the "
       "baseline (what the process holds once its command line is read) explained them to within {:.1f} % "
       "({}, {:+.1f} MiB) in the worst run.",
       100 * worst, at->variant.title, bytes / (1 << 20));

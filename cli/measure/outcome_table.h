@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// What every experiment on `render` tabulates, a row per outcome: status, wall and CPU time, peaks of memory, bytes
-/// by ledger tag ("memory_film_bytes"), seconds by stage ("stage_render_s"), chunks and growth, rays and boxes.
+/// What every experiment on `render` tabulates, a row per outcome: status, wall and CPU time, peaks of
+/// memory, bytes by ledger tag ("memory_film_bytes"), seconds by stage ("stage_render_s"), chunks and growth,
+/// rays and boxes.
 Table outcome_table(const std::vector<Outcome>& outcomes);
 
 /// Adds a column; `value` is asked for every row's outcome.
@@ -27,8 +28,9 @@ std::vector<double> column_values(const Table& table, const std::string& key);
 /// Stages by wall time, stacked: a bar per outcome.
 BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::string& caption);
 /// Columns side by side, or stacked: a bar per outcome and key.
-BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::vector<std::string>& keys,
-                    const std::string& axis, const std::string& caption);
+BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,
+                    const std::vector<std::string>& keys, const std::string& axis,
+                    const std::string& caption);
 
 /// The sentence on law 5: how much of the resident memory the ledger does not explain.
 std::string ledger_text(const std::vector<Outcome>& outcomes);

@@ -38,7 +38,8 @@ std::optional<PictureDifference> compare_pictures(const ExrImage& a, const ExrIm
   result.mask.pixels.assign(static_cast<size_t>(result.pixels), 0);
   for (const ExrChannel& channel : a.channels) {
     const ExrChannel* other = b.find(channel.name);
-    if (!other || other->pixels.size() != channel.pixels.size() || other->ids.size() != channel.ids.size()) return {};
+    if (!other || other->pixels.size() != channel.pixels.size() || other->ids.size() != channel.ids.size())
+      return {};
     for (size_t i = 0; i < channel.pixels.size(); ++i) {
       const float x = channel.pixels[i], y = other->pixels[i];
       if (std::bit_cast<uint32_t>(x) == std::bit_cast<uint32_t>(y)) continue;
@@ -74,7 +75,8 @@ std::optional<Picture> screen_picture(const ExrImage& image, int most_width, con
         int count = 0;
         for (int v = y * factor; v < std::min((y + 1) * factor, image.height); ++v) {
           for (int u = x * factor; u < std::min((x + 1) * factor, image.width); ++u, ++count)
-            sum += channel->pixels[static_cast<size_t>(v) * static_cast<size_t>(image.width) + static_cast<size_t>(u)];
+            sum += channel->pixels[static_cast<size_t>(v) * static_cast<size_t>(image.width) +
+                                   static_cast<size_t>(u)];
         }
         picture.pixels.push_back(srgb_byte(sum / static_cast<float>(count)));
       }

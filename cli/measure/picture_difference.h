@@ -25,8 +25,8 @@ std::optional<PictureDifference> compare_pictures(const ExrImage& a, const ExrIm
 std::optional<PictureDifference> compare_picture_files(const std::filesystem::path& a,
                                                        const std::filesystem::path& b);
 
-/// R, G and B for a screen (sRGB, clipped), made smaller by whole factors until it is at most `most_width` wide. Nothing
-/// without these channels.
+/// R, G and B for a screen (sRGB, clipped), made smaller by whole factors until it is at most `most_width`
+/// wide. Nothing without these channels.
 std::optional<Picture> screen_picture(const ExrImage& image, int most_width, const std::string& caption);
 std::optional<Picture> screen_picture_of(const std::filesystem::path& path, int most_width,
                                          const std::string& caption);

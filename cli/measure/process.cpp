@@ -121,8 +121,9 @@ std::filesystem::path own_program() { return std::filesystem::read_symlink("/pro
 std::string shell_text(const std::vector<std::string>& command) {
   std::string text;
   for (const std::string& word : command) {
-    const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_-+=./:,%@") == std::string::npos;
+    const bool plain = !word.empty() && word.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_-+=./:,%@") == std::string::npos;
     std::string quoted = word;
     if (!plain) {
       quoted = "'";

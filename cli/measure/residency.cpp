@@ -48,7 +48,8 @@ double fixed_bytes(const Outcome& unlimited) {
 class Sweep {
  public:
   Sweep(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display)
-      : display_(display), runner_(setup, display, 2 + std::size(kShares) + 2),
+      : display_(display),
+        runner_(setup, display, 2 + std::size(kShares) + 2),
         cache_arguments_(CacheFolders(scene, setup.folder).arguments("residency")) {}
 
   void run() {
@@ -80,7 +81,10 @@ class Sweep {
     }
   }
 
-  bool done() const { return display_.cancelled() || (!outcomes.empty() && outcomes.size() <= 2 && !outcomes.back().succeeded()); }
+  bool done() const {
+    return display_.cancelled() ||
+           (!outcomes.empty() && outcomes.size() <= 2 && !outcomes.back().succeeded());
+  }
   const VariantRunner& runner() const { return runner_; }
 
   std::vector<Outcome> outcomes;
@@ -100,7 +104,8 @@ class Sweep {
 
 Cell same_pixels(const VariantRunner& runner, const Outcome& unlimited, const Outcome& outcome) {
   if (!unlimited.succeeded() || !outcome.succeeded()) return Text{"–"};
-  const auto difference = compare_picture_files(runner.picture(unlimited.variant), runner.picture(outcome.variant));
+  const auto difference =
+      compare_picture_files(runner.picture(unlimited.variant), runner.picture(outcome.variant));
   if (!difference) return Text{"not comparable"};
   return Text{difference->differing == 0 ? "identical" : fmt::format("{} differ", difference->differing)};
 }
@@ -118,7 +123,8 @@ LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, c
     Series series{column.columns.at(0).title, {}};
     const std::vector<double> values = column_values(table, key);
     for (size_t i = shares.size(); i-- > 0;) {
-      if (std::isfinite(shares[i]) && std::isfinite(values[i])) series.points.emplace_back(shares[i], values[i]);
+      if (std::isfinite(shares[i]) && std::isfinite(values[i]))
+        series.points.emplace_back(shares[i], values[i]);
     }
     std::sort(series.points.begin(), series.points.end());
     plot.lines.push_back(std::move(series));
@@ -128,7 +134,8 @@ LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, c
 
 }  // namespace
 
-Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display) {
+Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup,
+                           ProgressDisplay& display) {
   Sweep sweep(scene, setup, display);
   sweep.run();
   Measured measured;
@@ -159,37 +166,47 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
   }
   if (std::isfinite(smallest)) {
     report.abstract = fmt::format(
-        "The smallest budget that was rendered in is {:.1f} MiB; it took {:.2f} times as long as without a limit.",
+        "The smallest budget that was rendered in is {:.1f} MiB; it took {:.2f} times as long as without a "
+        "limit.",
         smallest / (1 << 20), slowdown);
   }
   report.sections.push_back(
       {"Method",
        {Paragraph{fmt::format(
             "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
-            "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited run and F "
-            "the sum of the peaks of film, skins and caches there; F is an upper bound of what these need at one time. "
-            "Every budget is run {} time{}; numbers are those of the run of median wall time. Budgets go down until "
-            "one is refused (exit code 4), which is a result; the row least, if any, is what the refusal says would "
+            "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited "
+            "run and F "
+            "the sum of the peaks of film, skins and caches there; F is an upper bound of what these need at "
+            "one time. "
+            "Every budget is run {} time{}; numbers are those of the run of median wall time. Budgets go "
+            "down until "
+            "one is refused (exit code 4), which is a result; the row least, if any, is what the refusal "
+            "says would "
             "do.",
             setup.repeat, setup.repeat == 1 ? "" : "s")},
-        Paragraph{"Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent for "
-                  "memory or for a chunk that another thread grows. Pixels are identical when every bit of every "
-                  "channel is that of the unlimited run. " +
-                  ledger_text(outcomes)}}});
+        Paragraph{
+            "Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent "
+            "for "
+            "memory or for a chunk that another thread grows. Pixels are identical when every bit of every "
+            "channel is that of the unlimited run. " +
+            ledger_text(outcomes)}}});
   report.sections.push_back(
       {"Time and growth",
-       {select(data, {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
-                      "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
+       {select(data,
+               {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
+                "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
                "Cost of each budget."),
         budget_plot(data, {"wall_s"}, "wall time", "Wall time against the budget."),
         budget_plot(data, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
         budget_plot(data, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
                     "Peaks of the resident set and of the chunks against the budget."),
-        budget_plot(data, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}});
+        budget_plot(data, {"residency_wait_s"}, "thread time",
+                    "Time spent waiting, all threads together.")}});
   Table refusals = select(data, {"variant", "budget_bytes", "message"}, "What refused budgets were told.");
   std::erase_if(refusals.rows, [](const auto& row) { return std::get<Text>(row.back()).text.empty(); });
   if (!refusals.rows.empty()) report.sections.back().blocks.push_back(std::move(refusals));
-  Section memory{"Memory", {resident_plot(outcomes, "Resident memory over time (anonymous and file-backed).")}};
+  Section memory{"Memory",
+                 {resident_plot(outcomes, "Resident memory over time (anonymous and file-backed).")}};
   for (LinePlot& plot : tag_plots(outcomes)) memory.blocks.push_back(std::move(plot));
   report.sections.push_back(std::move(memory));
   return measured;

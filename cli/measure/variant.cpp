@@ -109,7 +109,8 @@ Outcome VariantRunner::run(const Variant& variant) {
 
 VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   const std::string stem = repeat == 1 ? variant.id : fmt::format("{}.{}", variant.id, repeat);
-  const std::filesystem::path statistics = setup_.folder / (stem + ".json"), log = setup_.folder / (stem + ".log");
+  const std::filesystem::path statistics = setup_.folder / (stem + ".json"),
+                              log = setup_.folder / (stem + ".log");
   // What an earlier experiment left must not be taken for this one's.
   std::error_code ignored;
   std::filesystem::remove(statistics, ignored);

@@ -15,8 +15,8 @@ namespace pelage {
 
 /// What all variants of an experiment have in common.
 struct MeasureSetup {
-  std::filesystem::path program;       ///< run once per variant
-  std::filesystem::path folder;        ///< receives everything
+  std::filesystem::path program;  ///< run once per variant
+  std::filesystem::path folder;   ///< receives everything
   std::string scene;
   std::vector<std::string> arguments;  ///< for every run: --set, --threads
   int repeat = 1;                      ///< runs of each variant
@@ -44,9 +44,9 @@ struct Outcome {
   Variant variant;
   std::vector<VariantRun> runs;
 
-  bool succeeded() const;    ///< every run
-  bool refused() const;      ///< exit code 4: the memory budget was too small, which is an answer
-  bool interrupted() const;  ///< stopped from outside, or never begun
+  bool succeeded() const;      ///< every run
+  bool refused() const;        ///< exit code 4: the memory budget was too small, which is an answer
+  bool interrupted() const;    ///< stopped from outside, or never begun
   std::string status() const;  ///< "done", "refused", "exit code 1", "signal 9", "interrupted"
   std::string error() const;   ///< of the run that did not succeed
 
@@ -64,8 +64,8 @@ class VariantRunner {
   /// `count` variants are expected, for the display only.
   VariantRunner(const MeasureSetup& setup, ProgressDisplay& display, size_t count);
 
-  /// Every variant gets ID.json (--stats), ID.exr or nothing (-o), and ID.log; further runs ID.2.json and so on.
-  /// A failing variant is a result. Throws Error (kFailed) when the folder cannot be written.
+  /// Every variant gets ID.json (--stats), ID.exr or nothing (-o), and ID.log; further runs ID.2.json and so
+  /// on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be written.
   Outcome run(const Variant& variant);
 
   std::filesystem::path picture(const Variant& variant) const;
