@@ -37,7 +37,7 @@ class Svg {
 /// Width of a label about as browsers set it, for layout.
 double text_width(std::string_view text);
 
-/// Colours for series that stay apart for colour-blind readers [Okabe08] and, by their dashes, without
+/// Colours for series that stay apart for colour-blind readers and, by their dashes, without
 /// colours.
 std::string_view series_color(size_t index);
 std::string_view series_dash(size_t index);

@@ -88,7 +88,8 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
   EXPECT_EQ(problem({"rendr", "s"}), "there is no command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
-            "there is no command 'zebra'; expected one of convert, grow, info, manual, motionblur, render, "
+            "there is no command 'zebra'; expected one of convert, grow, info, manual, measure, motionblur, "
+            "render, "
             "stereo");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}),
             "there is no flag '--fraems'; did you mean '--frames'?");
@@ -110,6 +111,24 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_NE(problem({"render", "s", "--frames"}), "");
   EXPECT_NE(problem({"render", "s", "--quiet", "--progress", "bar"}), "");
   EXPECT_NE(problem({"convert", "a", "b", "--default-width", "0"}), "");
+}
+
+TEST(Options, OfMeasure) {
+  const Options options =
+      parsed({"measure", "residency", "s.yaml", "-o", "out", "--repeat", "5", "--set", "a=1"});
+  EXPECT_EQ(options.command, Command::kMeasure);
+  EXPECT_EQ(options.experiment, Experiment::kResidency);
+  EXPECT_EQ(options.input, "s.yaml");
+  EXPECT_EQ(options.output, "out");
+  EXPECT_EQ(options.repeat, 5);
+  EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
+  EXPECT_EQ(problem({"measure", "growht", "s"}), "there is no experiment 'growht'; did you mean 'growth'?");
+  for (const std::string promised : {"lod", "accel", "shading", "samplers", "scaling"}) {
+    EXPECT_EQ(problem({"measure", promised, "s"}),
+              "the experiment '" + promised + "' is not built yet; there are bounds, growth and residency");
+  }
+  EXPECT_NE(problem({"measure", "bounds"}), "");
+  EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
 }
 
 TEST(Options, HelpEverywhere) {
