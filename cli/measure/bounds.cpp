@@ -58,6 +58,13 @@ const Outcome* find(const std::vector<Outcome>& outcomes, const std::string& id)
 
 // What the numbers say of the two strategies that the question is about.
 std::string findings(const std::vector<Outcome>& outcomes) {
+  const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
+                                   [](const Outcome& o) { return o.number("chunk_visits") > 0; });
+  if (!counted) {
+    return "No run visited a chunk on demand: everything was grown up front whatever the strategy, so these "
+           "runs say "
+           "nothing of what the strategies differ in.";
+  }
   const Outcome *exact = find(outcomes, "exact"), *conservative = find(outcomes, "conservative"),
                 *none = find(outcomes, "none");
   std::string text;

@@ -29,12 +29,13 @@ std::string yaml_quoted(const std::string& text) {
   return out + "'";
 }
 
-double folder_bytes(const std::filesystem::path& folder) {
+double folder_bytes(const std::filesystem::path& folder, const std::string& prefix) {
   double bytes = 0;
   std::error_code failure;
   for (std::filesystem::recursive_directory_iterator it(folder, failure), end; !failure && it != end;
        it.increment(failure)) {
-    if (it->is_regular_file(failure)) bytes += static_cast<double>(it->file_size(failure));
+    if (it->is_regular_file(failure) && it->path().filename().string().starts_with(prefix))
+      bytes += static_cast<double>(it->file_size(failure));
   }
   return bytes;
 }

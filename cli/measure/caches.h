@@ -31,7 +31,7 @@ class CacheFolders {
 /// A YAML string.
 std::string yaml_quoted(const std::string& text);
 
-/// Bytes of all files below a folder; 0 when there is none.
-double folder_bytes(const std::filesystem::path& folder);
+/// Bytes of all files below a folder whose names begin so; 0 when there are none.
+double folder_bytes(const std::filesystem::path& folder, const std::string& prefix = "");
 
 }  // namespace pelage

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pelage measure` from end to end, on a scene of a few hundred strands: what it writes is read by other readers."""
+import base64
+import csv
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+PELAGE = sys.argv.pop(1)
+SCENE = """pelage: 1
+camera: {position: [3, 2, 8], look_at: [0, 0, 0], fov: 40, shutter: [-0.25, 0.25]}
+image: {width: 24, height: 16}
+skins: {cube: {mesh: cube.obj}}
+grooms:
+  coat:
+    skin: cube
+    strands: 400
+    points: 5
+    leaf_strands: 50
+    operators: [{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.005}}]
+    cache: {directory: cache, freeze: width}
+materials:
+  hide: {model: lambert, color: 0.4}
+  fur: {model: cone-shell, color: [0.6, 0.4, 0.2]}
+characters: {box: {parts: [{skin: cube, material: hide, grooms: {coat: fur}}]}}
+lights: {sky: {type: environment, radiance: 0.3}}
+render: {samples: 2, bounces: 1}
+"""
+CUBE = "\n".join(f"v {x} {y} {z}" for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)) + """
+f 1 3 4 2
+f 5 6 8 7
+f 1 2 6 5
+f 3 7 8 4
+f 1 5 7 3
+f 2 4 8 6
+"""
+
+
+def check_png(data):
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, pixels, header = 8, b"", None
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        header = struct.unpack(">IIBBBBB", body) if kind == b"IHDR" else header
+        pixels += body if kind == b"IDAT" else b""
+        at += 12 + length
+    width, height, channels = header[0], header[1], 3 if header[3] == 2 else 1
+    assert len(zlib.decompress(pixels)) == height * (1 + width * channels)
+
+
+class Measure(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        (self.path / "scene.yaml").write_text(SCENE)
+        (self.path / "cube.obj").write_text(CUBE)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def measure(self, *arguments, code=0):
+        done = subprocess.run([PELAGE, "measure", *arguments], cwd=self.path, capture_output=True, text=True, timeout=240)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def read(self, folder):
+        page = xml.etree.ElementTree.parse(self.path / folder / "report.html").getroot()
+        self.assertFalse([e for e in page.iter() if e.tag.endswith("script") or e.tag.endswith("link")])
+        for image in (e for e in page.iter() if e.tag.endswith("}img")):
+            check_png(base64.b64decode(image.get("src").removeprefix("data:image/png;base64,"), validate=True))
+        report = json.loads((self.path / folder / "report.json").read_text())
+        with open(self.path / folder / "report.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(report["rows"]))
+        for row, values in zip(rows, report["rows"]):
+            for key, value in values.items():
+                if isinstance(value, (int, float)):
+                    self.assertEqual(float(row[key]), value)
+        return report
+
+    def test_bounds(self):
+        self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")
+        report = self.read("out")
+        rows = {row["variant"]: row for row in report["rows"]}
+        self.assertEqual(len(rows), 11)
+        self.assertEqual({row["status"] for row in rows.values()}, {"done"})
+        for name, row in rows.items():
+            if not name.startswith("user"):
+                self.assertEqual(row["lost_pixels"], 0, name)
+        self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
+
+    def test_residency(self):
+        self.measure("residency", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--threads", "1")
+        rows = self.read("out")["rows"]
+        self.assertEqual([row["status"] for row in rows[:3]], ["done"] * 3)
+        for row in rows:
+            self.assertIn(row["status"], ("done", "refused"))
+            if row["status"] == "done":
+                self.assertEqual(row["pixels"], "identical")
+            else:
+                self.assertIn("render.memory", row["message"])
+
+    def test_growth(self):
+        self.measure("growth", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")
+        rows = self.read("out")["rows"]
+        self.assertEqual([row["variant"] for row in rows], ["coat, uncached", "coat, cold", "coat, warm"])
+        self.assertEqual([rows[0]["strands_generated"], rows[2]["strands_generated"]], [400, 400])
+        self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
+
+    def test_a_variant_that_fails_is_reported(self):
+        self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--memory", "1K", code=1)
+        self.assertEqual({row["status"] for row in self.read("out")["rows"]}, {"refused"})
+
+    def test_mistakes_are_found_before_anything_is_run(self):
+        self.measure("bounds", "none.yaml", code=3)
+        self.measure("bounds", "scene.yaml", "-o", "/proc/none", code=1)
+
+
+if __name__ == "__main__":
+    unittest.main()
