@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cctype>
 #include <cmath>
-#include <regex>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -29,10 +30,12 @@ Variant limited(const std::string& id, const std::string& title, const std::stri
 
 // What a refusal says would do: "...; 120M would do".
 double least_bytes(const Outcome& refused) {
-  std::smatch found;
   const std::string text = refused.error();
-  if (!std::regex_search(text, found, std::regex("([0-9]+)M would do"))) return NAN;
-  return std::stod(found[1]) * (1 << 20);
+  const size_t end = text.find("M would do");
+  if (end == std::string::npos) return NAN;
+  size_t begin = end;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(text[begin - 1]))) --begin;
+  return begin < end ? std::stod(text.substr(begin, end - begin)) * (1 << 20) : NAN;
 }
 
 // Beside the chunks, at most this much of the budget was taken at any time.
