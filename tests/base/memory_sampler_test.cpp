@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/memory_sampler.h"
 
+#include <cstring>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include "base/statistics.h"
 
@@ -26,12 +28,31 @@ TEST(ResidentMemory, SeesPagesThatAreTouched) {
               double(16 << 20));
 }
 
+/// Memory that is gone when it is released: the address sanitizer keeps what the heap gets back for a while.
+class TouchedPages {
+ public:
+  explicit TouchedPages(size_t bytes)
+      : bytes_(bytes),
+        pages_(::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0)) {
+    if (pages_ != MAP_FAILED) std::memset(pages_, 1, bytes_);
+  }
+  ~TouchedPages() {
+    if (pages_ != MAP_FAILED) ::munmap(pages_, bytes_);
+  }
+  TouchedPages(const TouchedPages&) = delete;
+  TouchedPages& operator=(const TouchedPages&) = delete;
+
+ private:
+  size_t bytes_;
+  void* pages_;
+};
+
 TEST(MemorySampler, KeepsTheLedgerOfTheHighestMoment) {
   MemoryLedger ledger;
   MemorySampler sampler(ledger, Clock::now(), 0.001);
   {
-    const std::vector<char> pages(size_t(96) << 20, 1);
-    const MemoryCharge charge(ledger, MemoryTag::kFilm, int64_t(pages.size()));
+    const TouchedPages pages(size_t(96) << 20);
+    const MemoryCharge charge(ledger, MemoryTag::kFilm, int64_t(96) << 20);
     // At least one sample begins and ends in here, however slow the machine.
     const auto until = Clock::now() + std::chrono::milliseconds(100);
     while (Clock::now() < until) std::this_thread::yield();
