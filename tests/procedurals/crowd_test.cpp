@@ -47,8 +47,9 @@ class CrowdPlacementTest : public testing::TestWithParam<AreaParams> {
     ASSERT_EQ(places.size(), rules.footprints.size());
     for (size_t i = 0; i < places.size(); ++i) {
       EXPECT_LT((area.nearest(places[i].position) - places[i].position).length(), 1e-3f);
-      if (rules.heading_variation < kPi)
+      if (rules.heading_variation < kPi) {
         EXPECT_LE(std::abs(places[i].heading - rules.heading), rules.heading_variation + 1e-5f);
+      }
       for (size_t j = 0; j < i; ++j) {
         EXPECT_GE(footprint_distance(rules.footprints[i], places[i], rules.footprints[j], places[j]),
                   rules.spacing - 1e-4f)
