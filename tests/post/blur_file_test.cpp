@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "post/blur_file.h"
+
+#include <fstream>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "tests/post/exr_pictures.h"
+#include "tests/post/picture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+class BlurFile : public testing::Test {
+ protected:
+  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
+  PostReport blur(const std::string& input, const std::string& output, int threads = 2) {
+    NoProgress progress;
+    MemoryLedger ledger;
+    const PostReport report =
+        blur_file(path(input), path(output), params_, Workers(threads), progress, ledger);
+    charged_ = ledger.peak(MemoryTag::kFilm);
+    return report;
+  }
+  std::string refusal(const std::string& input, ErrorKind kind = ErrorKind::kInput) {
+    try {
+      blur(input, "refused.exr");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), kind);
+      const std::string text = error.what();
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+      EXPECT_FALSE(std::filesystem::exists(path("refused.exr")));
+      return text.substr(std::min(text.size(), path(input).string().size()));
+    }
+    ADD_FAILURE() << "accepted";
+    return {};
+  }
+
+  TemporaryFolder folder_;
+  BlurFileParams params_;
+  int64_t charged_ = 0;
+};
+
+TEST_F(BlurFile, NoMotionGivesTheSamePixelsOfEveryType) {
+  ExrImage image = still_image(61, 47);
+  pixels_of(image, "key.diffuse.R")[5] = std::numeric_limits<float>::quiet_NaN();
+  pixels_of(image, "Z")[6] = std::numeric_limits<float>::infinity();
+  image.attributes["comments"] = std::string("kept");
+  write_exr(path("in.exr"), image);
+  blur("in.exr", "out.exr");
+  const ExrImage in = read_exr(path("in.exr")), out = read_exr(path("out.exr"));
+  ASSERT_EQ(out.channels.size(), in.channels.size());
+  for (size_t c = 0; c < in.channels.size(); ++c) {
+    EXPECT_EQ(out.channels[c].name, in.channels[c].name);
+    EXPECT_EQ(out.channels[c].type, in.channels[c].type);
+    EXPECT_EQ(bits(out.channels[c].pixels), bits(in.channels[c].pixels)) << in.channels[c].name;
+    EXPECT_EQ(out.channels[c].ids, in.channels[c].ids);
+  }
+  EXPECT_EQ(std::get<std::string>(out.attributes.at("comments")), "kept");
+  EXPECT_TRUE(out.attributes.contains("pelage:motionBlur"));
+}
+
+TEST_F(BlurFile, SamePixelsForAnyBudgetAndNumberOfThreads) {
+  ExrImage image = still_image(400, 300);
+  for (size_t i = 0; i < 400 * 300; ++i) {
+    pixels_of(image, "forward.u")[i] = 20 * signed_float(hash64(i / 777, 1));
+    pixels_of(image, "forward.v")[i] = 14 * signed_float(hash64(i / 555, 2));
+    pixels_of(image, "Z")[i] = 1 + unit_float(hash64(i / 333, 3));
+  }
+  write_exr(path("in.exr"), image);
+  EXPECT_EQ(blur("in.exr", "whole.exr").bands, 1);
+  const int64_t whole_bytes = charged_;
+  params_.tiling = {32, 8};
+  params_.file.memory = 6'000'000;
+  EXPECT_GT(blur("in.exr", "bands.exr", 3).bands, 2);
+  EXPECT_LE(charged_, params_.file.memory);
+  EXPECT_LT(charged_, whole_bytes);
+  const ExrImage a = read_exr(path("whole.exr")), b = read_exr(path("bands.exr"));
+  for (size_t c = 0; c < a.channels.size(); ++c) {
+    EXPECT_EQ(bits(a.channels[c].pixels), bits(b.channels[c].pixels)) << a.channels[c].name;
+    EXPECT_EQ(a.channels[c].ids, b.channels[c].ids);
+  }
+  params_.file.memory = 1 << 20;
+  EXPECT_NE(refusal("in.exr", ErrorKind::kMemory).find("the budget is"), std::string::npos);
+}
+
+TEST_F(BlurFile, TakesPartsWithBareNamesAndWindowsOfTheirOwn) {
+  write_exr(path("like.exr"), still_image(4, 4));
+  const auto plane = [](const PixelBox& box, float value) {
+    return std::vector<float>(static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()), value);
+  };
+  const PixelBox display{0, 0, 100, 60}, box{30, 20, 50, 40}, small{34, 24, 40, 30};
+  write_parts(path("in.exr"), path("like.exr"), display,
+              {{"beauty",
+                box,
+                {{"A", ChannelType::kHalf}, {"R", ChannelType::kHalf}},
+                {plane(box, 1), plane(box, 0.5f)},
+                ""},
+               {"depth", box, {{"Z", ChannelType::kFloat}}, {plane(box, 3)}, ""},
+               {"motion",
+                box,
+                {{"X", ChannelType::kHalf}, {"Y", ChannelType::kHalf}},
+                {plane(box, 8), plane(box, -4)},
+                ""},
+               {"mask", small, {{"mask.a", ChannelType::kHalf}}, {plane(small, 1)}, ""}});
+  params_.shutter = {0, 1, 1};  // all of the motion, and no blur
+  const PostReport report = blur("in.exr", "out.exr");
+  EXPECT_EQ(report.notes, std::vector<std::string>{});
+  const ExrReader out(path("out.exr"));
+  ASSERT_EQ(out.parts().size(), 4u);
+  EXPECT_EQ(out.parts()[0].name, "beauty");
+  EXPECT_EQ(out.parts()[0].data, (PixelBox{30, 16, 58, 40}));
+  EXPECT_EQ(out.parts()[0].display, display);
+  EXPECT_EQ(out.parts()[3].data, (PixelBox{34, 20, 48, 30}));
+  const auto beauty = read_part(path("out.exr"), 0), mask = read_part(path("out.exr"), 3);
+  for (int y = 16; y < 40; ++y) {
+    for (int x = 30; x < 58; ++x) {
+      const bool inside = x >= 38 && y < 36;
+      ASSERT_EQ(beauty[1][static_cast<size_t>((y - 16) * 28 + x - 30)], inside ? 0.5f : 0.0f)
+          << x << " " << y;
+    }
+  }
+  for (int y = 20; y < 30; ++y) {
+    for (int x = 34; x < 48; ++x) {
+      const bool inside = x >= 42 && y < 26;
+      ASSERT_EQ(mask[0][static_cast<size_t>((y - 20) * 14 + x - 34)], inside ? 1.0f : 0.0f) << x << " " << y;
+    }
+  }
+}
+
+TEST_F(BlurFile, UnderstandsUnitsDirectionAndScale) {
+  ExrImage image = still_image(40, 20);
+  const std::vector<float> before = pixels_of(image, "R");
+  for (float& u : pixels_of(image, "forward.u")) u = 0.1f;   // 0.1 * 40 = 4 pixels
+  for (float& v : pixels_of(image, "forward.v")) v = 0.15f;  // up by 0.15 * 20 = 3
+  write_exr(path("in.exr"), image);
+  params_.file.vectors = {true, true, 2};
+  params_.shutter = {0, 0.5f, 1};
+  blur("in.exr", "out.exr");
+  ExrImage out = read_exr(path("out.exr"));
+  for (int y = 0; y < 17; ++y) {
+    for (int x = 4; x < 40; ++x) {
+      ASSERT_EQ(pixels_of(out, "R")[static_cast<size_t>(y * 40 + x)],
+                before[static_cast<size_t>((y + 3) * 40 + x - 4)]);
+    }
+  }
+}
+
+TEST_F(BlurFile, ClearPixelsHideNothing) {
+  ExrImage image = still_image(40, 10);
+  for (size_t i = 0; i < 400; ++i) {
+    const bool clear = i % 40 >= 20;
+    pixels_of(image, "A")[i] = clear ? 0.0f : 1.0f;
+    pixels_of(image, "R")[i] = clear ? 0.0f : 1.0f;
+    pixels_of(image, "Z")[i] = clear ? 0.5f : 4.0f;  // nearer, but nothing
+    pixels_of(image, "forward.u")[i] = clear ? 0.0f : 6.0f;
+  }
+  write_exr(path("in.exr"), image);
+  params_.shutter = {0, 1, 1};
+  blur("in.exr", "out.exr");
+  ExrImage out = read_exr(path("out.exr"));
+  for (size_t x = 0; x < 40; ++x)
+    EXPECT_EQ(pixels_of(out, "R")[5 * 40 + x], x >= 6 && x < 26 ? 1.0f : 0.0f) << x;
+}
+
+TEST_F(BlurFile, RefusesInOneLineWhatItCannotUse) {
+  ExrImage image = still_image(16, 16);
+  const auto without = [&](const char* name) {
+    ExrImage less = image;
+    std::erase_if(less.channels, [&](const ExrChannel& c) { return c.name == name; });
+    write_exr(path("less.exr"), less);
+    return refusal("less.exr");
+  };
+  EXPECT_EQ(
+      without("forward.v"),
+      ": has no motion vectors; name their layer with --motion-layer; it has A, B, N.X, R, Z, forward.u, id, "
+      "key.diffuse.R");
+  EXPECT_EQ(without("Z"),
+            ": has no depth; name a layer with --depth-layer, or 'none' to go without; it has A, B, N.X, R, "
+            "forward.u, forward.v, id, key.diffuse.R");
+  EXPECT_EQ(refusal("missing.exr"), ": there is no such file");
+  std::ofstream(path("text.exr")) << "no picture";
+  EXPECT_EQ(refusal("text.exr"), ": is not an EXR file");
+  write_exr(path("in.exr"), image);
+  params_.file.layers.motion = "mv";
+  EXPECT_EQ(refusal("in.exr").find(": has no motion vectors 'mv'; name"), 0u);
+}
+
+TEST_F(BlurFile, GoesWithoutDepthWhenTold) {
+  ExrImage image = still_image(16, 16);
+  std::erase_if(image.channels, [](const ExrChannel& c) { return c.name == "Z"; });
+  write_exr(path("in.exr"), image);
+  params_.file.layers.depth = "none";
+  blur("in.exr", "out.exr");
+  EXPECT_EQ(read_exr(path("out.exr")).find("R")->pixels, image.find("R")->pixels);
+}
+
+TEST_F(BlurFile, RefusesEveryTruncation) {
+  write_exr(path("in.exr"), still_image(64, 40));
+  const std::string whole = read_file(path("in.exr"));
+  for (size_t length = 0; length < whole.size(); length += length < 1200 ? 97 : 1501) {
+    std::ofstream(path("cut.exr"), std::ios::binary)
+        .write(whole.data(), static_cast<std::streamsize>(length));
+    EXPECT_NE(refusal("cut.exr"), "");
+  }
+}
+
+TEST_F(BlurFile, CountsVectorsThatAreNotFinite) {
+  ExrImage image = still_image(16, 16);
+  pixels_of(image, "forward.u")[3] = std::numeric_limits<float>::quiet_NaN();
+  pixels_of(image, "forward.v")[9] = std::numeric_limits<float>::infinity();
+  write_exr(path("in.exr"), image);
+  EXPECT_EQ(blur("in.exr", "out.exr").notes,
+            std::vector<std::string>{"2 vectors are not finite and count as none"});
+}
+
+TEST_F(BlurFile, LeavesNothingWhenItIsStopped) {
+  class Stopped final : public Progress {
+   public:
+    void begin(std::string_view, double) override {}
+    void advance(double) override {}
+    void end() override {}
+    bool cancelled() const override { return true; }
+  } stopped;
+  write_exr(path("in.exr"), still_image(32, 32));
+  MemoryLedger ledger;
+  EXPECT_TRUE(blur_file(path("in.exr"), path("out.exr"), params_, Workers(2), stopped, ledger).cancelled);
+  EXPECT_FALSE(std::filesystem::exists(path("out.exr")));
+  EXPECT_EQ(ledger.current(MemoryTag::kFilm), 0);
+}
+
+}  // namespace
+}  // namespace pelage
