@@ -10,6 +10,7 @@
 #include "geom/io/strand_file.h"
 #include "image/exr.h"
 #include "tests/geom/random_strands.h"
+#include "tests/post/exr_pictures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace pelage {
@@ -155,6 +156,28 @@ std::vector<std::string> hdr_corpus() {
 }
 
 std::vector<std::string> exr_corpus() { return {exr_bytes(5, 40), exr_bytes(1, 1)}; }
+
+std::vector<std::string> post_corpus() {
+  // One part, and the same channels in two parts with windows of their own.
+  const TemporaryFolder folder;
+  ExrImage image = still_image(9, 20);
+  for (float& u : pixels_of(image, "forward.u")) u = 3.3f;
+  write_exr(folder.path() / "one.exr", image);
+  const PixelBox box{2, 3, 11, 23};
+  write_parts(
+      folder.path() / "two.exr", folder.path() / "one.exr", {0, 0, 12, 24},
+      {{"rgb",
+        box,
+        {{"A", ChannelType::kHalf}, {"R", ChannelType::kHalf}},
+        {image.find("A")->pixels, image.find("R")->pixels},
+        "left"},
+       {"data",
+        box,
+        {{"Z", ChannelType::kFloat}, {"forward.u", ChannelType::kFloat}, {"forward.v", ChannelType::kFloat}},
+        {image.find("Z")->pixels, image.find("forward.u")->pixels, image.find("forward.v")->pixels},
+        "left"}});
+  return {read_file(folder.path() / "one.exr"), read_file(folder.path() / "two.exr")};
+}
 
 std::vector<std::string> scene_corpus() {
   const std::filesystem::path examples = std::filesystem::path(PELAGE_SOURCE_DIR) / "examples";
