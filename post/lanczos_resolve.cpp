@@ -61,26 +61,26 @@ void LanczosResolve::find_runs(const WorkBuffer& buffer, int y) {
 
 void LanczosResolve::add(uint32_t source, float weight, bool is_near) {
   size_t slot = (source * 0x9e3779b1u) >> (32 - 13);
-  while (slots_[slot] != 0 && pixel_.parts[slots_[slot] - 1u].source != source) slot = (slot + 1) % kSlots;
+  while (slots_[slot] != 0 && pixel_[slots_[slot] - 1u].source != source) slot = (slot + 1) % kSlots;
   if (slots_[slot] == 0) {
-    pixel_.parts.push_back({source, 0, false});
-    slots_[slot] = static_cast<uint16_t>(pixel_.parts.size());
+    pixel_.push_back({source, 0, false});
+    slots_[slot] = static_cast<uint16_t>(pixel_.size());
   }
-  Part& part = pixel_.parts[slots_[slot] - 1u];
+  Part& part = pixel_[slots_[slot] - 1u];
   part.weight += weight;
   part.is_near |= is_near;
 }
 
-void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
-  for (const Part& part : pixel_.parts) {  // empties the table: what it holds is near where it belongs
+LanczosResolve::Gathered LanczosResolve::gather(int x, int y, const PixelBox& samples) {
+  for (const Part& part : pixel_) {  // empties the table: what it holds is near where it belongs
     size_t slot = (part.source * 0x9e3779b1u) >> (32 - 13);
     while (slots_[slot] != 0) {
       slots_[slot] = 0;
       slot = (slot + 1) % kSlots;
     }
   }
-  pixel_.parts.clear();
-  pixel_.near_hole = false;
+  pixel_.clear();
+  bool near_hole = false;
   const int tap0 = x * scale_ - reach_;  // sample of the first tap
   const int begin = std::max(samples.x0, tap0), end = std::min(samples.x1, (x + 1) * scale_ + reach_);
   const double across =
@@ -99,7 +99,7 @@ void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
       const int from = std::max(runs[r].begin, begin), to = std::min(runs[r + 1].begin, end);
       const bool is_near = near_row && from < near_x1 && to > near_x0;
       if (runs[r].sample.is_empty()) {
-        pixel_.near_hole |= is_near;
+        near_hole |= is_near;
         continue;
       }
       const double run =
@@ -107,23 +107,47 @@ void LanczosResolve::gather(int x, int y, const PixelBox& samples) {
       add(runs[r].sample.pixel(), static_cast<float>(weight * run), is_near);
     }
   }
-  pixel_.weight = across * down;
+  Gathered result{sources_.size(), 0, 0, static_cast<float>(across * down), near_hole};
+  for (const bool near : {true, false}) {
+    for (const Part& part : pixel_) {
+      if (part.is_near != near) continue;
+      sources_.push_back(part.source);
+      part_weights_.push_back(part.weight);
+    }
+    (near ? result.near_last : result.last) = sources_.size();
+  }
+  return result;
 }
 
-float LanczosResolve::resolve(const PostChannel& channel) const {
-  float sum = 0;
-  float low = pixel_.near_hole ? 0 : std::numeric_limits<float>::infinity(),
-        high = pixel_.near_hole ? 0 : -low;
-  for (const Part& part : pixel_.parts) {
-    float v = channel.source.at(static_cast<int>(part.source & 0xffff), static_cast<int>(part.source >> 16));
-    v = v == v ? v : 0;
-    sum += part.weight * v;
-    if (part.is_near) {
-      low = std::min(low, v);
-      high = std::max(high, v);
-    }
+void LanczosResolve::find_offsets(const Plane& source) {
+  offsets_.clear();
+  for (const uint32_t pixel : sources_) {
+    const auto x = static_cast<ptrdiff_t>(pixel & 0xffff), y = static_cast<ptrdiff_t>(pixel >> 16);
+    offsets_.push_back((y - source.first_row) * source.row_stride + x * source.pixel_stride);
   }
-  const float value = sum / static_cast<float>(pixel_.weight);
+}
+
+float LanczosResolve::resolve(const Gathered& pixel, const float* words) const {
+  float low = pixel.near_hole ? 0 : std::numeric_limits<float>::infinity();
+  float high = pixel.near_hole ? 0 : -low;
+  for (size_t i = pixel.first; i < pixel.near_last; ++i) {
+    float v = words[offsets_[i]];
+    v = v == v ? v : 0;
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  // Four sums that do not wait for each other.
+  float sums[4] = {0, 0, 0, 0};
+  const auto add_to = [&](float& sum, size_t i) {
+    const float v = words[offsets_[i]];
+    sum += part_weights_[i] * (v == v ? v : 0);
+  };
+  size_t i = pixel.first;
+  for (; i + 4 <= pixel.last; i += 4) {
+    for (size_t k = 0; k < 4; ++k) add_to(sums[k], i + k);
+  }
+  for (; i < pixel.last; ++i) add_to(sums[0], i);
+  const float value = ((sums[0] + sums[1]) + (sums[2] + sums[3])) / pixel.weight;
   // Infinite colours make the sum meaningless; the limits are still true.
   return value == value ? std::clamp(value, low, high) : high;
 }
@@ -131,10 +155,24 @@ float LanczosResolve::resolve(const PostChannel& channel) const {
 void LanczosResolve::write_row(const WorkBuffer& buffer, int y) {
   find_runs(buffer, y);
   const PixelBox& samples = buffer.samples();
-  for (int x = samples.x0 / scale_; x < samples.x1 / scale_; ++x) {
-    gather(x, y, samples);
+  const int end = samples.x1 / scale_;
+  for (int x0 = samples.x0 / scale_; x0 < end; x0 += kSegment) {
+    const int x1 = std::min(x0 + kSegment, end);
+    pixels_.clear();
+    sources_.clear();
+    part_weights_.clear();
+    for (int x = x0; x < x1; ++x) pixels_.push_back(gather(x, y, samples));
+    const Plane* last = nullptr;
     for (const PostChannel& channel : layers_.channels) {
-      if (channel.role == LayerRole::kColor) channel.target.at(x, y) = resolve(channel);
+      if (channel.role != LayerRole::kColor) continue;
+      const Plane& source = channel.source;
+      const bool same_layout = last && last->pixel_stride == source.pixel_stride &&
+                               last->row_stride == source.row_stride && last->first_row == source.first_row;
+      if (!same_layout) find_offsets(source);
+      last = &source;
+      for (int x = x0; x < x1; ++x) {
+        channel.target.at(x, y) = resolve(pixels_[static_cast<size_t>(x - x0)], source.words);
+      }
     }
   }
 }

@@ -37,17 +37,18 @@ class LanczosResolve {
     float weight;
     bool is_near;  // seen within the 3 x 3 pixels around
   };
-  /// The parts of one pixel, while they are gathered.
+  /// A pixel whose parts have been gathered: parts_[first .. last), those before `near_last` near.
   struct Gathered {
-    std::vector<Part> parts;
-    double weight = 0;  // of all samples that are within the picture
-    bool near_hole = false;
+    size_t first, near_last, last;
+    float weight;  // of all samples that are within the picture
+    bool near_hole;
   };
 
   void find_runs(const WorkBuffer& buffer, int y);
-  void gather(int x, int y, const PixelBox& samples);
+  Gathered gather(int x, int y, const PixelBox& samples);
   void add(uint32_t source, float weight, bool is_near);
-  float resolve(const PostChannel& channel) const;
+  void find_offsets(const Plane& source);
+  float resolve(const Gathered& pixel, const float* words) const;
 
   const PostLayers& layers_;
   int scale_, reach_;                   // samples per pixel; taps on each side of the pixel's first sample
@@ -56,8 +57,14 @@ class LanczosResolve {
   std::vector<std::vector<Run>> runs_;  // by sample row, with one at the end that begins behind it
   std::vector<size_t> first_run_;       // of each row, for the pixel at hand
   int runs_row_ = 0;                    // sample row of runs_[0]
-  Gathered pixel_;
-  std::vector<uint16_t> slots_;  // hash table: 1 + number of the part
+  std::vector<Part> pixel_;             // the parts of the pixel at hand
+  // Pixels are gathered by the segment, so that each channel is fetched from a few rows at a time.
+  static constexpr int kSegment = 128;
+  std::vector<Gathered> pixels_;
+  std::vector<uint32_t> sources_;
+  std::vector<float> part_weights_;
+  std::vector<ptrdiff_t> offsets_;  // of the sources, from a plane's first word
+  std::vector<uint16_t> slots_;     // hash table: 1 + number of the part
 };
 
 }  // namespace pelage
