@@ -58,6 +58,21 @@ ExrPart describe(const Imf::Header& header, const std::filesystem::path& path) {
   return part;
 }
 
+/// Rows that are compressed together, by compression (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA,
+/// DWAB).
+constexpr int kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+/// A block is held as it is in the file, as pixels, and once between.
+constexpr int64_t kCopiesOfBlock = 3;
+
+int64_t bytes_of_block(const Imf::Header& header, const ExrPart& part) {
+  const auto compression = static_cast<size_t>(header.compression());
+  int64_t rows = compression < std::size(kBlockRows) ? kBlockRows[compression] : 256;
+  if (header.hasTileDescription()) rows = std::max<int64_t>(rows, header.tileDescription().ySize);
+  int64_t pixel = 0;
+  for (const ExrChannelInfo& channel : part.channels) pixel += channel.type == ChannelType::kHalf ? 2 : 4;
+  return kCopiesOfBlock * rows * pixel * part.data.width();
+}
+
 bool loses(Imf::Compression compression) {
   return compression != Imf::NO_COMPRESSION && compression != Imf::RLE_COMPRESSION &&
          compression != Imf::ZIPS_COMPRESSION && compression != Imf::ZIP_COMPRESSION &&
@@ -112,8 +127,12 @@ struct ExrReader::File {
 ExrReader::ExrReader(std::filesystem::path path, int threads) : path_(std::move(path)) {
   check_exr_headers(path_);
   reading(path_, [&] {
-    file_ = std::make_unique<File>(path_.c_str(), library_threads(threads));
-    for (int i = 0; i < file_->input.parts(); ++i) parts_.push_back(describe(file_->input.header(i), path_));
+    const int team = library_threads(threads);
+    file_ = std::make_unique<File>(path_.c_str(), team);
+    for (int i = 0; i < file_->input.parts(); ++i) {
+      parts_.push_back(describe(file_->input.header(i), path_));
+      buffer_bytes_ += std::max(1, 2 * team) * bytes_of_block(file_->input.header(i), parts_.back());
+    }
   });
   if (parts_.empty()) refuse_exr(path_, "has no parts");
 }

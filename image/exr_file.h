@@ -59,6 +59,10 @@ class ExrReader {
   const std::filesystem::path& path() const { return path_; }
   const std::vector<ExrPart>& parts() const { return parts_; }
 
+  /// What the library holds, at most, while it decodes with these threads, or encodes the same again: blocks
+  /// of rows, several for each thread.
+  int64_t buffer_bytes() const { return buffer_bytes_; }
+
   /// Rows y0 <= y < y1 of a part, which must lie in its data window; `rows` begin at column data.x0. Throws
   /// Error (kInput) where the file is damaged.
   void read(size_t part, int y0, int y1, std::span<const ExrRows> rows);
@@ -69,6 +73,7 @@ class ExrReader {
   std::filesystem::path path_;
   std::unique_ptr<File> file_;
   std::vector<ExrPart> parts_;
+  int64_t buffer_bytes_ = 0;
 };
 
 /// A part to write: everything in the header of part `like` of the file that was read, known to us or not,

@@ -36,8 +36,8 @@ WarpTarget BandJob::target(const MovingView& view) const {
   return {scale, window.x0 - view.image->canvas().x0, window.y0 - view.image->canvas().y0};
 }
 
-int64_t BandJob::field_bytes() const {
-  int64_t bytes = 0;
+int64_t BandJob::fixed_bytes() const {
+  int64_t bytes = scratch_bytes + 2 * reader->buffer_bytes();  // reads and writes
   for (const MovingView& view : views) {
     if (!view.field) continue;
     bytes +=
@@ -60,7 +60,7 @@ int64_t BandJob::band_bytes(Band band) const {
 }
 
 BandJob::Band BandJob::next_band(int first) const {
-  const int64_t room = memory - scratch_bytes - field_bytes();
+  const int64_t room = memory - fixed_bytes();
   for (int rows = window.height() - first;; rows = (rows + 1) / 2) {
     const Band band{first, first + rows};
     const int64_t needed = band_bytes(band);
@@ -126,7 +126,7 @@ void BandJob::run(const std::filesystem::path& output, const Workers& workers, P
   for (const Part& part : parts) headers.push_back(part.part);
   next_band(0);  // refuses a budget that is too small before anything is written
   ExrWriter writer(output, *reader, std::move(headers), workers.thread_count());
-  const MemoryCharge fixed(ledger, MemoryTag::kFilm, field_bytes() + scratch_bytes);
+  const MemoryCharge fixed(ledger, MemoryTag::kFilm, fixed_bytes());
   report.bands = 0;
   report.window = window;
   for (int row = 0; row < window.height(); row = band_.last) {

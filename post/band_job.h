@@ -39,8 +39,8 @@ struct MovingView {
 };
 
 /// Takes a file through memory band by band: reads the rows of the source that a band needs, lets `process`
-/// make the band, writes it. Memory: the fields, `scratch_bytes`, and as many rows as the budget leaves room
-/// for.
+/// make the band, writes it. Memory: the fields, `scratch_bytes`, the blocks of rows that the library
+/// decodes and encodes, and as many rows as the budget leaves room for.
 class BandJob {
  public:
   struct Band {
@@ -83,7 +83,8 @@ class BandJob {
   WarpTarget target(const MovingView& view) const;
 
  private:
-  int64_t field_bytes() const;
+  /// All but the bands.
+  int64_t fixed_bytes() const;
   int64_t band_bytes(Band band) const;
   Band next_band(int first) const;
   void make_band(Band band);

@@ -74,7 +74,7 @@ TEST_F(BlurFile, SamePixelsForAnyBudgetAndNumberOfThreads) {
   EXPECT_EQ(blur("in.exr", "whole.exr").bands, 1);
   const int64_t whole_bytes = charged_;
   params_.tiling = {32, 8};
-  params_.file.memory = 6'000'000;
+  params_.file.memory = 11'000'000;
   EXPECT_GT(blur("in.exr", "bands.exr", 3).bands, 2);
   EXPECT_LE(charged_, params_.file.memory);
   EXPECT_LT(charged_, whole_bytes);

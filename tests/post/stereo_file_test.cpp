@@ -97,7 +97,7 @@ TEST_F(StereoFile, SamePixelsForAnyBudget) {
   params_.eye_separation = 0.4f;
   EXPECT_EQ(run("in.exr", "whole.exr").bands, 1);
   params_.strip_rows = 2;
-  params_.file.memory = 6'000'000;
+  params_.file.memory = 8'000'000;
   EXPECT_GT(run("in.exr", "bands.exr").bands, 1);
   const ExrImage a = read_exr(path("whole.exr")), b = read_exr(path("bands.exr"));
   for (size_t c = 0; c < a.channels.size(); ++c) {
