@@ -23,7 +23,7 @@ std::string megabytes(int64_t bytes) { return fmt::format("{} MiB", (bytes >> 20
 
 void check_field_memory(const ViewImage& image, int64_t budget) {
   const int64_t pixels = int64_t{image.canvas().width()} * image.canvas().height();
-  const int64_t needed = pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 1);
+  const int64_t needed = pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 2);
   if (needed > budget) fail_memory(image.reader().path(), needed, budget);
 }
 

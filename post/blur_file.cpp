@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "post/box_resolve.h"
+#include "post/soft_edges.h"
 
 namespace pelage {
 namespace {
@@ -43,12 +44,15 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
     fail_missing(image, "depth" + of_view(view), "name a layer with --depth-layer, or 'none' to go without");
   }
   check_field_memory(image, params.file.memory);
-  std::vector<float> depth = image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha());
+  std::vector<uint8_t> is_soft;
+  std::vector<float> depth =
+      image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), is_soft);
   size_t not_finite = 0;
   std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, not_finite);
   if (not_finite > 0) {
     report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
   }
+  join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
   const ShutterParams& shutter = params.shutter;
   LinkLimits limits;
   limits.largest_time = std::abs(shutter.centre) + std::abs(shutter.length) / 2;

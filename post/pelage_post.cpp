@@ -7,6 +7,7 @@
 #include <new>
 
 #include "post/motion_blur.h"
+#include "post/soft_edges.h"
 #include "post/stereo.h"
 
 namespace pelage {
@@ -74,7 +75,9 @@ PostLayers layers_of(const pelage_post_image& image) {
   return layers;
 }
 
-std::vector<float> depth_of(const pelage_post_image& image) {
+/// Depth of every pixel; soft edges are joined to their surfaces, and so are their vectors if there are any.
+std::vector<float> depth_of(const pelage_post_image& image, std::vector<Flow>& motion) {
+  std::vector<uint8_t> is_soft;
   std::vector<float> depth;
   depth.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
@@ -83,8 +86,10 @@ std::vector<float> depth_of(const pelage_post_image& image) {
       depth.push_back(is_clear            ? std::numeric_limits<float>::infinity()
                       : image.depth.words ? value(image.depth, x, y)
                                           : 1);
+      is_soft.push_back(image.alpha.words && is_soft_edge(value(image.alpha, x, y), depth.back()));
     }
   }
+  join_soft_edges(image.width, image.height, is_soft, depth, motion);
   return depth;
 }
 
@@ -104,7 +109,8 @@ void blur(const pelage_post_image& image, const pelage_post_options& options, Pr
   }
   LinkLimits limits;
   limits.largest_time = std::abs(options.centre) + std::abs(options.shutter) / 2;
-  const FlowField field(image.width, image.height, std::move(motion), depth_of(image), limits, workers);
+  std::vector<float> depth = depth_of(image, motion);
+  const FlowField field(image.width, image.height, std::move(motion), std::move(depth), limits, workers);
   const BlurJob job{&field,
                     {options.scale, 0, 0},
                     shutter_times({options.shutter, options.centre, options.steps}, longest),
@@ -121,8 +127,9 @@ void other_eye(const pelage_post_image& image, const pelage_post_options& option
   require(options.convergence > 0, "convergence must be above 0");
   const Workers workers(options.threads);
   const StereoCamera camera{options.focal_pixels, options.eye_separation, options.convergence};
-  std::vector<float> depth = depth_of(image);
-  std::vector<Flow> motion = parallax_field(depth, camera);
+  std::vector<Flow> motion;
+  std::vector<float> depth = depth_of(image, motion);
+  motion = parallax_field(depth, camera);
   const FlowField field(image.width, image.height, std::move(motion), std::move(depth), LinkLimits(),
                         workers);
   StereoJob job;

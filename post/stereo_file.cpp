@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "post/soft_edges.h"
 
 namespace pelage {
 namespace {
@@ -131,15 +132,18 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
   check_field_memory(image, params.file.memory);
   const LayerFinder& layers = image.layers();
   if (!layers.depth()) fail_missing(image, "depth", "name a layer with --depth-layer");
-  std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha());
+  std::vector<uint8_t> is_soft;
+  std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha(), is_soft);
   std::vector<Flow> vectors;
   if (params.parallax.empty()) {
+    join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
     vectors = parallax_field(depth, camera);
   } else {
     const auto uv = layers.vectors(params.parallax);
     if (!uv) fail_missing(image, "layer " + quote(params.parallax), "give another --parallax-layer");
     size_t not_finite = 0;
     vectors = image.read_vectors(*uv, params.file.vectors, not_finite);
+    join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
     if (not_finite > 0) {
       report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
     }

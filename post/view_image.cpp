@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "post/soft_edges.h"
 
 namespace pelage {
 namespace {
@@ -83,12 +84,15 @@ std::vector<float> ViewImage::read(const std::vector<size_t>& wanted, int first,
   return words;
 }
 
-std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optional<size_t> alpha) const {
+std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
+                                         std::vector<uint8_t>& is_soft) const {
   std::vector<size_t> wanted;
   if (depth) wanted.push_back(*depth);
   if (alpha) wanted.push_back(*alpha);
   std::vector<float> result;
   result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
+  is_soft.clear();
+  is_soft.reserve(result.capacity());
   for (int y = 0; y < canvas_.height(); y += kRows) {
     const int rows = std::min(kRows, canvas_.height() - y);
     const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(canvas_.width());
@@ -98,6 +102,7 @@ std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optio
     for (size_t i = 0; i < count; ++i) {
       const bool is_clear = a && a[i] == 0;  // nothing is there, whatever its depth
       result.push_back(is_clear ? std::numeric_limits<float>::infinity() : z ? z[i] : 1);
+      is_soft.push_back(a && is_soft_edge(a[i], result.back()));
     }
   }
   return result;

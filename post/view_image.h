@@ -42,7 +42,9 @@ class ViewImage {
   std::vector<float> read(const std::vector<size_t>& channels, int first, int last) const;
 
   /// Depth for all of the canvas: infinite where alpha is zero; `depth` empty: 1 wherever there is alpha.
-  std::vector<float> read_depth(std::optional<size_t> depth, std::optional<size_t> alpha) const;
+  /// `is_soft` marks soft edges (post/soft_edges.h).
+  std::vector<float> read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
+                                std::vector<uint8_t>& is_soft) const;
   /// Vectors for all of the canvas. `not_finite` counts those that will be taken as none.
   std::vector<Flow> read_vectors(std::pair<size_t, size_t> uv, const VectorParams& params,
                                  size_t& not_finite) const;

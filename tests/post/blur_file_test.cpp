@@ -166,6 +166,26 @@ TEST_F(BlurFile, ClearPixelsHideNothing) {
     EXPECT_EQ(pixels_of(out, "R")[5 * 40 + x], x >= 6 && x < 26 ? 1.0f : 0.0f) << x;
 }
 
+TEST_F(BlurFile, SoftEdgesGoWithTheirSurface) {
+  // A bar whose filter reached two pixels beyond it, where nothing was met.
+  ExrImage image = still_image(60, 10);
+  for (size_t i = 0; i < 600; ++i) {
+    const size_t x = i % 60;
+    const bool bar = x >= 20 && x < 30, soft = x == 18 || x == 19 || x == 30 || x == 31;
+    pixels_of(image, "A")[i] = pixels_of(image, "R")[i] = bar ? 1.0f : soft ? 0.25f : 0.0f;
+    pixels_of(image, "Z")[i] = bar ? 3.0f : std::numeric_limits<float>::infinity();
+    pixels_of(image, "forward.u")[i] = bar ? 12.0f : 0.0f;
+  }
+  write_exr(path("in.exr"), image);
+  params_.shutter = {0, 1, 1};
+  blur("in.exr", "out.exr");
+  ExrImage out = read_exr(path("out.exr"));
+  for (size_t x = 0; x < 60; ++x) {
+    const float expected = x >= 32 && x < 42 ? 1.0f : x == 30 || x == 31 || x == 42 || x == 43 ? 0.25f : 0.0f;
+    EXPECT_EQ(pixels_of(out, "A")[300 + x], expected) << x;
+  }
+}
+
 TEST_F(BlurFile, RefusesInOneLineWhatItCannotUse) {
   ExrImage image = still_image(16, 16);
   const auto without = [&](const char* name) {

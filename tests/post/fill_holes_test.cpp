@@ -52,9 +52,7 @@ TEST(FillHoles, NothingComesFromNothing) {
   EXPECT_EQ(filled("A..B", 0), "A..B");
 }
 
-TEST(FillHoles, WhatWasInventedIsNotMirrored) {
-  EXPECT_EQ(filled("A..B..c", 9), "AAABBBc");
-}
+TEST(FillHoles, WhatWasInventedIsNotMirrored) { EXPECT_EQ(filled("A..B..c", 9), "AAABBBc"); }
 
 }  // namespace
 }  // namespace pelage
