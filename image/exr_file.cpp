@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -79,14 +80,23 @@ bool loses(Imf::Compression compression) {
          compression != Imf::PIZ_COMPRESSION;
 }
 
+/// Attributes that say how the pixels of a file lie in it, and those that would no longer be true.
+constexpr const char* kOfTheFile[] = {"tiles",   "chunkCount", "maxSamplesPerPixel",
+                                      "preview", "version",    "type"};
+
 Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
-  Imf::Header header(like);
-  for (const char* shape : {"tiles", "chunkCount", "maxSamplesPerPixel", "preview", "version"})
-    header.erase(shape);
+  // Built up rather than cut down: the library's erase() loses what it erases.
+  Imf::Header header;
+  for (auto a = like.begin(); a != like.end(); ++a) {
+    const std::string_view name = a.name();
+    const bool is_dropped =
+        std::find(std::begin(kOfTheFile), std::end(kOfTheFile), name) != std::end(kOfTheFile) ||
+        (name == "multiView" && part.multi_view.empty());
+    if (!is_dropped) header.insert(a.name(), a.attribute());
+  }
   header.setType(Imf::SCANLINEIMAGE);
   header.lineOrder() = Imf::INCREASING_Y;
   if (loses(header.compression())) header.compression() = Imf::ZIP_COMPRESSION;
-  if (part.multi_view.empty()) header.erase("multiView");
   if (!part.name.empty()) header.setName(part.name);
   if (!part.view.empty()) header.setView(part.view);
   header.dataWindow() = box_of(part.data);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <vector>
 
@@ -108,7 +108,7 @@ inline Result other_eye(Picture picture, const StereoSetup& setup) {
 /// Bits, so that NaN equals itself and 0 is not -0.
 inline std::vector<uint32_t> bits(const std::vector<float>& values) {
   std::vector<uint32_t> result(values.size());
-  std::memcpy(result.data(), values.data(), values.size() * sizeof(float));
+  for (size_t i = 0; i < values.size(); ++i) result[i] = std::bit_cast<uint32_t>(values[i]);
   return result;
 }
 
