@@ -71,13 +71,13 @@ TEST_F(BlurFile, SamePixelsForAnyBudgetAndNumberOfThreads) {
     pixels_of(image, "Z")[i] = 1 + unit_float(hash64(i / 333, 3));
   }
   write_exr(path("in.exr"), image);
-  EXPECT_EQ(blur("in.exr", "whole.exr").bands, 1);
+  EXPECT_EQ(blur("in.exr", "whole.exr", 3).bands, 1);
   const int64_t whole_bytes = charged_;
   params_.tiling = {32, 8};
-  params_.file.memory = 11'000'000;
-  EXPECT_GT(blur("in.exr", "bands.exr", 3).bands, 2);
+  params_.file.memory = whole_bytes * 6 / 10;
+  EXPECT_GT(blur("in.exr", "bands.exr", 3).bands, 1);
   EXPECT_LE(charged_, params_.file.memory);
-  EXPECT_LT(charged_, whole_bytes);
+  blur("in.exr", "bands.exr", 1);
   const ExrImage a = read_exr(path("whole.exr")), b = read_exr(path("bands.exr"));
   for (size_t c = 0; c < a.channels.size(); ++c) {
     EXPECT_EQ(bits(a.channels[c].pixels), bits(b.channels[c].pixels)) << a.channels[c].name;
