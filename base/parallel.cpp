@@ -130,12 +130,35 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
   dealer.rethrow();
 }
 
+#ifdef PELAGE_STD_THREADS
+
+// TBB hands the memory of an ended arena to the next one by means that the thread sanitizer cannot see, and
+// clears it with a function that it can: arenas begin and end one at a time here. What runs in them is not
+// ordered by this.
 void Workers::lend_to_library(const std::function<void()>& body) const {
-#ifndef PELAGE_STD_THREADS
+  static std::mutex mutex;
+  struct Alone {
+    Alone() {
+      const std::lock_guard lock(mutex);
+      arena.initialize(1);
+    }
+    ~Alone() {
+      const std::lock_guard lock(mutex);
+      arena.terminate();
+    }
+    tbb::task_arena arena;
+  };
+  Alone().arena.execute(body);
+}
+
+#else
+
+void Workers::lend_to_library(const std::function<void()>& body) const {
   if (team_) return team_->arena.execute(body);
-#endif
   tbb::task_arena alone(1);
   alone.execute(body);
 }
+
+#endif
 
 }  // namespace pelage
