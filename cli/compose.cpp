@@ -2,6 +2,7 @@
 // The one page where everything meets: what the scene describes becomes the world of one frame.
 #include "cli/compose.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
@@ -33,7 +34,9 @@ class Composer {
   void add(const DrawnCharacter& character) {
     Box3f box;
     for (size_t part = 0; part < character.params->parts.size(); ++part) add_part(character, part, box);
-    if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
+    const bool grows = std::any_of(character.params->parts.begin(), character.params->parts.end(),
+                                   [](const PartParams& part) { return !part.grooms.items.empty(); });
+    if (grows && world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
   }
 
  private:

@@ -29,6 +29,7 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   setup.program = own_program();
   setup.scene = options.input;
   setup.repeat = options.repeat;
+  setup.time_limit_s = options.time_limit_s;
   setup.folder = options.output;
   if (options.output.empty()) {
     setup.folder =
@@ -47,6 +48,25 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
   AtomicFile file(path);
   file.write(text);
   file.commit();
+}
+
+// Those of an earlier report are not left beside these.
+void write_figures(const std::filesystem::path& folder, const Report& report) {
+  std::vector<std::filesystem::path> old;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("figure-") && name.ends_with(".svg")) old.push_back(entry.path());
+  }
+  for (const auto& path : old) std::filesystem::remove(path, ignored);
+  for (const auto& [name, svg] : report_figures(report)) write_whole(folder / name, svg);
+}
+
+std::string picture_text(const SceneDescription& scene) {
+  return fmt::format("{} x {} pixels, {} samples, {} bounces, frame {}, shutter {:g} to {:g}, seed {}",
+                     scene.image.width, scene.image.height, scene.render.samples, scene.render.bounces,
+                     scene.frames.frames.front(), scene.camera.shutter.x, scene.camera.shutter.y,
+                     scene.render.seed);
 }
 
 Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
@@ -73,6 +93,7 @@ int run_measure(const Options& options) {
               "{}\n");  // a folder that takes nothing is found before anything is run
 
   auto facts = machine_facts();
+  const double load_before = load_average();
   Measured measured = run_experiment(options, scene, setup, display);
   const bool interrupted = display.cancelled();
   Report& report = measured.report;
@@ -80,21 +101,31 @@ int run_measure(const Options& options) {
   report.title += ": " + std::filesystem::path(options.input).filename().string();
   std::vector<std::string> command{"pelage", "measure", report.experiment, options.input};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
-  report.facts = {{"Scene", options.input}, {"Scene hash", scene.hash}, {"Arguments", shell_text(command)}};
+  command.insert(command.end(), {"--repeat", std::to_string(options.repeat)});
+  report.facts = {{"Scene", options.input},
+                  {"Scene hash", scene.hash},
+                  {"Picture", picture_text(scene)},
+                  {"Command", shell_text(command)},
+                  {"Repeats", std::to_string(options.repeat)}};
   report.facts.insert(report.facts.end(), facts.begin(), facts.end());
+  report.facts.emplace_back("Load average", fmt::format("{:.1f} before, {:.1f} after (that of each run is in "
+                                                        "report.json)",
+                                                        load_before, load_average()));
   if (interrupted) report.abstract = "Interrupted: only some variants were run. " + report.abstract;
   report.runs = runs_json(measured.outcomes);
 
   write_whole(setup.folder / "report.json", report_json(report));
   write_whole(setup.folder / "report.csv", csv_text(report.data));
   write_whole(setup.folder / "report.html", report_html(report));
+  write_figures(setup.folder / "figures", report);
   std::cout << (setup.folder / "report.html").string() << "\n";
   if (interrupted) return kInterruptedExitCode;
-  // A refused budget is an answer where budgets are the question; everything else that did not end well is
-  // not.
+  // A refused budget, or one so small that it takes too long, is an answer where budgets are the question;
+  // everything else that did not end well is not.
   const bool answered =
       std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
-        return outcome.succeeded() || (options.experiment == Experiment::kResidency && outcome.refused());
+        return outcome.succeeded() ||
+               (options.experiment == Experiment::kResidency && (outcome.refused() || outcome.timed_out()));
       });
   return answered ? 0 : exit_code(ErrorKind::kFailed);
 }

@@ -103,6 +103,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   measure->add_option("--repeat", options.repeat, "Runs of each variant; that of the median time counts (3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
+  measure->add_option("--time-limit", options.time_limit_s, "Seconds after which a run is ended (600)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
 
   CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");

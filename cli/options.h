@@ -40,6 +40,7 @@ struct Options {
 
   Experiment experiment = Experiment::kBounds;  ///< measure
   int repeat = 3;                               ///< measure: runs of each variant
+  double time_limit_s = 600;                    ///< measure: a run that takes longer is ended
 
   std::string groom;     ///< grow: only this one; empty: all
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh

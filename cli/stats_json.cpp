@@ -52,6 +52,7 @@ std::string statistics_json(const Statistics& s) {
       {"evictions", s.evictions},
       {"residency_wait_s", s.residency_wait_s},
       {"bounds_area", s.bounds_area},
+      {"part_bounds_area", s.part_bounds_area},
       {"box_tests", s.box_tests},
       {"chunk_visits", s.chunk_visits},
       {"samples_rejected", s.samples_rejected},

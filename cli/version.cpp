@@ -4,5 +4,7 @@
 namespace pelage {
 
 const char* version() { return PELAGE_VERSION; }
+const char* compiler() { return PELAGE_COMPILER; }
+const char* libraries() { return PELAGE_LIBRARIES; }
 
 }  // namespace pelage

@@ -44,6 +44,12 @@ Box3f scaled(const Box3f& box, float factor) {
   return {middle - half, middle + half};
 }
 
+double surface(const Box3f& box) {
+  if (box.isEmpty()) return 0;
+  const V3f d = box.size();
+  return 2 * (double(d.x) * d.y + double(d.y) * d.z + double(d.z) * d.x);
+}
+
 /// Boxes that need no strand.
 std::vector<ChunkBounds> stated_bounds(const BoundingOptions& options,
                                        std::span<const Procedural* const> chunks, const Workers& workers,
@@ -75,6 +81,21 @@ BoundSpan bound_span(BoundingStrategy strategy) {
 }
 
 int bound_keys(BoundingStrategy strategy) { return strategy == BoundingStrategy::kLinear ? 2 : 1; }
+
+BoundsArea bounds_area(std::span<const ChunkBounds> bounds) {
+  BoundsArea sum;
+  for (const ChunkBounds& chunk : bounds) {
+    for (int key = 0; key < chunk.keys; ++key) {
+      Box3f whole;
+      for (size_t part = 0; part < chunk.part_count(); ++part) {
+        whole.extendBy(chunk.box(part, key));
+        sum.parts += surface(chunk.box(part, key)) / chunk.keys;
+      }
+      sum.chunks += surface(whole) / chunk.keys;
+    }
+  }
+  return sum;
+}
 
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       std::span<const Procedural* const> chunks, const Workers& workers,

@@ -25,6 +25,13 @@ BoundSpan bound_span(BoundingStrategy strategy);
 /// ChunkBounds::keys of all chunks.
 int bound_keys(BoundingStrategy strategy);
 
+/// How tight boxes are: sums of surface areas, of the mean over their keys where they move.
+struct BoundsArea {
+  double chunks = 0;  ///< of the box around all parts of each chunk
+  double parts = 0;   ///< of each part's own
+};
+BoundsArea bounds_area(std::span<const ChunkBounds> bounds);
+
 struct BoundingCounts {
   int64_t measured = 0;    ///< chunks that were grown to be measured: the first of two passes
   int64_t remembered = 0;  ///< chunks whose boxes were found in a side file

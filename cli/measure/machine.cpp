@@ -42,12 +42,12 @@ std::string system_text() {
                                : "unknown";
 }
 
-std::string load_text() {
-  double load[1];
-  return ::getloadavg(load, 1) == 1 ? fmt::format("{:.1f} before the experiment began", load[0]) : "unknown";
-}
-
 }  // namespace
+
+double load_average() {
+  double load[1];
+  return ::getloadavg(load, 1) == 1 ? load[0] : 0;
+}
 
 std::string processor_name(const std::string& cpuinfo) {
   std::istringstream lines(cpuinfo);
@@ -61,12 +61,12 @@ std::string processor_name(const std::string& cpuinfo) {
 
 std::vector<std::pair<std::string, std::string>> machine_facts() {
   return {
-      {"Program", std::string("pelage ") + version()},
+      {"Program", fmt::format("pelage {}, {}", version(), compiler())},
+      {"Libraries", libraries()},
       {"Processor", processor_name(text_of("/proc/cpuinfo"))},
       {"Cores", fmt::format("{} usable of {}", available_processors(), std::thread::hardware_concurrency())},
       {"Memory", memory_text()},
       {"System", system_text()},
-      {"Load average", load_text()},
       {"Date", date_text()}};
 }
 

@@ -21,6 +21,23 @@ std::vector<std::string> all_keys(const std::vector<Outcome>& outcomes, const st
   return {keys.begin(), keys.end()};
 }
 
+// In the order in which a run goes through them; others after these.
+std::vector<std::string> stages(const std::vector<Outcome>& outcomes) {
+  const std::vector<std::string> keys = all_keys(outcomes, "stages_s");
+  std::vector<std::string> sorted;
+  for (const char* known : {"read", "pose", "prepare", "bound", "grow", "render", "write"}) {
+    if (std::find(keys.begin(), keys.end(), known) != keys.end()) sorted.emplace_back(known);
+  }
+  for (const std::string& key : keys) {
+    if (std::find(sorted.begin(), sorted.end(), key) == sorted.end()) sorted.push_back(key);
+  }
+  return sorted;
+}
+
+double anonymous_growth(const Outcome& o) {
+  return o.number("peak_anonymous_bytes") - o.number("baseline_anonymous_bytes");
+}
+
 double rays(const Outcome& outcome) {
   const VariantRun* run = outcome.typical();
   return run ? run->statistics->sum("rays") : NAN;
@@ -63,28 +80,43 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   add("runs", "runs", Quantity::kCount, [](const Outcome& o) -> Cell { return double(o.runs.size()); });
   number("wall_s", "time", Quantity::kSeconds, "wall_s");
   add("wall_least_s", "least", Quantity::kSeconds,
-      [](const Outcome& o) -> Cell { return o.fastest_wall_s(); });
-  add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.slowest_wall_s(); });
+      [](const Outcome& o) -> Cell { return o.least("wall_s"); });
+  add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.most("wall_s"); });
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
+  add("cpu_least_s", "least CPU", Quantity::kSeconds,
+      [](const Outcome& o) -> Cell { return o.least("cpu_s"); });
+  number("first_pixel_s", "first pixel", Quantity::kSeconds, "first_pixel_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
   number("peak_anonymous_bytes", "peak anonymous", Quantity::kBytes, "peak_anonymous_bytes");
   number("baseline_anonymous_bytes", "baseline anonymous", Quantity::kBytes, "baseline_anonymous_bytes");
+  add("explained_bytes", "baseline and tags", Quantity::kBytes, [](const Outcome& o) -> Cell {
+    return o.number("peak_anonymous_bytes") - o.number("unexplained_bytes");
+  });
   number("unexplained_bytes", "unexplained", Quantity::kBytes, "unexplained_bytes");
+  add("unexplained_share", "of peak less baseline", Quantity::kPercent,
+      [](const Outcome& o) -> Cell { return o.number("unexplained_bytes") / anonymous_growth(o); });
   for (const std::string& tag : all_keys(outcomes, "memory_bytes"))
     number("memory_" + tag + "_bytes", words(tag), Quantity::kBytes, "memory_bytes." + tag);
-  for (const std::string& stage : all_keys(outcomes, "stages_s"))
+  for (const std::string& stage : stages(outcomes))
     number("stage_" + stage + "_s", words(stage), Quantity::kSeconds, "stages_s." + stage);
   number("chunks", "chunks", Quantity::kCount, "chunks");
   number("chunks_touched", "touched", Quantity::kCount, "chunks_touched");
   number("expansions", "expansions", Quantity::kCount, "expansions");
   number("reexpansions", "re-expansions", Quantity::kCount, "reexpansions");
   number("false_expansions", "false expansions", Quantity::kCount, "false_expansions");
+  add("false_expansions_share", "of expansions", Quantity::kPercent,
+      [](const Outcome& o) -> Cell { return o.number("false_expansions") / o.number("expansions"); });
   number("evictions", "evictions", Quantity::kCount, "evictions");
   number("residency_wait_s", "waiting", Quantity::kSeconds, "residency_wait_s");
   number("working_set_bytes", "working set", Quantity::kBytes, "working_set_bytes");
+  add("bytes_per_strand", "bytes per strand grown", Quantity::kRatio, [](const Outcome& o) -> Cell {
+    return o.number("working_set_bytes") * o.number("expansions") / o.number("chunks_touched") /
+           o.number("strands_generated");
+  });
   number("strands_described", "strands in the scene", Quantity::kCount, "strands_described");
   number("strands_generated", "strands grown", Quantity::kCount, "strands_generated");
   number("bounds_area", "sum of box areas", Quantity::kRatio, "bounds_area");
+  number("part_bounds_area", "of parts", Quantity::kRatio, "part_bounds_area");
   add("rays", "rays", Quantity::kCount, [](const Outcome& o) -> Cell { return rays(o); });
   per_ray("box_tests_per_ray", "box tests per ray", "box_tests");
   per_ray("chunk_visits_per_ray", "chunk visits per ray", "chunk_visits");
@@ -129,15 +161,25 @@ BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,
 BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::string& caption) {
   BarPlot plot = column_plot(table, outcomes, keys_with(table, "stage_"), "wall time", caption);
   plot.stacked = true;
+  for (const Outcome& outcome : outcomes) {
+    plot.spread.emplace_back(outcome.least("wall_s"), outcome.most("wall_s"));
+    plot.notes.push_back(outcome.succeeded() ? "" : outcome.status());
+  }
   return plot;
+}
+
+Table ledger_table(const Table& table) {
+  return select(table,
+                {"variant", "peak_rss_bytes", "peak_anonymous_bytes", "baseline_anonymous_bytes",
+                 "explained_bytes", "unexplained_bytes", "unexplained_share"},
+                "Ledger against kernel, when the anonymous resident pages were at their highest.");
 }
 
 std::string ledger_text(const std::vector<Outcome>& outcomes) {
   double worst = -1, bytes = 0;
   const Outcome* at = nullptr;
   for (const Outcome& outcome : outcomes) {
-    const double above = outcome.number("peak_anonymous_bytes") - outcome.number("baseline_anonymous_bytes");
-    const double share = std::abs(outcome.number("unexplained_bytes")) / above;
+    const double share = std::abs(outcome.number("unexplained_bytes")) / anonymous_growth(outcome);
     if (!(share > worst)) continue;
     worst = share;
     bytes = outcome.number("unexplained_bytes");
@@ -146,9 +188,9 @@ std::string ledger_text(const std::vector<Outcome>& outcomes) {
   if (!at) return "No run told how much of its memory the ledger explains.";
   return fmt::format(
       "Ledger against kernel: when the anonymous resident pages were at their highest, the ledger's tags and "
-      "the "
-      "baseline (what the process holds once its command line is read) explained them to within {:.1f} % "
-      "({}, {:+.1f} MiB) in the worst run.",
+      "the baseline (what the process holds once its command line is read) explained them to within {:.1f} % "
+      "of "
+      "what they had grown by ({}, {:+.1f} MiB) in the worst case; 10 % is what Pelage promises.",
       100 * worst, at->variant.title, bytes / (1 << 20));
 }
 

@@ -25,7 +25,10 @@ std::vector<std::string> keys_with(const Table& table, const std::string& prefix
 /// The numbers of a column; not-a-number for texts.
 std::vector<double> column_values(const Table& table, const std::string& key);
 
-/// Stages by wall time, stacked: a bar per outcome.
+/// The columns of law 5: what of the resident memory the ledger explains.
+Table ledger_table(const Table& table);
+
+/// Stages by wall time, stacked, with the spread of all runs: a bar per outcome.
 BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::string& caption);
 /// Columns side by side, or stacked: a bar per outcome and key.
 BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,

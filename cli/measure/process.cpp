@@ -54,7 +54,7 @@ class Descriptor {
   ::_exit(127);
 }
 
-ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled) {
+ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled, double limit_s) {
   const Clock::time_point began = Clock::now();
   Clock::time_point told;
   ProcessEnd end;
@@ -72,12 +72,14 @@ ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled) {
     }
     if (gone < 0 && errno != EINTR)
       throw Error(ErrorKind::kFailed, std::string("lost a process: ") + std::strerror(errno));
-    if (!end.interrupted && cancelled()) {
-      end.interrupted = true;
-      told = Clock::now();
-      ::kill(-child, SIGTERM);
-    } else if (end.interrupted && Clock::now() - told > kPatience) {
-      ::kill(-child, SIGKILL);
+    const Clock::time_point now = Clock::now();
+    if (end.interrupted || end.timed_out) {
+      if (now - told > kPatience) ::kill(-child, SIGKILL);
+    } else {
+      end.interrupted = cancelled();
+      end.timed_out = !end.interrupted && std::chrono::duration<double>(now - began).count() > limit_s;
+      told = now;
+      if (end.interrupted || end.timed_out) ::kill(-child, SIGTERM);
     }
     std::this_thread::sleep_for(kPoll);
   }
@@ -86,7 +88,7 @@ ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled) {
 }  // namespace
 
 ProcessEnd run_process(const std::vector<std::string>& command, const std::filesystem::path& log,
-                       const std::function<bool()>& cancelled) {
+                       const std::function<bool()>& cancelled, double limit_s) {
   Descriptor log_file(::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
   if (log_file.number() < 0)
     throw Error(ErrorKind::kFailed, log.string() + ": cannot be written: " + std::strerror(errno));
@@ -110,7 +112,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
   do {
     got = ::read(failure_in.number(), &code, sizeof code);
   } while (got < 0 && errno == EINTR);
-  const ProcessEnd end = wait_for(child, cancelled);
+  const ProcessEnd end = wait_for(child, cancelled, limit_s);
   if (got == sizeof code)
     throw Error(ErrorKind::kFailed, command.front() + " cannot be run: " + std::strerror(code));
   return end;

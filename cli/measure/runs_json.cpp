@@ -14,6 +14,8 @@ std::string runs_json(const std::vector<Outcome>& outcomes) {
                                   {"exit_code", run.end.exit_code},
                                   {"signal", run.end.signal},
                                   {"interrupted", run.end.interrupted},
+                                  {"timed_out", run.end.timed_out},
+                                  {"load_average", run.load},
                                   {"wall_s", run.end.wall_s},
                                   {"cpu_s", run.end.cpu_s},
                                   {"peak_rss_bytes", run.end.peak_rss_bytes}};

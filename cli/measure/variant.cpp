@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "cli/measure/machine.h"
 
 namespace pelage {
 namespace {
@@ -31,6 +32,7 @@ std::string error_lines(const std::filesystem::path& log) {
 
 std::string end_text(const ProcessEnd& end) {
   if (end.interrupted) return "interrupted";
+  if (end.timed_out) return "time-out";
   if (end.signal != 0) return fmt::format("signal {}", end.signal);
   if (end.exit_code == kMemoryExitCode) return "refused";
   return end.exit_code == 0 ? "done" : fmt::format("exit code {}", end.exit_code);
@@ -41,9 +43,11 @@ std::string end_text(const ProcessEnd& end) {
 bool Outcome::succeeded() const { return !runs.empty() && runs.back().end.succeeded(); }
 
 bool Outcome::refused() const {
-  return !runs.empty() && !interrupted() && runs.back().end.signal == 0 &&
+  return !runs.empty() && !interrupted() && !timed_out() && runs.back().end.signal == 0 &&
          runs.back().end.exit_code == kMemoryExitCode;
 }
+
+bool Outcome::timed_out() const { return !runs.empty() && runs.back().end.timed_out; }
 
 bool Outcome::interrupted() const { return runs.empty() || runs.back().end.interrupted; }
 
@@ -68,20 +72,20 @@ double Outcome::number(const std::string& path) const {
   return run ? run->statistics->number(path) : NAN;
 }
 
-double Outcome::fastest_wall_s() const {
-  double wall = NAN;
+double Outcome::least(const std::string& path) const {
+  double least = NAN;
   for (const VariantRun& run : runs) {
-    if (run.end.succeeded() && run.statistics) wall = std::fmin(wall, run.statistics->number("wall_s"));
+    if (run.end.succeeded() && run.statistics) least = std::fmin(least, run.statistics->number(path));
   }
-  return wall;
+  return least;
 }
 
-double Outcome::slowest_wall_s() const {
-  double wall = NAN;
+double Outcome::most(const std::string& path) const {
+  double most = NAN;
   for (const VariantRun& run : runs) {
-    if (run.end.succeeded() && run.statistics) wall = std::fmax(wall, run.statistics->number("wall_s"));
+    if (run.end.succeeded() && run.statistics) most = std::fmax(most, run.statistics->number(path));
   }
-  return wall;
+  return most;
 }
 
 VariantRunner::VariantRunner(const MeasureSetup& setup, ProgressDisplay& display, size_t count)
@@ -102,9 +106,31 @@ Outcome VariantRunner::run(const Variant& variant) {
     if (!outcome.succeeded()) break;
   }
   display_.end();
-  if (!outcome.succeeded() && !outcome.interrupted())
-    display_.note(fmt::format("{}: {}: {}", variant.title, outcome.status(), outcome.error()));
+  note_failure(outcome);
   return outcome;
+}
+
+std::vector<Outcome> VariantRunner::run_in_rounds(const std::vector<Variant>& variants) {
+  std::vector<Outcome> outcomes;
+  for (const Variant& variant : variants) outcomes.push_back({variant, {}});
+  for (int round = 1; round <= setup_.repeat && !display_.cancelled(); ++round) {
+    display_.begin(fmt::format("round {}/{}", round, setup_.repeat), static_cast<double>(variants.size()));
+    for (Outcome& outcome : outcomes) {
+      const bool again = round == 1 || (outcome.succeeded() && !outcome.variant.once);
+      if (again && !display_.cancelled()) outcome.runs.push_back(run_once(outcome.variant, round));
+      display_.advance(1);
+    }
+    display_.end();
+    if (round > 1) continue;
+    for (const Outcome& outcome : outcomes) note_failure(outcome);
+  }
+  std::erase_if(outcomes, [](const Outcome& outcome) { return outcome.runs.empty(); });
+  return outcomes;
+}
+
+void VariantRunner::note_failure(const Outcome& outcome) {
+  if (outcome.succeeded() || outcome.interrupted()) return;
+  display_.note(fmt::format("{}: {}: {}", outcome.variant.title, outcome.status(), outcome.error()));
 }
 
 VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
@@ -122,7 +148,9 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   run.command.insert(run.command.end(), {"--stats", statistics.string(), "--quiet"});
   for (const auto* list : {&setup_.arguments, &variant.arguments})
     run.command.insert(run.command.end(), list->begin(), list->end());
-  run.end = run_process(run.command, log, [&] { return display_.cancelled(); });
+  run.load = load_average();
+  run.end = run_process(
+      run.command, log, [&] { return display_.cancelled(); }, setup_.time_limit_s);
   run.statistics = RunStatistics::read(statistics);
   if (!run.end.succeeded()) run.error = error_lines(log);
   return run;

@@ -20,6 +20,7 @@ struct MeasureSetup {
   std::string scene;
   std::vector<std::string> arguments;  ///< for every run: --set, --threads
   int repeat = 1;                      ///< runs of each variant
+  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is ended
 };
 
 /// One way to run the program.
@@ -36,6 +37,7 @@ struct VariantRun {
   std::vector<std::string> command;
   ProcessEnd end;
   std::string error;  ///< what it said when it did not succeed
+  double load = 0;    ///< load average (1 min) when it began
   std::optional<RunStatistics> statistics;
 };
 
@@ -46,19 +48,21 @@ struct Outcome {
 
   bool succeeded() const;      ///< every run
   bool refused() const;        ///< exit code 4: the memory budget was too small, which is an answer
+  bool timed_out() const;      ///< a run took longer than it may
   bool interrupted() const;    ///< stopped from outside, or never begun
-  std::string status() const;  ///< "done", "refused", "exit code 1", "signal 9", "interrupted"
+  std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
   std::string error() const;   ///< of the run that did not succeed
 
   /// The successful run of the median wall time; null when there is none.
   const VariantRun* typical() const;
   /// A number of that run's statistics, by path; not-a-number when it is not known.
   double number(const std::string& path) const;
-  double fastest_wall_s() const;
-  double slowest_wall_s() const;
+  /// Least and most of it over all successful runs.
+  double least(const std::string& path) const;
+  double most(const std::string& path) const;
 };
 
-/// Runs variants one after the other, each in a process of its own.
+/// Runs variants, each in a process of its own, one at a time.
 class VariantRunner {
  public:
   /// `count` variants are expected, for the display only.
@@ -67,11 +71,15 @@ class VariantRunner {
   /// Every variant gets ID.json (--stats), ID.exr or nothing (-o), and ID.log; further runs ID.2.json and so
   /// on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be written.
   Outcome run(const Variant& variant);
+  /// The same for many, in rounds: every variant once, then every one again, so that what changes on the
+  /// machine meanwhile falls on all alike. A variant that did not succeed is not run again.
+  std::vector<Outcome> run_in_rounds(const std::vector<Variant>& variants);
 
   std::filesystem::path picture(const Variant& variant) const;
 
  private:
   VariantRun run_once(const Variant& variant, int repeat);
+  void note_failure(const Outcome& outcome);
 
   const MeasureSetup& setup_;
   ProgressDisplay& display_;

@@ -26,7 +26,18 @@ std::vector<double> ends(const BarPlot& plot) {
     }
     if (plot.stacked) numbers.push_back(sum);
   }
+  for (const auto& [least, most] : plot.spread) numbers.push_back(most);
   return numbers;
+}
+
+// From the least to the most; returns the most that is shown.
+double draw_spread(Svg& svg, const PlotScale& scale, const std::pair<double, double>& spread, double y) {
+  if (!scale.shows(spread.first) || !scale.shows(spread.second)) return 0;
+  const double x0 = scale.pixel(spread.first), x1 = scale.pixel(spread.second);
+  svg.line(x0, y, x1, y, "axis");
+  svg.line(x0, y - 3, x0, y + 3, "axis");
+  svg.line(x1, y - 3, x1, y + 3, "axis");
+  return spread.second;
 }
 
 }  // namespace
@@ -41,7 +52,7 @@ std::string bar_plot_svg(const BarPlot& plot) {
 
   std::vector<LegendEntry> legend;
   for (size_t i = 0; i < plot.series.size(); ++i)
-    legend.push_back({plot.series[i].name, std::string(series_color(i)), "", true});
+    legend.push_back({plot.series[i].name, series_color(i), "", true});
   if (plot.series.size() == 1) legend.clear();
   const double top = legend_height(legend, right - left) + 8;
   const double bottom = top + group_height * static_cast<double>(std::max<size_t>(plot.groups.size(), 1));
@@ -67,14 +78,21 @@ std::string bar_plot_svg(const BarPlot& plot) {
       } else {
         const double end = shown ? scale.pixel(value) : zero;
         svg.rectangle(std::min(zero, end), y, std::abs(end - zero), bar - 1, series_color(i));
-        svg.text(std::max(end, zero) + 4, y + bar - 3, number_text(value, scale.unit), TextAnchor::kStart,
-                 "value");
+        if (shown || plot.notes.empty()) {
+          svg.text(std::max(end, zero) + 4, y + bar - 3, number_text(value, scale.unit), TextAnchor::kStart,
+                   "value");
+        }
         y += bar;
       }
     }
-    if (plot.stacked) {
-      svg.text(scale.pixel(sum) + 4, y + bar - 4, number_text(known ? sum : NAN, scale.unit),
-               TextAnchor::kStart, "value");
+    double end = sum;
+    if (group < plot.spread.size())
+      end = std::max(end, draw_spread(svg, scale, plot.spread[group], y0 + bar / 2));
+    const bool noted = !known && group < plot.notes.size() && !plot.notes[group].empty();
+    if (noted || plot.stacked) {
+      svg.text((known ? scale.pixel(end) : zero) + 4, y0 + bar - 4,
+               noted ? plot.notes[group] : number_text(known ? sum : NAN, scale.unit), TextAnchor::kStart,
+               "value");
     }
   }
   svg.line(zero, top, zero, bottom, "axis");

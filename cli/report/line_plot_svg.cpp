@@ -29,10 +29,10 @@ std::vector<std::vector<double>> stack(const std::vector<Series>& areas) {
 std::vector<LegendEntry> legend_of(const LinePlot& plot) {
   std::vector<LegendEntry> entries;
   for (size_t i = 0; i < plot.areas.size(); ++i)
-    entries.push_back({plot.areas[i].name, std::string(series_color(i)), "", true});
+    entries.push_back({plot.areas[i].name, series_color(i), "", true});
   for (size_t i = 0; i < plot.lines.size(); ++i) {
-    // Above areas a line is black: its colour would be taken for one of theirs.
-    const std::string color = plot.areas.empty() ? std::string(series_color(i)) : "#000000";
+    // Above areas a line has the colour of text: its colour would be taken for one of theirs.
+    const std::string color = plot.areas.empty() ? series_color(i) : std::string(kInkColor);
     entries.push_back({plot.lines[i].name, color, std::string(series_dash(i)), false});
   }
   return entries;

@@ -68,6 +68,8 @@ struct BarPlot {
   std::vector<Values> series;
   bool stacked = false;
   bool half = false;
+  std::vector<std::pair<double, double>> spread = {};  ///< least and most per group: a whisker; or empty
+  std::vector<std::string> notes = {};                 ///< per group: stands where there is no number
 };
 
 /// Pixels for screens: 1 (grey) or 3 (sRGB) bytes each, rows from the top.

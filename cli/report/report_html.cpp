@@ -9,11 +9,12 @@
 #include "cli/report/markup.h"
 #include "cli/report/plot_svg.h"
 #include "cli/report/png.h"
+#include "cli/report/svg.h"
 
 namespace pelage {
 namespace {
 
-constexpr const char* kStyle = R"(
+constexpr std::string_view kStyle = R"(
 body { font: 15px/1.5 "Source Serif 4", Charter, Georgia, serif; color: #111; background: #fff; max-width: 62em;
        margin: 2em auto; padding: 0 1.2em; }
 h1 { font-size: 1.6em; line-height: 1.2; margin: 0 0 .4em; }
@@ -33,12 +34,17 @@ figure { margin: 0; flex: 1 1 100%; } figure.half { flex: 1 1 45%; min-width: 20
 figure svg, figure img { display: block; max-width: 100%; height: auto; }
 caption, figcaption { font: 13px/1.4 "Source Serif 4", Charter, Georgia, serif; text-align: left; color: #222;
                       padding: .3em 0; max-width: 58em; }
-svg text { font: 11.5px "Source Sans 3", "Helvetica Neue", Arial, sans-serif; fill: #222; }
-svg text.value { font-size: 10.5px; fill: #333; }
-svg .axis { stroke: #222; stroke-width: 1; } svg .grid { stroke: #ddd; stroke-width: .8; }
 @media print { body { margin: 0; max-width: none; font-size: 10pt; } h2 { break-after: avoid; }
   figure, .table, dl { break-inside: avoid; } .table { overflow: visible; } table { font-size: 7.5pt; }
   body { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
+)";
+
+// Only on screens: paper stays white.
+constexpr const char* kDarkStyle = R"(
+@media screen and (prefers-color-scheme: dark) {
+body { color: #e6e6e6; background: #16181c; } h2 { border-color: #555; } dt { color: #a8a8a8; }
+table { border-color: #ccc; } th { border-color: #ccc; } tr.even td { background: #202329; }
+caption, figcaption { color: #cfcfcf; } a { color: #8fd0f5; }
 )";
 
 class Page {
@@ -47,8 +53,10 @@ class Page {
     out_ +=
         "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n"
         "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width\"/>\n";
-    out_ += fmt::format("<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n",
-                        escape_markup(report.title), kStyle, escape_markup(report.title));
+    out_ += fmt::format(
+        "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<h1>{}</h1>\n", escape_markup(report.title),
+        std::string(kStyle) + plot_style(Paper::kLight) + kDarkStyle + plot_style(Paper::kDark) + "}\n",
+        escape_markup(report.title));
     add(Paragraph{report.abstract});
     out_ += "<dl>\n";
     for (const auto& [name, value] : report.facts)
@@ -138,5 +146,22 @@ class Page {
 }  // namespace
 
 std::string report_html(const Report& report) { return Page(report).take(); }
+
+std::vector<std::pair<std::string, std::string>> report_figures(const Report& report) {
+  std::vector<std::pair<std::string, std::string>> files;
+  int figure = 0;
+  for (const Section& section : report.sections) {
+    for (const Block& block : section.blocks) {
+      const auto* lines = std::get_if<LinePlot>(&block);
+      const auto* bars = std::get_if<BarPlot>(&block);
+      if (!lines && !bars && !std::holds_alternative<Picture>(block)) continue;
+      ++figure;
+      if (!lines && !bars) continue;
+      files.emplace_back(fmt::format("figure-{:02}.svg", figure),
+                         standalone_svg(lines ? line_plot_svg(*lines) : bar_plot_svg(*bars)));
+    }
+  }
+  return files;
+}
 
 }  // namespace pelage

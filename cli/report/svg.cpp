@@ -20,6 +20,13 @@ std::string point_list(const std::vector<double>& points) {
   return list;
 }
 
+// After Okabe and Ito; on dark paper the dark ones are lighter.
+constexpr size_t kColors = 10;
+constexpr std::string_view kOnLight[kColors] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                                "#56b4e9", "#666666", "#8c564b", "#000000", "#b8b000"};
+constexpr std::string_view kOnDark[kColors] = {"#3d9fd9", "#ee7733", "#1fbf94", "#d98cb8", "#eeb53a",
+                                               "#8fd0f5", "#a0a0a0", "#b98478", "#ffffff", "#d6cf4a"};
+
 const char* anchor_name(TextAnchor anchor) {
   return anchor == TextAnchor::kStart ? "start" : anchor == TextAnchor::kMiddle ? "middle" : "end";
 }
@@ -37,23 +44,21 @@ void Svg::line(double x0, double y0, double x1, double y1, std::string_view styl
 }
 
 void Svg::polyline(const std::vector<double>& points, std::string_view color, std::string_view dash) {
-  out_ += fmt::format(
-      "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" stroke-linejoin=\"round\"{} "
-      "points=\"{}\"/>\n",
-      color, dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash), point_list(points));
+  out_ += fmt::format("<polyline class=\"line {}\"{} points=\"{}\"/>\n", color,
+                      dash.empty() ? "" : fmt::format(" stroke-dasharray=\"{}\"", dash), point_list(points));
 }
 
-void Svg::polygon(const std::vector<double>& points, std::string_view fill) {
-  out_ += fmt::format("<polygon fill=\"{}\" points=\"{}\"/>\n", fill, point_list(points));
+void Svg::polygon(const std::vector<double>& points, std::string_view color) {
+  out_ += fmt::format("<polygon class=\"fill {}\" points=\"{}\"/>\n", color, point_list(points));
 }
 
-void Svg::rectangle(double x, double y, double width, double height, std::string_view fill) {
-  out_ += fmt::format("<rect fill=\"{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", fill, px(x),
-                      px(y), px(width), px(height));
+void Svg::rectangle(double x, double y, double width, double height, std::string_view color) {
+  out_ += fmt::format("<rect class=\"fill {}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", color,
+                      px(x), px(y), px(width), px(height));
 }
 
 void Svg::dot(double x, double y, std::string_view color) {
-  out_ += fmt::format("<circle fill=\"{}\" cx=\"{}\" cy=\"{}\" r=\"3\"/>\n", color, px(x), px(y));
+  out_ += fmt::format("<circle class=\"fill {}\" cx=\"{}\" cy=\"{}\" r=\"3\"/>\n", color, px(x), px(y));
 }
 
 void Svg::text(double x, double y, std::string_view text, TextAnchor anchor, std::string_view style_class) {
@@ -80,15 +85,35 @@ double text_width(std::string_view text) {
   return 6.3 * static_cast<double>(characters);
 }
 
-std::string_view series_color(size_t index) {
-  constexpr std::string_view kColors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                          "#56b4e9", "#666666", "#8c564b", "#000000", "#b8b000"};
-  return kColors[index % std::size(kColors)];
-}
+std::string series_color(size_t index) { return "s" + std::to_string(index % kColors); }
 
 std::string_view series_dash(size_t index) {
   constexpr std::string_view kDashes[] = {"", "7 3", "2 2.5", "9 3 2 3", "5 2 1 2 1 2"};
   return kDashes[index % std::size(kDashes)];
+}
+
+std::string plot_style(Paper paper) {
+  const bool dark = paper == Paper::kDark;
+  const std::string_view ink = dark ? "#e6e6e6" : "#222222";
+  std::string style = fmt::format(
+      "svg text {{ font: 11.5px 'Source Sans 3', 'Helvetica Neue', Arial, sans-serif; fill: {0}; }}\n"
+      "svg text.value {{ font-size: 10.5px; }}\n"
+      "svg .axis {{ stroke: {0}; stroke-width: 1; }} svg .grid {{ stroke: {1}; stroke-width: .8; }}\n"
+      "svg .line {{ fill: none; stroke-width: 1.8; stroke-linejoin: round; }}\n"
+      "svg .line.ink {{ stroke: {0}; }} svg .fill.ink {{ fill: {0}; }}\n",
+      ink, dark ? "#3a3d42" : "#dddddd");
+  for (size_t i = 0; i < kColors; ++i) {
+    style += fmt::format("svg .line.s{0} {{ stroke: {1}; }} svg .fill.s{0} {{ fill: {1}; }}\n", i,
+                         (dark ? kOnDark : kOnLight)[i]);
+  }
+  return style;
+}
+
+std::string standalone_svg(const std::string& svg) {
+  const size_t head = svg.find(">\n");
+  if (head == std::string::npos) return svg;
+  return svg.substr(0, head + 2) + "<style>" + plot_style(Paper::kLight) +
+         "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + svg.substr(head + 2);
 }
 
 }  // namespace pelage

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/progress.h"
@@ -16,12 +17,6 @@ constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
 // Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
 // times finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
-
-float area(const Box3f& box) {
-  if (box.isEmpty()) return 0;
-  const V3f d = box.size();
-  return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
-}
 
 size_t part_count_bound(const ChunkCounts& counts) {
   return std::clamp<size_t>((counts.segments + counts.triangles) / kSegmentsPerPart, 1, kMostParts);
@@ -136,10 +131,7 @@ ChunkAccel::~ChunkAccel() = default;
 void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger,
                             const Workers& workers) {
   given_parts_.reserve(bounds.size());
-  for (const ChunkBounds& chunk : bounds) {
-    given_parts_.push_back(static_cast<uint32_t>(chunk.part_count()));
-    for (size_t part = 0; part < chunk.part_count(); ++part) bounds_area_ += area(chunk.box(part, 0));
-  }
+  for (const ChunkBounds& chunk : bounds) given_parts_.push_back(static_cast<uint32_t>(chunk.part_count()));
   tree_ = std::make_unique<ChunkTree>(bounds, workers);
   charges_.emplace_back(ledger, MemoryTag::kChunks,
                         static_cast<int64_t>(tree_->bytes() + bounds.size() * sizeof(uint32_t)));
@@ -199,6 +191,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
 
 Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   NearestSoFar nearest;
+  std::optional<uint32_t> nearest_chunk;
   if (!is_finite(ray)) return nearest.hit;
   visit_chunks(
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
@@ -206,9 +199,11 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
         const bool found = residency_->visit(chunk, thread.worker, [&](Resident& unit) {
           return static_cast<const EmbreeChunk&>(unit).closest(ray, nearest, thread.met);
         });
-        if (found) residency_->mark_hit(chunk);
+        if (found) nearest_chunk = chunk;
         return true;
       });
+  // Only the answer counts: what else was hit on the way depends on the order of the visits.
+  if (nearest_chunk) residency_->mark_hit(*nearest_chunk);
   return nearest.hit;
 }
 

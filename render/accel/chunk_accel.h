@@ -53,8 +53,6 @@ class ChunkAccel final : public Accel {
   /// Whether the memory limit held all chunks together when the accelerator was made.
   bool fits() const { return fits_; }
   ResidencyCounts counts() const { return residency_->counts(); }
-  /// Sum of the surface areas of the boxes that rays are tested against first, at shutter open.
-  double bounds_area() const { return bounds_area_; }
 
  private:
   class Growth;
@@ -74,7 +72,6 @@ class ChunkAccel final : public Accel {
   std::vector<uint32_t> given_parts_;   // boxes of each chunk in the tree
   std::unique_ptr<Scratch[]> scratch_;  // one per thread
   std::vector<MemoryCharge> charges_;
-  double bounds_area_ = 0;
   bool fits_ = true;
 };
 

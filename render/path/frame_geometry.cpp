@@ -2,9 +2,11 @@
 #include "render/path/frame_geometry.h"
 
 #include <algorithm>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "procedurals/bounding.h"
 
 namespace pelage {
 
@@ -16,12 +18,17 @@ FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vec
 std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Workers& workers,
                                                          Progress& progress, MemoryLedger& ledger,
                                                          Statistics& statistics) {
+  const Stopwatch preparing;
   auto chunks = std::make_unique<const FrameChunks>(scene, workers);
   const Stopwatch bounding;
   std::vector<ChunkBounds> bounds = chunks->bounds(workers, progress, ledger);
-  statistics.stages_s["bound"] += bounding.seconds();
+  const double bound_s = bounding.seconds();
+  statistics.stages_s["bound"] += bound_s;
   if (progress.cancelled()) return nullptr;
   statistics.chunks += static_cast<int64_t>(chunks->size());
+  const BoundsArea area = bounds_area(std::span(bounds).first(chunks->leaves().size()));
+  statistics.bounds_area += area.chunks;
+  statistics.part_bounds_area += area.parts;
 
   ChunkAccelOptions options;
   options.chunk.shape = scene.render.curves;
@@ -33,14 +40,15 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const Stopwatch growing;
   std::unique_ptr<const FrameGeometry> geometry(
       new FrameGeometry(std::move(chunks), std::move(bounds), options, workers, progress, ledger));
-  if (options.eager) statistics.stages_s["grow"] += growing.seconds();
+  const double grow_s = options.eager ? growing.seconds() : 0;
+  if (options.eager) statistics.stages_s["grow"] += grow_s;
+  statistics.stages_s["prepare"] += preparing.seconds() - bound_s - grow_s;
   return progress.cancelled() ? nullptr : std::move(geometry);
 }
 
 void FrameGeometry::add_to(Statistics& statistics) const {
   const ResidencyCounts counts = accel_.counts();
   statistics.strands_generated += chunks_->strands_grown();
-  statistics.bounds_area += accel_.bounds_area();
   statistics.chunks_touched += counts.touched;
   statistics.expansions += counts.expansions;
   statistics.reexpansions += counts.reexpansions;

@@ -112,7 +112,6 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
                Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
   FrameResult result{Film(scene.image.width, scene.image.height, layers, ledger)};
   const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
-  statistics.stages_s["prepare"] += preparing.seconds();
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 

@@ -137,7 +137,7 @@ TEST_F(CrowdCompositionTest, HairIsLongerButNotThicker) {
 }
 
 TEST_F(CrowdCompositionTest, OnlyWhatTheCameraSeesIsInTheFrame) {
-  EXPECT_EQ(compose_frame(1).characters_in_frame, 2);
+  EXPECT_EQ(compose_frame(1).characters_in_frame, 1);
   const World away = compose_frame(1, {{"camera.look_at", "[1, 0, 30]"}});
   EXPECT_EQ(away.characters_in_frame, 0);
   const World half = compose_frame(1, {crowd("seed: 5"),

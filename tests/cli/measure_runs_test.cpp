@@ -61,6 +61,41 @@ TEST_F(MeasureRuns, InterruptionEndsTheChild) {
   EXPECT_FALSE(end.succeeded());
 }
 
+TEST_F(MeasureRuns, ARunThatTakesTooLongIsEnded) {
+  const ProcessEnd end = run_process(
+      {"/bin/sh", "-c", "exec sleep 1000"}, log(), [] { return false; }, 0.05);
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_FALSE(end.interrupted);
+  EXPECT_FALSE(end.succeeded());
+  Outcome outcome{{}, {{{}, end, "", 0, {}}}};
+  EXPECT_EQ(outcome.status(), "time-out");
+  EXPECT_FALSE(outcome.refused());
+}
+
+TEST_F(MeasureRuns, RoundsGoOverAllVariantsBeforeTheSecondRun) {
+  const std::filesystem::path order = folder_.path() / "order";
+  std::ofstream(folder_.path() / "program")
+      << "#!/bin/sh\nname=$(basename $4)\nprintf \"$name \" >> " << order.string()
+      << "\n[ $name != b.json ] || exit 1\necho '{\"wall_s\": 1}' > $4\n";
+  std::filesystem::permissions(folder_.path() / "program", std::filesystem::perms::owner_all);
+  MeasureSetup setup;
+  setup.program = folder_.path() / "program";
+  setup.folder = folder_.path();
+  setup.scene = "scene.yaml";
+  setup.repeat = 2;
+  ProgressDisplay display(ProgressStyle::kQuiet, [] { return false; });
+  std::vector<Variant> variants(3);
+  for (size_t i = 0; i < 3; ++i) {
+    variants[i].id = variants[i].title = std::string(1, static_cast<char>('a' + i));
+    variants[i].command = "grow";
+  }
+  const std::vector<Outcome> outcomes = VariantRunner(setup, display, 3).run_in_rounds(variants);
+  EXPECT_EQ(read_file(order), "a.json b.json c.json a.2.json c.2.json ");  // what failed is not run again
+  ASSERT_EQ(outcomes.size(), 3u);
+  EXPECT_EQ(outcomes[0].runs.size(), 2u);
+  EXPECT_EQ(outcomes[1].status(), "exit code 1");
+}
+
 TEST_F(MeasureRuns, WhatCannotBeStartedIsAnError) {
   EXPECT_THROW(run_process({"/no/such/program"}, log(), [] { return false; }), Error);
   EXPECT_THROW(run_process({"/bin/true"}, folder_.path() / "none" / "log", [] { return false; }), Error);
@@ -90,8 +125,8 @@ TEST_F(MeasureRuns, TheMedianRunCounts) {
       3);
   ASSERT_EQ(three.runs.size(), 3u);
   EXPECT_EQ(three.number("wall_s"), 2);
-  EXPECT_EQ(three.fastest_wall_s(), 1);
-  EXPECT_EQ(three.slowest_wall_s(), 3);
+  EXPECT_EQ(three.least("wall_s"), 1);
+  EXPECT_EQ(three.most("wall_s"), 3);
   EXPECT_EQ(three.typical()->statistics->sum("rays"), 10);
   EXPECT_EQ(three.typical()->statistics->timeline().size(), 2u);
   EXPECT_EQ(three.typical()->statistics->json().find("timeline"), std::string::npos);

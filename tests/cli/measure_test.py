@@ -90,11 +90,21 @@ class Measure(unittest.TestCase):
         self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")
         report = self.read("out")
         rows = {row["variant"]: row for row in report["rows"]}
-        self.assertEqual(len(rows), 11)
+        self.assertEqual(len(rows), 13)
         self.assertEqual({row["status"] for row in rows.values()}, {"done"})
         for name, row in rows.items():
-            if not name.startswith("user"):
+            if not name.startswith("user") and name != "exact, attributes not compacted":
                 self.assertEqual(row["lost_pixels"], 0, name)
+            if name != "none":
+                self.assertGreater(row["bounds_area"], 0, name)
+        self.assertGreater(rows["conservative"]["bounds_area"], rows["exact"]["bounds_area"])
+        self.assertGreaterEqual(rows["exact"]["bounds_area"], rows["exact-shutter"]["bounds_area"])
+        for row in rows.values():  # stages do not overlap
+            self.assertLess(sum(v for k, v in row.items() if k.startswith("stage_") and v), 1.02 * row["wall_s"])
+        figures = sorted((self.path / "out" / "figures").iterdir())
+        self.assertGreater(len(figures), 5)
+        for figure in figures:
+            xml.etree.ElementTree.parse(figure)
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
 
     def test_residency(self):
@@ -118,6 +128,11 @@ class Measure(unittest.TestCase):
     def test_a_variant_that_fails_is_reported(self):
         self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--memory", "1K", code=1)
         self.assertEqual({row["status"] for row in self.read("out")["rows"]}, {"refused"})
+
+    def test_a_run_that_takes_too_long_is_shown_as_such(self):
+        self.measure("bounds", "scene.yaml", "-o", "out", "--repeat", "3", "--quiet", "--time-limit", "0.001", code=1)
+        rows = self.read("out")["rows"]
+        self.assertEqual({(row["status"], row["runs"]) for row in rows}, {("time-out", 1)})
 
     def test_mistakes_are_found_before_anything_is_run(self):
         self.measure("bounds", "none.yaml", code=3)

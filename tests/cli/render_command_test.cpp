@@ -48,7 +48,7 @@ TEST_F(RenderCommandTest, WritesLayersHeaderAndStatistics) {
   const auto stats = nlohmann::json::parse(read_file(*o.stats));
   EXPECT_EQ(stats["strands_described"], 400);
   EXPECT_EQ(stats["strands_generated"], 400);
-  EXPECT_EQ(stats["characters_in_frame"], 2);
+  EXPECT_EQ(stats["characters_in_frame"], 1);
   EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 4);
   EXPECT_GT(stats["memory_bytes"]["chunks"], 0);
   EXPECT_EQ(stats["samples_rejected"], 0);

@@ -11,6 +11,7 @@
 #include "cli/report/report_csv.h"
 #include "cli/report/report_html.h"
 #include "cli/report/report_json.h"
+#include "cli/report/svg.h"
 
 namespace pelage {
 namespace {
@@ -105,6 +106,33 @@ TEST(PlotSvg, HasNoNumberThatIsNoneEvenWithoutData) {
     EXPECT_EQ(svg.find("inf"), std::string::npos) << svg;
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
   }
+}
+
+TEST(PlotSvg, ShowsTheSpreadAndNotesWhereThereIsNoNumber) {
+  BarPlot bars;
+  bars.groups = {"a", "b"};
+  bars.series = {{"s", {2, NAN}}};
+  const auto marks = [](const std::string& svg) {
+    size_t count = 0;
+    for (size_t at = 0; (at = svg.find("class=\"axis\"", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  const size_t plain = marks(bar_plot_svg(bars));
+  bars.spread = {{1, 3}, {NAN, NAN}};
+  bars.notes = {"", "refused"};
+  const std::string svg = bar_plot_svg(bars);
+  EXPECT_EQ(marks(svg), plain + 3);
+  EXPECT_NE(svg.find(">refused<"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(PlotSvg, StandsAloneWithItsColors) {
+  LinePlot plot;
+  plot.lines = {{"a", {{0, 1}, {1, 2}}}};
+  const std::string svg = line_plot_svg(plot), file = standalone_svg(svg);
+  EXPECT_EQ(svg.find("<style>"), std::string::npos);
+  EXPECT_NE(file.find(".line.s0 { stroke: #0072b2; }"), std::string::npos);
+  EXPECT_NE(plot_style(Paper::kLight), plot_style(Paper::kDark));
 }
 
 TEST(Png, IsWhatReadersExpect) {

@@ -36,7 +36,7 @@ class Examples(unittest.TestCase):
             statistics = json.loads(pathlib.Path(folder, "stats.json").read_text())
             self.assertEqual(statistics["strands_described"], 25 * 8000)
             self.assertEqual(statistics["strands_unique"], 25 * 8000)
-            self.assertEqual(statistics["characters_in_frame"], 26)    # 25 rats and their floor
+            self.assertEqual(statistics["characters_in_frame"], 25)
 
 
 if __name__ == "__main__":
