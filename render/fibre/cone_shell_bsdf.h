@@ -19,7 +19,7 @@ struct ConeShellMaterial {
   /// hair to hair but do not boil in time. Never wraps around.
   float tangent_place(LobeGroup lobe, float v, uint64_t strand_id, uint64_t seed) const;
 
-  float diffuse;
+  float diffuse;  ///< where none is given, what the highlights of a white fibre leave
   float balance;
   Rgb primary;
   Rgb secondary;

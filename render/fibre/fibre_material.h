@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "render/fibre/coat_color.h"
 #include "render/fibre/fibre_bsdf.h"
 #include "render/surface/material.h"
 
@@ -16,8 +17,8 @@ struct FibrePoint {
   Rgb color{0};           ///< the material's colour there
 };
 
-/// The parameters with the tables that their model needs found or made: once per run rather than once per
-/// frame. `warn` is told of damaged files.
+/// The parameters with the tables that their model and their colour need found or made: once per run rather
+/// than once per frame. `warn` is told of damaged files.
 MaterialParams with_tables(MaterialParams params, const Workers& workers, const WarningSink& warn);
 
 /// A material for fibres: what all its points share, made once. Thread safety: const members may be called
@@ -26,8 +27,8 @@ class FibreMaterial {
  public:
   /// Whether the parameters are of a model for fibres.
   static bool is_one(const MaterialParams& params) { return fibre_params(params) != nullptr; }
-  /// `params` must be of a model for fibres.
-  explicit FibreMaterial(const MaterialParams& params);
+  /// `params` must be of a model for fibres. Tables that with_tables() has not made are made here.
+  explicit FibreMaterial(const MaterialParams& params, const Workers& workers = Workers::alone());
 
   /// Refers to this material.
   FibreBsdf at(const FibrePoint& point) const;
@@ -36,14 +37,23 @@ class FibreMaterial {
   const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
   /// Whether FibrePoint::h should be drawn anew for each point, uniformly, in place of that of the hit.
   bool far_field() const { return far_field_; }
+  /// What colours mean; null for models with a formula of their own, and where the colour does not count.
+  const std::shared_ptr<const CoatColor>& coat_color() const { return coat_color_; }
 
  private:
-  struct LambertCylinder {};
+  struct LambertCylinder {
+    std::optional<Rgb> albedo;
+  };
   using Model = std::variant<ConeShellMaterial, LambertCylinder, KajiyaKayMaterial, ChiangMaterial,
                              DeonMaterial, MarschnerMaterial, YanFastMaterial, YanMaterial>;
   static Model make(const MaterialParams& params);
+  FibreBsdf at_absorbing(const FibrePoint& point, const Rgb& absorption) const;
+  /// Opaque models look at `albedo`, translucent ones at `paint`: a colour or an absorption, whichever their
+  /// at() takes.
+  FibreBsdf at(const FibrePoint& point, const Rgb& albedo, const Rgb& paint) const;
 
   Model model_;
+  std::shared_ptr<const CoatColor> coat_color_;
   bool far_field_;
 };
 

@@ -12,7 +12,9 @@ const Schema<LambertCylinderParams>& LambertCylinderParams::schema() {
     Schema<P> s("lambert-cylinder",
                 "Fur as opaque tubes that reflect evenly: nothing goes through. The baseline that the other "
                 "models are compared with.");
-    add_color_keys(s, "Fraction of the light that is reflected, by channel");
+    add_color_keys(s, "Colour of much such fur together, turned into albedo; unused where that is given");
+    s.key("albedo", &P::albedo,
+          {.help = "Fraction of the light that a fibre reflects, by channel", .min = 0, .max = 1});
     add_field_key(s);
     return s;
   }();
@@ -25,8 +27,12 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
     Schema<P> s("kajiya-kay",
                 "Fur by Kajiya and Kay (1989): a diffuse term and one highlight about the strand, here "
                 "normalised. Albedos that sum to more than 1 are scaled down.");
-    add_color_keys(s, "Colour of the diffuse term");
-    s.key("diffuse", &P::diffuse, {.help = "Albedo of the diffuse term, times color", .min = 0, .max = 1});
+    add_color_keys(
+        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the diffuse term");
+    s.key("diffuse", &P::diffuse,
+          {.help = "Albedo of the diffuse term, times color; without it, found from color",
+           .min = 0,
+           .max = 1});
     s.key("specular", &P::specular,
           {.help = "Albedo of the highlight, not coloured by the fibre", .min = 0, .max = 1});
     s.key("exponent", &P::exponent, {.help = "Of the highlight: larger is sharper", .min = 1, .max = 1000});
@@ -38,9 +44,10 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
 const Schema<MarschnerParams>& MarschnerParams::schema() {
   static const Schema<MarschnerParams> table = [] {
     using P = MarschnerParams;
-    Schema<P> s("marschner",
-                "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. As published it gives back "
-                "nearly twice what it gets; see variant.");
+    Schema<P> s(
+        "marschner",
+        "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. As published it gives back "
+        "nearly twice what it gets, and a coat of pale fur then gives back without end; see variant.");
     add_color_keys(s, kColorHelp);
     add_absorption_keys(s);
     add_eta_key(s);
@@ -117,10 +124,15 @@ const Schema<ChiangParams>& ChiangParams::schema() {
   return table;
 }
 
-Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color) {
-  if (!params.absorption && !params.eumelanin && !params.pheomelanin) return by_color(color);
+std::optional<Rgb> given_absorption(const AbsorptionParams& params) {
+  if (!params.absorption && !params.eumelanin && !params.pheomelanin) return std::nullopt;
   return params.absorption.value_or(Rgb(0)) +
          melanin_absorption(params.eumelanin.value_or(0), params.pheomelanin.value_or(0));
+}
+
+Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color) {
+  const std::optional<Rgb> given = given_absorption(params);
+  return given ? *given : by_color(color);
 }
 
 }  // namespace pelage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "base/schema.h"
@@ -9,10 +10,14 @@
 
 namespace pelage {
 
+class CoatColor;
+
 /// What every model of a fibre has, so that one may be put in another's place by its name alone.
 struct FibreParams {
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};
+  /// What with_tables() found or made for models that need it. Null: made when the material is.
+  std::shared_ptr<const CoatColor> coat_color = {};
 };
 
 /// Whether the place across the fibre matters that a ray meets, or all places count alike, as if the fibre
@@ -27,6 +32,7 @@ struct EnumNames<FibreField> {
 struct LambertCylinderParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "lambert-cylinder";
+  std::optional<Rgb> albedo;  ///< none: from the colour
   FibreField field = FibreField::kNear;
   static const Schema<LambertCylinderParams>& schema();
 };
@@ -35,8 +41,8 @@ struct LambertCylinderParams : FibreParams {
 struct KajiyaKayParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "kajiya-kay";
-  float diffuse = 0.7f;
-  Rgb specular{0.2f};
+  std::optional<float> diffuse;  ///< times the colour; none: from the colour
+  Rgb specular{0.08f};
   float exponent = 40;
   static const Schema<KajiyaKayParams>& schema();
 };
@@ -63,7 +69,7 @@ struct MarschnerParams : FibreParams, AbsorptionParams {
   float alpha = -7.5f;         ///< shift of the R lobe, degrees
   float beta = 7.5f;           ///< width of the R lobe, degrees
   float azimuthal_width = 15;  ///< degrees
-  MarschnerVariant variant = MarschnerVariant::kPublished;
+  MarschnerVariant variant = MarschnerVariant::kHalved;
   static const Schema<MarschnerParams>& schema();
 };
 
@@ -89,7 +95,9 @@ struct ChiangParams : FibreParams, AbsorptionParams {
   static const Schema<ChiangParams>& schema();
 };
 
-/// Absorption per radius of a point whose material has the given colour there.
+/// Absorption per radius by coefficient and pigments; nothing where neither is given.
+std::optional<Rgb> given_absorption(const AbsorptionParams& params);
+/// The same, or else that of a point whose material has the given colour there.
 class ColorToAbsorption;
 Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color);
 

@@ -24,7 +24,8 @@ float integrate_norm(double theta_o, double exponent) {
 }  // namespace
 
 KajiyaKayMaterial::KajiyaKayMaterial(const KajiyaKayParams& params)
-    : diffuse(params.diffuse),
+    : diffuse(
+          params.diffuse.value_or(1 - std::max({params.specular.x, params.specular.y, params.specular.z}))),
       specular(params.specular),
       exponent(params.exponent),
       // cos^p x <= exp(-p (1 - cos x)): the lobe of variance 1 / p covers the highlight.

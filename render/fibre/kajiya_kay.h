@@ -16,7 +16,7 @@ class KajiyaKayMaterial {
  public:
   explicit KajiyaKayMaterial(const KajiyaKayParams& params);
 
-  float diffuse;
+  float diffuse;  ///< where none is given, what the highlight of a white fibre leaves
   Rgb specular;
   float exponent;
   LongitudinalLobe proposal;  ///< never below the highlight by more than a factor

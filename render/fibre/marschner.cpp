@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "render/fibre/deon.h"
-
 namespace pelage {
 namespace {
 
@@ -20,8 +18,7 @@ constexpr float kLeastCosine = 1e-2f;
 MarschnerMaterial::MarschnerMaterial(const MarschnerParams& params)
     : eta_(params.eta),
       scale_(params.variant == MarschnerVariant::kPublished ? 1.0f : 0.5f),
-      absorption_(params),
-      by_color_(kColorRoughness),
+      absorption_(given_absorption(params)),
       azimuthal_(params.azimuthal_width * (kPi / 180)) {
   const float alpha = params.alpha * (kPi / 180), beta = params.beta * (kPi / 180);
   alpha_ = {alpha, -alpha / 2, -3 * alpha / 2};
@@ -34,8 +31,8 @@ MarschnerMaterial::MarschnerMaterial(const MarschnerParams& params)
   proposal_.azimuthal.fill(WrappedGaussian(kWider * params.azimuthal_width * (kPi / 180)));
 }
 
-MarschnerBsdf MarschnerMaterial::at(const FibreFrame& frame, float h, const Rgb& color) const {
-  return {*this, frame, h, fibre_absorption(absorption_, by_color_, color)};
+MarschnerBsdf MarschnerMaterial::at(const FibreFrame& frame, float h, const Rgb& absorption) const {
+  return {*this, frame, h, absorption_.value_or(absorption)};
 }
 
 SeparableBsdf<WrappedGaussian> MarschnerBsdf::proposal(const MarschnerMaterial& material,

@@ -17,15 +17,15 @@ class MarschnerBsdf;
 class MarschnerMaterial {
  public:
   explicit MarschnerMaterial(const MarschnerParams& params);
-  MarschnerBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+  /// `absorption` counts where the material gives none.
+  MarschnerBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
   friend class MarschnerBsdf;
   static constexpr int kLobes = 3;
   float eta_;
   float scale_;  // of all lobes
-  AbsorptionParams absorption_;
-  ColorToAbsorption by_color_;
+  std::optional<Rgb> absorption_;
   std::array<float, kLobes> alpha_, beta_;  // radians, in theta_h
   WrappedGaussian azimuthal_;
   LobeWidths<WrappedGaussian> proposal_;

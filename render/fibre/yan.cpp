@@ -5,34 +5,6 @@
 #include <cmath>
 
 namespace pelage {
-namespace {
-
-/// How bright a white fibre of this kind is whose cortex and medulla absorb alike, for light across it.
-template <class Lengths>
-MatchedAbsorption match(const YanOptics& optics, const Lengths& lengths) {
-  constexpr int kOffsets = 24;
-  std::vector<MedullaCrossing> crossings;
-  std::vector<PathLengths> travelled;
-  for (int i = 0; i < kOffsets; ++i) {
-    const float h = (static_cast<float>(i) + 0.5f) / kOffsets;
-    crossings.emplace_back(optics, 0.0f, 1.0f, h);
-    travelled.push_back(lengths(h));
-  }
-  return MatchedAbsorption([&](float sigma) {
-    float sum = 0;
-    for (int i = 0; i < kOffsets; ++i) {
-      const MedullaCrossing& c = crossings[i];
-      const float leg = c.unscattered * std::exp(-sigma * (c.in_cortex + c.in_medulla));
-      const auto a = attenuations(c.surface.reflectance, Rgb(leg));
-      sum += a[0].x + a[1].x + a[2].x + a[3].x +
-             c.scattered() * travelled[i].transmittance(Rgb(sigma), Rgb(sigma)).x;
-    }
-    return sum / kOffsets;
-  });
-}
-
-}  // namespace
-
 MedullaCrossing::MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h)
     : surface(optics.eta, optics.layers, sin_theta, cos_theta, h) {
   const float half2 = optics.kappa * optics.kappa - surface.sin_gamma_t * surface.sin_gamma_t;
@@ -73,8 +45,7 @@ TracedFibre traced(const YanOptics& o) { return {o.eta, o.layers, o.kappa, o.sig
 }  // namespace
 
 YanFastMaterial::YanFastMaterial(const YanFastParams& params)
-    : fibre_(params.optics()),
-      scattering_([&] {
+    : fibre_(params.optics()), scattering_([&] {
         constexpr int kPaths = 8192;
         std::array<Scattering, kInclinations> all;
         for (int i = 0; i < kInclinations; ++i) {
@@ -93,8 +64,7 @@ YanFastMaterial::YanFastMaterial(const YanFastParams& params)
           s.lengths = PathLengths(std::move(scattered));
         }
         return all;
-      }()),
-      by_color_(match(fibre_.optics(), [&](float) { return scattering_[0].lengths; })) {}
+      }()) {}
 
 YanFastMaterial::Scattering YanFastMaterial::scattering_at(float sin_theta) const {
   const float x = std::min(std::abs(sin_theta) / 0.98f, 1.0f) * (kInclinations - 1);
@@ -104,11 +74,10 @@ YanFastMaterial::Scattering YanFastMaterial::scattering_at(float sin_theta) cons
           scattering_[i].balance + t * (scattering_[i + 1].balance - scattering_[i].balance)};
 }
 
-YanFastBsdf YanFastMaterial::at(const FibreFrame& frame, float h, const Rgb& color) const {
+YanFastBsdf YanFastMaterial::at(const FibreFrame& frame, float h, const Rgb& absorption) const {
   const YanOptics& o = fibre_.optics();
   const MedullaCrossing crossing(o, frame.sin_theta_o(), frame.cos_theta_o(), h);
-  const Rgb matched = o.sigma_ca && o.sigma_ma ? Rgb(0) : by_color_(color);
-  const Rgb sigma_ca = o.sigma_ca.value_or(matched), sigma_ma = o.sigma_ma.value_or(matched);
+  const Rgb sigma_ca = o.sigma_ca.value_or(absorption), sigma_ma = o.sigma_ma.value_or(absorption);
   const Scattering s = scattering_at(frame.sin_theta_o());
   return {fibre_.straight(frame, crossing, sigma_ca, sigma_ma), WignerScatter(s.balance),
           s.lengths.transmittance(sigma_ca, sigma_ma) * crossing.scattered()};
@@ -116,15 +85,12 @@ YanFastBsdf YanFastMaterial::at(const FibreFrame& frame, float h, const Rgb& col
 
 YanMaterial::YanMaterial(const YanParams& params)
     : fibre_(params.optics()),
-      tables_(params.made ? params.made : MedullaTables::make(fibre_.optics(), Workers::alone())),
-      by_color_(match(fibre_.optics(), [&](float h) { return TabulatedScatter(*tables_, 0, h).lengths(); })) {
-}
+      tables_(params.made ? params.made : MedullaTables::make(fibre_.optics(), Workers::alone())) {}
 
-YanBsdf YanMaterial::at(const FibreFrame& frame, float h, const Rgb& color) const {
+YanBsdf YanMaterial::at(const FibreFrame& frame, float h, const Rgb& absorption) const {
   const YanOptics& o = fibre_.optics();
   const MedullaCrossing crossing(o, frame.sin_theta_o(), frame.cos_theta_o(), h);
-  const Rgb matched = o.sigma_ca && o.sigma_ma ? Rgb(0) : by_color_(color);
-  const Rgb sigma_ca = o.sigma_ca.value_or(matched), sigma_ma = o.sigma_ma.value_or(matched);
+  const Rgb sigma_ca = o.sigma_ca.value_or(absorption), sigma_ma = o.sigma_ma.value_or(absorption);
   const TabulatedScatter scatter(*tables_, frame.sin_theta_o(), h);
   return {fibre_.straight(frame, crossing, sigma_ca, sigma_ma), scatter,
           scatter.lengths().transmittance(sigma_ca, sigma_ma) * crossing.scattered()};

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 
-#include "render/fibre/matched_absorption.h"
 #include "render/fibre/medulla_bsdf.h"
 #include "render/fibre/medulla_tables.h"
 #include "render/fibre/path_lengths.h"
@@ -55,7 +54,8 @@ class MedullaFibre {
 class YanFastMaterial {
  public:
   explicit YanFastMaterial(const YanFastParams& params);
-  YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+  /// `absorption` is that of cortex and medulla where the material gives none.
+  YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
   struct Scattering {
@@ -67,7 +67,6 @@ class YanFastMaterial {
 
   MedullaFibre fibre_;
   std::array<Scattering, kInclinations> scattering_;  // over |sin theta_o|
-  MatchedAbsorption by_color_;
 };
 
 /// Constants of a `yan` material: scattered light by tables over inclination and h. Refers to the tables,
@@ -75,12 +74,12 @@ class YanFastMaterial {
 class YanMaterial {
  public:
   explicit YanMaterial(const YanParams& params);
-  YanBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
+  /// As in YanFastMaterial.
+  YanBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
   MedullaFibre fibre_;
   std::shared_ptr<const MedullaTables> tables_;
-  MatchedAbsorption by_color_;
 };
 
 }  // namespace pelage

@@ -55,8 +55,8 @@ void add_medulla_keys(Schema<P>& s) {
   };
   add_color_keys(
       s,
-      "Colour of the fibre, turned into the absorption at which a single one is as bright as under "
-      "chiang; unused where a preset or sigma_ca and sigma_ma are given");
+      "Colour of much such fur together, turned into the absorption of cortex and medulla; unused where "
+      "a preset or sigma_ca and sigma_ma are given");
   s.key("preset", static_cast<YanPreset P::*>(&P::preset),
         {.help = "Fur to start from; the keys below change it. row-a, row-b and row-c are parameters that "
                  "implementations of the model carry as measured, second hand and of animals unknown; all "

@@ -45,8 +45,13 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
         "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two highlights, "
         "each "
         "a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
-    add_color_keys(s, "Colour of the fibre");
-    s.key("diffuse", &P::diffuse, {.help = "Albedo of the diffuse lobe, times color", .min = 0, .max = 1});
+    add_color_keys(
+        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the fibre's lobes");
+    s.key("diffuse", &P::diffuse,
+          {.help = "Albedo of the diffuse lobe, times color; without it, found from color so that a white "
+                   "fibre absorbs nothing",
+           .min = 0,
+           .max = 1});
     s.key("balance", &P::balance,
           {.help =
                "Where the diffuse lobe scatters: 1 back to the viewer's side, 0 evenly, -1 through the fibre",

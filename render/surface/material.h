@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -41,7 +42,7 @@ struct EnumNames<ShellVariant> {
 struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
-  float diffuse = 0.7f;          ///< albedo of the diffuse lobe, times color
+  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; none: from the colour
   float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
   float primary_width = 12;      ///< half width of its shell, degrees

@@ -204,6 +204,7 @@ TEST(ConeShellBsdf, BlackFibresScatterNothing) {
 TEST(ConeShellBsdf, DiffuseLobeIsReciprocalAndBalanced) {
   BsdfCase c;
   c.params.balance = 0.8f;
+  c.params.diffuse = 0.7f;
   c.params.primary = c.params.secondary = Rgb(0);
   const ConeShellMaterial material(c.params);
   const V3f tangent(0, 0, 1);

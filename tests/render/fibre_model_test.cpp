@@ -23,10 +23,10 @@ P changed(Change&& change) {
 
 std::vector<Variation> variations() {
   std::vector<Variation> all;
-  all.push_back({"lambert-cylinder", LambertCylinderParams{}});
+  all.push_back({"lambert-cylinder", changed<LambertCylinderParams>([](auto& p) { p.albedo = Rgb(0.5f); })});
   for (float exponent : {1.0f, 40.0f, 1000.0f}) {
     all.push_back({"kajiya-kay " + std::to_string(exponent),
-                   changed<KajiyaKayParams>([&](auto& p) { p.exponent = exponent; })});
+                   changed<KajiyaKayParams>([&](auto& p) { p.exponent = exponent, p.diffuse = 0.7f; })});
   }
   for (float beta : {0.1f, 0.3f, 0.6f, 1.0f}) {
     all.push_back({"chiang " + std::to_string(beta), changed<ChiangParams>([&](auto& p) {
@@ -44,12 +44,15 @@ std::vector<Variation> variations() {
     all.push_back({"marschner " + std::to_string(beta), changed<MarschnerParams>([&](auto& p) {
                      p.beta = 0.5f * beta;
                      p.azimuthal_width = 1.4f * beta;
+                     p.variant = MarschnerVariant::kPublished;
+                     p.absorption = Rgb(0.05f);
                    }),
                    false, beta < 5 ? 3 : 1});
   }
   for (YanPreset preset : {YanPreset::kNone, YanPreset::kRowA, YanPreset::kRowB}) {
     const auto medulla = [&](auto& p) {
       p.preset = preset;
+      p.sigma_ca = p.sigma_ma = Rgb(0.05f, 0.2f, 0.4f);
       if (preset == YanPreset::kRowB) p.alpha = 8, p.beta_m = 20, p.beta_n = 40;
     };
     const std::string name = std::to_string(static_cast<int>(preset));
@@ -159,6 +162,7 @@ TEST(FibreModels, SamplesAgreeWithEvalAndAverageToAlbedo) {
 TEST(FibreModels, WhiteFibresGiveBackWhatTheyGet) {
   for (Case c : cases()) {
     c.point.color = Rgb(1);
+    if (auto* p = std::get_if<LambertCylinderParams>(&c.params)) p->albedo = Rgb(1);
     if (auto* p = std::get_if<KajiyaKayParams>(&c.params)) p->diffuse = 0.5f, p->specular = Rgb(0.5f);
     const auto clear = [](auto* p) {
       if (p) p->sigma_ca = p->sigma_ma = Rgb(0);
@@ -186,14 +190,18 @@ TEST(FibreModels, ExtremesStayFinite) {
   extremes.push_back(changed<ChiangParams>([](auto& p) { p.beta_m = p.beta_n = 0.02f; }));
   extremes.push_back(changed<ChiangParams>([](auto& p) { p.eta = 3, p.alpha = -10; }));
   extremes.push_back(changed<DeonParams>([](auto& p) { p.beta = p.azimuthal_width = 0.1f; }));
-  extremes.push_back(changed<MarschnerParams>([](auto& p) { p.beta = p.azimuthal_width = 0.5f; }));
-  extremes.push_back(changed<KajiyaKayParams>([](auto& p) { p.exponent = 1000; }));
-  extremes.push_back(LambertCylinderParams{});
-  extremes.push_back(changed<YanFastParams>([](auto& p) { p.kappa = 0, p.sigma_ms = 40; }));
-  extremes.push_back(changed<YanFastParams>([](auto& p) { p.kappa = 0.98f, p.sigma_ms = 40, p.g = -0.9f; }));
+  extremes.push_back(
+      changed<MarschnerParams>([](auto& p) { p.beta = p.azimuthal_width = 0.5f, p.absorption = Rgb(0.1f); }));
+  extremes.push_back(changed<KajiyaKayParams>([](auto& p) { p.exponent = 1000, p.diffuse = 0.5f; }));
+  extremes.push_back(changed<LambertCylinderParams>([](auto& p) { p.albedo = Rgb(1); }));
+  extremes.push_back(changed<YanFastParams>(
+      [](auto& p) { p.kappa = 0, p.sigma_ms = 40, p.sigma_ca = p.sigma_ma = Rgb(0, 1, 9); }));
+  extremes.push_back(changed<YanFastParams>(
+      [](auto& p) { p.preset = YanPreset::kTigerBlack, p.kappa = 0.98f, p.sigma_ms = 40, p.g = -0.9f; }));
   YanParams thick;
   thick.kappa = 0.98f;
   thick.layers = 10;
+  thick.sigma_ca = thick.sigma_ma = Rgb(0.1f);
   thick.made = MedullaTables::make(thick.optics(), Workers(2), 50);
   extremes.push_back(thick);
   for (const MaterialParams& params : extremes) {
@@ -256,8 +264,10 @@ TEST(FibreModels, TheCuticleLeansTheHighlightsApart) {
   };
   const auto chiang = changed<ChiangParams>([](auto& p) { p.beta_m = 0.15f, p.alpha = 3; });
   const auto deon = changed<DeonParams>([](auto& p) { p.beta = 4, p.alpha = -3; });
-  const auto marschner = changed<MarschnerParams>([](auto& p) { p.beta = 2, p.alpha = -3; });
-  const auto yan = changed<YanFastParams>([](auto& p) { p.beta_m = 4, p.alpha = 3; });
+  const auto marschner =
+      changed<MarschnerParams>([](auto& p) { p.beta = 2, p.alpha = -3, p.absorption = Rgb(0); });
+  const auto yan =
+      changed<YanFastParams>([](auto& p) { p.beta_m = 4, p.alpha = 3, p.sigma_ca = p.sigma_ma = Rgb(0); });
   const float a = 3 * kPi / 180;
   for (const MaterialParams& params :
        {MaterialParams(chiang), MaterialParams(deon), MaterialParams(marschner), MaterialParams(yan)}) {

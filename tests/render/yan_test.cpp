@@ -146,21 +146,5 @@ TEST(Yan, PresetsAreChangedByWhatIsGiven) {
   EXPECT_FALSE(YanFastParams{}.optics().sigma_ca.has_value());
 }
 
-/// The colour gives a fibre with a medulla the brightness of a Chiang fibre of that colour.
-TEST(Yan, ColorMatchesTheOtherModels) {
-  const YanFastMaterial yan{YanFastParams{}};
-  const ChiangMaterial chiang{ChiangParams{}};
-  const Rgb color(0.02f, 0.3f, 0.9f);
-  Rgb a(0), b(0);
-  for (int i = 0; i < 100; ++i) {
-    const float h = (static_cast<float>(i) + 0.5f) / 100;
-    const FibrePoint point = fibre_point_at(0, h);
-    const FibreFrame frame(point.tangents[0], point.wo);
-    a += yan.at(frame, h, color).albedo() / 100;
-    b += chiang.at(frame, h, color).albedo() / 100;
-  }
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.01);
-}
-
 }  // namespace
 }  // namespace pelage

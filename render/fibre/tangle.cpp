@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/fibre/tangle.h"
+
+#include <cmath>
+
+#include "render/fibre/core_walk.h"
+
+namespace pelage {
+namespace {
+
+/// Beyond, what is left of a walk is as good as lost: fibres that absorb a thousandth keep under 1 %.
+constexpr int kMostScatterings = 1000;
+/// A walk that carries so much more than it began with is on its way to infinity.
+constexpr float kRunaway = 30;
+
+/// A fibre about a walk along `direction`: any way, but met as often as it is seen broadside.
+V3f met_tangent(const V3f& direction, WalkRandom& random) {
+  for (;;) {
+    const float z = 2 * random.unit() - 1, turn = 2 * kPi * random.unit();
+    const float across = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
+    const V3f tangent(across * std::cos(turn), across * std::sin(turn), z);
+    if (random.unit() < tangent.cross(direction).length()) return tangent;
+  }
+}
+
+/// What one walk brings back to the surface, z = 0.
+double walk(const TangleScatter& scatter, V3f direction, WalkRandom& random) {
+  float weight = 1;
+  double height = 0;
+  for (int i = 0; i < kMostScatterings; ++i) {
+    height += static_cast<double>(direction.z) * random.free_path(1);
+    if (height > 0) return weight;
+    TangleHit hit{met_tangent(direction, random), -direction, 2 * random.unit() - 1};
+    const V3f u(random.unit(), random.unit(), random.unit());
+    const std::optional<FibreSample> s = scatter(hit, u);
+    if (!s) return 0;
+    weight *= s->value.total().y / s->value.pdf;
+    direction = s->wi;
+    if (weight > kRunaway) return weight;
+    constexpr float kLight = 0.1f, kSurvival = 0.2f;
+    if (weight < kLight) {
+      if (random.unit() >= kSurvival) return 0;
+      weight /= kSurvival;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+double tangle_reflectance(const TangleScatter& scatter, int walks) {
+  double sum = 0;
+  for (int i = 0; i < walks; ++i) {
+    WalkRandom random(hash64(random_use("tangle"), static_cast<uint64_t>(i)));
+    // Even light: downward in proportion to the cosine.
+    const float z = -std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(walks));
+    const float turn = 2 * kPi * random.unit(), across = std::sqrt((1 - z) * (1 + z));
+    const double back = walk(scatter, {across * std::cos(turn), across * std::sin(turn), z}, random);
+    if (back > kRunaway) return 2;
+    sum += back;
+  }
+  return sum / walks;
+}
+
+}  // namespace pelage
