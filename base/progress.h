@@ -13,6 +13,8 @@ class Progress {
   /// A stage begins: "grow", "build", "render frame 3". Stages do not nest.
   virtual void begin(std::string_view stage, double total) = 0;
   virtual void advance(double amount) = 0;
+  /// The whole of the current stage is now thought to be this much, in place of what begin() said.
+  virtual void expect(double /*total*/) {}
   virtual void end() = 0;
   /// A line for the user, between or within stages; where nobody looks, nothing happens.
   virtual void note(std::string_view /*line*/) {}

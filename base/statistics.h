@@ -37,6 +37,9 @@ struct Statistics {
   double part_bounds_area = 0;   ///< the same of the boxes of their parts, which rays are tested against
   int64_t box_tests = 0;         ///< rays against boxes above the chunks
   int64_t chunk_visits = 0;      ///< rays against what a chunk holds
+  double samples_per_pixel = 0;  ///< mean over all pixels of all frames
+  double noise = 0;           ///< of the noisiest frame: see frame_noise(); 0 where the film keeps no moments
+  bool time_limited = false;  ///< some frame ran into render.time_limit
   int64_t samples_rejected = 0;  ///< camera samples that were not finite; more than zero is a bug
   int64_t strands_dropped = 0;   ///< degenerate strands of files that could not be repaired
   int64_t strands_repaired = 0;

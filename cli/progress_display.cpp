@@ -79,6 +79,13 @@ void ProgressDisplay::advance(double amount) {
   if (Clock::now() - drawn_ >= kRedrawInterval) draw(done, false);
 }
 
+void ProgressDisplay::expect(double total) {
+  const std::lock_guard lock(mutex_);
+  if (!in_stage_) return;
+  total_ = total > 0 ? total : 1;
+  set_next_step(done_.load(std::memory_order_relaxed));
+}
+
 void ProgressDisplay::end() {
   const std::lock_guard lock(mutex_);
   if (!in_stage_) return;

@@ -32,6 +32,7 @@ class ProgressDisplay final : public Progress {
 
   void begin(std::string_view stage, double total) override;
   void advance(double amount) override;
+  void expect(double total) override;
   void end() override;
   bool cancelled() const override { return cancelled_(); }
 
@@ -53,7 +54,7 @@ class ProgressDisplay final : public Progress {
 
   std::atomic<double> done_{0};
   std::atomic<double> next_step_{0};
-  double total_ = 1;  // changes only between stages
+  double total_ = 1;  // changed and read under mutex_
 
   std::mutex mutex_;  // guards what follows
   std::string stage_;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -25,6 +26,12 @@ std::string output_name(const Options& options, const FrameList& frames) {
 // An hour of rendering must not end with "permission denied".
 void check_writable(const std::string& path) { const AtomicFile probe(path); }
 
+// "64 samples" of every pixel; "37.5 samples on average".
+std::string samples_text(const FrameResult& result) {
+  if (result.mean_samples == result.samples) return fmt::format("{} samples", result.samples);
+  return fmt::format("{:.1f} samples on average", result.mean_samples);
+}
+
 // Renders and writes one frame; returns whether all of it was done.
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
   const double began = run.seconds();
@@ -39,6 +46,9 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   if (run.statistics().first_pixel_s == 0) {
     run.statistics().first_pixel_s = posed + result.first_tile_s;
   }
+  run.statistics().samples_per_pixel += result.mean_samples / static_cast<double>(scene.frames.frames.size());
+  run.statistics().noise = std::max(run.statistics().noise, result.noise);
+  run.statistics().time_limited |= result.time_limited;
   const double seconds = run.seconds() - began;
   FrameHeader header;
   header.frame = frame;
@@ -46,6 +56,10 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.meters_per_unit = scene.units.meters_per_unit;
   header.seed = scene.render.seed;
   header.samples = result.samples;
+  header.mean_samples = result.mean_samples;
+  if (scene.render.adaptive)
+    header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
+  header.time_limited = result.time_limited;
   header.partial = result.partial;
   header.render_seconds = seconds;
   header.peak_memory_bytes = peak_rss_bytes();
@@ -53,8 +67,9 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.scene_hash = scene.hash;
   run.stage("write",
             [&] { write_exr(path, result.film.to_exr(exr_attributes(header, world.scene.camera))); });
-  run.display().note(fmt::format("{}  {} x {}, {} samples{}, {}", path, scene.image.width, scene.image.height,
-                                 result.samples, result.partial ? " (partial)" : "", duration_text(seconds)));
+  run.display().note(fmt::format("{}  {} x {}, {}{}, {}", path, scene.image.width, scene.image.height,
+                                 samples_text(result), result.partial ? " (partial)" : "",
+                                 duration_text(seconds)));
   return !result.partial;
 }
 

@@ -32,7 +32,16 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("accel", &RenderParams::accel, {.help = "What rays are traced with"});
     s.key("curves", &RenderParams::curves,
           {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups)"});
-    s.key("samples", &RenderParams::samples, {.help = "Paths per pixel", .min = 1, .max = 1 << 20});
+    s.key("samples", &RenderParams::samples,
+          {.help = "Paths per pixel; with `adaptive`, the most that a pixel gets", .min = 1, .max = 1 << 20});
+    s.key("adaptive", &RenderParams::adaptive, {.help = "Samples where the noise is"});
+    s.key(
+        "time_limit", &RenderParams::time_limit,
+        {.unit = "seconds",
+         .help = "Time budget of a frame: it gets as many samples as fit; 0 is no limit. A picture that ran "
+                 "into it says so in its header (`pelage:timeLimited`): another run may give others",
+         .min = 0,
+         .max = 1e7});
     s.key(
         "bounces", &RenderParams::bounces,
         {.help = "Most scatterings of a path after the first; 0 = direct light only", .min = 0, .max = 1024});

@@ -8,6 +8,7 @@
 #include "base/value_readers.h"
 #include "procedurals/chunk_bounds.h"
 #include "render/camera/camera.h"
+#include "render/sampling/adaptive_params.h"
 
 namespace pelage {
 
@@ -50,8 +51,10 @@ struct RenderParams {
   Integrator integrator = Integrator::kPath;
   AccelKind accel = AccelKind::kEmbree;
   CurveShape curves = CurveShape::kFlat;
-  int samples = 64;
-  int bounces = 4;  ///< 0 = direct light only
+  int samples = 64;  ///< with adaptive sampling, the most that a pixel gets
+  std::optional<AdaptiveParams> adaptive;
+  float time_limit = 0;  ///< seconds; 0 is none
+  int bounces = 4;       ///< 0 = direct light only
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   bool compact_attributes = true;

@@ -20,11 +20,13 @@ Film::Film(int width, int height, FilmLayers layers, MemoryLedger& ledger)
   sums_.resize(pixels * stride_);
   counts_.resize(pixels);
   surfaces_.resize(pixels);
+  if (layers_.noise) moments_.resize(pixels);
 }
 
 int64_t Film::bytes_needed(int width, int height, const FilmLayers& layers) {
   const size_t stride = 4 + 3 * layers.size();
-  const size_t pixel = stride * sizeof(float) + sizeof(uint32_t) + sizeof(Surface);
+  const size_t pixel =
+      stride * sizeof(float) + sizeof(uint32_t) + sizeof(Surface) + (layers.noise ? sizeof(PixelMoments) : 0);
   return static_cast<int64_t>(width) * height * static_cast<int64_t>(pixel);
 }
 
@@ -43,6 +45,7 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
     for (int c = 0; c < 3; ++c) *sum++ += part[c];
   }
   ++counts_[pixel];
+  if (!moments_.empty()) moments_[pixel].add(luminance(sample.radiance));
 
   Surface& kept = surfaces_[pixel];
   const bool nearer = sample.surface.depth < kept.sample.depth;
@@ -109,6 +112,11 @@ ExrImage Film::to_exr(std::map<std::string, ExrAttribute> attributes) const {
   ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
   for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[p].sample.id;
   image.channels.push_back(std::move(id));
+  if (!moments_.empty()) {
+    add_channel("noise", ChannelType::kFloat,
+                [&](size_t p) { return static_cast<float>(moments_[p].error()); });
+    image.channels.push_back({"samples", ChannelType::kUint, {}, counts_});
+  }
   return image;
 }
 

@@ -10,6 +10,7 @@
 #include "base/ledger.h"
 #include "image/exr.h"
 #include "render/film/film_layers.h"
+#include "render/sampling/pixel_moments.h"
 
 namespace pelage {
 
@@ -46,6 +47,9 @@ class Film {
   /// What a film of this size takes.
   static int64_t bytes_needed(int width, int height, const FilmLayers& layers);
 
+  /// Of the luminance of each pixel's samples, row by row; empty unless layers().noise.
+  const std::vector<PixelMoments>& moments() const { return moments_; }
+
   int width() const { return width_; }
   int height() const { return height_; }
   const FilmLayers& layers() const { return layers_; }
@@ -61,7 +65,8 @@ class Film {
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].sample; }
 
   /// All channels under the names of docs and notes: R G B A and light layers as half, Z, N, tangent, forward
-  /// and root as float, id as uint. Attributes are copied into the header.
+  /// and root as float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of
+  /// the luminance, as float. Attributes are copied into the header.
   ExrImage to_exr(std::map<std::string, ExrAttribute> attributes) const;
 
  private:
@@ -80,6 +85,7 @@ class Film {
   std::vector<float> sums_;
   std::vector<uint32_t> counts_;
   std::vector<Surface> surfaces_;
+  std::vector<PixelMoments> moments_;  // of the luminance; empty unless the layers ask for noise
   MemoryCharge charge_;
 };
 

@@ -12,6 +12,10 @@ const Schema<ImageParams>& ImageParams::schema() {
           {.help = "How a pixel weighs what falls around it: box is one pixel wide, blackman-harris three"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, light.lobe.R; their sum is the picture"});
+    s.key(
+        "noise_layers", &ImageParams::noise_layers,
+        {.help = "Layers `samples`, how many a pixel got, and `noise`, the standard error of its luminance; "
+                 "adaptive sampling has them always"});
     return s;
   }();
   return table;

@@ -24,6 +24,7 @@ struct ImageParams {
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
   bool light_layers = true;  ///< one layer per light x lobe group
+  bool noise_layers = false;
   static const Schema<ImageParams>& schema();
 };
 
@@ -39,6 +40,7 @@ struct FilmLayers {
 
   std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are switched off
   int groups = 0;
+  bool noise = false;  ///< whether the film keeps how much the samples of each pixel vary
 
   bool empty() const { return names.empty(); }
   size_t size() const { return names.size(); }

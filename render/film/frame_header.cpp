@@ -12,6 +12,9 @@ std::map<std::string, ExrAttribute> exr_attributes(const FrameHeader& header, co
   attributes["pelage:metersPerUnit"] = static_cast<float>(header.meters_per_unit);
   attributes["pelage:seed"] = std::to_string(header.seed);
   attributes["pelage:samples"] = static_cast<int>(header.samples);
+  attributes["pelage:meanSamples"] = static_cast<float>(header.mean_samples);
+  if (!header.adaptive.empty()) attributes["pelage:adaptive"] = header.adaptive;
+  attributes["pelage:timeLimited"] = header.time_limited ? 1 : 0;
   attributes["pelage:partial"] = header.partial ? 1 : 0;
   attributes["pelage:renderSeconds"] = static_cast<float>(header.render_seconds);
   attributes["pelage:peakMemoryBytes"] = std::to_string(header.peak_memory_bytes);

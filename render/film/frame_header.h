@@ -16,8 +16,11 @@ struct FrameHeader {
   double frames_per_second = 24;
   double meters_per_unit = 0.01;
   int64_t seed = 0;
-  uint32_t samples = 0;
-  bool partial = false;  ///< interrupted: some pixels have got fewer samples
+  uint32_t samples = 0;       ///< that every pixel has got
+  double mean_samples = 0;    ///< of all pixels
+  std::string adaptive;       ///< rule of adaptive sampling; empty without
+  bool partial = false;       ///< interrupted: some pixels have got fewer samples
+  bool time_limited = false;  ///< the clock decided how many samples there are
   double render_seconds = 0;
   int64_t peak_memory_bytes = 0;
   std::string program_version;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/frame_loop.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "render/accel/flush_denormals.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kTileSide = 16;
+
+int tile_count(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
+
+}  // namespace
+
+FrameLoop::FrameLoop(const PathTracer& tracer, const Workers& workers, Progress& progress, Film& film,
+                     const Stopwatch& clock)
+    : tracer_(tracer),
+      workers_(workers),
+      progress_(progress),
+      film_(film),
+      clock_(clock),
+      tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
+      costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
+      given_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())),
+      scratch_(static_cast<size_t>(workers.thread_count())) {
+  for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
+}
+
+uint32_t FrameLoop::least_given() const { return *std::min_element(given_.begin(), given_.end()); }
+
+double FrameLoop::mean_given() const {
+  return std::accumulate(given_.begin(), given_.end(), 0.0) / static_cast<double>(given_.size());
+}
+
+FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
+  const std::vector<Tile> tiles = scattered ? pelage::scattered(tiles_) : tiles_;
+  std::atomic<bool> cancelled{false}, out_of_time{false};
+  workers_.for_each(tiles.size(), 1, [&](WorkRange range) {
+    const FlushDenormals flush;
+    for (size_t i = range.begin; i < range.end; ++i) {
+      if (progress_.cancelled()) {
+        cancelled = true;
+        return;
+      }
+      if (clock_.seconds() > deadline_s) {
+        out_of_time = true;
+        return;
+      }
+      trace(tiles[i], goal, scratch_[static_cast<size_t>(range.worker)]);
+      double none = 0;
+      if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
+    }
+  });
+  if (cancelled) return End::kCancelled;
+  return out_of_time ? End::kOutOfTime : End::kDone;
+}
+
+void FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) {
+  const double began = clock_.seconds();
+  int64_t traced = 0, rejected = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+      uint32_t& given = given_[pixel];
+      for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
+        traced += until - given;
+        for (; given < until; ++given) {
+          tracer_.trace(x, y, given, scratch);
+          if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected;
+        }
+      }
+    }
+  }
+  rejected_ += rejected;
+  TileCost& cost = costs_[tile_of(tile.x0, tile.y0)];
+  cost.seconds += clock_.seconds() - began;
+  cost.samples += static_cast<double>(traced);
+  progress_.advance(static_cast<double>(traced));
+}
+
+size_t FrameLoop::tile_of(int x, int y) const {
+  return static_cast<size_t>(y / kTileSide) * static_cast<size_t>(tile_count(width())) +
+         static_cast<size_t>(x / kTileSide);
+}
+
+double FrameLoop::cost(size_t pixel) const {
+  const auto columns = static_cast<size_t>(width());
+  const TileCost& tile =
+      costs_[tile_of(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns))];
+  return tile.samples > 0 ? tile.seconds / tile.samples : 0;
+}
+
+void FrameLoop::add_to(Statistics& statistics) const {
+  statistics.samples_rejected += rejected_;
+  for (const PathScratch& scratch : scratch_) {
+    statistics.box_tests += scratch.thread.counts.box_tests;
+    statistics.chunk_visits += scratch.thread.counts.chunk_visits;
+    statistics.rays["camera"] += scratch.rays.camera;
+    statistics.rays["shadow"] += scratch.rays.shadow;
+    statistics.rays["indirect"] += scratch.rays.indirect;
+  }
+}
+
+}  // namespace pelage

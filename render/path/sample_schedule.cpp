@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/path/sample_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "render/sampling/adaptive_rule.h"
+
+namespace pelage {
+namespace {
+
+/// `count`, a real number of any size, as a number of samples.
+uint32_t whole_count(double count, uint32_t least, uint32_t most) {
+  return std::max(least, static_cast<uint32_t>(std::clamp(std::ceil(count), 0.0, static_cast<double>(most))));
+}
+
+Pilot pilot_of(const Film& film, uint32_t samples) {
+  Pilot pilot{film.width(), film.height(), samples, {}};
+  pilot.pixels.reserve(film.moments().size());
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      const PixelMoments& moments = film.moments()[pilot.pixels.size()];
+      pilot.pixels.push_back(
+          {static_cast<float>(moments.mean), static_cast<float>(moments.variance()), film.alpha(x, y) > 0});
+    }
+  }
+  return pilot;
+}
+
+}  // namespace
+
+SampleSchedule::SampleSchedule(FrameLoop& loop, const RenderParams& params, const Workers& workers,
+                               Progress& progress, const Stopwatch& clock, bool stays)
+    : loop_(loop),
+      params_(params),
+      workers_(workers),
+      progress_(progress),
+      clock_(clock),
+      in_passes_(stays || params.time_limit > 0) {}
+
+double SampleSchedule::deadline() const {
+  const bool limited = params_.time_limit > 0 && loop_.least_given() > 0;
+  return limited ? double{params_.time_limit} : std::numeric_limits<double>::infinity();
+}
+
+ScheduleEnd SampleSchedule::run() {
+  End end = End::kDone;
+  if (!params_.adaptive) {
+    progress_.begin("render", static_cast<double>(loop_.pixel_count()) * most());
+    end = uniform(most());
+  } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
+    end = two_stage();
+  } else {
+    progress_.begin("render", static_cast<double>(loop_.pixel_count()) * most());
+    end = seed();
+  }
+  progress_.end();
+  return {end == End::kCancelled, cut_ || end == End::kOutOfTime};
+}
+
+SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
+  End end = End::kDone;
+  double last_pass_s = 0;  // of one sample per pixel
+  for (uint32_t given = 0; given < samples && end == End::kDone;) {
+    uint32_t next = in_passes_ ? std::min(samples, std::max(1u, 2 * given)) : samples;
+    if (params_.time_limit > 0 && given > 0) {
+      const double fits = std::max(0.0, (params_.time_limit - clock_.seconds()) / last_pass_s);
+      progress_.expect(static_cast<double>(loop_.pixel_count()) *
+                       std::min(static_cast<double>(samples), given + fits));
+      if (fits < 1) return End::kOutOfTime;
+      if (fits < next - given) next = given + static_cast<uint32_t>(fits);
+    }
+    const double began = clock_.seconds();
+    end = loop_.pass([next](size_t, uint32_t) { return next; }, in_passes_ && given == 0, deadline());
+    last_pass_s = std::max(1e-9, (clock_.seconds() - began) / (next - given));
+    given = next;
+  }
+  return end;
+}
+
+SampleSchedule::End SampleSchedule::two_stage() {
+  const uint32_t pilot = std::min(most(), static_cast<uint32_t>(params_.adaptive->pilot));
+  progress_.begin("pilot", static_cast<double>(loop_.pixel_count()) * pilot);
+  End end = uniform(pilot);
+  progress_.end();
+  const std::vector<uint32_t> counts =
+      end == End::kDone ? second_stage_counts() : std::vector<uint32_t>(loop_.pixel_count());
+  double missing = 0;
+  for (uint32_t count : counts) missing += count > pilot ? count - pilot : 0;
+  progress_.begin("render", missing);
+  for (uint32_t share : {8u, 4u, 2u, 1u}) {
+    if (share > 1 && !in_passes_) continue;
+    if (end != End::kDone) break;
+    const auto goal = [&](size_t pixel, uint32_t) {
+      return counts[pixel] > pilot ? pilot + (counts[pixel] - pilot + share - 1) / share : pilot;
+    };
+    end = loop_.pass(goal, false, deadline());
+  }
+  return end;
+}
+
+std::vector<uint32_t> SampleSchedule::second_stage_counts() {
+  const uint32_t pilot = loop_.given(0);
+  const std::vector<float> wanted =
+      two_stage_counts(pilot_of(loop_.film(), pilot), *params_.adaptive, most());
+  const auto count = [&](size_t pixel, double factor) {
+    return whole_count(factor * wanted[pixel], pilot, most());
+  };
+  double factor = 1;
+  if (params_.time_limit > 0) {
+    const double left = (params_.time_limit - clock_.seconds()) * workers_.thread_count();
+    const auto cost = [&](double tried) {
+      double sum = 0;
+      for (size_t i = 0; i < wanted.size(); ++i) sum += loop_.cost(i) * (count(i, tried) - pilot);
+      return sum;
+    };
+    if (cost(1) > left) {
+      cut_ = true;
+      double low = 0, high = 1;
+      for (int step = 0; step < 30; ++step) {
+        factor = 0.5 * (low + high);
+        (cost(factor) > left ? high : low) = factor;
+      }
+      factor = low;
+    }
+  }
+  std::vector<uint32_t> counts(wanted.size());
+  for (size_t i = 0; i < counts.size(); ++i) counts[i] = count(i, factor);
+  return counts;
+}
+
+SampleSchedule::End SampleSchedule::seed() {
+  const auto batch = static_cast<uint32_t>(params_.adaptive->batch);
+  const double noise = params_.adaptive->noise;
+  const std::vector<PixelMoments>& moments = loop_.film().moments();
+  End end = End::kDone;
+  for (uint32_t cap = in_passes_ ? std::min(batch, most()) : most(); end == End::kDone;) {
+    const auto goal = [&](size_t pixel, uint32_t given) {
+      if (given > 0 && looks_converged(moments[pixel], noise)) return given;
+      return std::min(cap, given + batch);
+    };
+    end = loop_.pass(goal, loop_.given(0) == 0 && in_passes_, deadline());
+    // What pixels that go on will need, if they vary as they did.
+    double expected = 0;
+    bool done = true;
+    for (size_t i = 0; i < loop_.pixel_count(); ++i) {
+      const uint32_t given = loop_.given(i);
+      const PixelMoments& m = moments[i];
+      if (given >= most() || (given > 0 && looks_converged(m, noise))) {
+        expected += given;
+        continue;
+      }
+      done = false;
+      const double needed = m.variance() * std::pow(kConfidence / (noise * m.mean), 2);
+      expected += whole_count(needed, given, most());
+    }
+    progress_.expect(expected);
+    if (done) break;
+    cap = cap > most() / 2 ? most() : 2 * cap;
+  }
+  return end;
+}
+
+}  // namespace pelage

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/sampling/adaptive_rule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelage {
+namespace {
+
+/// Pixels darker than this times the mean of the picture count as if they were as bright.
+constexpr double kDark = 0.1;
+/// Pixel by pixel, variances are estimates too: without an excess half of the pixels would miss the budget.
+constexpr double kExcess = 1.5;
+
+struct Offset {
+  int x, y;
+};
+/// Those of a 5 x 5 neighbourhood that have the other colour.
+constexpr Offset kOtherColor[] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1}, {-1, -2}, {1, -2},
+                                  {-2, -1}, {2, -1}, {-2, 1}, {2, 1}, {-1, 2},  {1, 2}};
+
+double squared(double x) { return x * x; }
+
+/// Counts of the pixels of one colour.
+class ColorCounts {
+ public:
+  ColorCounts(const Pilot& pilot, int color, const AdaptiveParams& params, uint32_t most)
+      : pilot_(pilot),
+        color_(color),
+        params_(params),
+        most_(most),
+        floor2_(squared(kDark * mean_of_other())) {}
+
+  void fill(std::vector<float>& counts) const {
+    std::vector<double> variances;
+    for_each_pixel([&](int x, int y) { variances.push_back(relative_variance(x, y)); });
+    double sum = 0, roots = 0;
+    size_t known = 0;
+    for (double v : variances) {
+      if (!(v > 0)) continue;
+      sum += v;
+      roots += std::sqrt(v);
+      ++known;
+    }
+    const double budget = squared(params_.noise / kConfidence);
+    const bool frame = params_.goal == NoiseGoal::kFrame;
+    const double factor = frame ? frame_factor(variances, known, budget) : kExcess / budget;
+    const double average =
+        known == 0 ? static_cast<double>(most_) : factor * (frame ? roots : sum) / static_cast<double>(known);
+    size_t i = 0;
+    for_each_pixel([&](int x, int y) {
+      const double v = variances[i++];
+      double count = 0;
+      if (v > 0) {
+        count = factor * (frame ? std::sqrt(v) : v);
+      } else if (v == kUnknown) {
+        count = average;
+      }
+      counts[index(x, y)] = static_cast<float>(count);
+    });
+  }
+
+ private:
+  /// Something was met, yet nothing varied: dark for the pilot, but who knows.
+  static constexpr double kUnknown = -1;
+
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(pilot_.width) + static_cast<size_t>(x);
+  }
+  template <class Each>
+  void for_each_pixel(const Each& each) const {
+    for (int y = 0; y < pilot_.height; ++y) {
+      for (int x = (color_ + y) % 2; x < pilot_.width; x += 2) each(x, y);
+    }
+  }
+
+  /// Over the pixels of the other colour where something varies.
+  double mean_of_other() const {
+    double sum = 0;
+    size_t count = 0;
+    for (int y = 0; y < pilot_.height; ++y) {
+      for (int x = (color_ + 1 + y) % 2; x < pilot_.width; x += 2) {
+        const PilotPixel& pixel = pilot_.pixels[index(x, y)];
+        if (!(pixel.variance > 0)) continue;
+        sum += pixel.mean;
+        ++count;
+      }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0;
+  }
+
+  double relative_variance(int x, int y) const {
+    double mean = 0, variance = 0;
+    int count = 0;
+    bool hit = false;
+    for (const Offset& offset : kOtherColor) {
+      const int px = x + offset.x, py = y + offset.y;
+      if (px < 0 || py < 0 || px >= pilot_.width || py >= pilot_.height) continue;
+      const PilotPixel& pixel = pilot_.pixels[index(px, py)];
+      mean += pixel.mean;
+      variance += pixel.variance;
+      hit |= pixel.hit;
+      ++count;
+    }
+    if (count == 0) return kUnknown;
+    mean /= count;
+    variance /= count;
+    if (variance > 0) return variance / (mean * mean + floor2_);
+    return hit ? kUnknown : 0;
+  }
+
+  /// The smallest k for which counts k sqrt(v), within what a pixel may get, bring the mean of v / count over
+  /// the `known` pixels that vary down to `budget`.
+  double frame_factor(const std::vector<double>& variances, size_t known, double budget) const {
+    const auto excess = [&](double k) {
+      double sum = 0;
+      for (double v : variances) {
+        if (v > 0)
+          sum += v / std::clamp(k * std::sqrt(v), static_cast<double>(pilot_.samples),
+                                static_cast<double>(most_));
+      }
+      return sum - budget * static_cast<double>(known);
+    };
+    double low = -20, high = 60;  // powers of two
+    for (int step = 0; step < 50; ++step) {
+      const double middle = 0.5 * (low + high);
+      (excess(std::exp2(middle)) > 0 ? low : high) = middle;
+    }
+    return std::exp2(high);
+  }
+
+  const Pilot& pilot_;
+  int color_;
+  const AdaptiveParams& params_;
+  uint32_t most_;
+  double floor2_;
+};
+
+}  // namespace
+
+std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t most) {
+  std::vector<float> counts(pilot.pixels.size());
+  for (int color : {0, 1}) ColorCounts(pilot, color, params, most).fill(counts);
+  return counts;
+}
+
+double frame_noise(std::span<const PixelMoments> pixels) {
+  double mean = 0;
+  size_t count = 0;
+  for (const PixelMoments& pixel : pixels) {
+    if (!(pixel.squares > 0)) continue;
+    mean += pixel.mean;
+    ++count;
+  }
+  if (count == 0) return 0;
+  mean /= static_cast<double>(count);
+  double sum = 0;
+  for (const PixelMoments& pixel : pixels) {
+    if (!(pixel.squares > 0)) continue;
+    sum += squared(pixel.error()) / (squared(pixel.mean) + squared(kDark * mean));
+  }
+  return kConfidence * std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace pelage

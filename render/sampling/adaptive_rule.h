@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/sampling/adaptive_params.h"
+#include "render/sampling/pixel_moments.h"
+
+namespace pelage {
+
+/// Standard errors in half of a 95 % confidence interval.
+inline constexpr double kConfidence = 1.96;
+
+/// Whether the rule of the seed would stop here: 1.96 sigma / sqrt(n) <= noise * mean. Where samples that
+/// are rare and bright make the mean, a pixel is likely to stop before it met one: as the mean and the time
+/// of stopping depend on the same samples, what stops is too dark on average.
+inline bool looks_converged(const PixelMoments& pixel, double noise) {
+  return kConfidence * pixel.error() <= noise * pixel.mean;
+}
+
+/// What a pilot found out about one pixel.
+struct PilotPixel {
+  float mean = 0, variance = 0;  ///< of the luminance of one sample
+  bool hit = false;              ///< whether any camera ray met a surface
+};
+
+/// Pilot of a whole frame: the same number of samples for every pixel, row by row.
+struct Pilot {
+  int width = 0, height = 0;
+  uint32_t samples = 0;
+  std::vector<PilotPixel> pixels;
+};
+
+/// The number of samples, those of the pilot included, that each pixel should have to keep the noise budget:
+/// a real number, not limited from below or above except that `most` stands where the pilot knows nothing.
+///
+/// Pixels are coloured like a chess board, and the counts of one colour are a function of the pilot of the
+/// other colour alone. Samples of different pixels are independent, so a pixel's count is independent of all
+/// its samples, and the plain mean of all of them, pilot included, is unbiased: no sample is thrown away. (A
+/// count that depends on the pixel's own pilot makes any mean of both stages with weights by number biased.)
+///
+/// Relative variance at a pixel is the mean variance over the 12 pixels of the other colour in its 5 x 5
+/// neighbourhood over their squared mean. For the frame as a whole, counts go with its root [Neyman34], which
+/// keeps the mean of variance / count with the least sum of counts; for each pixel, with the variance. Where
+/// brightness changes from pixel to pixel the neighbourhood's mean hides dark pixels, and the noise that is
+/// left is somewhat above the budget: frame_noise() of the outcome says what it is.
+std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t most);
+
+/// Root mean square over the pixels that vary of the half width of the 95 % confidence interval over the
+/// mean, as `goal: frame` counts it: what the noise budget was kept to.
+double frame_noise(std::span<const PixelMoments> pixels);
+
+}  // namespace pelage
