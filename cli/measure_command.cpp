@@ -19,9 +19,10 @@ namespace pelage {
 namespace {
 
 const char* experiment_name(Experiment experiment) {
-  return experiment == Experiment::kBounds   ? "bounds"
-         : experiment == Experiment::kGrowth ? "growth"
-                                             : "residency";
+  return experiment == Experiment::kBounds     ? "bounds"
+         : experiment == Experiment::kGrowth   ? "growth"
+         : experiment == Experiment::kSamplers ? "samplers"
+                                               : "residency";
 }
 
 MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
@@ -78,6 +79,8 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
       return measure_growth(scene, setup, display);
     case Experiment::kResidency:
       return measure_residency(scene, setup, display);
+    case Experiment::kSamplers:
+      return measure_samplers(scene, setup, display);
   }
   return {};
 }

@@ -200,13 +200,14 @@ CurveBasis parse_basis(const std::string& text) {
 Experiment parse_experiment(const std::string& text) {
   static const std::map<std::string, Experiment> built{{"bounds", Experiment::kBounds},
                                                        {"growth", Experiment::kGrowth},
-                                                       {"residency", Experiment::kResidency}};
-  static const std::vector<std::string> promised{"lod", "accel", "shading", "samplers", "scaling"};
+                                                       {"residency", Experiment::kResidency},
+                                                       {"samplers", Experiment::kSamplers}};
+  static const std::vector<std::string> promised{"lod", "accel", "shading", "scaling"};
   if (const auto found = built.find(text); found != built.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
-    fail("the experiment " + quote(text) + " is not built yet; there are bounds, growth and residency");
+    fail("the experiment " + quote(text) + " is not built yet; there are bounds, growth, residency and samplers");
   fail("there is no experiment " + quote(text) + suggest(text, names));
 }
 

@@ -16,7 +16,7 @@ namespace pelage {
 
 enum class Command { kRender, kGrow, kMeasure, kInfo, kConvert, kMotionBlur, kStereo, kManual };
 
-enum class Experiment { kBounds, kGrowth, kResidency };
+enum class Experiment { kBounds, kGrowth, kResidency, kSamplers };
 
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere

@@ -29,4 +29,7 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
 /// Growth with and without the operator cache, and by operator.
 Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
 
+/// Plain and adaptive sampling: samples at equal error, and bias.
+Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
 }  // namespace pelage

@@ -107,6 +107,18 @@ class Measure(unittest.TestCase):
             xml.etree.ElementTree.parse(figure)
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
 
+    def test_samplers(self):
+        self.measure("samplers", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--set", "render.samples=256")
+        rows = {row["variant"]: row for row in self.read("out")["rows"]}
+        self.assertEqual(len(rows), 10)
+        for samples in 16, 64:
+            plain, frame = rows[f"plain, {samples}"], rows[f"two-stage, frame, {samples}"]
+            self.assertEqual(plain["samples"], samples)
+            self.assertAlmostEqual(plain["gain"], 1, 6)
+            self.assertGreater(frame["samples"], 15)
+            self.assertGreater(plain["rel_mse"], 0)
+            self.assertLess(abs(frame["bias"]), 0.05)
+
     def test_residency(self):
         self.measure("residency", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--threads", "1")
         rows = self.read("out")["rows"]

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/measure/picture_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/error.h"
+
+namespace pelage {
+namespace {
+
+/// R, G, B, A of a picture; empty when one is missing.
+std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
+  std::vector<const std::vector<float>*> channels;
+  for (const char* name : {"R", "G", "B", "A"}) {
+    const ExrChannel* channel = image.find(name);
+    if (!channel || channel->pixels.empty()) return {};
+    channels.push_back(&channel->pixels);
+  }
+  return channels;
+}
+
+}  // namespace
+
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b) {
+  const auto cx = channels_of(x), ca = channels_of(a), cb = channels_of(b);
+  const auto fits = [&](const ExrImage& i) { return i.width == a.width && i.height == a.height; };
+  if (cx.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(b)) return {};
+  const ExrChannel* counts = x.find("samples");
+
+  constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
+  const size_t pixels = ca[3]->size();
+  const auto truth = [&](size_t c, size_t p) { return 0.5 * (double{(*ca[c])[p]} + double{(*cb[c])[p]}); };
+  PictureError result;
+  result.samples = result.surface_samples = counts ? 0 : NAN;
+  double surface = 0, mean[3] = {}, luminance_x = 0, luminance_t = 0;
+  for (size_t p = 0; p < pixels; ++p) {
+    result.coverage += (*ca[3])[p];
+    if (counts) result.samples += counts->ids[p];
+    if (!((*ca[3])[p] > 0)) continue;
+    ++surface;
+    if (counts) result.surface_samples += counts->ids[p];
+    for (size_t c = 0; c < 3; ++c) {
+      mean[c] += truth(c, p);
+      luminance_x += kWeights[c] * (*cx[c])[p];
+      luminance_t += kWeights[c] * truth(c, p);
+    }
+  }
+  for (size_t p = 0; p < pixels; ++p) {
+    if (!((*ca[3])[p] > 0)) continue;
+    for (size_t c = 0; c < 3; ++c) {
+      const double t = truth(c, p), m = mean[c] / surface, v = (*cx[c])[p];
+      const double error = (v - (*ca[c])[p]) * (v - (*cb[c])[p]);
+      if (error != 0) result.rel_mse += error / (t * t + 0.01 * m * m) / 3;
+    }
+  }
+  const auto count = static_cast<double>(pixels);
+  surface = std::max(1.0, surface);
+  result.coverage /= count;
+  result.surface_share = surface / count;
+  result.samples /= count;
+  result.surface_samples /= surface;
+  result.rel_mse /= surface;
+  result.bias = luminance_t > 0 ? luminance_x / luminance_t - 1 : 0;
+  return result;
+}
+
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b) {
+  try {
+    return picture_error(read_exr(x), read_exr(a), read_exr(b));
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "image/exr.h"
+
+namespace pelage {
+
+/// How far a picture is from the truth, of which there are two pictures of independent seeds: the noise of
+/// neither is counted, because (x - a)(x - b) is zero on average where x is right.
+struct PictureError {
+  double coverage = 0;       ///< mean alpha
+  double surface_share = 0;  ///< pixels with any alpha in `a`, over all
+  double rel_mse = 0;  ///< over pixels with alpha: mean of (x - a)(x - b) / (t^2 + 0.01 m^2) over channels,
+                       ///< t = (a + b) / 2 and m the mean of t over these pixels
+  double bias = 0;     ///< mean luminance over these pixels, of x over that of t, - 1
+  double samples = 0;  ///< mean of the layer `samples` over all pixels; not-a-number without it
+  double surface_samples = 0;  ///< over pixels with alpha
+};
+
+/// Nothing when the pictures differ in size or lack R, G, B or A.
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
+
+/// The same for files; nothing also when one of them cannot be read.
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b);
+
+}  // namespace pelage
