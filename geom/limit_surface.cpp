@@ -17,9 +17,9 @@ namespace {
 constexpr double kFlatSine = 1e-4;
 
 /// A point and what happens to stand behind it.
-Four load(const std::vector<float>& points, int index) {
+Four load(const std::vector<float>& points, size_t index) {
   Four p;
-  std::memcpy(&p, &points[static_cast<size_t>(index) * 3], sizeof p);
+  std::memcpy(&p, &points[index * 3], sizeof p);
   return p;
 }
 
@@ -53,22 +53,60 @@ Frame frame_around(const V3f& normal, const V3f& along) {
 
 }  // namespace
 
-size_t SurfaceTopology::pose_bytes() const {
-  return sizeof(LimitSurface) + (impl_->rules.point_count() * 3 + 1) * sizeof(float);
+SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes() const {
+  const size_t points = impl_->rules.point_count();
+  return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float), PointRules::making_bytes(points)};
+}
+
+SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes(std::span<const uint32_t> faces) const {
+  const PointBlocks blocks = impl_->points_of(faces);
+  const size_t points = blocks.point_count();
+  return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float) + blocks.place.size() * sizeof(uint32_t),
+          // Points, which of them are wanted, and those that are still to be seen to.
+          PointRules::making_bytes(points) + blocks.wanted.size() * sizeof(uint16_t) +
+              2 * points * sizeof(uint32_t)};
 }
 
 LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions)
     : topology_(std::move(topology)) {
   const SurfaceTopology::Impl& impl = topology_->impl();
-  PELAGE_CHECK(positions.size() == impl.control_count);
-  for (const V3f& p : positions) bounds_.extendBy(p);
-  origin_ = bounds_.center();
+  measure(positions);
   points_.resize(impl.rules.point_count() * 3 + 1);  // a vector of four may be loaded everywhere
   for (size_t i = 0; i < positions.size(); ++i) {
     const V3f p = positions[i] - origin_;
     std::copy_n(&p.x, 3, &points_[i * 3]);
   }
   impl.rules.apply(points_.data());
+}
+
+LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions,
+                           std::span<const uint32_t> faces)
+    : topology_(std::move(topology)) {
+  const SurfaceTopology::Impl& impl = topology_->impl();
+  measure(positions);
+  PointBlocks blocks = impl.points_of(faces);
+  points_.resize(blocks.point_count() * 3 + 1);
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    if (blocks.place[i / PointBlocks::kSize] == PointBlocks::kAbsent) continue;
+    const V3f p = positions[i] - origin_;
+    std::copy_n(&p.x, 3, &points_[blocks[i] * 3]);
+  }
+  impl.rules.apply(points_.data(), blocks);
+  blocks_ = std::move(blocks.place);
+}
+
+void LimitSurface::measure(std::span<const V3f> positions) {
+  PELAGE_CHECK(positions.size() == topology_->impl().control_count);
+  for (const V3f& p : positions) bounds_.extendBy(p);
+  origin_ = bounds_.center();
+}
+
+size_t LimitSurface::place_of(int point) const {
+  const auto p = static_cast<uint32_t>(point);
+  if (blocks_.empty()) return p;
+  const uint32_t block = blocks_[p / PointBlocks::kSize];
+  PELAGE_CHECK(block != PointBlocks::kAbsent);
+  return size_t(block) * PointBlocks::kSize + p % PointBlocks::kSize;
 }
 
 SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
@@ -85,10 +123,10 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   impl.patches->EvaluateBasis(*handle, u, v, weights, du_weights, dv_weights);
   const Far::ConstIndexArray vertices = impl.patches->GetPatchVertices(*handle);
   // From the first of them, so that small patches of a large surface keep their derivatives.
-  const Four first = load(points_, vertices[0]);
+  const Four first = load(points_, place_of(vertices[0]));
   Four position = four(0), du = four(0), dv = four(0);
   for (int i = 1; i < vertices.size(); ++i) {
-    const Four p = load(points_, vertices[i]) - first;
+    const Four p = load(points_, place_of(vertices[i])) - first;
     position += four(weights[i]) * p;
     du += four(du_weights[i]) * p;
     dv += four(dv_weights[i]) * p;
@@ -128,6 +166,7 @@ Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, floa
 }
 
 ContentHash LimitSurface::hash() const {
+  PELAGE_CHECK(blocks_.empty());
   // All points follow from the control points and the topology.
   const auto control = std::span(points_).first(size_t(3) * topology_->control_count());
   return ContentHasher()
@@ -139,6 +178,8 @@ ContentHash LimitSurface::hash() const {
       .digest();
 }
 
-size_t LimitSurface::bytes() const { return sizeof(*this) + points_.capacity() * sizeof(float); }
+size_t LimitSurface::bytes() const {
+  return sizeof(*this) + points_.capacity() * sizeof(float) + blocks_.capacity() * sizeof(uint32_t);
+}
 
 }  // namespace pelage

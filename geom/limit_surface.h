@@ -57,8 +57,13 @@ class SurfaceTopology {
   /// Of everything that the topology depends on; meshes with equal hashes share one topology.
   ContentHash hash() const;
   size_t bytes() const;
-  /// Bytes of each LimitSurface of it.
-  size_t pose_bytes() const;
+  /// Bytes of a LimitSurface of it, and what making it holds beside it.
+  struct PoseBytes {
+    size_t held = 0, making = 0;
+  };
+  PoseBytes pose_bytes() const;
+  /// The same of one on `faces` only.
+  PoseBytes pose_bytes(std::span<const uint32_t> faces) const;
 
   struct Impl;  // geom/surface_topology_impl.h
   const Impl& impl() const { return *impl_; }
@@ -84,6 +89,10 @@ class LimitSurface {
  public:
   /// `positions`: one per control vertex, in the space the surface shall live in.
   LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions);
+  /// The same on `faces` only, in any order: bit by bit the same there, and not to be asked for elsewhere.
+  /// Costs time and memory for these faces and what shapes them.
+  LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions,
+               std::span<const uint32_t> faces);
 
   const SurfaceTopology& topology() const { return *topology_; }
   const std::shared_ptr<const SurfaceTopology>& shared_topology() const { return topology_; }
@@ -99,14 +108,18 @@ class LimitSurface {
   Frame frame(const SurfacePoint& point, uint32_t face, float u, float v) const;
   static Frame frame_of(const SurfacePoint& point);
   Box3f control_bounds() const { return bounds_; }
-  /// Of topology and control points: surfaces with equal hashes are the same everywhere.
+  /// Of topology and control points: surfaces with equal hashes are the same everywhere. Of whole surfaces.
   ContentHash hash() const;
   size_t bytes() const;
 
  private:
+  void measure(std::span<const V3f> positions);
+  size_t place_of(int point) const;
+
   std::shared_ptr<const SurfaceTopology> topology_;
-  std::vector<float> points_;  // control, refined and local points of the patches, xyz from the origin
-  V3f origin_{0};              // middle of the cage, so that far from 0 no digits are lost
+  std::vector<float> points_;     // control, refined and local points of the patches, xyz from the origin
+  std::vector<uint32_t> blocks_;  // of PointBlocks::place; empty for a whole surface
+  V3f origin_{0};                 // middle of the cage, so that far from 0 no digits are lost
   Box3f bounds_;
 };
 

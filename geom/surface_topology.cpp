@@ -152,6 +152,31 @@ void fill_ptex_faces(SurfaceTopology::Impl& impl, const Far::TopologyLevel& base
   }
 }
 
+/// Lists the patches of each ptex face.
+void sort_patches(SurfaceTopology::Impl& impl) {
+  const Far::PatchTable& patches = *impl.patches;
+  const auto visit = [&](const auto& patch) {
+    int absolute = 0;
+    for (int array = 0; array < patches.GetNumPatchArrays(); ++array) {
+      const int size = patches.GetPatchArrayDescriptor(array).GetNumControlVertices();
+      for (int i = 0; i < patches.GetNumPatches(array); ++i, ++absolute) {
+        Far::PatchTable::PatchHandle handle;
+        handle.arrayIndex = array;
+        handle.patchIndex = absolute;
+        handle.vertIndex = i * size;
+        patch(static_cast<size_t>(patches.GetPatchParam(handle).GetFaceId()), handle);
+      }
+    }
+  };
+  impl.first_patch.assign(impl.cage_face.size() + 1, 0);
+  visit([&](size_t face, const auto&) { ++impl.first_patch[face + 1]; });
+  for (size_t face = 0; face < impl.cage_face.size(); ++face)
+    impl.first_patch[face + 1] += impl.first_patch[face];
+  impl.face_patches.resize(impl.first_patch.back());
+  std::vector<uint32_t> next(impl.first_patch.begin(), impl.first_patch.end() - 1);
+  visit([&](size_t face, const auto& handle) { impl.face_patches[next[face]++] = handle; });
+}
+
 // The library's own StencilTableFactory casts what it makes to a type that it is not: its base is used
 // instead.
 using Stencils = Far::StencilTableReal<float>;
@@ -205,36 +230,6 @@ size_t CageConnectivity::bytes() const {
          heap_bytes(first_ptex);
 }
 
-void PointRules::apply(float* points) const {
-  // In double: rounding at one level would add to that at the next. Two to a vector, the last one idle.
-  using Pair = double __attribute__((vector_size(16)));
-  struct Point {
-    Pair xy, z;
-  };
-  std::vector<Point> all(point_count());
-  for (size_t i = 0; i < control_count; ++i) {
-    const float* p = points + i * 3;
-    all[i] = {Pair{p[0], p[1]}, Pair{p[2], 0}};
-  }
-  uint32_t term = 0;
-  for (size_t i = 0; i < made_count(); ++i) {
-    Pair xy{}, z{};
-    for (const uint32_t end = first_term[i + 1]; term < end; ++term) {
-      const Point& p = all[source[term]];
-      const double w = weight[term];
-      xy += p.xy * Pair{w, w};
-      z += p.z * Pair{w, w};
-    }
-    all[control_count + i] = {xy, z};
-    float* made = points + (control_count + i) * 3;
-    made[0] = static_cast<float>(xy[0]);
-    made[1] = static_cast<float>(xy[1]);
-    made[2] = static_cast<float>(z[0]);
-  }
-}
-
-size_t PointRules::bytes() const { return heap_bytes(first_term) + heap_bytes(source) + heap_bytes(weight); }
-
 SurfaceTopology::SurfaceTopology(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 SurfaceTopology::~SurfaceTopology() = default;
 
@@ -261,6 +256,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   refiner->RefineAdaptive(levels);
   impl->patches.reset(Far::PatchTableFactory::Create(*refiner, options));
   impl->patch_map.emplace(*impl->patches);
+  sort_patches(*impl);
   impl->rules = make_rules(*refiner, *impl->patches);
   return std::shared_ptr<const SurfaceTopology>(new SurfaceTopology(std::move(impl)));
 }
@@ -293,6 +289,7 @@ size_t SurfaceTopology::bytes() const {
       patches.GetPatchControlVerticesTable().size() * sizeof(int) + patch_count * sizeof(Far::PatchParam);
   // The map: a handle per patch, and a third as many tree nodes as patches beside one per ptex face.
   bytes += patch_count * sizeof(Far::PatchTable::PatchHandle) + (patch_count / 3 + i.cage_face.size()) * 16;
+  bytes += heap_bytes(i.first_patch) + heap_bytes(i.face_patches);
   bytes += i.rules.bytes();
   return bytes;
 }

@@ -34,6 +34,20 @@ struct CageConnectivity {
   size_t bytes() const;
 };
 
+/// Some points out of many, in blocks of neighbours, so that a short table finds them.
+struct PointBlocks {
+  static constexpr uint32_t kSize = 16;
+  static constexpr uint32_t kAbsent = UINT32_MAX;
+
+  std::vector<uint32_t> place;   ///< of each block of all points: its place among those kept, or kAbsent
+  std::vector<uint16_t> wanted;  ///< of each block of all points: which of its points
+  uint32_t count = 0;            ///< blocks that are kept
+
+  /// Where point `p` stands among those kept, if its block is.
+  size_t operator[](uint32_t p) const { return size_t(place[p / kSize]) * kSize + p % kSize; }
+  size_t point_count() const { return size_t(count) * kSize; }
+};
+
 /// How the points of patches follow from control points: each is a weighted sum of points before it, so that
 /// one sweep makes them all. Keeping every level's rules apart, instead of multiplying them out to control
 /// points, costs a fraction of the memory and does not grow with the square of a pole's valence.
@@ -47,6 +61,11 @@ struct PointRules {
   size_t point_count() const { return control_count + made_count(); }
   /// Fills in all points (xyz) behind the control points.
   void apply(float* points) const;
+  /// The same for those that are wanted, which include all that they follow from; `points` holds the blocks
+  /// that are kept.
+  void apply(float* points, const PointBlocks& blocks) const;
+  /// What apply() holds of its own for so many points.
+  static size_t making_bytes(size_t points);
   size_t bytes() const;
 };
 
@@ -65,9 +84,13 @@ struct SurfaceTopology::Impl {
 
   std::unique_ptr<const Far::PatchTable> patches;
   std::optional<Far::PatchMap> patch_map;
+  std::vector<uint32_t> first_patch;  ///< face_count + 1 entries: patches of a ptex face
+  std::vector<Far::PatchTable::PatchHandle> face_patches;
   PointRules rules;
 
   uint32_t corners_per_face() const { return triangular ? 3 : 4; }
+  /// The points of the patches of some faces, and all that they follow from.
+  PointBlocks points_of(std::span<const uint32_t> faces) const;
 };
 
 }  // namespace pelage

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "base/vector.h"
 #include "geom/tessellation.h"
 #include "procedurals/procedural.h"
@@ -20,6 +22,8 @@ class DeferredSkin {
   /// Exactly how much tessellate() will give.
   virtual TessellationSize size(const View& view) const = 0;
   virtual SkinMesh tessellate(const View& view) const = 0;
+  /// What tessellate() holds beside what it gives, but for what is charged already.
+  virtual size_t making_bytes() const = 0;
 };
 
 }  // namespace pelage

@@ -48,6 +48,7 @@ class FixedSkin final : public DeferredSkin {
   int motion_keys() const override { return mesh_.motion_keys; }
   TessellationSize size(const View&) const override { return {mesh_.vertex_count(), mesh_.triangle_count()}; }
   SkinMesh tessellate(const View&) const override { return mesh_; }
+  size_t making_bytes() const override { return 0; }
 
  private:
   SkinMesh mesh_;

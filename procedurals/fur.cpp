@@ -9,6 +9,14 @@
 namespace pelage {
 namespace {
 
+/// Calls `use` with the skin as a leaf needs it.
+template <class Use>
+auto in_pose(const Groom& groom, const PosedCharacterSkin& skin, size_t leaf, BoundSpan span,
+             const Use& use) {
+  if (groom.needs_closest_point()) return use(skin.pose(span)->skin());
+  return use(skin.pose(span, leaf_faces(groom, leaf)).skin());
+}
+
 ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& pose, int keys) {
   const Strands strands = groom.grow(leaf, pose);
   return exact_part_bounds(strands, divide_into_parts(strands), keys);
@@ -18,7 +26,9 @@ ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& 
 
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin)
-    : groom_(std::move(groom)), skin_(std::move(skin)) {}
+    : groom_(std::move(groom)), skin_(std::move(skin)) {
+  skin_->expect_leaves(*groom_);
+}
 
 Box3f FurProcedural::bound(BoundSpan span) const {
   if (groom_->grows_on_skin()) {
@@ -27,10 +37,10 @@ Box3f FurProcedural::bound(BoundSpan span) const {
     const V3f out(groom_->reach() * skin_->scale() * std::max(1.0f, skin_->length()));
     return {box.min - out, box.max + out};
   }
-  const auto pose = skin_->pose(span);
+  const SkinPose pose = skin_->pose(span, {});
   Box3f box;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
-    box.extendBy(groom_->conservative_bound(leaf, pose->skin()));
+    box.extendBy(groom_->conservative_bound(leaf, pose.skin()));
   }
   return box;
 }
@@ -74,11 +84,13 @@ FurLeafProcedural::FurLeafProcedural(std::shared_ptr<const Groom> groom,
     : groom_(std::move(groom)), skin_(std::move(skin)), leaf_(leaf) {}
 
 Box3f FurLeafProcedural::bound(BoundSpan span) const {
-  return groom_->conservative_bound(leaf_, skin_->pose(span)->skin());
+  return in_pose(*groom_, *skin_, leaf_, span,
+                 [&](const PosedSkin& pose) { return groom_->conservative_bound(leaf_, pose); });
 }
 
 Strands FurLeafProcedural::generate() const {
-  return groom_->grow(leaf_, skin_->pose(BoundSpan::kShutter)->skin());
+  return in_pose(*groom_, *skin_, leaf_, BoundSpan::kShutter,
+                 [&](const PosedSkin& pose) { return groom_->grow(leaf_, pose); });
 }
 
 StrandCounts FurLeafProcedural::counts() const {
@@ -88,7 +100,8 @@ StrandCounts FurLeafProcedural::counts() const {
 }
 
 ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
-  return exact_leaf_bounds(*groom_, leaf_, skin_->pose(span)->skin(), keys);
+  return in_pose(*groom_, *skin_, leaf_, span,
+                 [&](const PosedSkin& pose) { return exact_leaf_bounds(*groom_, leaf_, pose, keys); });
 }
 
 std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {

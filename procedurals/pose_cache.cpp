@@ -5,23 +5,32 @@
 
 namespace pelage {
 
-size_t SkinPose::bytes() const {
-  size_t sum = sizeof(*this) + transforms.capacity() * sizeof(M44f) + (mesh ? mesh->bytes() : 0);
-  for (const LimitSurface& key : keys) sum += key.bytes();
-  for (const ClosestPointTree& tree : trees) sum += tree.bytes();
-  return sum;
-}
-
 PoseCache::PoseCache(int threads, MemoryLedger& ledger)
     : threads_(static_cast<size_t>(std::max(1, threads))), ledger_(ledger) {}
 
-PoseCache::~PoseCache() { ledger_.charge(MemoryTag::kSkins, -static_cast<int64_t>(2 * threads_ * largest_)); }
+PoseCache::~PoseCache() {
+  ledger_.charge(MemoryTag::kSkins, -static_cast<int64_t>(threads_ * (2 * largest_ + largest_part_)));
+}
+
+void PoseCache::raise(size_t& largest, size_t bytes, size_t count) {
+  if (bytes <= largest) return;
+  ledger_.charge(MemoryTag::kSkins, static_cast<int64_t>(count * (bytes - largest)));
+  largest = bytes;
+}
 
 void PoseCache::expect(size_t bytes) {
   const std::lock_guard lock(mutex_);
-  if (bytes <= largest_) return;
-  ledger_.charge(MemoryTag::kSkins, static_cast<int64_t>(2 * threads_ * (bytes - largest_)));
-  largest_ = bytes;
+  raise(largest_, bytes, 2 * threads_);
+}
+
+void PoseCache::expect_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys) {
+  const std::lock_guard lock(mutex_);
+  const auto [known, is_new] = expected_.emplace(&groom, &topology, keys);
+  if (!is_new) return;
+  for (size_t leaf = 0; leaf < groom.follicles().leaves().size(); ++leaf) {
+    const auto [held, making] = topology.pose_bytes(leaf_faces(groom, leaf));
+    raise(largest_part_, sizeof(SkinPose) + keys * (held + sizeof(M44f)) + making, threads_);
+  }
 }
 
 void PoseCache::keep(std::shared_ptr<const SkinPose> pose) {

@@ -45,10 +45,8 @@ PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseC
   PELAGE_CHECK(pose_.shutter.transforms.size() == pose_.shutter.cages.size());
   PELAGE_CHECK(pose_.frame_ends.cages.size() == pose_.frame_ends.transforms.size());
   PELAGE_CHECK(pose_.frame_ends.cages.empty() || pose_.frame_ends.cages.size() == 2);
-  // How large the trees are is known when they are made; without them, the topology says it.
-  poses_->expect(pose_.push_out_view ? make(BoundSpan::kFrame)->bytes()
-                                     : sizeof(SkinPose) + (pose_.shutter.cages.size() + 2) *
-                                                              (pose_.topology->pose_bytes() + sizeof(M44f)));
+  // How large the trees are is known when they are made.
+  if (pose_.push_out_view) poses_->expect(make(BoundSpan::kFrame)->bytes());
 }
 
 std::shared_ptr<const SkinPose> PosedCharacterSkin::pose(BoundSpan span) const {
@@ -64,31 +62,53 @@ std::shared_ptr<const SkinPose> PosedCharacterSkin::pose(BoundSpan span) const {
   return pose;
 }
 
-std::shared_ptr<const SkinPose> PosedCharacterSkin::make(BoundSpan span) const {
-  auto made = std::make_shared<SkinPose>();
+template <class AddSurface>
+void PosedCharacterSkin::add_keys(BoundSpan span, SkinPose& pose, const AddSurface& add_surface) const {
   const auto add = [&](const PosedCages& cages, size_t i) {
-    made->keys.emplace_back(pose_.topology, cages.cages[i]);
-    made->transforms.push_back(cages.transforms[i]);
+    add_surface(cages.cages[i]);
+    pose.transforms.push_back(cages.transforms[i]);
   };
   const bool with_ends = span == BoundSpan::kFrame && !pose_.frame_ends.cages.empty();
   const size_t count = pose_.shutter.cages.size() + (with_ends ? 2 : 0);
-  made->keys.reserve(count);
-  made->transforms.reserve(count);
+  pose.keys.reserve(count);
+  pose.transforms.reserve(count);
   if (with_ends) add(pose_.frame_ends, 0);
   for (size_t i = 0; i < pose_.shutter.cages.size(); ++i) add(pose_.shutter, i);
   if (with_ends) add(pose_.frame_ends, 1);
-  made->scale = pose_.scale;
-  made->length = pose_.length;
+  pose.scale = pose_.scale;
+  pose.length = pose_.length;
+}
+
+std::shared_ptr<const SkinPose> PosedCharacterSkin::make(BoundSpan span) const {
+  auto made = std::make_shared<SkinPose>();
+  add_keys(span, *made, [&](const std::vector<V3f>& cage) { made->keys.emplace_back(pose_.topology, cage); });
   if (pose_.push_out_view) {
     // The triangles that the shutter's keys ask for, so that hair grows the same over either span.
+    const size_t count = made->keys.size();
     TessellationOptions options;
-    options.first_rated_key = with_ends ? 1 : 0;
+    options.first_rated_key = count > pose_.shutter.cages.size() ? 1 : 0;
     options.end_rated_key = options.first_rated_key + pose_.shutter.cages.size();
     made->mesh = std::make_unique<const SkinMesh>(
         pelage::tessellate(made->keys, *pose_.push_out_view, options, Workers::alone()));
     for (size_t key = 0; key < count; ++key) made->trees.emplace_back(*made->mesh, static_cast<int>(key));
   }
   return made;
+}
+
+SkinPose PosedCharacterSkin::pose(BoundSpan span, std::span<const uint32_t> faces) const {
+  SkinPose made;
+  add_keys(span, made,
+           [&](const std::vector<V3f>& cage) { made.keys.emplace_back(pose_.topology, cage, faces); });
+  return made;
+}
+
+void PosedCharacterSkin::expect_leaves(const Groom& groom) const {
+  poses_->expect_leaves(groom, *pose_.topology, pose_.shutter.cages.size() + pose_.frame_ends.cages.size());
+}
+
+/// Whole, for a moment: not kept where making it again is cheaper than what it would take.
+std::shared_ptr<const SkinPose> PosedCharacterSkin::passing_pose() const {
+  return pose_.push_out_view ? pose(BoundSpan::kShutter) : make(BoundSpan::kShutter);
 }
 
 Box3f PosedCharacterSkin::bound(BoundSpan span) const {
@@ -107,11 +127,17 @@ Box3f PosedCharacterSkin::bound(BoundSpan span) const {
 }
 
 TessellationSize PosedCharacterSkin::size(const View& view) const {
-  return tessellation_size(pose(BoundSpan::kShutter)->keys, view, {}, Workers::alone());
+  return tessellation_size(passing_pose()->keys, view, {}, Workers::alone());
 }
 
 SkinMesh PosedCharacterSkin::tessellate(const View& view) const {
-  return pelage::tessellate(pose(BoundSpan::kShutter)->keys, view, {}, Workers::alone());
+  return pelage::tessellate(passing_pose()->keys, view, {}, Workers::alone());
+}
+
+size_t PosedCharacterSkin::making_bytes() const {
+  if (pose_.push_out_view) return 0;
+  const auto [held, making] = pose_.topology->pose_bytes();
+  return sizeof(SkinPose) + pose_.shutter.cages.size() * (held + sizeof(M44f)) + making;
 }
 
 size_t PosedCharacterSkin::bytes() const {

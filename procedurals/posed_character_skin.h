@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/hash.h"
@@ -37,7 +38,7 @@ struct CharacterPose {
 };
 
 /// A skin of one character in a frame. All that is kept are the posed cages, some kilobytes: limit surfaces
-/// and trees are made when something grows, and shared through a PoseCache.
+/// and trees are made when something grows; what is dear of it is shared through a PoseCache.
 class PosedCharacterSkin final : public DeferredSkin {
  public:
   PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseCache> poses);
@@ -51,11 +52,16 @@ class PosedCharacterSkin final : public DeferredSkin {
   /// Ready to grow in. kShutter: one key per motion key. kFrame: these keys between those of the ends of the
   /// frame, in order of time; what the shutter sees is thus never outside what a bound over the frame holds.
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
+  /// Ready for strands on `faces` that keep clear of nothing: without trees, for the caller alone.
+  SkinPose pose(BoundSpan span, std::span<const uint32_t> faces) const;
+  /// Says that the leaves of a groom will grow here, each in the pose of its faces.
+  void expect_leaves(const Groom& groom) const;
 
   /// The hull of the control points, a little widened.
   Box3f bound(BoundSpan span) const override;
   TessellationSize size(const View& view) const override;
   SkinMesh tessellate(const View& view) const override;
+  size_t making_bytes() const override;
 
   /// Of all that shapes what grows here, but for its length: topology, control points of all times,
   /// transforms, scale. Equal poses have equal hashes.
@@ -63,7 +69,10 @@ class PosedCharacterSkin final : public DeferredSkin {
   size_t bytes() const;
 
  private:
+  template <class AddSurface>
+  void add_keys(BoundSpan span, SkinPose& pose, const AddSurface& add_surface) const;
   std::shared_ptr<const SkinPose> make(BoundSpan span) const;
+  std::shared_ptr<const SkinPose> passing_pose() const;
 
   CharacterPose pose_;
   std::shared_ptr<PoseCache> poses_;

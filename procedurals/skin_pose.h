@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,8 +12,8 @@
 
 namespace pelage {
 
-/// A skin ready to grow hair in one pose: made from posed cages when something grows, and dropped again.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// A skin, or as much of it as a leaf stands on, ready to grow hair in one pose: made from posed cages when
+/// something grows, and dropped again. Immutable. Thread safety: const members may be called from any thread.
 struct SkinPose {
   std::vector<LimitSurface> keys;        ///< one per motion key
   std::unique_ptr<const SkinMesh> mesh;  ///< what `trees` are over; null without them
@@ -24,5 +25,8 @@ struct SkinPose {
   PosedSkin skin() const { return {keys, trees, scale, transforms, length}; }
   size_t bytes() const;
 };
+
+/// The ptex faces that the strands of a leaf stand on, ascending; none for a groom on no skin.
+std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf);
 
 }  // namespace pelage

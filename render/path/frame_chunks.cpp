@@ -72,7 +72,7 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
     counts.vertices = skin_sizes_[skin].vertices;
     counts.triangles = skin_sizes_[skin].triangles;
     counts.motion_keys = scene_.skins[skin].skin->motion_keys();
-    counts.growth_bytes = kGrowthBytes + kLatticeBytesPerVertex * counts.vertices;
+    counts.growth_bytes = scene_.skins[skin].skin->making_bytes() + kLatticeBytesPerVertex * counts.vertices;
     return counts;
   }
   const StrandCounts strands = leaves_[chunk]->counts();

@@ -287,6 +287,45 @@ TEST(LimitSurface, FarFromTheOriginNothingIsLost) {
   }
 }
 
+TEST(LimitSurface, APartIsTheSameBitByBit) {
+  for (const CageCase& c : all_cages()) {
+    SCOPED_TRACE(c.name);
+    const LimitSurface whole = surface_of(c.cage, c.scheme, c.rule);
+    const uint32_t count = whole.topology().face_count();
+    for (uint64_t round = 0; round < 4; ++round) {
+      std::vector<uint32_t> faces;
+      for (uint32_t f = 0; f < count; ++f) {
+        if (hash64(f, round) % 4 <= round) faces.push_back(count - 1 - f);
+      }
+      const LimitSurface part(whole.shared_topology(), c.cage.positions, faces);
+      const SurfaceTopology::PoseBytes bytes = whole.topology().pose_bytes(faces);
+      EXPECT_LE(part.bytes(), bytes.held + bytes.making);
+      EXPECT_LE(faces.size() < count ? part.bytes() : 0, whole.bytes() + whole.bytes() / 4 + 256);
+      for (uint32_t face : faces) {
+        for (uint64_t i = 0; i < 8; ++i) {
+          const float u = unit_float(hash64(face, i, 1)), v = unit_float(hash64(face, i, 2));
+          const SurfacePoint a = whole.evaluate(face, u, v), b = part.evaluate(face, u, v);
+          EXPECT_EQ(a.position, b.position);
+          EXPECT_EQ(a.du, b.du);
+          EXPECT_EQ(a.dv, b.dv);
+          EXPECT_EQ(whole.frame(face, u, v).normal, part.frame(face, u, v).normal);
+        }
+      }
+    }
+  }
+}
+
+TEST(LimitSurface, APartCostsWhatItsFacesCost) {
+  const ControlMesh cage = shaken(torus_cage(60, 40));
+  const auto topology = SurfaceTopology::create(cage, kCatmull, kCorners, "test");
+  const uint32_t faces[] = {0, 1, 2, 40, 41, 42};
+  const auto part = topology->pose_bytes(faces), whole = topology->pose_bytes();
+  EXPECT_LT(part.held, whole.held / 5);
+  EXPECT_LT(part.making, whole.making / 5);
+  EXPECT_EQ(LimitSurface(topology, cage.positions, faces).bytes(), part.held);
+  EXPECT_EQ(LimitSurface(topology, cage.positions).bytes(), whole.held);
+}
+
 TEST(SurfaceTopology, PosesShareIt) {
   const ControlMesh cage = shaken(prism_cage(5));
   const auto topology = SurfaceTopology::create(cage, kCatmull, kCorners, "test");

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/posed_character_skin.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
+#include "groom/groom.h"
+#include "image/texture.h"
 #include "tests/groom/shapes.h"
 
 namespace pelage {
@@ -116,13 +120,47 @@ TEST_F(PosedCharacterSkinTest, KeepsAsManyPosesAsThreads) {
   EXPECT_FALSE(seen[2].expired());
 }
 
-TEST_F(PosedCharacterSkinTest, PosesAreChargedBeforeTheyAreMade) {
+TEST_F(PosedCharacterSkinTest, WholePosesWithTreesAreChargedBeforeTheyAreMade) {
   const int64_t before = ledger_.current(MemoryTag::kSkins);
-  const auto moving = skin(pose());
+  const auto plain = skin(pose());
+  EXPECT_EQ(ledger_.current(MemoryTag::kSkins), before);
+  const auto pushed = skin(pose(0, true, true));
   const int64_t charged = ledger_.current(MemoryTag::kSkins) - before;
-  EXPECT_GE(charged, static_cast<int64_t>(4 * moving->pose(BoundSpan::kFrame)->bytes()));
-  EXPECT_LT(charged, static_cast<int64_t>(5 * moving->pose(BoundSpan::kFrame)->bytes()));
-  const auto another = skin(pose(1));
+  EXPECT_GE(charged, static_cast<int64_t>(4 * pushed->pose(BoundSpan::kFrame)->bytes()));
+  EXPECT_LT(charged, static_cast<int64_t>(5 * pushed->pose(BoundSpan::kFrame)->bytes()));
+  const auto another = skin(pose(0, true, true));
+  EXPECT_EQ(ledger_.current(MemoryTag::kSkins) - before, charged);
+}
+
+TEST_F(PosedCharacterSkinTest, PartsOfPosesAreTheSameAndChargedBeforeTheyAreMade) {
+  const auto moving = skin(pose());
+  GroomParams params;
+  params.strands = 400;
+  params.leaf_strands = 50;
+  const auto rest = std::make_shared<LimitSurface>(topology_, cage_.positions);
+  TextureLibrary textures(ledger_);
+  const auto groom = Groom::create("coat", params, rest, textures, Workers::alone(), ledger_);
+  const int64_t before = ledger_.current(MemoryTag::kSkins);
+  moving->expect_leaves(*groom);
+  const int64_t charged = ledger_.current(MemoryTag::kSkins) - before;
+  size_t largest = 0;
+  for (size_t leaf = 0; leaf < groom->follicles().leaves().size(); ++leaf) {
+    const std::vector<uint32_t> faces = leaf_faces(*groom, leaf);
+    EXPECT_TRUE(std::is_sorted(faces.begin(), faces.end()));
+    for (BoundSpan span : {BoundSpan::kShutter, BoundSpan::kFrame}) {
+      const SkinPose part = moving->pose(span, faces);
+      const auto whole = moving->pose(span);
+      ASSERT_EQ(part.keys.size(), whole->keys.size());
+      EXPECT_EQ(part.transforms, whole->transforms);
+      const Strands a = groom->grow(leaf, part.skin()), b = groom->grow(leaf, whole->skin());
+      for (int key = 0; key < a.motion_keys(); ++key) {
+        EXPECT_TRUE(std::ranges::equal(a.points(key), b.points(key))) << leaf << " " << key;
+      }
+      largest = std::max(largest, part.bytes());
+    }
+  }
+  EXPECT_GE(charged, static_cast<int64_t>(2 * largest));
+  skin(pose(1))->expect_leaves(*groom);
   EXPECT_EQ(ledger_.current(MemoryTag::kSkins) - before, charged);
 }
 
