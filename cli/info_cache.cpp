@@ -9,42 +9,54 @@
 namespace pelage {
 namespace {
 
-const char* name_of(FrozenClass kind) {
-  switch (kind) {
-    case FrozenClass::kNone:
+// Bytes of a strand, for what is written at most.
+std::string describe_column(const FrozenLeaf& leaf, StrandCodes::Column kind) {
+  const CodeColumn& column = leaf.column(kind);
+  switch (column.form) {
+    case CodeColumn::Form::kAbsent:
       return "not kept";
-    case FrozenClass::kConstant:
+    case CodeColumn::Form::kOne:
       return "the same for all strands";
-    case FrozenClass::kSeparable:
-      return "one profile, a factor per strand";
-    case FrozenClass::kFull:
-      return "of each point";
+    case CodeColumn::Form::kByte:
+    case CodeColumn::Form::kShort:
+      return fmt::format("one of {} each", column.entry_count());
+    case CodeColumn::Form::kRaw:
+      return "of each strand";
   }
   return "";
 }
 
 // The first section is about all leaves; each of the others is one.
 std::string describe_offsets(const StoredFile& file) {
-  std::string text;
-  size_t strands = 0, points = 0, bytes = 0, wide = 0;
-  FrozenClass widths = FrozenClass::kNone, colors = FrozenClass::kNone;
+  static constexpr std::pair<StrandCodes::Column, const char*> kColumns[] = {
+      {StrandCodes::kWidthScale, "widths"},
+      {StrandCodes::kWidthProfile, "profile of widths"},
+      {StrandCodes::kColorScale, "brightness"},
+      {StrandCodes::kColorHue, "hue"},
+      {StrandCodes::kColorProfile, "profile of colours"},
+      {StrandCodes::kClump, "clumps"}};
+  size_t strands = 0, points = 0, bytes = 0, plain = 0;
+  std::string first_leaf;
   for (size_t i = 1; i < file.section_count(); ++i) {
     const std::optional<FrozenLeaf> leaf = FrozenLeaf::read(file.section(i));
     if (!leaf) return "  its leaves cannot be read\n";
     strands += leaf->strand_count();
     bytes += leaf->bytes();
-    wide += leaf->is_wide();
-    for (const FrozenLeaf::Block& block : leaf->blocks())
+    for (const FrozenLeaf::Block& block : leaf->blocks()) {
       points += block.count * static_cast<size_t>(block.points);
-    widths = std::max(widths, leaf->widths());
-    colors = std::max(colors, leaf->colors());
+      if (block.plain) plain += block.count;
+    }
+    if (i > 1) continue;
+    for (const auto& [kind, name] : kColumns)
+      first_leaf += fmt::format("    {}: {}\n", name, describe_column(*leaf, kind));
   }
-  text += fmt::format("  {} strands, {} points, in {} leaves\n", strands, points, file.section_count() - 1);
+  std::string text =
+      fmt::format("  {} strands, {} points, in {} leaves\n", strands, points, file.section_count() - 1);
   if (strands)
     text +=
         fmt::format("  {:.1f} bytes per strand\n", static_cast<double>(bytes) / static_cast<double>(strands));
-  text += fmt::format("  widths: {}\n  colours: {}\n", name_of(widths), name_of(colors));
-  if (wide) text += fmt::format("  {} leaves in full precision: their strands are long and thin\n", wide);
+  if (!first_leaf.empty()) text += "  in the first leaf:\n" + first_leaf;
+  if (plain) text += fmt::format("  {} strands in floats, for being long and thin or beside such\n", plain);
   return text;
 }
 

@@ -13,7 +13,7 @@ constexpr const char* kKind = "offsets";
 
 /// Section 0; the leaves follow. Raise the version when the bytes of a leaf come to mean something else.
 struct Head {
-  uint32_t version = 1;
+  uint32_t version = 2;
   uint32_t leaves = 0;
   uint64_t strands = 0;
 };

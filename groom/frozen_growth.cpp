@@ -15,9 +15,10 @@ constexpr const char* kKind = "layer";
 
 /// What still holds when every point may be off by what quantising does (groom/frozen_leaf.h).
 StrandReach quantised(StrandReach reach) {
-  constexpr float kError = 0.8661f / 32766.0f;  // of the longest segment
+  constexpr float kError = 0.8661f / codes::kLargestStep;  // of the longest segment
   reach.distance += 1.1f * kError * reach.length;
   reach.length *= 1.0f + 2.2f * kError * static_cast<float>(reach.segments);
+  reach.radius *= 1.0f + 0x1p-10f;
   // Operators that keep a lean below a half turn keep the segments of a strand alike in length.
   if (reach.lean > 0) reach.lean = std::min(reach.lean + 1e-3f, std::numbers::pi_v<float>);
   return reach;
@@ -48,7 +49,7 @@ class LeafGrowth {
   /// last.
   std::vector<std::byte> run(size_t from, std::span<const std::byte> layer,
                              std::vector<std::vector<std::byte>>& layers) const {
-    FrozenLeafWriter writer;
+    FrozenLeafWriter writer({!job_.source.imported && job_.stack.has_one_width_profile(0, job_.frozen)});
     const auto batch = std::make_unique<StrandBatch>();
     size_t at = 0;
     layers.assign(job_.frozen - std::min(job_.frozen, from + 1), {});

@@ -5,43 +5,56 @@
 
 namespace pelage {
 
-/// First bytes of a leaf. Behind it: the width profile, the colour profile (floats), {count, points} of each
-/// block (16 bits each), and from the next multiple of 16 on the blocks.
+/// First bytes of a leaf. Behind it: the tables of the columns, each from a multiple of 4 on, a BlockEntry
+/// for each block, and from the next multiple of 16 on the blocks.
 struct FrozenLeaf::Header {
+  struct Column {
+    uint8_t form = 0;
+    uint8_t element_bytes = 0;
+    uint16_t elements = 0;
+    uint32_t entries = 0;
+  };
+  struct BlockEntry {
+    uint16_t count = 0;
+    uint16_t points = 0;
+    uint32_t plain = 0;
+  };
   uint32_t strands = 0;
   uint32_t blocks = 0;
-  uint8_t wide = 0;       // shapes are floats
-  uint8_t has_base = 0;   // point 0 is kept: strands whose first point is not their root
-  uint8_t has_clump = 0;  // clump numbers are kept
-  uint8_t width_class = 0;
-  uint8_t color_class = 0;
-  uint8_t unused[3] = {};
-  uint32_t width_points = 0;  // of the width profile
-  uint32_t color_rows = 0;    // 1 or as many as points
-  float width_step = 0;       // what 1 of 65535 measures
-  float color_step[3] = {};
-  uint32_t color_profile_rows = 0;
-  uint32_t reserved = 0;
+  uint8_t has_base = 0;  // point 0 is kept: strands whose first point is not their root
+  uint8_t color_rows = 0;
+  uint8_t unused[6] = {};
+  Column columns[StrandCodes::kColumns];
 };
 
 /// Where the rows of a block stand, from its first byte on.
 struct FrozenLeaf::Layout {
-  size_t row = 0;  // strands of a row: the count, rounded up to 8
-  size_t steps = 0, shapes = 0, clumps = 0, widths = 0, colors = 0, end = 0;
+  size_t row = 0;                                     // strands of a row: the count, rounded up to 8
+  size_t shapes = 0, radii = 0, colors = 0, end = 0;  // radii, colors: of plain blocks
+  std::array<size_t, StrandCodes::kColumns> columns{};
 
-  Layout(const FrozenLeaf& leaf, size_t count, int points) {
-    const auto n = static_cast<size_t>(points);
+  Layout(const FrozenLeaf& leaf, size_t count, size_t points, bool plain) {
     row = (count + 7) / 8 * 8;
-    shapes = leaf.wide_ ? 0 : row * 4;
-    clumps = shapes + (leaf.has_base_ ? n : n - 1) * 3 * row * (leaf.wide_ ? 4 : 2);
-    widths = clumps + (leaf.has_clump_ ? row * 2 : 0);
-    colors = widths;
-    if (leaf.width_class_ == FrozenClass::kSeparable) colors += row * 2;
-    if (leaf.width_class_ == FrozenClass::kFull) colors += row * 2 + row * n;
-    end = colors;
-    if (leaf.color_class_ == FrozenClass::kSeparable) end += row * 2;
-    if (leaf.color_class_ == FrozenClass::kFull)
-      end += leaf.color_rows_ == 1 ? row * 6 : row * 3 * leaf.color_rows_;
+    const size_t rows = leaf.color_rows(points) * 3, shape_rows = (leaf.has_base_ ? points : points - 1) * 3;
+    const auto column = [&](StrandCodes::Column kind, size_t elements) {
+      columns[kind] = end;
+      end += leaf.columns_[kind].block_bytes(row, elements);
+    };
+    if (!plain) end += row * 2;  // steps
+    shapes = end;
+    end += shape_rows * row * (plain ? 4 : 2);
+    radii = end;
+    if (plain) end += points * row * 4;
+    colors = end;
+    if (plain) end += rows * row * 4;
+    column(StrandCodes::kClump, 1);
+    if (!plain) {
+      column(StrandCodes::kColorHue, 1);
+      column(StrandCodes::kWidthScale, 1);
+      column(StrandCodes::kColorScale, 1);
+      column(StrandCodes::kColorProfile, rows);
+      column(StrandCodes::kWidthProfile, points);
+    }
     end = (end + 15) / 16 * 16;
   }
 };

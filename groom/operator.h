@@ -62,6 +62,8 @@ class Operator {
   virtual bool needs_closest_point() const { return false; }
   /// How often the colours that apply() writes change; nothing when it writes none.
   virtual std::optional<AttributeClass> colors() const { return {}; }
+  /// Whether the widths that apply() gives are one profile along the strands, times a number of each strand.
+  virtual bool has_one_width_profile() const { return true; }
   /// Whether apply() reads and writes nothing of a batch but ids, texture coordinates, clump numbers, radii
   /// and colours: then it can run on strands whose shape is not known yet.
   virtual bool attributes_only() const { return false; }

@@ -87,6 +87,13 @@ bool OperatorStack::needs_closest_point() const {
                      [](const auto& op) { return op->needs_closest_point(); });
 }
 
+bool OperatorStack::has_one_width_profile(size_t begin, size_t end) const {
+  for (size_t i = begin; i < end; ++i) {
+    if (!operators_[i]->has_one_width_profile()) return false;
+  }
+  return true;
+}
+
 bool OperatorStack::reads_rest(size_t begin, size_t end) const {
   for (size_t i = begin; i < end; ++i) {
     if (operators_[i]->reads_rest()) return true;

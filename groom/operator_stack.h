@@ -42,6 +42,8 @@ class OperatorStack {
   /// Whether any of [begin, end) does.
   bool reads_rest(size_t begin, size_t end) const;
   bool needs_closest_point() const;
+  /// Whether all of [begin, end) do.
+  bool has_one_width_profile(size_t begin, size_t end) const;
   /// The most frequent of the operators'; nothing when none colours strands.
   std::optional<AttributeClass> colors() const { return colors(0, size()); }
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }

@@ -29,6 +29,11 @@ const Schema<WidthParams>& WidthParams::schema() {
   return table;
 }
 
+bool Width::has_one_width_profile() const {
+  const FieldDependence root = params_.root.dependence(), tip = params_.tip.dependence();
+  return !root.surface && !root.attributes && !tip.surface && !tip.attributes;
+}
+
 void Width::prepare(const PrepareContext& context) {
   seed_ = context.seed;
   params_.root = params_.root.with_textures(context.textures);

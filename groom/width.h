@@ -28,6 +28,7 @@ class Width final : public Operator {
   bool attributes_only() const override {
     return !params_.root.dependence().rest && !params_.tip.dependence().rest;
   }
+  bool has_one_width_profile() const override;
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach&) const override { return 0; }

@@ -43,6 +43,19 @@ std::string leaf_bytes(size_t points, size_t color_rows, uint64_t seed) {
   return text(writer.finish());
 }
 
+// Strands of few kinds, which share entries of tables.
+std::string alike_leaf_bytes(size_t kinds) {
+  FrozenLeafWriter writer({true});
+  const auto batch = random_batch(250, 5, 5, 9);
+  for (size_t s = kinds; s < batch->count; ++s) {
+    batch->clump[s] = batch->clump[s % kinds];
+    for (auto& point : batch->points) point.radius[s] = point.radius[s % kinds];
+    for (VectorRow& color : batch->colors) set_vector(color, s, vector_at(color, s % kinds));
+  }
+  for (int i = 0; i < 2; ++i) writer.add(*batch);
+  return text(writer.finish());
+}
+
 }  // namespace
 
 std::vector<std::string> leaf_corpus() {
@@ -51,6 +64,8 @@ std::vector<std::string> leaf_corpus() {
   return {leaf_bytes(4, 4, 1),
           leaf_bytes(3, 1, 2),
           leaf_bytes(2, 0, 3),
+          alike_leaf_bytes(1),
+          alike_leaf_bytes(40),
           text(layer),
           text(FrozenLeafWriter().finish()),
           std::string(64, '\xff')};

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+// Numbers from 0 to a million in 16 bits: zero, or 10 bits of mantissa below 6 of exponent. The nearest one
+// is off by at most 2^-11 of a number; powers of two are kept exactly.
+namespace pelage::small_float {
+
+inline constexpr uint32_t kBias = 83u << 10;   // the least positive number is a bit more than 2^-44
+inline constexpr uint32_t kMantissaBits = 13;  // that are left out
+
+inline float decode(uint16_t code) {
+  const uint32_t bits = (code + kBias) << kMantissaBits;
+  return code == 0 ? 0.0f : std::bit_cast<float>(bits);
+}
+
+/// With `round_up` 0: the largest that is not above `value`; with all mantissa bits that are left out set:
+/// the least that is not below. Nothing for what is negative, too large or no number.
+inline std::optional<uint16_t> encode(float value, uint32_t round_up) {
+  if (value == 0) return uint16_t{0};
+  if (!(value > 0) || !std::isfinite(value)) return {};
+  const uint32_t bits = (std::bit_cast<uint32_t>(value) + round_up) >> kMantissaBits;
+  if (bits <= kBias) return static_cast<uint16_t>(round_up + 1 == 1u << kMantissaBits);
+  if (bits - kBias > UINT16_MAX) return {};
+  return static_cast<uint16_t>(bits - kBias);
+}
+inline std::optional<uint16_t> nearest(float value) { return encode(value, 1u << (kMantissaBits - 1)); }
+inline std::optional<uint16_t> not_below(float value) { return encode(value, (1u << kMantissaBits) - 1); }
+
+}  // namespace pelage::small_float

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// leaf_strands changes no pixel, of coats from a cache too.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "cli/commands.h"
+#include "cli/measure/picture_difference.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+class LeafStrandsTest : public testing::Test {
+ protected:
+  std::string render(const std::string& leaf_strands, const std::string& run) const {
+    Options options;
+    options.command = Command::kRender;
+    options.input = (std::filesystem::path(PELAGE_SOURCE_DIR) / "examples" / "colony_small.yaml").string();
+    options.output = (folder_.path() / (leaf_strands + run + ".exr")).string();
+    options.progress = ProgressStyle::kQuiet;
+    options.overrides = {{"image.width", "160"},
+                         {"image.height", "90"},
+                         {"render.samples", "1"},
+                         {"grooms.under.strands", "900"},
+                         {"grooms.guard.strands", "400"}};
+    for (const char* groom : {"under", "guard", "whiskers"}) {
+      const std::string prefix = std::string("grooms.") + groom;
+      options.overrides.push_back({prefix + ".cache.directory", (folder_.path() / "cache").string()});
+      options.overrides.push_back({prefix + ".leaf_strands", leaf_strands});
+    }
+    EXPECT_EQ(run_render(options), 0);
+    return options.output;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(LeafStrandsTest, ChangesNoPixelOfACachedCoat) {
+  const std::string first = render("500", "cold");
+  for (const auto& [leaf_strands, run] : {std::pair("500", "warm"), std::pair("300", "cold"),
+                                          std::pair("300", "warm"), std::pair("41", "cold")}) {
+    const auto difference = compare_picture_files(first, render(leaf_strands, run));
+    ASSERT_TRUE(difference) << leaf_strands << run;
+    EXPECT_EQ(difference->differing, 0) << leaf_strands << run;
+  }
+}
+
+}  // namespace
+}  // namespace pelage
