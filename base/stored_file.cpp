@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
@@ -33,6 +34,8 @@ StoredFile::StoredFile(const std::filesystem::path& path) : file_(path) {
   if (header.version != format::kVersion) refuse("it is of another version");
   if (header.reserved[0] != 0 || header.reserved[1] != 0) refuse("its header is damaged");
   kind_.assign(header.kind, strnlen(header.kind, sizeof(header.kind)));
+  if (!std::all_of(header.kind + kind_.size(), std::end(header.kind), [](char c) { return c == 0; }))
+    refuse("its header is damaged");
   key_ = {header.key_low, header.key_high};
 
   const auto trailer = read_at<format::Trailer>(bytes, bytes.size() - sizeof(format::Trailer));
@@ -45,16 +48,26 @@ StoredFile::StoredFile(const std::filesystem::path& path) : file_(path) {
   const ContentHash table_hash =
       content_hash(bytes.subspan(trailer.table_offset, room - trailer.table_offset));
   if (table_hash != ContentHash{trailer.table_low, trailer.table_high}) refuse("its table has changed");
+  // What lies between the parts is zeros, so that no byte of the file goes unchecked.
+  uint64_t end = sizeof(format::Header);
+  const auto padded_to = [&](uint64_t next) {
+    if (next < end || next - end >= format::kAlignment) return false;
+    const auto gap = bytes.subspan(end, next - end);
+    return std::all_of(gap.begin(), gap.end(), [](std::byte b) { return b == std::byte{0}; });
+  };
   for (uint64_t i = 0; i < trailer.section_count; ++i) {
     const auto section = read_at<format::Section>(bytes, trailer.table_offset + i * sizeof(format::Section));
     if (section.offset % format::kAlignment != 0 || section.offset > trailer.table_offset ||
         section.bytes > trailer.table_offset - section.offset) {
       refuse("a section is out of place");
     }
+    if (!padded_to(section.offset)) refuse("there is something between its sections");
+    end = section.offset + section.bytes;
     sections_.push_back(bytes.subspan(section.offset, section.bytes));
     if (content_hash(sections_.back()) != ContentHash{section.hash_low, section.hash_high})
       refuse("its bytes have changed");
   }
+  if (!padded_to(trailer.table_offset)) refuse("there is something between its sections");
 }
 
 bool is_stored_file(const std::filesystem::path& path) {

@@ -23,7 +23,7 @@ struct GroomCacheReport {
   size_t resumed = 0;         ///< frozen operators whose result was still there
   std::filesystem::path file;
   size_t strands = 0;
-  size_t offset_bytes = 0, follicle_bytes = 0;  ///< of what rendering reads
+  size_t offset_bytes = 0, follicle_bytes = 0;  ///< of what rendering reads, as files
   double seconds = 0;
 
   /// "fresh" or what is stale and why, in one line.

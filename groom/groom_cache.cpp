@@ -18,6 +18,12 @@ size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   return end;
 }
 
+std::optional<size_t> stored_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  return error ? std::optional<size_t>() : bytes;
+}
+
 /// Layers are large and serve the next edit only: those of operators that are no longer so go. The offsets
 /// stay, for whoever takes an edit back.
 void remove_old_layers(const ContentStore& store, const GroomManifest& before, const GroomManifest& now,
@@ -55,7 +61,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   const auto open = [&](const WarningSink& sink) {
     if (!have_follicles) {
       std::optional<FollicleTree> stored =
-          stored_follicles(*store, follicle_key, source.rest->topology(), sink);
+          stored_follicles(*store, follicle_key, &source.rest->topology(), sink);
       have_follicles = stored.has_value();
       if (stored) source.grown = std::move(*stored);
     }
@@ -100,8 +106,9 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   stands_on_rest = !source.rest || stack->reads_rest(frozen_end, stack->size()) ||
                    !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
   report->strands = source.follicles().size();
-  report->offset_bytes = frozen->bytes();
-  report->follicle_bytes = source.imported ? 0 : source.grown.bytes();
+  report->offset_bytes = stored_bytes(report->file).value_or(frozen->bytes());
+  if (!source.imported)
+    report->follicle_bytes = stored_bytes(follicle_file(*store, follicle_key)).value_or(source.grown.bytes());
   report->seconds = seconds_since(start);
 }
 
