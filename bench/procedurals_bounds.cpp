@@ -12,7 +12,7 @@
 #include "geom/curve_bounds.h"
 #include "groom/groom.h"
 #include "image/texture.h"
-#include "procedurals/strand_parts.h"
+#include "procedurals/segment_parts.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
 
@@ -60,20 +60,20 @@ float surface_area(const Box3f& box) {
 void divide(benchmark::State& state) {
   const Strands strands = coat().grow(1);
   const RatioTo ratio(state, "x_growth", growth_seconds(1));
-  for (auto _ : state) benchmark::DoNotOptimize(divide_into_parts(strands));
+  for (auto _ : state) benchmark::DoNotOptimize(SegmentParts(strands).cell_count());
 }
 BENCHMARK(divide)->Name("divide a leaf into parts")->Unit(benchmark::kMillisecond);
 
 void measure(benchmark::State& state) {
   const Strands strands = coat().grow(state.range(0));
-  const StrandParts parts = divide_into_parts(strands);
+  const SegmentParts parts(strands);
   const int keys = static_cast<int>(state.range(1));
   {
     const RatioTo ratio(state, "x_growth", growth_seconds(state.range(0)));
-    for (auto _ : state) benchmark::DoNotOptimize(exact_part_bounds(strands, parts, keys));
+    for (auto _ : state) benchmark::DoNotOptimize(parts.exact_bounds(keys));
   }
   double sum = 0;
-  for (const Box3f& box : exact_part_bounds(strands, parts, keys).boxes) sum += surface_area(box) / keys;
+  for (const Box3f& box : parts.exact_bounds(keys).boxes) sum += surface_area(box) / keys;
   state.counters["x_leaf_area"] = sum / surface_area(exact_bounds(strands));
 }
 BENCHMARK(measure)

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "procedurals/bounds_file.h"
+#include "procedurals/segment_parts.h"
 
 namespace pelage {
 namespace {
@@ -65,11 +66,12 @@ std::vector<ChunkBounds> stated_bounds(const BoundingOptions& options,
   return bounds;
 }
 
-/// Bytes of the strands of a chunk while it is measured.
+/// Bytes of the strands of a chunk, and of what divides them, while it is measured.
 int64_t growth_bytes(const Procedural& chunk) {
   const StrandCounts counts = chunk.counts();
   return static_cast<int64_t>((counts.points * counts.motion_keys * 4 + counts.attribute_floats) *
-                              sizeof(float));
+                                  sizeof(float) +
+                              SegmentParts::bytes_bound(counts.segments, counts.motion_keys));
 }
 
 }  // namespace

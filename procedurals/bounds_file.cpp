@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/bounds_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -10,7 +11,7 @@ namespace {
 
 const std::string kKind = "boxes";
 // Counts up whenever the same strands would get other boxes, or the file another layout.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 
 ContentHash entry_key(const BoundsRecord& record, BoundSpan span, int keys) {
   return ContentHasher().add("boxes").add(kVersion).add(record.key).add(span).add(keys).digest();
@@ -32,23 +33,43 @@ bool is_possible(const Box3f& box) {
   return true;
 }
 
+/// What is kept of the fine boxes of one chunk beside their sides.
+struct FineHeader {
+  float corner[3], motion[3], step[3];
+  uint32_t count;
+};
+
+V3f vector(const float* v) { return {v[0], v[1], v[2]}; }
+
 /// Nothing when the numbers do not fit together.
 std::vector<ChunkBounds> unpack(const StoredFile& file, size_t count, int keys) {
-  if (file.section_count() != 2) return {};
-  const std::vector<uint32_t> first = numbers<uint32_t>(file.section(0));
-  const std::vector<float> values = numbers<float>(file.section(1));
+  if (file.section_count() != 4) return {};
+  const auto first = numbers<uint32_t>(file.section(0));
+  const auto values = numbers<float>(file.section(1));
+  const auto headers = numbers<FineHeader>(file.section(2));
+  const auto groups = numbers<FineBoxes::Group>(file.section(3));
   if (first.size() != count + 1 || first[0] != 0 || size_t(first[count]) * 6 != values.size()) return {};
+  if (headers.size() != count) return {};
   std::vector<ChunkBounds> bounds(count);
+  std::span<const FineBoxes::Group> rest(groups);
   for (size_t chunk = 0; chunk < count; ++chunk) {
     if (first[chunk + 1] < first[chunk] || first[chunk + 1] > first[count]) return {};
     if ((first[chunk + 1] - first[chunk]) % static_cast<uint32_t>(keys) != 0) return {};
     bounds[chunk].keys = keys;
     for (size_t i = first[chunk]; i < first[chunk + 1]; ++i) {
       const float* v = &values[i * 6];
-      bounds[chunk].boxes.emplace_back(V3f(v[0], v[1], v[2]), V3f(v[3], v[4], v[5]));
+      bounds[chunk].boxes.emplace_back(vector(v), vector(v + 3));
       if (!is_possible(bounds[chunk].boxes.back())) return {};
     }
+    const FineHeader& h = headers[chunk];
+    const size_t finest = FineBoxes::groups_of(h.count);
+    if (finest > rest.size()) return {};
+    bounds[chunk].fine =
+        FineBoxes({vector(h.corner), vector(h.motion), vector(h.step)}, rest.first(finest), h.count);
+    if (!bounds[chunk].fine.is_possible()) return {};
+    rest = rest.subspan(finest);
   }
+  if (!rest.empty()) return {};
   return bounds;
 }
 
@@ -70,15 +91,28 @@ void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::spa
                   const WarningSink& warn) {
   std::vector<uint32_t> first{0};
   std::vector<float> values;
+  std::vector<FineHeader> headers;
+  std::vector<FineBoxes::Group> groups;
   for (const ChunkBounds& chunk : bounds) {
     for (const Box3f& box : chunk.boxes) {
       values.insert(values.end(), {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
     }
     first.push_back(static_cast<uint32_t>(values.size() / 6));
+    const FineBoxes& fine = chunk.fine;
+    FineHeader header;
+    std::copy_n(&fine.grid().corner[0], 3, header.corner);
+    std::copy_n(&fine.grid().motion[0], 3, header.motion);
+    std::copy_n(&fine.grid().step[0], 3, header.step);
+    header.count = static_cast<uint32_t>(fine.count());
+    headers.push_back(header);
+    if (fine.count() > 0) groups.insert(groups.end(), fine.level(0).begin(), fine.level(0).end());
   }
-  const std::span<const std::byte> sections[] = {std::as_bytes(std::span(first)),
-                                                 std::as_bytes(std::span(values))};
-  record.store->store(kKind, entry_key(record, span, keys), sections, warn);
+  ContentStore::Writer writer = record.store->writer(kKind, entry_key(record, span, keys));
+  writer.add(std::span<const uint32_t>(first));
+  writer.add(std::span<const float>(values));
+  writer.add(std::span<const FineHeader>(headers));
+  writer.add(std::span<const FineBoxes::Group>(groups));
+  writer.commit(warn);
 }
 
 }  // namespace pelage

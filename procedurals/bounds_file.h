@@ -11,8 +11,9 @@
 namespace pelage {
 
 // The side file of boxes: those of all chunks of one coat in one pose, an entry of kind "boxes" of the
-// content store beside the groom's cache. Two sections: where the boxes of each chunk begin (count + 1
-// numbers of 32 bits), and the boxes (6 floats each: min, max).
+// content store beside the groom's cache. Four sections: where the boxes of each chunk begin (count + 1
+// numbers of 32 bits), the boxes (6 floats each: min, max), for each chunk the grid of its fine boxes (9
+// floats: corner, motion, step) and their number (32 bits), and the groups of their finest level.
 
 /// The boxes of `count` chunks with `keys` keys each; nothing when there is no such entry. A damaged one, or
 /// one that cannot be true, counts as absent, with one warning.

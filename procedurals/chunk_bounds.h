@@ -6,6 +6,7 @@
 
 #include "base/value_readers.h"
 #include "base/vector.h"
+#include "procedurals/fine_boxes.h"
 
 namespace pelage {
 
@@ -23,13 +24,14 @@ struct EnumNames<BoundingStrategy> {
   static constexpr const char* names[] = {"none", "user", "conservative", "exact", "exact-shutter", "linear"};
 };
 
-/// Boxes of one chunk, each of a part of it: a group of neighbouring strands, or all of it. A part's box at
+/// Boxes of one chunk, each of a part of it: a group of neighbouring segments, or all of it. A part's box at
 /// key k is boxes[part * keys + k]. With one key it holds the part during the whole span. With two they stand
 /// at shutter open and close, and the box between them, linear in the ray's time, holds the part at that
-/// time.
+/// time. What is measured has fine boxes as well, for rays that would let the chunk grow.
 struct ChunkBounds {
   int keys = 1;
   std::vector<Box3f> boxes;
+  FineBoxes fine = {};  ///< hold the whole chunk, at each time of the shutter; or none
 
   size_t part_count() const { return boxes.size() / static_cast<size_t>(keys); }
   const Box3f& box(size_t part, int key) const {

@@ -6,7 +6,7 @@
 #include "geom/curve_bounds.h"
 #include "procedurals/deferred_skin.h"
 #include "procedurals/procedural.h"
-#include "procedurals/strand_parts.h"
+#include "procedurals/segment_parts.h"
 
 namespace pelage {
 
@@ -27,7 +27,7 @@ class FixedStrands final : public Procedural {
     return counts;
   }
   ChunkBounds exact_bounds(BoundSpan, int keys) const override {
-    return exact_part_bounds(strands_, divide_into_parts(strands_), keys);
+    return SegmentParts(strands_).exact_bounds(keys);
   }
 
  private:

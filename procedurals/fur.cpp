@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "geom/strand_merge.h"
-#include "procedurals/strand_parts.h"
+#include "procedurals/segment_parts.h"
 
 namespace pelage {
 namespace {
@@ -19,7 +19,7 @@ auto in_pose(const Groom& groom, const PosedCharacterSkin& skin, size_t leaf, Bo
 
 ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& pose, int keys) {
   const Strands strands = groom.grow(leaf, pose);
-  return exact_part_bounds(strands, divide_into_parts(strands), keys);
+  return SegmentParts(strands).exact_bounds(keys);
 }
 
 }  // namespace

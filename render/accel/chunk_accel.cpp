@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <optional>
+#include <span>
 
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "render/accel/embree_query.h"
+#include "render/accel/growth_gate.h"
 #include "render/accel/part_bounds.h"
 
 namespace pelage {
@@ -24,16 +27,28 @@ size_t part_count_bound(const ChunkCounts& counts) {
 
 }  // namespace
 
-/// Grows chunks for the residency, and keeps of each the boxes that it learned when it was first grown.
+/// Grows chunks for the residency, and knows of each what is known before it is grown: the fine boxes that it
+/// was given, or the boxes that it learned when it was first grown.
 class ChunkAccel::Growth final : public Grower {
  public:
-  Growth(const ChunkGrower& grower, size_t chunks, const ChunkAccelOptions& options,
+  /// Takes the fine boxes out of `bounds`.
+  Growth(const ChunkGrower& grower, std::span<ChunkBounds> bounds, const ChunkAccelOptions& options,
          const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
-      : grower_(grower), options_(options), device_(device), patterns_(patterns), learned_(chunks) {
-    size_t bytes = chunks * sizeof(learned_[0]);
-    for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
+      : grower_(grower),
+        options_(options),
+        device_(device),
+        patterns_(patterns),
+        known_(bounds.size()),
+        learned_(bounds.size()) {
+    size_t bytes = bounds.size() * (sizeof(known_[0]) + sizeof(learned_[0]));
+    for (uint32_t chunk = 0; chunk < bounds.size(); ++chunk) {
       const ChunkCounts counts = grower.counts(chunk);
-      bytes += PartBoxes::bytes_bound(part_count_bound(counts), counts.motion_keys > 1);
+      Known& known = known_[chunk];
+      known.fine = std::move(bounds[chunk].fine);
+      // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
+      known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds[chunk].keys == 1);
+      bytes += known.fine.bytes();
+      if (known.learns) bytes += PartBoxes::bytes_bound(part_count_bound(counts), counts.motion_keys > 1);
     }
     charge_ = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
   }
@@ -43,12 +58,12 @@ class ChunkAccel::Growth final : public Grower {
 
   size_t reserve_bytes(uint32_t slot) const override {
     const ChunkCounts counts = grower_.counts(slot);
-    return EmbreeChunk::bytes_bound(counts) + part_bounds_scratch(counts);
+    return EmbreeChunk::bytes_bound(counts) + (known_[slot].learns ? part_bounds_scratch(counts) : 0);
   }
 
   Grown grow(uint32_t slot) override {
     ChunkContents contents = grower_.grow(slot);
-    if (!learned(slot)) {
+    if (known_[slot].learns && !learned(slot)) {
       // One thread at a time grows a slot, so nobody else stores here.
       auto boxes = std::make_unique<const PartBoxes>(part_bounds(contents, kSegmentsPerPart, kMostParts));
       learned_[slot].store(boxes.release(), std::memory_order_release);
@@ -58,14 +73,22 @@ class ChunkAccel::Growth final : public Grower {
     return {std::move(unit), bytes};
   }
 
-  /// Null before the chunk was first grown.
+  /// Null before the chunk was first grown, and where the fine boxes say as much.
   const PartBoxes* learned(uint32_t slot) const { return learned_[slot].load(std::memory_order_acquire); }
+  const FineBoxes& fine(uint32_t slot) const { return known_[slot].fine; }
+  bool knows(uint32_t slot) const { return fine(slot).count() > 0; }
 
  private:
+  struct Known {
+    FineBoxes fine;
+    bool learns = true;
+  };
+
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
   const EmbreeDevice& device_;
   SegmentPatterns& patterns_;
+  std::vector<Known> known_;
   std::vector<std::atomic<const PartBoxes*>> learned_;
   MemoryCharge charge_;
 };
@@ -108,7 +131,7 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
   for (size_t i = 0; i < threads; ++i) scratch_[i].seen.resize(chunks);
   charges_.emplace_back(ledger, MemoryTag::kChunks,
                         static_cast<int64_t>(threads * chunks * sizeof(uint32_t)));
-  growth_ = std::make_unique<Growth>(grower, chunks, options_, device_, patterns_, ledger);
+  growth_ = std::make_unique<Growth>(grower, bounds, options_, device_, patterns_, ledger);
 
   if (!options.eager) build_tree(bounds, ledger, workers);
   residency_ = std::make_unique<Residency>(*growth_, chunks, options.threads,
@@ -147,10 +170,19 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   ChunkWalk walk(*tree_, ray, order);
   // Where the ray enters the chunk by what is known of it; infinity when it does not.
   const auto enter = [&](uint32_t chunk, float entry, bool resident) {
-    const PartBoxes* boxes = growth_->learned(chunk);
-    if (!boxes || (resident && boxes->count() < kFiner * given_parts_[chunk])) return entry;
-    thread.counts.box_tests += static_cast<int64_t>(boxes->count());
-    return boxes->enter(walk.slabs(), far());
+    const PartBoxes* learned = growth_->learned(chunk);
+    if (learned && (!resident || learned->count() >= kFiner * given_parts_[chunk])) {
+      thread.counts.box_tests += static_cast<int64_t>(learned->count());
+      entry = learned->enter(walk.slabs(), far());
+    }
+    if (!resident && growth_->knows(chunk) && entry < std::numeric_limits<float>::infinity()) {
+      entry = enter_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), thread.counts.box_tests);
+    }
+    return entry;
+  };
+  // The far end of a ray is often infinite too.
+  const auto reaches = [&](float entry) {
+    return entry <= far() && entry < std::numeric_limits<float>::infinity();
   };
   const auto visit_one = [&](uint32_t chunk) {
     ++thread.counts.chunk_visits;
@@ -163,7 +195,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   while (goes_on && walk.next(far(), chunk, entry)) {
     if (!scratch.first_time(chunk)) {
       // Boxes do not come strictly in order: one of a chunk that waits may be entered before those seen so
-      // far.
+      // far. Finer ones were looked at all together.
+      if (growth_->knows(chunk)) continue;
       for (Scratch::Waiting& waiting : scratch.waiting) {
         if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
       }
@@ -171,7 +204,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
     }
     const bool resident = residency_->is_resident(chunk);
     entry = enter(chunk, entry, resident);
-    if (!(entry <= far())) continue;
+    if (!reaches(entry)) continue;
     if (resident) {
       goes_on = visit_one(chunk);
     } else {
@@ -184,7 +217,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   for (const Scratch::Waiting& waiting : scratch.waiting) {
     if (waiting.entry > far()) return;
     // Another thread may have grown it meanwhile, and its boxes may be known now.
-    if (!(enter(waiting.chunk, waiting.entry, false) <= far())) continue;
+    if (!reaches(enter(waiting.chunk, waiting.entry, false))) continue;
     if (!visit_one(waiting.chunk)) return;
   }
 }

@@ -30,8 +30,10 @@ struct ChunkAccelOptions {
 /// a ray may meet, a Residency grows and drops them, and an EmbreeChunk is what one of them holds.
 ///
 /// A ray visits the chunks that are resident first, front to back, and then those that it still reaches of
-/// the others; each at most once. What it meets is copied out while the chunk is pinned. Neither the budget
-/// nor the boxes, as long as they hold their chunks, nor what is resident reaches a result.
+/// the others; each at most once. A chunk that is not resident grows only for a ray that meets one of its
+/// fine boxes, where it has any, before what the ray has met so far. What a ray meets is copied out while the
+/// chunk is pinned. Neither the budget nor the boxes, as long as they hold their chunks, nor what is resident
+/// reaches a result.
 ///
 /// Errors of a grower pass through closest() and transmittance().
 /// Thread safety: as Accel; each TraceThread::worker is used by one thread at a time.

@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "geom/four_lanes.h"
+#include "procedurals/fine_boxes.h"
 #include "render/accel/accel.h"
 
 namespace pelage {
 
 /// Four boxes side by side: by axis, the low and the high sides. Boxes that are inside out are never met.
 using FourBoxes = std::array<std::array<Four, 2>, 3>;
+
+class GridSlabs;
 
 /// One ray as the slab test wants it [Kay86].
 ///
@@ -58,6 +61,8 @@ class RaySlabs {
   }
 
  private:
+  friend class GridSlabs;
+
   // What rounding may move a side or a hit by, relative to the largest number that goes in: 16 units in the
   // last place. Embree's hits and these tests each take less than half of it.
   static constexpr float kDoubt = 0x1p-20f;
@@ -70,6 +75,48 @@ class RaySlabs {
   std::array<Axis, 3> axes_;
   float near_;
   Four time_;
+};
+
+/// The same ray before boxes whose sides are whole numbers of steps from a corner that moves (FineBoxes).
+class GridSlabs {
+ public:
+  GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid) : near_(ray.near_) {
+    for (int i = 0; i < 3; ++i) {
+      const auto axis = static_cast<size_t>(i);
+      const RaySlabs::Axis& of = ray.axes_[axis];
+      const Four corner = four(grid.corner[i]) + ray.time_ * four(grid.motion[i]), step = four(grid.step[i]);
+      const Four near_inverse = of.inverse * four(1 - RaySlabs::kDoubt);
+      const Four far_inverse = of.inverse * four(1 + RaySlabs::kDoubt);
+      axes_[axis] = {(corner - of.near_origin) * near_inverse, step * near_inverse,
+                     (corner - of.far_origin) * far_inverse, step * far_inverse, of.near_side};
+    }
+  }
+
+  /// As RaySlabs::meet(). The doubt on the scale of the scene covers what rounding does here: the corner lies
+  /// in the scene.
+  auto meet(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
+    enter = four(near_);
+    leave = four(far);
+    for (size_t i = 0; i < 3; ++i) {
+      const Axis& axis = axes_[i];
+      enter = larger(number(boxes[i][axis.near_side]) * axis.near_step + axis.near_corner, enter);
+      leave = smaller(number(boxes[i][1 - axis.near_side]) * axis.far_step + axis.far_corner, leave);
+    }
+    return enter <= leave;
+  }
+
+ private:
+  static Four number(const std::array<uint8_t, 4>& sides) {
+    return Four{static_cast<float>(sides[0]), static_cast<float>(sides[1]), static_cast<float>(sides[2]),
+                static_cast<float>(sides[3])};
+  }
+
+  struct Axis {
+    Four near_corner, near_step, far_corner, far_step;
+    size_t near_side = 0;
+  };
+  std::array<Axis, 3> axes_;
+  float near_;
 };
 
 }  // namespace pelage

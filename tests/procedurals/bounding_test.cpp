@@ -11,7 +11,7 @@
 #include "base/progress.h"
 #include "geom/curve_bounds.h"
 #include "procedurals/bounds_file.h"
-#include "procedurals/strand_parts.h"
+#include "procedurals/segment_parts.h"
 #include "tests/procedurals/random_coats.h"
 #include "tests/support/temporary_folder.h"
 
@@ -46,14 +46,23 @@ bool contains(const Box3f& outer, const Box3f& inner) {
   return inner.isEmpty() || (outer.intersects(inner.min) && outer.intersects(inner.max));
 }
 
+Box3f grown(const Box3f& box, float by) { return {box.min - V3f(by), box.max + V3f(by)}; }
+
 float surface_area(const Box3f& box) {
   const V3f d = box.size();
   return 2 * (d.x * d.y + d.y * d.z + d.z * d.x);
 }
 
+bool same(const FineBoxes& a, const FineBoxes& b) {
+  if (a.count() != b.count() || a.levels() != b.levels()) return false;
+  const FineBoxes::Grid &x = a.grid(), &y = b.grid();
+  if (x.corner != y.corner || x.motion != y.motion || x.step != y.step) return false;
+  return a.count() == 0 || std::equal(a.level(0).begin(), a.level(0).end(), b.level(0).begin());
+}
+
 bool same(const std::vector<ChunkBounds>& a, const std::vector<ChunkBounds>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ChunkBounds& x, const ChunkBounds& y) {
-    return x.keys == y.keys && x.boxes == y.boxes;
+    return x.keys == y.keys && x.boxes == y.boxes && same(x.fine, y.fine);
   });
 }
 
@@ -82,6 +91,9 @@ TEST_P(RandomBounds, HoldEveryPointAtEveryTimeOfTheShutter) {
     const std::vector<ChunkBounds> bounds = bounds_of(coat_.chunks, {strategy});
     for (size_t leaf = 0; leaf < coat_.leaves.size(); ++leaf) {
       const Strands strands = coat_.leaves[leaf]->generate();
+      // Sides of fine boxes are handed out as floats, which resolve no more than this there.
+      const float rounding = 0x1p-22f * bounds[leaf].whole().max.length();
+      ASSERT_EQ(bounds[leaf].fine.count() > 0, strategy != BoundingStrategy::kConservative);
       ASSERT_EQ(bounds[leaf].keys, strategy == BoundingStrategy::kLinear ? 2 : 1);
       for (int step = 0; step <= 12; ++step) {
         const float time = static_cast<float>(step) / 12;
@@ -91,6 +103,12 @@ TEST_P(RandomBounds, HoldEveryPointAtEveryTimeOfTheShutter) {
           bool inside = false;
           for (size_t p = 0; p < bounds[leaf].part_count() && !inside; ++p) {
             inside = contains(at_time(bounds[leaf], p, time), ball);
+          }
+          if (bounds[leaf].fine.count() > 0 && inside) {
+            inside = false;
+            for (size_t b = 0; b < bounds[leaf].fine.count() && !inside; ++b) {
+              inside = contains(grown(bounds[leaf].fine.box(b, time), rounding), ball);
+            }
           }
           outside += !inside;
         });
@@ -123,20 +141,18 @@ TEST_P(RandomBounds, ExactOnesTouch) {
     const auto pose = coat_.skin->pose(bound_span(strategy));
     const ChunkBounds bounds = bounds_of({coat_.chunks[0]}, {strategy})[0];
     const Strands strands = coat_.groom->grow(0, pose->skin());
-    const StrandParts parts = divide_into_parts(strands);
-    ASSERT_EQ(bounds.part_count(), parts.count());
-    for (size_t p = 0; p < parts.count(); ++p) {
+    const SegmentParts parts(strands);
+    ASSERT_EQ(bounds.part_count(), parts.part_count());
+    for (size_t p = 0; p < parts.part_count(); ++p) {
       Box3f samples;
-      for (uint32_t strand : parts.part(p)) {
-        for (uint32_t s = 0; s < segment_count(strands.basis(), strands.strand_points(strand)); ++s) {
-          for (int key = 0; key < strands.motion_keys(); ++key) {
-            const CubicSegment segment = bezier_segment(strands, strand, s, key);
-            for (int step = 0; step <= 48; ++step) {
-              const float t = static_cast<float>(step) / 48;
-              const V3f at = curve_position(segment, t), reach(curve_radius(segment, t));
-              samples.extendBy(at - reach);
-              samples.extendBy(at + reach);
-            }
+      for (const SegmentPlace place : parts.part(p)) {
+        for (int key = 0; key < strands.motion_keys(); ++key) {
+          const CubicSegment segment = bezier_segment(strands, place.strand, place.segment, key);
+          for (int step = 0; step <= 48; ++step) {
+            const float t = static_cast<float>(step) / 48;
+            const V3f at = curve_position(segment, t), reach(curve_radius(segment, t));
+            samples.extendBy(at - reach);
+            samples.extendBy(at + reach);
           }
         }
       }

@@ -113,6 +113,7 @@ TEST_P(ChunkAccelScenes, AnswersAsOneSceneOverEverything) {
   const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
   expect_same(*oracle, *make(chunks, chunks.bounds(8)), 1, 2500);        // boxes of parts
   expect_same(*oracle, *make(chunks, chunks.bounds(1, 1.4f)), 2, 2500);  // loose ones
+  for (int keys : {1, 2}) expect_same(*oracle, *make(chunks, chunks.measured_bounds(keys)), 4, 1500);
   ChunkAccelOptions eager;
   eager.eager = true;
   expect_same(*oracle, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500);
@@ -183,7 +184,8 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
       options.memory_limit = static_cast<uint64_t>(
           fixed + 16384 + std::max(working_set * percent / 100, threads * static_cast<int64_t>(largest)));
       const auto accel =
-          make(chunks, chunks.bounds(percent % 2 == 0 ? 8 : 1, percent % 2 == 0 ? 1 : 1.2f), options);
+          make(chunks, percent == 25 ? chunks.bounds(1, 1.2f) : chunks.measured_bounds(percent == 10 ? 2 : 1),
+               options);
       Workers(threads).for_each(
           4, 1, [&](WorkRange range) { expect_same(*oracle, *accel, 100 + range.begin, 20, range.worker); });
       const ResidencyCounts counts = accel->counts();
@@ -271,17 +273,50 @@ TEST_F(ChunkAccelTest, AnswersAsOneSceneWhereNothingIsGrownYet) {
   const TestChunks chunks = random_chunks(7, crowded);
   const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
   const FlushDenormals flush;
-  const std::vector<ChunkBounds> bounds = chunks.bounds(40);
+  const std::vector<ChunkBounds> parts = chunks.bounds(40), fine = chunks.measured_bounds(1);
   TraceThread a, b;
   uint64_t strands = 0;
-  for (uint64_t i = 0; i < 40; ++i) {
+  for (uint64_t i = 0; i < 60; ++i) {
     const Ray ray = inner_ray(9, i);
+    const std::vector<ChunkBounds>& bounds = i % 3 == 0 ? parts : fine;
     const Hit expected = oracle->closest(ray, a), cold = make(chunks, bounds)->closest(ray, b);
     ASSERT_EQ(cold.strand_id, expected.strand_id) << i;
     ASSERT_EQ(cold.distance, expected.distance) << i;
+    ASSERT_EQ(make(chunks, bounds)->transmittance(ray, b), oracle->transmittance(ray, a)) << i;
     strands += expected.kind == HitKind::kStrand;
   }
-  EXPECT_GT(strands, 10u);
+  EXPECT_GT(strands, 15u);
+}
+
+// Rays inside the box of a chunk, between its strands or ending before them, let nothing grow.
+TEST_F(ChunkAccelTest, RaysThatMeetNoFineBoxLetNothingGrow) {
+  TestChunks chunks;
+  chunks.add_fur(ladder(2), 0);
+  const std::vector<ChunkBounds> measured =
+      chunks.measured_bounds(1, {.cell_segments = 1, .part_cells = 1024});
+  ASSERT_EQ(measured[0].part_count(), 1u);
+  std::vector<ChunkBounds> coarse = measured;
+  coarse[0].fine = {};
+  Ray between;
+  between.origin = {3, -1, 0.5f};
+  between.direction = {0, 1, 0};
+  Ray before = along_z(3);
+  before.origin.z = 0.5f;
+  before.far = 0.4f;
+  TraceThread thread;
+  for (const Ray& ray : {between, before}) {
+    const auto fine = make(chunks, measured), without = make(chunks, coarse);
+    EXPECT_FALSE(fine->closest(ray, thread));
+    EXPECT_EQ(fine->transmittance(ray, thread), 1.0f);
+    EXPECT_EQ(fine->counts().expansions, 0);
+    EXPECT_FALSE(without->closest(ray, thread));
+    EXPECT_EQ(without->counts().expansions, 1);
+  }
+  before.far = 0.6f;
+  const auto fine = make(chunks, measured);
+  EXPECT_TRUE(fine->closest(before, thread));
+  EXPECT_EQ(fine->transmittance(before, thread), 0.0f);
+  EXPECT_EQ(fine->counts().expansions, 1);
 }
 
 }  // namespace

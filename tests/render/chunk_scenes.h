@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geom/curve_bounds.h"
+#include "procedurals/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/embree_accel.h"
 #include "render/accel/part_bounds.h"
@@ -72,6 +73,17 @@ class TestChunks final : public ChunkGrower {
       const Box3f box = result.back().whole();
       const V3f more = 0.5f * (slack - 1) * box.size();
       result.back() = {1, {Box3f(box.min - more, box.max + more)}};
+    }
+    return result;
+  }
+
+  /// Boxes as they are measured before the first ray: exact ones and fine ones.
+  std::vector<ChunkBounds> measured_bounds(int keys, const SegmentDivision& division = {}) const {
+    std::vector<ChunkBounds> result;
+    for (const ChunkContents& chunk : contents) {
+      const auto* fur = std::get_if<FurContents>(&chunk.geometry);
+      result.push_back(fur ? SegmentParts(fur->strands, division).exact_bounds(keys)
+                           : part_bounds(chunk, 200, 8));
     }
     return result;
   }

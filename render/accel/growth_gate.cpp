@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/growth_gate.h"
+
+#include <array>
+#include <limits>
+
+namespace pelage {
+
+float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, int64_t& tests) {
+  if (boxes.count() == 0) return std::numeric_limits<float>::infinity();
+  const GridSlabs slabs(ray, boxes.grid());
+  struct Entry {
+    float distance;
+    uint32_t level, group;
+  };
+  // Three siblings wait on each level below the highest; 2^32 boxes have 16 levels.
+  std::array<Entry, 64> stack;
+  size_t waiting = 0;
+  stack[waiting++] = {0, static_cast<uint32_t>(boxes.levels() - 1), 0};
+  float nearest = std::numeric_limits<float>::infinity();
+  while (waiting > 0) {
+    const Entry top = stack[--waiting];
+    if (top.distance > far) continue;
+    const auto groups = boxes.level(top.level);
+    Four enter, leave;
+    const auto met = slabs.meet(groups[top.group], far, enter, leave);
+    tests += 4;
+    const size_t first = waiting;
+    for (uint32_t lane = 0; lane < 4; ++lane) {
+      if (!met[lane]) continue;
+      if (top.level == 0) {
+        nearest = std::min(nearest, enter[lane]);
+        far = std::min(far, nearest);
+        continue;
+      }
+      const uint32_t group = 4 * top.group + lane;
+      if (group >= boxes.level(top.level - 1).size()) continue;
+      size_t at = waiting++;
+      for (; at > first && stack[at - 1].distance < enter[lane]; --at) stack[at] = stack[at - 1];
+      stack[at] = {enter[lane], top.level - 1, group};
+    }
+  }
+  return nearest;
+}
+
+}  // namespace pelage
