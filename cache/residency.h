@@ -36,7 +36,8 @@ class Grower {
     size_t bytes = 0;                ///< held from now on, at most reserve_bytes
   };
   virtual ~Grower() = default;
-  /// Upper bound of the bytes held at any moment while `slot` is grown and afterwards. Fixed per slot.
+  /// Upper bound of the bytes held at any moment while `slot` is grown and afterwards. May become less once
+  /// the slot has been grown, never more.
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
   /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw.
   virtual Grown grow(uint32_t slot) = 0;

@@ -14,7 +14,7 @@ namespace {
 
 // What Embree allocates, found by measuring trees over strands and skins of every kind and size, 1 to 4
 // motion keys; embree_chunk_test walks over them again.
-constexpr size_t kPerScene = 4096;       // the first node, the ends of its blocks
+constexpr size_t kPerScene = 4096;       // the first node, what is small
 constexpr size_t kPerPrimitive = 52;     // of a tree without motion; 40 to 44 are usual
 constexpr size_t kPerFew = 140;          // of the first primitives, whose nodes are half empty
 constexpr size_t kFew = 48;              // how many those are
@@ -27,12 +27,17 @@ size_t tree_bytes_bound(size_t primitives, size_t pairs_of_keys) {
   const size_t few = kPerScene + kPerFew * std::min(primitives, kFew) * std::max<size_t>(pairs_of_keys, 1);
   const size_t tree =
       few + (pairs_of_keys == 0 ? kPerPrimitive * primitives : kPerMoving * primitives * pairs_of_keys);
-  // Embree takes about 20 blocks, each of which may end in a page that is partly used.
-  return tree + 4096 * std::min<size_t>(tree / kHeapPages, 32);
+  // The last block is partly used.
+  return (tree / EmbreeDevice::kTreeBlock + 2) * EmbreeDevice::kTreeBlock;
 }
 size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
   if (pairs_of_keys == 0) return heap_bytes(kReference * std::bit_ceil(std::max<size_t>(primitives, 1)));
   return heap_bytes(kMovingReference * primitives * pairs_of_keys);
+}
+
+/// Positions and normals; indices, faces and corners. Positions again: they may be copied to be padded.
+size_t skin_bytes_bound(const ChunkCounts& n) {
+  return (24 + 12) * static_cast<size_t>(n.motion_keys) * n.vertices + 40 * n.triangles;
 }
 
 /// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
@@ -156,8 +161,8 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& optio
       const FlushDenormals flush;
       build();
     });
+    build_peak_ = held + static_cast<size_t>(meter.peak());
     held += static_cast<size_t>(meter.held());
-    build_peak_ = static_cast<size_t>(meter.peak());
   }
   bytes_ = held;
   try {
@@ -262,15 +267,19 @@ CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {
   const auto keys = static_cast<size_t>(n.motion_keys);
   const size_t primitives = n.segments + n.triangles;
+  return bytes_bound(n, sizeof(EmbreeChunk) + skin_bytes_bound(n) + PackedStrands::bytes_bound(n) +
+                            tree_bytes_bound(primitives, keys - 1) +
+                            reference_bytes_bound(primitives, keys - 1));
+}
+
+size_t EmbreeChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
+  const auto keys = static_cast<size_t>(n.motion_keys);
   const size_t grown = 16 * keys * n.points + n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) +
                        n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
                        sizeof(float) * (n.points + n.attribute_floats) + kPerScene;
-  // Positions and normals; indices, faces and corners. Positions again: they may be copied to be padded.
-  const size_t skin = (24 + 12) * keys * n.vertices + 40 * n.triangles;
-  const size_t packed = PackedStrands::bytes_bound(n);
-  const size_t built =
-      packed + tree_bytes_bound(primitives, keys - 1) + reference_bytes_bound(primitives, keys - 1);
-  return sizeof(EmbreeChunk) + skin + std::max(grown + std::max(packed, n.growth_bytes), built);
+  const size_t packing = PackedStrands::bytes_bound(n) + PackedStrands::scratch_bytes_bound(n);
+  return std::max(sizeof(EmbreeChunk) + skin_bytes_bound(n) + grown + std::max(packing, n.growth_bytes),
+                  build_peak);
 }
 
 }  // namespace pelage

@@ -53,11 +53,13 @@ class EmbreeChunk final : public Resident {
   const SkinMesh& skin() const { return skin_; }
   /// What is held, this object and Embree's share included.
   size_t bytes() const { return bytes_; }
-  /// Most bytes that Embree held while the tree was built.
+  /// Most that was held while the tree was built.
   size_t build_peak_bytes() const { return build_peak_; }
   /// At least what making a chunk of these counts holds at any moment, the contents that it is given
   /// included, and what it holds afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);
+  /// The same where the build_peak_bytes() of an equal chunk are known.
+  static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
   struct NearestQuery;

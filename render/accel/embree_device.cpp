@@ -16,15 +16,22 @@ namespace {
 // Embree's monitor does not say for which scene it allocates; each scene of a chunk is built by one thread.
 thread_local EmbreeMeter* meter_of_thread = nullptr;
 
+/// Embree adds a header and room to align to a block, the heap another header.
+std::string small_scenes() {
+  constexpr size_t kAdded = 256;
+  return fmt::format("alloc_single_thread_alloc=1,alloc_thread_block_size={}",
+                     EmbreeDevice::kTreeBlock - kAdded);
+}
+
 }  // namespace
 
 EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger)
-    : EmbreeDevice(memory_limit, &ledger) {}
-EmbreeDevice::EmbreeDevice() : EmbreeDevice(0, nullptr) {}
+    : EmbreeDevice(nullptr, memory_limit, &ledger) {}
+EmbreeDevice::EmbreeDevice() : EmbreeDevice(small_scenes().c_str(), 0, nullptr) {}
 
-EmbreeDevice::EmbreeDevice(uint64_t memory_limit, MemoryLedger* ledger)
+EmbreeDevice::EmbreeDevice(const char* configuration, uint64_t memory_limit, MemoryLedger* ledger)
     : ledger_(ledger), memory_limit_(memory_limit) {
-  device_ = rtcNewDevice(nullptr);
+  device_ = rtcNewDevice(configuration);
   if (!device_) {
     throw Error(ErrorKind::kFailed, fmt::format("Embree does not start (error {})",
                                                 static_cast<int>(rtcGetDeviceError(nullptr))));

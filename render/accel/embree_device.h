@@ -17,7 +17,9 @@ class EmbreeDevice {
   /// Allocations are charged to MemoryTag::kChunks. `memory_limit`: bytes that the ledger's budgeted tags may
   /// reach, 0 for no limit. Throws Error (kFailed) when Embree does not start.
   EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger);
-  /// Allocations are charged to nobody; EmbreeMeter counts them.
+  /// For many small scenes, each built by one thread. Allocations are charged to nobody; EmbreeMeter counts
+  /// them. Trees stand in blocks of kTreeBlock bytes, pages of their own: trees that come and go leave no
+  /// holes in the heap.
   EmbreeDevice();
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
@@ -33,8 +35,10 @@ class EmbreeDevice {
   /// reported.
   std::unique_lock<std::mutex> one_at_a_time() const;
 
+  static constexpr size_t kTreeBlock = 6 * 4096;
+
  private:
-  EmbreeDevice(uint64_t memory_limit, MemoryLedger* ledger);
+  EmbreeDevice(const char* configuration, uint64_t memory_limit, MemoryLedger* ledger);
   static void on_error(void* self, RTCError code, const char* text) noexcept;
   static bool on_memory(void* self, ssize_t bytes, bool post) noexcept;
 

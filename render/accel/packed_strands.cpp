@@ -381,17 +381,25 @@ size_t PackedStrands::bytes() const {
   return total;
 }
 
+namespace {
+
+/// Of attributes, opacities and roots.
+size_t numbers_bound(const ChunkCounts& n) { return n.attribute_floats + n.points + 4 * n.strands; }
+
+}  // namespace
+
 size_t PackedStrands::bytes_bound(const ChunkCounts& n) {
   const auto keys = static_cast<size_t>(n.motion_keys);
-  const size_t numbers = n.attribute_floats + n.points + 4 * n.strands;  // with opacities and roots
   const size_t block = 16 * keys * (n.points + 2 * n.strands) +
                        n.strands * (sizeof(uint64_t) + sizeof(uint32_t)) +
-                       sizeof(uint32_t) * (n.strands + 1 + n.segments) + sizeof(float) * numbers;
-  const size_t scratch = sizeof(float) * numbers + sizeof(uint32_t) * 2 * n.strands;
+                       sizeof(uint32_t) * (n.strands + 1 + n.segments) + sizeof(float) * numbers_bound(n);
   // Per attribute: its name and places, the end of its array.
   const size_t named = kAttributeBytes * (kArrays + std::min(n.attribute_floats, kMostAttributes));
-  return sizeof(PackedStrands) + PageBlock::held_bytes(block) + named + scratch +
-         SegmentPatterns::bytes_bound(n.segments);
+  return sizeof(PackedStrands) + PageBlock::held_bytes(block) + named;
+}
+
+size_t PackedStrands::scratch_bytes_bound(const ChunkCounts& n) {
+  return sizeof(float) * numbers_bound(n) + sizeof(uint32_t) * 2 * n.strands;
 }
 
 }  // namespace pelage

@@ -64,8 +64,10 @@ class PackedStrands {
 
   /// What is held, this object included.
   size_t bytes() const;
-  /// At least bytes() of every batch of these counts, and what is held beside it while it is packed.
+  /// At least bytes() of every batch of these counts.
   static size_t bytes_bound(const ChunkCounts& counts);
+  /// What is held beside it while it is packed.
+  static size_t scratch_bytes_bound(const ChunkCounts& counts);
 
  private:
   struct Values {

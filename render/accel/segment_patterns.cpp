@@ -5,6 +5,17 @@
 
 namespace pelage {
 
+void SegmentPatterns::expect(size_t segments, size_t strands) {
+  const std::lock_guard lock(mutex_);
+  Expected& expected = expected_[segments];
+  const size_t count = std::bit_ceil(strands);
+  if (count <= expected.strands) return;
+  expected.strands = count;
+  expected.charge = {};
+  expected.charge =
+      MemoryCharge(ledger_, MemoryTag::kChunks, static_cast<int64_t>(count * segments * sizeof(uint32_t)));
+}
+
 std::shared_ptr<const SegmentPatterns::Pattern> SegmentPatterns::get(uint32_t segments, uint32_t stride,
                                                                      size_t strands) {
   const std::lock_guard lock(mutex_);
@@ -20,8 +31,11 @@ std::shared_ptr<const SegmentPatterns::Pattern> SegmentPatterns::get(uint32_t se
       made->first_vertex.push_back(static_cast<uint32_t>(s) * stride + i);
     }
   }
-  made->charge =
-      MemoryCharge(ledger_, MemoryTag::kChunks, static_cast<int64_t>(count * segments * sizeof(uint32_t)));
+  const auto expected = expected_.find(segments);
+  if (expected == expected_.end() || expected->second.strands < count) {
+    made->charge =
+        MemoryCharge(ledger_, MemoryTag::kChunks, static_cast<int64_t>(count * segments * sizeof(uint32_t)));
+  }
   known = std::move(made);
   return known;
 }

@@ -24,14 +24,22 @@ class SegmentPatterns {
 
   explicit SegmentPatterns(MemoryLedger& ledger) : ledger_(ledger) {}
 
+  /// Charges from now on what batches of so many strands can make get() hold, so that it takes nothing from
+  /// a budget later. Said of all batches before the first get().
+  void expect(size_t segments, size_t strands);
   /// For at least `strands` strands of `segments` segments each, whose first control points are `stride`
-  /// apart. Kept as long as anybody holds it; what may be made for it is at most bytes_bound().
+  /// apart.
   std::shared_ptr<const Pattern> get(uint32_t segments, uint32_t stride, size_t strands);
-  static size_t bytes_bound(size_t segments) { return 2 * segments * sizeof(uint32_t); }
 
  private:
+  struct Expected {
+    size_t strands = 0;
+    MemoryCharge charge;
+  };
+
   MemoryLedger& ledger_;
-  std::mutex mutex_;  // guards patterns_
+  std::mutex mutex_;                     // guards what follows
+  std::map<size_t, Expected> expected_;  // by segments
   std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const Pattern>> patterns_;
 };
 

@@ -11,10 +11,17 @@
 namespace pelage {
 namespace {
 
-/// What growing holds for a moment: a block of strands on its way through the operators, the lattice of a
-/// skin.
-constexpr size_t kGrowthBytes = size_t(512) << 10;
+/// What growing holds for a moment: a block of strands on its way through the operators, whose points and
+/// colours are rows of floats, twice where they are posed at several times; the lattice of a skin.
+constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
 constexpr size_t kLatticeBytesPerVertex = 32;
+
+size_t growth_bytes(const StrandCounts& n) {
+  if (n.strands == 0) return kGrowthBytes;
+  // Strands of one file may be longer than others of it.
+  const size_t points = 2 * (n.points / n.strands + 1);
+  return kGrowthBytes + kGrowthBytesPerPoint * points * (n.motion_keys > 1 ? 2 : 1);
+}
 
 const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part) {
   const FibreParams* fibre = fibre_params(scene.materials[part.material]);
@@ -81,7 +88,7 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   counts.segments = strands.segments;
   counts.attribute_floats = strands.attribute_floats;
   counts.motion_keys = static_cast<int>(strands.motion_keys);
-  counts.growth_bytes = kGrowthBytes;
+  counts.growth_bytes = growth_bytes(strands);
   return counts;
 }
 
