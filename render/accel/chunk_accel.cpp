@@ -16,6 +16,7 @@
 namespace pelage {
 namespace {
 
+constexpr size_t kPage = 4096;
 constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
 // Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
 // times finer than the given ones; before a chunk is grown, always.
@@ -39,10 +40,13 @@ class ChunkAccel::Growth final : public Grower {
         device_(device),
         patterns_(patterns),
         known_(bounds.size()),
-        learned_(bounds.size()) {
-    size_t bytes = bounds.size() * (sizeof(known_[0]) + sizeof(learned_[0]));
+        learned_(bounds.size()),
+        build_pages_(bounds.size()) {
+    size_t bytes = bounds.size() * (sizeof(known_[0]) + sizeof(learned_[0]) + sizeof(build_pages_[0]));
     for (uint32_t chunk = 0; chunk < bounds.size(); ++chunk) {
       const ChunkCounts counts = grower.counts(chunk);
+      if (counts.strands > 0 && counts.segments % counts.strands == 0)
+        patterns.expect(counts.segments / counts.strands, counts.strands);
       Known& known = known_[chunk];
       known.fine = std::move(bounds[chunk].fine);
       // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
@@ -57,8 +61,11 @@ class ChunkAccel::Growth final : public Grower {
   }
 
   size_t reserve_bytes(uint32_t slot) const override {
-    const ChunkCounts counts = grower_.counts(slot);
-    return EmbreeChunk::bytes_bound(counts) + (known_[slot].learns ? part_bounds_scratch(counts) : 0);
+    ChunkCounts counts = grower_.counts(slot);
+    const size_t build_peak = kPage * size_t(build_pages_[slot].load(std::memory_order_relaxed));
+    if (build_peak > 0) return EmbreeChunk::bytes_bound(counts, build_peak);
+    if (known_[slot].learns) counts.growth_bytes = std::max(counts.growth_bytes, part_bounds_scratch(counts));
+    return EmbreeChunk::bytes_bound(counts);
   }
 
   Grown grow(uint32_t slot) override {
@@ -70,6 +77,8 @@ class ChunkAccel::Growth final : public Grower {
     }
     auto unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
     const size_t bytes = unit->bytes();
+    build_pages_[slot].store(static_cast<uint32_t>(unit->build_peak_bytes() / kPage + 1),
+                             std::memory_order_relaxed);
     return {std::move(unit), bytes};
   }
 
@@ -90,6 +99,7 @@ class ChunkAccel::Growth final : public Grower {
   SegmentPatterns& patterns_;
   std::vector<Known> known_;
   std::vector<std::atomic<const PartBoxes*>> learned_;
+  std::vector<std::atomic<uint32_t>> build_pages_;  // what the tree needed when it was built, once it was
   MemoryCharge charge_;
 };
 
