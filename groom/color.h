@@ -24,7 +24,10 @@ class Color final : public Operator {
   std::string_view name() const override { return kName; }
   std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   std::optional<AttributeClass> colors() const override;
-  bool attributes_only() const override { return !params_.value.dependence().rest; }
+  bool attributes_only() const override { return true; }
+  RestUse rest_use() const override {
+    return params_.value.dependence().rest ? RestUse::kPositions : RestUse::kNone;
+  }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach&) const override { return 0; }

@@ -89,7 +89,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
     stack.prepare_all(context);
     if (params.strands_file.empty()) impl->source.grown = impl->place_follicles(params, context, seed);
   }
-  const size_t bytes = stack.bytes() + impl->source.bytes();
+  const size_t bytes = stack.bytes() + impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
   impl->charge = MemoryCharge(ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
   return std::shared_ptr<const Groom>(new Groom(std::move(impl)));
 }

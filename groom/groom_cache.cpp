@@ -103,8 +103,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   }
   if (!before || before->stages().back().hash != now.stages().back().hash) now.write(*store, name);
   stack->prepare(frozen_end, stack->size(), context);
-  stands_on_rest = !source.rest || stack->reads_rest(frozen_end, stack->size()) ||
-                   !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
+  prepare_rest(context.workers);
   report->strands = source.follicles().size();
   report->offset_bytes = stored_bytes(report->file).value_or(frozen->bytes());
   if (!source.imported)

@@ -5,6 +5,7 @@
 #include <Imath/ImathBoxAlgo.h>
 
 #include "base/check.h"
+#include "base/parallel.h"
 #include "groom/groom_impl.h"
 #include "groom/strand_writer.h"
 
@@ -64,13 +65,29 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
   }
 }
 
+void Groom::Impl::prepare_rest(const Workers& workers) {
+  const RestUse use = stack->rest_use(frozen_end, stack->size());
+  stands_on_rest = !source.rest || use == RestUse::kFrames ||
+                   !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
+  if (stands_on_rest || use == RestUse::kNone) return;
+  rest_positions.resize(source.follicles().size());
+  workers.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
+    for (size_t f = range.begin; f < range.end; ++f) {
+      const RootAddress& root = source.follicles().root(f);
+      rest_positions[f] = source.rest->evaluate(root.face, root.u, root.v).position;
+    }
+  });
+}
+
 void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end,
                               StrandWriter& writer) const {
   const size_t keys = key_count(pose, source.rest != nullptr);
   const size_t live = std::max(frozen_end, stack->first_live());
   const FrozenLeaf& strands = frozen->leaf(leaf);
   const auto batch = std::make_unique<StrandBatch>();
-  const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
+  // Live operators need the state of before at every key; without them a key only turns the offsets anew.
+  const bool has_live = live < stack->size();
+  const auto posed = keys > 1 && (has_live || stands_on_rest) ? std::make_unique<StrandBatch>() : nullptr;
   for (const FrozenLeaf::Block& block : strands.blocks()) {
     const size_t at = begin + block.first;
     if (at >= end) break;
@@ -84,6 +101,8 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
       source.place(*batch, at);
     } else {
       place_ids(*batch, source.rest->topology(), source.follicles(), at);
+      for (size_t s = 0; s < batch->count && !rest_positions.empty(); ++s)
+        set_vector(batch->rest.position, s, rest_positions[at + s]);
     }
     clear_attributes(*batch);
     strands.attributes(block, *batch);
@@ -105,7 +124,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
         target->scale = pose.scale;
         target->posed = true;
         strands.shape(block, target->here, pose.scale, *target);
-        scale_radii(*target, pose.scale);
+        if (posed || key == 0) scale_radii(*target, pose.scale);
       }
       stack->apply(live, stack->size(), *target);
       writer.write(*target, at - begin, key, pose.length);

@@ -21,7 +21,8 @@ struct Groom::Impl {
   std::optional<ContentStore> store;  // of a groom with a cache
   std::optional<FrozenCoat> frozen;   // of a groom with a cache
   size_t frozen_end = 0;              // the operators [0, frozen_end) are in it
-  bool stands_on_rest = true;         // growing from the cache needs the rest skin
+  bool stands_on_rest = true;         // growing from the cache needs the frames of the rest skin
+  std::vector<V3f> rest_positions;    // of all roots, where it needs these alone
   std::optional<GroomCacheReport> report;
   MemoryCharge charge;
 
@@ -32,6 +33,8 @@ struct Groom::Impl {
   FollicleTree place_follicles(const GroomParams& params, const PrepareContext& context, uint64_t seed) const;
 
   void grow_plain(const PosedSkin& pose, size_t begin, size_t end, class StrandWriter& writer) const;
+  /// What growing from the cache needs of the rest skin.
+  void prepare_rest(const Workers& workers);
   void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end,
                    class StrandWriter& writer) const;
   /// Where batch.count strands stand at a motion key.

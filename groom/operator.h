@@ -32,6 +32,9 @@ struct StrandReach {
   int segments = 7;                        ///< most segments of a control polygon
 };
 
+/// How much of where strands stand on the rest skin something reads.
+enum class RestUse { kNone, kPositions, kFrames };
+
 /// What an operator may learn from before strands are grown. Rest state only.
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands that grow on no skin
@@ -64,11 +67,11 @@ class Operator {
   virtual std::optional<AttributeClass> colors() const { return {}; }
   /// Whether the widths that apply() gives are one profile along the strands, times a number of each strand.
   virtual bool has_one_width_profile() const { return true; }
-  /// Whether apply() reads and writes nothing of a batch but ids, texture coordinates, clump numbers, radii
-  /// and colours: then it can run on strands whose shape is not known yet.
+  /// Whether apply() reads and writes nothing of a batch but ids, texture coordinates, rest positions, clump
+  /// numbers, radii and colours: then it can run on strands whose shape is not known yet.
   virtual bool attributes_only() const { return false; }
-  /// Whether apply() looks at where strands stand on the rest skin (StrandBatch::rest).
-  virtual bool reads_rest() const { return !attributes_only(); }
+  /// What apply() reads of StrandBatch::rest.
+  virtual RestUse rest_use() const { return RestUse::kFrames; }
   /// Whether prepare() runs the operators before this one.
   virtual bool learns_from_preceding() const { return false; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.

@@ -94,11 +94,10 @@ bool OperatorStack::has_one_width_profile(size_t begin, size_t end) const {
   return true;
 }
 
-bool OperatorStack::reads_rest(size_t begin, size_t end) const {
-  for (size_t i = begin; i < end; ++i) {
-    if (operators_[i]->reads_rest()) return true;
-  }
-  return false;
+RestUse OperatorStack::rest_use(size_t begin, size_t end) const {
+  RestUse most = RestUse::kNone;
+  for (size_t i = begin; i < end; ++i) most = std::max(most, operators_[i]->rest_use());
+  return most;
 }
 
 std::optional<AttributeClass> OperatorStack::colors(size_t begin, size_t end) const {

@@ -39,8 +39,8 @@ class OperatorStack {
   bool has_live() const { return live_ < operators_.size(); }
   /// Whether all of [begin, end) are.
   bool attributes_only(size_t begin, size_t end) const;
-  /// Whether any of [begin, end) does.
-  bool reads_rest(size_t begin, size_t end) const;
+  /// The most that any of [begin, end) reads.
+  RestUse rest_use(size_t begin, size_t end) const;
   bool needs_closest_point() const;
   /// Whether all of [begin, end) do.
   bool has_one_width_profile(size_t begin, size_t end) const;

@@ -29,7 +29,9 @@ class PushOut final : public Operator {
   std::string_view name() const override { return kName; }
   std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   bool reads_rest_only() const override { return false; }
-  bool reads_rest() const override { return params_.offset.dependence().rest; }
+  RestUse rest_use() const override {
+    return params_.offset.dependence().rest ? RestUse::kPositions : RestUse::kNone;
+  }
   bool needs_closest_point() const override { return true; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;

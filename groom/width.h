@@ -25,8 +25,10 @@ class Width final : public Operator {
 
   std::string_view name() const override { return kName; }
   std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
-  bool attributes_only() const override {
-    return !params_.root.dependence().rest && !params_.tip.dependence().rest;
+  bool attributes_only() const override { return true; }
+  RestUse rest_use() const override {
+    const bool rest = params_.root.dependence().rest || params_.tip.dependence().rest;
+    return rest ? RestUse::kPositions : RestUse::kNone;
   }
   bool has_one_width_profile() const override;
   void prepare(const PrepareContext& context) override;
