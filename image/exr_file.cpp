@@ -199,7 +199,7 @@ ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::v
 
 ExrWriter::~ExrWriter() = default;
 
-void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows) {
+void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows, const Workers& workers) {
   if (count == 0) return;
   const ExrPart& info = file_->parts.at(part);
   PELAGE_CHECK(rows.size() == info.channels.size());
@@ -209,6 +209,7 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows) {
   try {
     file_->halves.resize(half_channels * width * height);
     half* next = file_->halves.data();
+    std::vector<std::pair<const ExrRows*, half*>> rounded;
     Imf::OutputPart output(*file_->output, static_cast<int>(part));
     const int y0 = output.currentScanLine();
     const Imath::Box2i where = box_of(PixelBox{info.data.x0, y0, info.data.x1, y0 + count});
@@ -217,16 +218,20 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows) {
       const ExrChannelInfo& channel = info.channels.at(from.channel);
       const Imf::PixelType type = pixel_type(channel.type);
       if (channel.type == ChannelType::kHalf) {
-        for (size_t y = 0; y < height; ++y) {
-          const float* row = from.words + y * from.row_stride;
-          std::transform(row, row + width, next + y * width, rounded_half);
-        }
+        rounded.emplace_back(&from, next);
         frame.insert(channel.name, Imf::Slice::Make(type, next, where, sizeof(half), sizeof(half) * width));
         next += width * height;
       } else {
         frame.insert(channel.name, Imf::Slice::Make(type, from.words, where, 4, 4 * from.row_stride));
       }
     }
+    workers.for_each(rounded.size(), 1, [&](WorkRange range) {
+      const auto& [from, to] = rounded[range.begin];
+      for (size_t y = 0; y < height; ++y) {
+        const float* row = from->words + y * from->row_stride;
+        std::transform(row, row + width, to + y * width, rounded_half);
+      }
+    });
     output.setFrameBuffer(frame);
     output.writePixels(count);
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/parallel.h"
 #include "image/exr.h"
 
 namespace pelage {
@@ -94,8 +95,8 @@ class ExrWriter {
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
 
-  /// The next `count` rows of a part, all its channels in order.
-  void write(size_t part, int count, std::span<const ExrRows> rows);
+  /// The next `count` rows of a part, all its channels in order. `workers` round floats to halves.
+  void write(size_t part, int count, std::span<const ExrRows> rows, const Workers& workers);
   /// Ends the file, once every part has all its rows, and puts it where it belongs.
   void commit();
 

@@ -11,6 +11,8 @@ namespace pelage {
 namespace {
 
 constexpr int kFewestRows = 16;
+/// Larger bands gain nothing, and their memory has to be fetched from the system first.
+constexpr int64_t kEnoughBytes = int64_t{256} << 20;
 
 std::string megabytes(int64_t bytes) { return fmt::format("{} MiB", (bytes >> 20) + 1); }
 
@@ -64,8 +66,10 @@ BandJob::Band BandJob::next_band(int first) const {
   for (int rows = window.height() - first;; rows = (rows + 1) / 2) {
     const Band band{first, first + rows};
     const int64_t needed = band_bytes(band);
+    if (needed <= std::min(room, kEnoughBytes)) return band;
+    if (rows > kFewestRows) continue;
     if (needed <= room) return band;
-    if (rows <= kFewestRows) fail_memory(reader->path(), memory - room + needed, memory);
+    fail_memory(reader->path(), memory - room + needed, memory);
   }
 }
 
@@ -85,7 +89,7 @@ void BandJob::make_band(Band band) {
   for (const MovingView& view : views) {
     const std::vector<size_t>& own = view.image->own();
     const RowRange rows = reach(view, target(view), band);
-    std::vector<float> source = view.image->read(own, rows.first, rows.last);
+    view.image->read(own, rows.first, rows.last, source_);
     const auto width = static_cast<size_t>(view.image->canvas().width());
     const size_t plane_size = width * static_cast<size_t>(rows.last - rows.first);
     PostLayers layers;
@@ -94,7 +98,7 @@ void BandJob::make_band(Band band) {
       number[own[i]] = i;
       layers.channels.push_back(
           {view.image->layers().role(own[i]),
-           {source.data() + i * plane_size, 1, static_cast<ptrdiff_t>(width), rows.first},
+           {source_.data() + i * plane_size, 1, static_cast<ptrdiff_t>(width), rows.first},
            plane(own[i], band)});
     }
     for (RankedMatte matte : view.image->layers().mattes()) {
@@ -105,7 +109,7 @@ void BandJob::make_band(Band band) {
   }
 }
 
-void BandJob::write_band(ExrWriter& writer, Band band) {
+void BandJob::write_band(ExrWriter& writer, Band band, const Workers& workers) {
   for (size_t p = 0; p < parts.size(); ++p) {
     const PixelBox& data = parts[p].part.header.data;
     const int first = std::max(band.first, data.y0 - window.y0),
@@ -116,7 +120,7 @@ void BandJob::write_band(ExrWriter& writer, Band band) {
       const Plane from = plane(parts[p].planes[c], band);
       rows.push_back({c, &from.at(data.x0 - window.x0, first), static_cast<size_t>(window.width())});
     }
-    writer.write(p, last - first, rows);
+    writer.write(p, last - first, rows, workers);
   }
 }
 
@@ -135,7 +139,7 @@ void BandJob::run(const std::filesystem::path& output, const Workers& workers, P
     make_band(band);
     report.cancelled = progress.cancelled();
     if (report.cancelled) return;
-    write_band(writer, band);
+    write_band(writer, band, workers);
     ++report.bands;
   }
   writer.commit();

@@ -88,10 +88,10 @@ class BandJob {
   int64_t band_bytes(Band band) const;
   Band next_band(int first) const;
   void make_band(Band band);
-  void write_band(ExrWriter& writer, Band band);
+  void write_band(ExrWriter& writer, Band band, const Workers& workers);
   Plane plane(size_t number, Band band) const;
 
-  std::vector<float> result_;
+  std::vector<float> source_, result_;
   Band band_{0, 0};
 };
 

@@ -47,7 +47,7 @@ void BoxResolve::begin(const PixelBox& box, int scale) {
   const size_t pixels = static_cast<size_t>(box.width()) * static_cast<size_t>(box.height());
   states_.assign(pixels, State());
   entries_.clear();
-  sums_.assign(pixels * layers_.channels.size(), 0);
+  sums_.assign(with_colors_ ? pixels * layers_.channels.size() : 0, 0);
   matte_sums_.assign(layers_.mattes.empty() ? 0 : pixels * layers_.mattes.size(), {});
 }
 
@@ -105,7 +105,7 @@ void BoxResolve::add(const WorkBuffer& buffer, int steps) {
 void BoxResolve::flush() {
   for (size_t c = 0; c < layers_.channels.size(); ++c) {
     const PostChannel& channel = layers_.channels[c];
-    if (channel.role != LayerRole::kColor) continue;
+    if (channel.role != LayerRole::kColor || !with_colors_) continue;
     float* const sums = &sums_[c * states_.size()];
     for (const Entry& e : entries_) {
       const float v = channel.source.at(source_x(e.source), source_y(e.source));
@@ -151,6 +151,7 @@ void BoxResolve::write_pixel(uint32_t at, int x, int y) {
   const bool is_copy = !state.is_mixed && state.count == samples_;
   for (size_t c = 0; c < layers_.channels.size(); ++c) {
     const PostChannel& channel = layers_.channels[c];
+    if (channel.role == LayerRole::kColor && !with_colors_) continue;
     float& to = channel.target.at(x, y);
     if (is_copy) {
       to = channel.source.at(source_x(state.source), source_y(state.source));

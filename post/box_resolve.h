@@ -18,7 +18,9 @@ namespace pelage {
 /// thread at a time; use one per worker.
 class BoxResolve {
  public:
-  explicit BoxResolve(const PostLayers& layers) : layers_(layers) {}
+  /// `with_colors`: otherwise channels of role kColor are left alone.
+  explicit BoxResolve(const PostLayers& layers, bool with_colors = true)
+      : layers_(layers), with_colors_(with_colors) {}
 
   /// Begins with pixels `box` of the result.
   void begin(const PixelBox& box, int scale);
@@ -53,6 +55,7 @@ class BoxResolve {
   void write_pixel(uint32_t at, int x, int y);
 
   const PostLayers& layers_;
+  bool with_colors_;
   PixelBox box_;
   int scale_ = 1;
   uint32_t samples_ = 0;  // of a pixel, over all steps so far

@@ -14,7 +14,8 @@ namespace {
 constexpr float kOtherEye = 1;  // time
 
 struct Scratch {
-  Scratch(const PostLayers& layers, int scale) : box(layers), lanczos(layers, scale) {}
+  Scratch(const StereoJob& job, const PostLayers& layers)
+      : box(layers, job.filter == StereoFilter::kBox), lanczos(layers, job.target.scale) {}
   WorkBuffer buffer{PixelBox{}, 1};
   std::vector<uint8_t> invented;  // a row of samples
   std::vector<uint32_t> filled;   // samples by pixel of the strip's own rows
@@ -94,7 +95,7 @@ void stereo_rows(const StereoJob& job, const PostLayers& layers, int strip_rows,
   workers.for_each(static_cast<size_t>(strips), 1, [&](WorkRange range) {
     if (progress.cancelled()) return;
     auto& mine = scratch[static_cast<size_t>(range.worker)];
-    if (!mine) mine = std::make_unique<Scratch>(layers, job.target.scale);
+    if (!mine) mine = std::make_unique<Scratch>(job, layers);
     const int y0 = job.first_row + static_cast<int>(range.begin) * strip_rows;
     const int y1 = std::min(y0 + strip_rows, job.last_row);
     stereo_strip(job, warp, y0, y1, *mine);

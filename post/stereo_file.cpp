@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "post/lanczos_resolve.h"
 #include "post/soft_edges.h"
 
 namespace pelage {
@@ -186,11 +187,14 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
 
   const int margin = stereo_margin(params.filter), height = job.window.height();
   const int strip_rows = std::max(1, params.strip_rows);
+  const bool is_box = params.filter == StereoFilter::kBox;
+  const auto width = static_cast<size_t>(job.window.width());
+  const size_t counts = 8 + 64 + (is_box ? 4 * channels.size() : 0);  // of a pixel of the strip
   job.scratch_bytes =
       static_cast<int64_t>(
           WorkBuffer::bytes_needed({0, 0, job.window.width(), strip_rows + 2 * margin}, job.scale) +
-          static_cast<size_t>(job.window.width()) * static_cast<size_t>(strip_rows) *
-              (8 + 4 * channels.size() + 64)) *
+          width * static_cast<size_t>(strip_rows) * counts +
+          (is_box ? 0 : LanczosResolve::bytes_needed(job.window.width(), image.own().size(), job.scale))) *
       workers.thread_count();
   const int fill = params.longest_fill.value_or(default_fill(camera_part(image).display.width()));
   job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {

@@ -77,11 +77,10 @@ void ViewImage::read_into(const std::vector<size_t>& wanted, int first, int last
   }
 }
 
-std::vector<float> ViewImage::read(const std::vector<size_t>& wanted, int first, int last) const {
-  std::vector<float> words(wanted.size() * static_cast<size_t>(canvas_.width()) *
-                           static_cast<size_t>(last - first));
+void ViewImage::read(const std::vector<size_t>& wanted, int first, int last,
+                     std::vector<float>& words) const {
+  words.assign(wanted.size() * static_cast<size_t>(canvas_.width()) * static_cast<size_t>(last - first), 0);
   read_into(wanted, first, last, words.data());
-  return words;
 }
 
 std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
@@ -93,10 +92,11 @@ std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optio
   result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
   is_soft.clear();
   is_soft.reserve(result.capacity());
+  std::vector<float> words;
   for (int y = 0; y < canvas_.height(); y += kRows) {
     const int rows = std::min(kRows, canvas_.height() - y);
     const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(canvas_.width());
-    const std::vector<float> words = read(wanted, y, y + rows);
+    read(wanted, y, y + rows, words);
     const float* z = depth ? words.data() : nullptr;
     const float* a = alpha ? words.data() + (depth ? count : 0) : nullptr;
     for (size_t i = 0; i < count; ++i) {
@@ -119,10 +119,11 @@ std::vector<Flow> ViewImage::read_vectors(std::pair<size_t, size_t> uv, const Ve
   std::vector<Flow> result;
   result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
   not_finite = 0;
+  std::vector<float> words;
   for (int y = 0; y < canvas_.height(); y += kRows) {
     const int rows = std::min(kRows, canvas_.height() - y);
     const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(canvas_.width());
-    const std::vector<float> words = read({uv.first, uv.second}, y, y + rows);
+    read({uv.first, uv.second}, y, y + rows, words);
     for (size_t i = 0; i < count; ++i) {
       const Flow m{sx * words[i], sy * words[count + i]};
       not_finite += !std::isfinite(m.x) || !std::isfinite(m.y);

@@ -39,7 +39,7 @@ class ViewImage {
 
   /// Rows first <= y < last of the canvas, of some channels one after the other, each rows * width words;
   /// zero where a part has no pixels.
-  std::vector<float> read(const std::vector<size_t>& channels, int first, int last) const;
+  void read(const std::vector<size_t>& channels, int first, int last, std::vector<float>& words) const;
 
   /// Depth for all of the canvas: infinite where alpha is zero; `depth` empty: 1 wherever there is alpha.
   /// `is_soft` marks soft edges (post/soft_edges.h).

@@ -88,7 +88,7 @@ inline void write_parts(const std::filesystem::path& path, const std::filesystem
     for (size_t c = 0; c < parts[p].planes.size(); ++c) {
       rows.push_back({c, parts[p].planes[c].data(), static_cast<size_t>(parts[p].data.width())});
     }
-    writer.write(p, parts[p].data.height(), rows);
+    writer.write(p, parts[p].data.height(), rows, Workers::alone());
   }
   writer.commit();
 }
