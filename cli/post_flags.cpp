@@ -48,6 +48,10 @@ void add_vector_flags(CLI::App& command, PostTexts& texts, const char* layer, co
       ->type_name("FACTOR");
 }
 
+void add_fill_flag(CLI::App& command, PostFileParams& file, const char* help) {
+  command.add_option("--fill", file.longest_fill, help)->check(CLI::Range(0, 65535))->type_name("PIXELS");
+}
+
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
 /// Whether `text` is the second of two words; empty is the first one.
@@ -84,6 +88,8 @@ void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts
       .add_option("--steps", shutter.steps, "Instants to look at (default: one per pixel of motion, 8 to 64)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
+  add_fill_flag(command, options.motion_blur.file,
+                "Pixels up to which a gap between two surfaces is closed (default: 4)");
   add_vector_flags(
       command, texts, "motion",
       "Layer or part of the vectors, or two channels as in mv.R,mv.G (default: forward, motion ...)");
@@ -113,9 +119,7 @@ void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
       ->type_name("NAME");
   command.add_option("--filter", texts.filter, "lanczos (default), which keeps sharpness, or box")
       ->type_name("FILTER");
-  command.add_option("--fill", stereo.longest_fill, "Pixels to fill of a gap (default: width / 40)")
-      ->check(CLI::Range(0, 65535))
-      ->type_name("PIXELS");
+  add_fill_flag(command, stereo.file, "Pixels to fill of a gap (default: width / 40)");
   add_vector_flags(command, texts, "parallax",
                    "Layer that says where pixels are in the other eye, instead of a camera");
 }

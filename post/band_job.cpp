@@ -35,7 +35,8 @@ void fail_missing(const ViewImage& image, const std::string& what, const std::st
 }
 
 WarpTarget BandJob::target(const MovingView& view) const {
-  return {scale, window.x0 - view.image->canvas().x0, window.y0 - view.image->canvas().y0};
+  return {scale, window.x0 - view.image->canvas().x0, window.y0 - view.image->canvas().y0,
+          static_cast<float>(longest_fill)};
 }
 
 int64_t BandJob::fixed_bytes() const {

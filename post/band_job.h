@@ -29,6 +29,7 @@ struct PostFileParams {
   LayerChoice layers;
   VectorParams vectors;
   int scale = 4;                      ///< samples per pixel and side, 1 to 8
+  std::optional<int> longest_fill;    ///< pixels of a gap that are filled; each tool has its default
   int64_t memory = int64_t{4} << 30;  ///< bytes: pixels, vectors and work buffers stay below
 };
 
@@ -66,6 +67,7 @@ class BandJob {
   PixelBox window;  ///< of the result; encloses all its parts
   size_t extra_planes = 0;
   int scale = 4;
+  int longest_fill = 0;  ///< pixels of a gap that are filled
   int64_t memory = 0;
   int64_t scratch_bytes = 0;
   Process process;

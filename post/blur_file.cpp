@@ -84,6 +84,7 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
   job.reader = &reader;
   job.channels = &channels;
   job.scale = params.file.scale;
+  job.longest_fill = params.file.longest_fill.value_or(kDefaultSeam);
   job.memory = params.file.memory;
   job.scratch_bytes = scratch_bytes(params, channels.size(), workers.thread_count());
   for (const std::string& view : views_of(channels, reader.parts())) {

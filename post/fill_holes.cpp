@@ -14,6 +14,8 @@ bool goes_on(const Sample& from, const Sample& to) {
   return near - far <= kSameSurface * near;
 }
 
+bool is_gap(const Sample& sample) { return sample.is_empty() || sample.is_seam(); }
+
 /// Fills `count` samples from `gap` in direction `step`; the border is the sample before it.
 void fill_from(std::span<Sample> row, std::span<uint8_t> invented, ptrdiff_t gap, ptrdiff_t step, int count) {
   const auto size = static_cast<ptrdiff_t>(row.size());
@@ -26,7 +28,7 @@ void fill_from(std::span<Sample> row, std::span<uint8_t> invented, ptrdiff_t gap
     const ptrdiff_t next = mirrored - step;
     if (next < 0 || next >= size) continue;
     const auto n = static_cast<size_t>(next);
-    if (!row[n].is_empty() && !invented[n] && goes_on(border, row[n])) mirrored = next;
+    if (!is_gap(row[n]) && !invented[n] && goes_on(border, row[n])) mirrored = next;
   }
 }
 
@@ -36,9 +38,10 @@ void fill_gaps(std::span<Sample> row, std::span<uint8_t> invented, int longest, 
   PELAGE_CHECK(row.size() == invented.size());
   const auto size = static_cast<ptrdiff_t>(row.size());
   for (ptrdiff_t begin = 0; begin < size; ++begin) {
-    if (!row[static_cast<size_t>(begin)].is_empty()) continue;
+    if (!is_gap(row[static_cast<size_t>(begin)])) continue;
     ptrdiff_t end = begin;
-    while (end < size && row[static_cast<size_t>(end)].is_empty()) ++end;
+    for (; end < size && is_gap(row[static_cast<size_t>(end)]); ++end)
+      row[static_cast<size_t>(end)] = Sample();
     const bool has_left = begin > 0 && !invented[static_cast<size_t>(begin - 1)], has_right = end < size;
     const int count = static_cast<int>(std::min<ptrdiff_t>(end - begin, longest));
     const auto depth = [&](ptrdiff_t at) { return row[static_cast<size_t>(at)].depth(); };

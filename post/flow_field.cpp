@@ -41,6 +41,7 @@ FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vecto
   };
   mark([&](int x, int y) { return four_hang_together(x, y) ? kFour : 0; });
   mark([&](int x, int y) { return has_own_corners(x, y) ? kRigid : 0; });
+  mark([&](int x, int y) { return hides_behind_another(x, y) ? kSeam : 0; });
   bound_blocks();
 }
 
@@ -117,6 +118,21 @@ bool FlowField::has_own_corners(int x, int y) const {
     if (corner(x, y, c & 1, c >> 1) != m) return false;
   }
   return true;
+}
+
+bool FlowField::is_behind(int x, int y, int other_x, int other_y) const {
+  const size_t p = at(x, y), q = at(other_x, other_y);
+  return depth_[p] != depth_[q] ? depth_[p] > depth_[q] : p > q;
+}
+
+bool FlowField::hides_behind_another(int x, int y) const {
+  const auto hides = [&](int i, int j, bool is_linked) {
+    return !is_linked && is_behind(x, y, i, j) && std::isfinite(depth_[at(x, y)]);
+  };
+  return (x > 0 && hides(x - 1, y, linked_right(x - 1, y))) ||
+         (y > 0 && hides(x, y - 1, linked_down(x, y - 1))) ||
+         (x + 1 < width_ && hides(x + 1, y, linked_right(x, y))) ||
+         (y + 1 < height_ && hides(x, y + 1, linked_down(x, y)));
 }
 
 void FlowField::bound_blocks() {

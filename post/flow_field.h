@@ -48,6 +48,12 @@ class FlowField {
   bool linked_right(int x, int y) const { return links_[at(x, y)] & kRight; }
   bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
 
+  /// Whether a neighbour on another, nearer surface may come away from this pixel. Neither is infinitely far
+  /// away: what is nothing, or a sky, does not end where it is hidden.
+  bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
+  /// Whether the first of two neighbours is the one behind; of equally far ones, the later one is.
+  bool is_behind(int x, int y, int other_x, int other_y) const;
+
   /// Whether all four corners move as the pixel does, so that it stays a unit square.
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
   /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean of those of the four pixels around it
@@ -78,6 +84,7 @@ class FlowField {
   static constexpr uint8_t kRight = 1, kDown = 2, kRigid = 4;
   /// The four pixels of which this is the upper left one hang together.
   static constexpr uint8_t kFour = 8;
+  static constexpr uint8_t kSeam = 16;
   /// As differences to the first: equal vectors have exactly themselves as mean.
   static Flow mean_of_four(Flow a, Flow b, Flow c, Flow d) {
     return {a.x + ((b.x - a.x) + (c.x - a.x) + (d.x - a.x)) * 0.25f,
@@ -90,6 +97,7 @@ class FlowField {
   bool four_hang_together(int x, int y) const;
   Flow torn_corner(int x, int y, int right, int bottom) const;
   bool has_own_corners(int x, int y) const;
+  bool hides_behind_another(int x, int y) const;
   void bound_blocks();
 
   int width_, height_;

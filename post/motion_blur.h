@@ -23,6 +23,9 @@ struct ShutterParams {
 /// motion there is one.
 std::vector<float> shutter_times(const ShutterParams& shutter, float longest);
 
+/// Pixels up to which gaps are closed unless somebody says otherwise.
+inline constexpr int kDefaultSeam = 4;
+
 /// How the work is cut; changes no pixel.
 struct PostTiling {
   int columns = 128, rows = 16;  ///< pixels of a piece that a worker draws and resolves at a time

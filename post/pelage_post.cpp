@@ -112,7 +112,8 @@ void blur(const pelage_post_image& image, const pelage_post_options& options, Pr
   std::vector<float> depth = depth_of(image, motion);
   const FlowField field(image.width, image.height, std::move(motion), std::move(depth), limits, workers);
   const BlurJob job{&field,
-                    {options.scale, 0, 0},
+                    {options.scale, 0, 0,
+                     static_cast<float>(options.longest_fill < 0 ? kDefaultSeam : options.longest_fill)},
                     shutter_times({options.shutter, options.centre, options.steps}, longest),
                     image.width,
                     0,

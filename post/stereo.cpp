@@ -88,7 +88,9 @@ int stereo_margin(StereoFilter filter) {
 
 void stereo_rows(const StereoJob& job, const PostLayers& layers, int strip_rows, const Workers& workers,
                  Progress& progress) {
-  const Warp warp(*job.field, job.target);
+  WarpTarget target = job.target;
+  target.longest_seam = static_cast<float>(job.longest_fill);
+  const Warp warp(*job.field, target);
   strip_rows = std::max(1, strip_rows);
   const int strips = (job.last_row - job.first_row + strip_rows - 1) / strip_rows;
   std::vector<std::unique_ptr<Scratch>> scratch(static_cast<size_t>(workers.thread_count()));

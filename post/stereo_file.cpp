@@ -196,7 +196,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
           width * static_cast<size_t>(strip_rows) * counts +
           (is_box ? 0 : LanczosResolve::bytes_needed(job.window.width(), image.own().size(), job.scale))) *
       workers.thread_count();
-  const int fill = params.longest_fill.value_or(default_fill(camera_part(image).display.width()));
+  job.longest_fill = params.file.longest_fill.value_or(default_fill(camera_part(image).display.width()));
   job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
     return rows_reaching(*v.field, target, job.window.width(), std::max(0, band.first - margin),
                          std::min(height, band.last + margin), {1.0f});
@@ -211,7 +211,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
     const PixelBox& canvas = v.image->canvas();
     const PixelBox& display = camera_part(*v.image).display;
     stereo.ends = {canvas.x0 <= display.x0, canvas.x1 >= display.x1};
-    stereo.longest_fill = fill;
+    stereo.longest_fill = job.longest_fill;
     stereo.width = job.window.width();
     stereo.height = height;
     stereo.first_row = band.first;

@@ -7,7 +7,7 @@
 namespace pelage {
 
 struct StereoFileParams {
-  PostFileParams file{{}, {}, 6, int64_t{4} << 30};
+  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< fill: a fortieth of the display window's width
   std::optional<std::string> view;  ///< to start from; default "left" if there is one, else the default view
   std::optional<float> eye_separation;  ///< scene units; default 6.5 cm where the file says what a unit is
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units
@@ -16,7 +16,6 @@ struct StereoFileParams {
   std::string parallax;  ///< layer to take the parallax from, by `file.vectors`, instead of a camera
   bool to_left = false;  ///< makes the left eye, of the right one
   StereoFilter filter = StereoFilter::kLanczos;
-  std::optional<int> longest_fill;  ///< pixels; default a fortieth of the display window's width
   int strip_rows = kStripRows;
 };
 

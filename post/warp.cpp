@@ -7,7 +7,7 @@ bool Warp::reaches(const FlowField::Block& block, const PixelBox& samples, float
   const auto scale = static_cast<float>(target_.scale);
   // A sample more than needed on each side: bounds may round otherwise than corners do.
   const auto reach = [&](int begin, int end, float low, float high, int origin, int s0, int s1) {
-    const float slack = field_.slack() * std::max(std::abs(first), std::abs(last));
+    const float slack = field_.slack() * std::max(std::abs(first), std::abs(last)) + target_.longest_seam;
     const float least = std::min({first * low, first * high, last * low, last * high}) - slack;
     const float most = std::max({first * low, first * high, last * low, last * high}) + slack;
     return scale * (static_cast<float>(end - origin) + most) + 1 >= static_cast<float>(s0) &&

@@ -16,11 +16,16 @@ namespace pelage {
 struct WarpTarget {
   int scale = 4;  ///< samples per pixel and side
   int origin_x = 0, origin_y = 0;
+  /// Gaps between two surfaces that are neighbours in the field are closed up to this many pixels.
+  float longest_seam = 0;
 };
 
 /// Draws the pixels of a field as they lie at some time into pieces of a picture. A pixel is a square whose
 /// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies in it. Neighbours
 /// on one surface share their corners, so that each sample between them belongs to exactly one of them.
+///
+/// Where neighbours on two surfaces have come apart, the one behind is drawn out to the other one: a seam,
+/// seen only where there is no surface.
 ///
 /// `Buffer` is WorkBuffer or has its samples() and put(). Thread safety: const, any number of threads with
 /// buffers of their own.
@@ -45,6 +50,7 @@ class Warp {
         } else {
           draw_quad(x, y, time, buffer);
         }
+        if (target_.longest_seam > 0 && field_.has_seam(x, y)) draw_seams(x, y, time, buffer);
       }
     }
   }
@@ -95,13 +101,64 @@ class Warp {
     float at(float y) const { return x0 + (y - y0) * slope; }
   };
 
+  static float distance(Point a, Point b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
+  Point corner(int x, int y, int right, int bottom, float time) const {
+    return place(x + right, y + bottom, field_.corner(x, y, right, bottom), time);
+  }
+
   template <class Buffer>
   void draw_quad(int x, int y, float time, Buffer& buffer) const {
-    Point p[4];
-    for (int c = 0; c < 4; ++c) {
-      const int right = c & 1, bottom = c >> 1;
-      p[c] = place(x + right, y + bottom, field_.corner(x, y, right, bottom), time);
+    const Point p[4] = {corner(x, y, 0, 0, time), corner(x, y, 1, 0, time), corner(x, y, 0, 1, time),
+                        corner(x, y, 1, 1, time)};
+    fill_quad(p, Sample(field_.depth(x, y), x, y), buffer);
+  }
+
+  /// Those of a pixel that has_seam().
+  template <class Buffer>
+  void draw_seams(int x, int y, float time, Buffer& buffer) const {
+    const Sample sample = Sample::seam(field_.depth(x, y), x, y);
+    const auto exists = [&](int i, int j) {
+      return i >= 0 && j >= 0 && i < field_.width() && j < field_.height();
+    };
+    for (const int side : {0, 1}) {
+      const int step = 2 * side - 1;
+      if (exists(x + step, y) && field_.is_behind(x, y, x + step, y)) {
+        const Point p[4] = {corner(x, y, side, 0, time), corner(x + step, y, 1 - side, 0, time),
+                            corner(x, y, side, 1, time), corner(x + step, y, 1 - side, 1, time)};
+        draw_seam(p, sample, buffer);
+      }
+      if (exists(x, y + step) && field_.is_behind(x, y, x, y + step)) {
+        const Point p[4] = {corner(x, y, 0, side, time), corner(x, y + step, 0, 1 - side, time),
+                            corner(x, y, 1, side, time), corner(x, y + step, 1, 1 - side, time)};
+        draw_seam(p, sample, buffer);
+      }
     }
+    // Where seams meet: between the four pixels around a corner, the one behind all others fills it.
+    for (int c = 0; c < 4; ++c) {
+      const int left = x + (c & 1) - 1, top = y + (c >> 1) - 1;
+      bool is_last = exists(left, top) && exists(left + 1, top + 1);
+      for (int k = 0; k < 4 && is_last; ++k) {
+        const int i = left + (k & 1), j = top + (k >> 1);
+        is_last = (i == x && j == y) || field_.is_behind(x, y, i, j);
+      }
+      if (!is_last) continue;
+      const Point p[4] = {corner(left, top, 1, 1, time), corner(left + 1, top, 0, 1, time),
+                          corner(left, top + 1, 1, 0, time), corner(left + 1, top + 1, 0, 0, time)};
+      const float down = std::max(distance(p[0], p[2]), distance(p[1], p[3]));
+      if (down <= target_.longest_seam * static_cast<float>(target_.scale)) draw_seam(p, sample, buffer);
+    }
+  }
+
+  template <class Buffer>
+  void draw_seam(const Point (&p)[4], Sample sample, Buffer& buffer) const {
+    const float longest = target_.longest_seam * static_cast<float>(target_.scale);
+    const float apart = std::max(distance(p[0], p[1]), distance(p[2], p[3]));
+    if (apart > 0 && apart <= longest) fill_quad(p, sample, buffer);
+  }
+
+  /// Corners are left and right ones of the upper side, then of the lower one.
+  template <class Buffer>
+  void fill_quad(const Point (&p)[4], Sample sample, Buffer& buffer) const {
     const PixelBox& box = buffer.samples();
     const float top = std::min(std::min(p[0].y, p[1].y), std::min(p[2].y, p[3].y));
     const float bottom = std::max(std::max(p[0].y, p[1].y), std::max(p[2].y, p[3].y));
@@ -111,7 +168,6 @@ class Warp {
     const float right = std::max(std::max(p[0].x, p[1].x), std::max(p[2].x, p[3].x));
     if (right <= static_cast<float>(box.x0) || left >= static_cast<float>(box.x1)) return;
     const Side sides[4] = {{p[0], p[1]}, {p[1], p[3]}, {p[2], p[3]}, {p[0], p[2]}};
-    const Sample sample(field_.depth(x, y), x, y);
     for (int row = y0; row < y1; ++row) {
       // From the leftmost to the rightmost crossing: all of a convex quad; a folded one gets no holes.
       const float centre = static_cast<float>(row) + 0.5f;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "image/exr_file.h"
@@ -13,24 +14,37 @@ namespace pelage {
 /// One sample of the work buffer: which pixel of the source is seen there, as a pair of 16-bit coordinates,
 /// and how far away it is, as a float; 8 bytes, and no colours [Neulander13]. Packed so that the smaller
 /// number is the nearer one, and of equally near ones the pixel that comes first: what a sample ends up with
-/// does not depend on the order in which pixels are drawn.
+/// does not depend on the order in which pixels are drawn. Seams (post/warp.h) are seen where no surface is:
+/// they come behind all that is at a distance, and before what is infinitely far away.
 class Sample {
  public:
   Sample() = default;
-  Sample(float depth, int x, int y)
-      : bits_(uint64_t{std::bit_cast<uint32_t>(depth)} << 32 | static_cast<uint32_t>(y) << 16 |
-              static_cast<uint32_t>(x)) {}
+  Sample(float depth, int x, int y) : Sample(std::bit_cast<uint32_t>(depth), x, y) {
+    if (!(depth < std::numeric_limits<float>::infinity())) bits_ |= kBehind;
+  }
+  /// `depth` is finite.
+  static Sample seam(float depth, int x, int y) {
+    Sample sample(std::bit_cast<uint32_t>(depth), x, y);
+    sample.bits_ |= kBehind;
+    return sample;
+  }
 
   bool is_empty() const { return bits_ == kEmpty; }
+  bool is_seam() const { return bits_ >= kBehind && bits_ < kInfinite; }
   int x() const { return static_cast<int>(bits_ & 0xffff); }
   int y() const { return static_cast<int>(bits_ >> 16 & 0xffff); }
   /// Both coordinates in one number, for comparing.
   uint32_t pixel() const { return static_cast<uint32_t>(bits_); }
-  float depth() const { return std::bit_cast<float>(static_cast<uint32_t>(bits_ >> 32)); }
+  float depth() const { return std::bit_cast<float>(static_cast<uint32_t>(bits_ >> 32) & 0x7fffffff); }
   bool is_nearer_than(Sample other) const { return bits_ < other.bits_; }
   bool operator==(const Sample&) const = default;
 
  private:
+  Sample(uint32_t depth, int x, int y)
+      : bits_(uint64_t{depth} << 32 | static_cast<uint32_t>(y) << 16 | static_cast<uint32_t>(x)) {}
+
+  static constexpr uint64_t kBehind = uint64_t{1} << 63;  // the sign of the depth
+  static constexpr uint64_t kInfinite = uint64_t{0xff800000} << 32;
   static constexpr uint64_t kEmpty = ~uint64_t{0};  // farther than infinity, at a place that no picture has
   uint64_t bits_ = kEmpty;
 };

@@ -59,13 +59,16 @@ TEST_F(PostCommands, FlagsReachTheTools) {
                                 "--memory",
                                 "1G",
                                 "--shutter-centre",
-                                "-0.5"});
+                                "-0.5",
+                                "--fill",
+                                "9"});
   EXPECT_EQ(blur.input, "a.exr");
   EXPECT_EQ(blur.output, "b.exr");
   const BlurFileParams& b = blur.motion_blur;
   EXPECT_EQ(b.shutter.length, 0.25f);
   EXPECT_EQ(b.shutter.centre, -0.5f);
   EXPECT_EQ(b.shutter.steps, 5);
+  EXPECT_EQ(b.file.longest_fill, 9);
   EXPECT_EQ(b.file.scale, 6);
   EXPECT_EQ(b.file.layers.motion, "mv");
   EXPECT_EQ(b.file.layers.depth, "far");
@@ -100,7 +103,7 @@ TEST_F(PostCommands, FlagsReachTheTools) {
   EXPECT_EQ(s.fov_deg, 30.0f);
   EXPECT_EQ(s.filter, StereoFilter::kBox);
   EXPECT_TRUE(s.to_left);
-  EXPECT_EQ(s.longest_fill, 7);
+  EXPECT_EQ(s.file.longest_fill, 7);
   EXPECT_EQ(s.view, "main");
   EXPECT_EQ(s.parallax, "d");
   EXPECT_EQ(s.file.scale, 6);

@@ -172,11 +172,68 @@ TEST(MotionBlur, WhatIsUncoveredStaysEmpty) {
   }
 }
 
+/// A near bar that moves by `motion` before a plane that stays, with nothing from x = 50 on.
+Picture bar_before_a_plane(Flow motion) {
+  Picture p(60, 40);
+  p.each([&](int x, int y, size_t i) {
+    const bool bar = x >= 20 && x < 30 && y >= 10 && y < 30;
+    p.color[i] = bar ? 1.0f : x < 50 ? 0.5f : 0.0f;
+    p.depth[i] = bar ? 1.0f : x < 50 ? 4.0f : kInfinity;
+    if (bar) p.motion[i] = motion;
+  });
+  return p;
+}
+
+TEST(MotionBlur, NarrowGapsAreClosedFromBehind) {
+  for (const Flow motion : {Flow{3, 0}, Flow{-3, 0}, Flow{0, 3}, Flow{0, -3}, Flow{2.6f, -1.7f}}) {
+    const Picture p = bar_before_a_plane(motion);
+    BlurSetup setup;
+    setup.times = {1};
+    const Result open = blurred(p, setup);
+    setup.longest_seam = 3;
+    const Result closed = blurred(p, setup);
+    int filled = 0;
+    Picture(p).each([&](int x, int, size_t i) {
+      ASSERT_EQ(closed.color[i] > 0, x < 50) << i;
+      ASSERT_LE(closed.depth[i], open.depth[i]);
+      if (open.color[i] == closed.color[i]) return;
+      ++filled;
+      // Never lighter than what is behind: nothing of the bar is smeared.
+      EXPECT_LE(closed.color[i] - open.color[i], 0.5f);
+    });
+    EXPECT_GE(filled, 30);
+    setup.longest_seam = 1.5f;  // too wide: left alone, whole
+    EXPECT_EQ(bits(blurred(p, setup).color), bits(open.color));
+  }
+}
+
+TEST(MotionBlur, SeamsHideNothing) {
+  // Where surfaces are, seams change neither colours nor data; they only take what was empty.
+  Picture p = lively_picture(120, 60);
+  BlurSetup setup;
+  setup.times = {1};
+  setup.scale = 1;  // a sample a pixel
+  const Result without = blurred(p, setup);
+  setup.longest_seam = 8;
+  const Result with = blurred(p, setup);
+  size_t filled = 0;
+  for (size_t i = 0; i < p.color.size(); ++i) {
+    if (without.depth[i] == kInfinity) {
+      filled += with.depth[i] != kInfinity;
+    } else {
+      ASSERT_EQ(with.color[i], without.color[i]);
+      ASSERT_EQ(with.data[i], without.data[i]);
+    }
+  }
+  EXPECT_GT(filled, 100u);
+}
+
 TEST(MotionBlur, SamePixelsForAnyTilingAndNumberOfThreads) {
   const Picture p = lively_picture(173, 61);
   BlurSetup setup;
   setup.times = times(0.5f, 9);
   setup.largest_time = 0.25f;
+  setup.longest_seam = 5;
   setup.threads = 1;
   setup.tiling = {173, 61};
   const Result whole = blurred(p, setup);
@@ -198,6 +255,8 @@ TEST(MotionBlur, BandsJoinWithoutASeam) {
   Picture p = lively_picture(80, 64);
   BlurSetup setup;
   setup.times = times(1, 8);
+  setup.longest_seam = 6;
+  const WarpTarget target{4, 0, 0, setup.longest_seam};
   const Result whole = blurred(p, setup);
   const Workers workers(2);
   const FlowField field(p.width, p.height, p.motion, p.depth, LinkLimits(), workers);
@@ -207,13 +266,13 @@ TEST(MotionBlur, BandsJoinWithoutASeam) {
   for (int row = 0; row < p.height; row += 10) {
     const int last = std::min(row + 10, p.height);
     // Only the rows that are said to be needed hold pixels.
-    const RowRange rows = rows_reaching(field, {4, 0, 0}, p.width, row, last, setup.times);
+    const RowRange rows = rows_reaching(field, target, p.width, row, last, setup.times);
     Picture cut = p;
     cut.each([&](int, int y, size_t i) {
       if (y < rows.first || y >= rows.last) cut.color[i] = 1e6f;
     });
     layers.channels[0].source.words = cut.color.data();
-    blur_rows({&field, {4, 0, 0}, setup.times, p.width, row, last}, layers, {}, workers, progress);
+    blur_rows({&field, target, setup.times, p.width, row, last}, layers, {}, workers, progress);
   }
   EXPECT_EQ(bits(parts.color), bits(whole.color));
 }

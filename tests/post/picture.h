@@ -62,6 +62,7 @@ struct BlurSetup {
   PostTiling tiling;
   int threads = 2;
   float largest_time = 1;
+  float longest_seam = 0;
 };
 
 inline Result blurred(Picture picture, const BlurSetup& setup) {
@@ -72,8 +73,8 @@ inline Result blurred(Picture picture, const BlurSetup& setup) {
   Result result;
   const PostLayers layers = layers_of(picture, result);
   NoProgress progress;
-  blur_rows({&field, {setup.scale, 0, 0}, setup.times, picture.width, 0, picture.height}, layers,
-            setup.tiling, workers, progress);
+  blur_rows({&field, {setup.scale, 0, 0, setup.longest_seam}, setup.times, picture.width, 0, picture.height},
+            layers, setup.tiling, workers, progress);
   return result;
 }
 

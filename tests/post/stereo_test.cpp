@@ -77,6 +77,26 @@ TEST(Stereo, GapsAreFilledFromBehind) {
   }
 }
 
+TEST(Stereo, NothingShinesThroughAGap) {
+  // Two bars side by side come apart; what is clear, infinitely far away, moves the most and comes to lie
+  // between them, where the bar behind goes on.
+  Picture p(80, 6);
+  p.each([&](int x, int, size_t i) {
+    const bool near = x >= 20 && x < 30, far = x >= 30 && x < 40;
+    p.color[i] = near ? 1.0f : far ? 0.5f : 0.0f;
+    p.depth[i] = near ? 2.0f : far ? 3.0f : std::numeric_limits<float>::infinity();
+    p.motion[i] = {near ? 0.0f : far ? 4.0f : 12.0f, 0};
+  });
+  StereoSetup setup;
+  setup.longest_fill = 20;
+  setup.filter = StereoFilter::kBox;
+  const Result result = other_eye(p, setup);
+  for (int x = 20; x < 44; ++x) {
+    EXPECT_EQ(result.color[p.at(x, 3)], x < 30 ? 1.0f : 0.5f) << x;
+    EXPECT_EQ(result.invented[p.at(x, 3)], x >= 30 && x < 34 ? 1.0f : 0.0f) << x;
+  }
+}
+
 TEST(Stereo, ThereAndBackIsTheSamePicture) {
   // Smooth textures on a slanted plane and on a bar before it.
   Picture left(240, 40);
