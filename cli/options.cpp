@@ -14,6 +14,7 @@
 #include "cli/post_flags.h"
 #include "cli/version.h"
 #include "groom/curve_basis_names.h"
+#include "render/fibre/fibre_oracle.h"
 
 namespace pelage {
 namespace {
@@ -108,6 +109,21 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("SECONDS");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
 
+  CLI::App* compare = app.add_subcommand(
+      "compare", "Render a scene under every fibre model and report: contact sheet, cost, noise, energy");
+  add_scene_flags(*compare, options, texts);
+  compare
+      ->add_option("-o,--output", options.output,
+                   "Folder for the report and its pictures (default: the scene's name and _compare)")
+      ->type_name("DIR");
+  compare->add_option("--models", options.models, "Only these models, such as chiang,yan")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("MODELS");
+  compare->add_option("--frames", texts.frames, "Frame to compare (default: the scene's first)")
+      ->type_name("FRAME");
+  add_run_flags(*compare, options, texts);
+
   CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");
   info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
   info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
@@ -137,9 +153,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
 const std::map<std::string, Command>& command_names() {
   static const std::map<std::string, Command> names{
-      {"render", Command::kRender}, {"grow", Command::kGrow},       {"measure", Command::kMeasure},
-      {"info", Command::kInfo},     {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
-      {"stereo", Command::kStereo}, {"manual", Command::kManual}};
+      {"render", Command::kRender},         {"grow", Command::kGrow},     {"measure", Command::kMeasure},
+      {"compare", Command::kCompare},       {"info", Command::kInfo},     {"convert", Command::kConvert},
+      {"motionblur", Command::kMotionBlur}, {"stereo", Command::kStereo}, {"manual", Command::kManual}};
   return names;
 }
 
@@ -211,7 +227,16 @@ Experiment parse_experiment(const std::string& text) {
   fail("there is no experiment " + quote(text) + suggest(text, names));
 }
 
+void check_models(const std::vector<std::string>& models) {
+  const std::vector<std::string>& known = fibre_model_names();
+  for (const std::string& model : models) {
+    if (std::find(known.begin(), known.end(), model) == known.end())
+      fail("--models: there is no fibre model " + quote(model) + suggest(model, known));
+  }
+}
+
 void interpret(const Texts& texts, Options& options) {
+  check_models(options.models);
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))

@@ -14,7 +14,7 @@
 
 namespace pelage {
 
-enum class Command { kRender, kGrow, kMeasure, kInfo, kConvert, kMotionBlur, kStereo, kManual };
+enum class Command { kRender, kGrow, kMeasure, kCompare, kInfo, kConvert, kMotionBlur, kStereo, kManual };
 
 enum class Experiment { kBounds, kGrowth, kResidency, kSamplers };
 
@@ -41,6 +41,8 @@ struct Options {
   Experiment experiment = Experiment::kBounds;  ///< measure
   int repeat = 3;                               ///< measure: runs of each variant
   double time_limit_s = 600;                    ///< measure: a run that takes longer is ended
+
+  std::vector<std::string> models;  ///< compare: --models; empty: all
 
   std::string groom;     ///< grow: only this one; empty: all
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh

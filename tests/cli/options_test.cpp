@@ -88,7 +88,8 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
   EXPECT_EQ(problem({"rendr", "s"}), "there is no command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
-            "there is no command 'zebra'; expected one of convert, grow, info, manual, measure, motionblur, "
+            "there is no command 'zebra'; expected one of compare, convert, grow, info, manual, measure, "
+            "motionblur, "
             "render, "
             "stereo");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}),
@@ -129,6 +130,16 @@ TEST(Options, OfMeasure) {
   }
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
+}
+
+TEST(Options, OfCompare) {
+  const Options options =
+      parsed({"compare", "a.yaml", "-o", "out", "--models", "chiang,yan", "--set", "render.samples=2"});
+  EXPECT_EQ(options.command, Command::kCompare);
+  EXPECT_EQ(options.output, "out");
+  EXPECT_EQ(options.models, (std::vector<std::string>{"chiang", "yan"}));
+  EXPECT_TRUE(parsed({"compare", "a.yaml"}).models.empty());
+  EXPECT_THROW(parsed({"compare", "a.yaml", "--models", "chang"}), Error);
 }
 
 TEST(Options, HelpEverywhere) {

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/compare/contact_sheet.h"
+#include "cli/compare/light_side.h"
+#include "cli/compare/single_fibre.h"
+#include "tests/cli/small_scene.h"
+
+namespace pelage {
+namespace {
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+Options compare_options(const SmallScene& scene) {
+  Options options;
+  options.command = Command::kCompare;
+  options.input = scene.path("scene.yaml");
+  options.output = scene.path("out");
+  options.progress = ProgressStyle::kQuiet;
+  options.threads = 2;
+  return options;
+}
+
+TEST(Compare, WritesASheetATableAndAReport) {
+  const SmallScene scene;
+  Options options = compare_options(scene);
+  options.models = {"chiang", "cone-shell"};
+  ASSERT_EQ(run_compare(options), 0);
+  for (const char* file : {"contact_sheet.png", "single_fibres.png"})
+    EXPECT_EQ(read(scene.path("out") + "/" + file).substr(1, 3), "PNG") << file;
+  EXPECT_NE(read(scene.path("out") + "/report.html").find("contact_sheet.png"), std::string::npos);
+  const auto json = nlohmann::json::parse(read(scene.path("out") + "/report.json"));
+  ASSERT_EQ(json.at("rows").size(), 6u);
+  const std::string csv = read(scene.path("out") + "/report.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+  for (const auto& row : json.at("rows")) {
+    EXPECT_GT(row.at("luminance").get<double>(), 0);
+    EXPECT_GT(row.at("rays").get<double>(), 24 * 16 * 4);
+    EXPECT_GE(row.at("relmse").get<double>(), 0);
+  }
+  EXPECT_EQ(json.at("runs").size(), 2u);
+}
+
+TEST(Compare, SaysWhatItNeeds) {
+  const SmallScene scene;
+  Options options = compare_options(scene);
+  options.overrides = {{"characters.walker.parts.0.grooms", "{}"}};
+  EXPECT_THROW(run_compare(options), Error);
+  options = compare_options(scene);
+  options.output = "/proc/none";
+  EXPECT_THROW(run_compare(options), Error);
+}
+
+TEST(LightSide, StandsWhereItSays) {
+  CameraParams camera;
+  camera.position = Keyed<V3f>(V3f(0, 0, 10));
+  camera.look_at = Keyed<V3f>(V3f(0, 0, 0));
+  for (const LightSide& side : kLightSides) {
+    const auto lights = lights_from(side, camera, 1);
+    const auto& lamp = std::get<SphereLightParams>(lights.items.at(0).value);
+    const V3f at = lamp.position.at(1);
+    EXPECT_NEAR(at.length(), 10, 1e-4);
+    EXPECT_LT(at.x, 0);  // to the left of the camera
+    EXPECT_GT(at.y, 0);
+    EXPECT_EQ(at.z < 0, std::string(side.name) == "back");
+  }
+}
+
+TEST(SingleFibre, PhysicalModelsAreCloserToTracedLightThanOpaqueOnes) {
+  const Workers workers(2);
+  const SingleFibre chiang = compare_single_fibre("chiang", ChiangParams{}, workers),
+                    opaque = compare_single_fibre("lambert-cylinder", LambertCylinderParams{}, workers);
+  EXPECT_LT(chiang.azimuth_distance(), 0.05);
+  EXPECT_GT(opaque.azimuth_distance(), 0.5);
+  EXPECT_NEAR(chiang.white_across, 1, 1e-3);
+  EXPECT_NEAR(chiang.white_slanted, 1, 1e-3);
+  const Picture sheet = single_fibre_sheet({chiang, opaque});
+  EXPECT_EQ(sheet.pixels.size(), 3u * static_cast<size_t>(sheet.width) * static_cast<size_t>(sheet.height));
+}
+
+TEST(ContactSheet, HasARowPerModelAndAColumnPerLight) {
+  ComparedFrame frame;
+  frame.picture = {"", 8, 4, 3, std::vector<unsigned char>(8 * 4 * 3, 200)};
+  std::vector<ComparedFrame> frames;
+  for (const char* model : {"a", "b", "c"}) {
+    for (const char* light : {"front", "back"}) {
+      frame.model = model;
+      frame.light = light;
+      frames.push_back(frame);
+    }
+  }
+  const Picture all = contact_sheet(frames);
+  frames.pop_back();
+  const Picture fewer = contact_sheet(frames);
+  EXPECT_EQ(all.width, fewer.width);
+  EXPECT_EQ(all.height, fewer.height);
+  EXPECT_NE(all.pixels, fewer.pixels);
+  const Picture half = halved(all);
+  EXPECT_EQ(half.width, all.width / 2);
+}
+
+}  // namespace
+}  // namespace pelage
