@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string>
@@ -71,7 +72,7 @@ class Sweep {
           {bytes, share});
     };
     for (const double share : kShares) {
-      if (!done()) try_share(share);
+      if (!done() && !outcomes.back().timed_out()) try_share(share);  // less memory would take longer still
     }
     for (const double share : kSmallShares) {
       if (!done() && outcomes.back().succeeded()) try_share(share);
@@ -178,39 +179,49 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
        {Paragraph{fmt::format(
             "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
             "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited "
-            "run and F "
-            "the sum of the peaks of film, skins and caches there; F is an upper bound of what these need at "
-            "one time. "
-            "Every budget is run {} time{}; numbers are those of the run of median wall time. Budgets go "
-            "down until "
-            "one is refused (exit code 4), which is a result; the row least, if any, is what the refusal "
-            "says would "
-            "do.",
-            setup.repeat, setup.repeat == 1 ? "" : "s")},
+            "run and "
+            "F the sum of the peaks of film, skins and caches there; F is an upper bound of what these need "
+            "at one "
+            "time. Every budget is run {} time{}; numbers are those of the run of median wall time. Budgets "
+            "go down "
+            "until one is refused (exit code 4), which is a result; the row least, if any, is what the "
+            "refusal says "
+            "would do. A run that takes longer than {:g} s is ended: a time-out.",
+            setup.repeat, setup.repeat == 1 ? "" : "s", setup.time_limit_s)},
         Paragraph{
             "Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent "
             "for "
             "memory or for a chunk that another thread grows. Pixels are identical when every bit of every "
-            "channel is that of the unlimited run. " +
-            ledger_text(outcomes)}}});
-  report.sections.push_back(
-      {"Time and growth",
-       {select(data,
-               {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
-                "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
-               "Cost of each budget."),
-        budget_plot(data, {"wall_s"}, "wall time", "Wall time against the budget."),
-        budget_plot(data, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
-        budget_plot(data, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
-                    "Peaks of the resident set and of the chunks against the budget."),
-        budget_plot(data, {"residency_wait_s"}, "thread time",
-                    "Time spent waiting, all threads together.")}});
-  Table refusals = select(data, {"variant", "budget_bytes", "message"}, "What refused budgets were told.");
+            "channel is that of the unlimited run."}}});
+  // What warmed the caches is in the data, and nothing to compare with.
+  const std::vector<Outcome> compared(outcomes.begin() + std::min<std::ptrdiff_t>(1, std::ssize(outcomes)),
+                                      outcomes.end());
+  Table shown = data;
+  shown.rows.erase(shown.rows.begin(),
+                   shown.rows.begin() + std::min<std::ptrdiff_t>(1, std::ssize(shown.rows)));
+  Section time{
+      "Time and growth",
+      {select(shown,
+              {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
+               "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
+              "Cost of each budget."),
+       stage_plot(shown, compared,
+                  "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),
+       budget_plot(shown, {"wall_s"}, "wall time", "Wall time against the budget."),
+       budget_plot(shown, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
+       budget_plot(shown, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
+                   "Peaks of the resident set and of the chunks against the budget."),
+       budget_plot(shown, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}};
+  Table refusals =
+      select(shown, {"variant", "budget_bytes", "status", "message"}, "What other budgets were told.");
   std::erase_if(refusals.rows, [](const auto& row) { return std::get<Text>(row.back()).text.empty(); });
-  if (!refusals.rows.empty()) report.sections.back().blocks.push_back(std::move(refusals));
+  if (!refusals.rows.empty()) time.blocks.push_back(std::move(refusals));
+  report.sections.push_back(std::move(time));
   Section memory{"Memory",
-                 {resident_plot(outcomes, "Resident memory over time (anonymous and file-backed).")}};
-  for (LinePlot& plot : tag_plots(outcomes)) memory.blocks.push_back(std::move(plot));
+                 {resident_plot(compared, "Resident memory over time (anonymous and file-backed).")}};
+  for (LinePlot& plot : tag_plots(compared)) memory.blocks.push_back(std::move(plot));
+  memory.blocks.push_back(Paragraph{ledger_text(compared)});
+  memory.blocks.push_back(ledger_table(shown));
   report.sections.push_back(std::move(memory));
   return measured;
 }

@@ -81,6 +81,18 @@ TEST_P(ColonyTest, NoRatStandsInAnother) {
   }
 }
 
+// What an animal costs before any hair grows is its posed cages; beside these there are a few poses at a time.
+TEST_P(ColonyTest, ARatIsItsPosedCages) {
+  const int64_t before = ledger_.current(MemoryTag::kSkins);
+  const World world = compose(scene_, *assets_, 1, workers_, ledger_);
+  const int64_t bytes = ledger_.current(MemoryTag::kSkins) - before, rats = GetParam().second;
+  size_t points = 0;
+  for (const char* skin : {"rat", "eyes"}) points += assets_->skins.at(skin).cage.positions.size();
+  const auto cages = static_cast<int64_t>(points * sizeof(V3f));
+  EXPECT_GT(bytes, rats * cages);
+  EXPECT_LT(bytes, rats * (cages + 2048) + (1 << 20));
+}
+
 INSTANTIATE_TEST_SUITE_P(Examples, ColonyTest,
                          testing::Values(std::pair<const char*, int64_t>("colony_small.yaml", 25),
                                          std::pair<const char*, int64_t>("colony_100.yaml", 100),

@@ -372,6 +372,26 @@ TEST(Bounding, OfCachedCoatsAreRememberedBesideTheCache) {
   EXPECT_FALSE(RandomCoat(5, {}).chunks[0]->bounds_record().has_value());
 }
 
+// The box of a coat is asked for before any leaf of it; animals of crowds have longer and shorter hair.
+TEST(Bounding, OfWholeCoatsFollowTheLengthOfTheirHair) {
+  for (uint64_t seed = 0; seed < 6; ++seed) {
+    V3f before(0);
+    for (const float length : {1.0f, 3.0f, 9.0f}) {
+      const RandomCoat coat(seed, {.length = length});
+      const FurProcedural fur(coat.groom, coat.skin);
+      const Box3f whole = fur.bound(BoundSpan::kFrame);
+      for (const ChunkBounds& leaf : bounds_of(coat.chunks, {BoundingStrategy::kExact}))
+        EXPECT_TRUE(contains(whole, leaf.whole())) << length << " " << seed;
+      for_some_points(fur.generate(), 0.5f, 7, [&](const V3f& position, float radius) {
+        const V3f r(radius);
+        EXPECT_TRUE(contains(fur.bound(BoundSpan::kShutter), {position - r, position + r}));
+      });
+      EXPECT_GT(whole.size().x, before.x);
+      before = whole.size();
+    }
+  }
+}
+
 TEST(Bounding, PassesOnWhatGrowingThrows) {
   class Failing final : public Procedural {
    public:
