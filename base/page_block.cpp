@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/page_block.h"
 
+#include <cstdint>
 #include <new>
 
 #include <sys/mman.h>
@@ -11,6 +12,7 @@ namespace {
 constexpr size_t kPage = 4096;
 constexpr size_t kOwnPages = 64 * 1024;  // from here on a page that is partly used costs little
 constexpr size_t kAlignment = 64;
+constexpr uintptr_t kLargePage = uintptr_t(2) << 20;
 
 }  // namespace
 
@@ -31,6 +33,15 @@ PageBlock::PageBlock(size_t bytes) : bytes_(held_bytes(bytes)) {
     throw std::bad_alloc();
   }
   data_ = static_cast<std::byte*>(pages);
+}
+
+void PageBlock::prefer_large_pages() {
+#ifdef MADV_HUGEPAGE
+  // Only whole pages within the block: nothing beyond it may become resident.
+  const auto begin = (reinterpret_cast<uintptr_t>(data_) + kLargePage - 1) / kLargePage * kLargePage;
+  const auto end = (reinterpret_cast<uintptr_t>(data_) + bytes_) / kLargePage * kLargePage;
+  if (bytes_ >= kOwnPages && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
 }
 
 PageBlock::~PageBlock() {

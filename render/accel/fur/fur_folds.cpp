@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur/fur_folds.h"
+
+#include <array>
+#include <cmath>
+
+namespace pelage {
+namespace {
+
+constexpr int kDeepest = 20;  // halvings
+constexpr int kMostSteps = 40;
+constexpr float kNear = 0x1p-22f;  // of the parameter
+
+/// c . c' / 3 over a part of the curve, in Bernstein form times ten over binomials.
+using Quintic = std::array<float, 6>;
+
+Quintic distance_derivative(const PlaneCurve& curve) {
+  const auto product = [&](size_t point, size_t difference) {
+    return curve.x[point] * (curve.x[difference + 1] - curve.x[difference]) +
+           curve.y[point] * (curve.y[difference + 1] - curve.y[difference]);
+  };
+  return {product(0, 0),
+          (2 * product(0, 1) + 3 * product(1, 0)) / 5,
+          (product(0, 2) + 6 * product(1, 1) + 3 * product(2, 0)) / 10,
+          (3 * product(1, 2) + 6 * product(2, 1) + product(3, 0)) / 10,
+          (3 * product(2, 2) + 2 * product(3, 1)) / 5,
+          product(3, 2)};
+}
+
+struct Part {
+  Quintic f;
+  float begin, end;
+  int depth;
+
+  void halve(Part& left, Part& right) const {
+    Quintic row = f;
+    const float middle = 0.5f * (begin + end);
+    left = {{}, begin, middle, depth + 1};
+    right = {{}, middle, end, depth + 1};
+    for (size_t i = 0; i < 6; ++i) {
+      left.f[i] = row[0];
+      right.f[5 - i] = row[5 - i];
+      for (size_t j = 0; j + 1 < 6 - i; ++j) row[j] = 0.5f * (row[j] + row[j + 1]);
+    }
+  }
+  int sign_changes() const {
+    int changes = 0;
+    for (size_t i = 1; i < 6; ++i) changes += (f[i] < 0) != (f[i - 1] < 0) ? 1 : 0;
+    return changes;
+  }
+  bool rises() const { return f[0] < 0 && !(f[5] < 0); }
+};
+
+/// The one root between begin and end, below which c . c' is negative.
+float solve(const PlaneCurve& curve, float begin, float end) {
+  const auto evaluate = [](const float (&p)[4], float u, float& first, float& second) {
+    const float c = 3 * (p[1] - p[0]), b = 3 * (p[2] - p[1]) - c, a = p[3] - p[0] - c - b;
+    first = (3 * a * u + 2 * b) * u + c;
+    second = 6 * a * u + 2 * b;
+    return ((a * u + b) * u + c) * u + p[0];
+  };
+  float u = 0.5f * (begin + end);
+  for (int i = 0; i < kMostSteps && end - begin > kNear; ++i) {
+    float x1, x2, y1, y2;
+    const float x = evaluate(curve.x, u, x1, x2), y = evaluate(curve.y, u, y1, y2);
+    const float f = x * x1 + y * y1;
+    (f < 0 ? begin : end) = u;
+    float next = u - f / (x1 * x1 + y1 * y1 + x * x2 + y * y2);
+    if (!(next >= begin && next <= end)) next = 0.5f * (begin + end);
+    const float step = std::abs(next - u);
+    u = next;
+    if (step < kNear) break;
+  }
+  return u;
+}
+
+}  // namespace
+
+size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]) {
+  Part waiting[kDeepest + 2];
+  size_t depth = 0, count = 0;
+  waiting[depth++] = {distance_derivative(curve), 0, 1, 0};
+  while (depth > 0 && count < 3) {
+    const Part part = waiting[--depth];
+    const int changes = part.sign_changes();
+    if (changes == 0 || (changes == 1 && !part.rises())) continue;
+    if (changes == 1 || part.depth == kDeepest) {
+      if (part.rises()) out[count++] = solve(curve, part.begin, part.end);
+      continue;
+    }
+    Part left, right;
+    part.halve(left, right);
+    waiting[depth++] = right;
+    waiting[depth++] = left;
+  }
+  return count;
+}
+
+}  // namespace pelage

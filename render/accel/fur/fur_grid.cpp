@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur/fur_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelage {
+namespace {
+
+constexpr float kStepsPerWidth = 192;
+constexpr float kRootsPerUnit = 16;  // of radii: their square roots have this many steps
+
+}  // namespace
+
+FurGrid::FurGrid(float root_width) {
+  if (!(root_width > 0) || !std::isfinite(root_width)) root_width = 0x1p-12f;
+  int exponent = 0;
+  std::frexp(std::clamp(root_width, 0x1p-60f, 0x1p60f) / kStepsPerWidth, &exponent);
+  step_ = std::ldexp(1.0f, exponent - 1);
+  inverse_ = std::ldexp(1.0f, 1 - exponent);
+}
+
+float FurGrid::snap(float scene) const { return std::nearbyint(to_grid(scene)); }
+
+float FurGrid::snap_radius(float scene) const {
+  const float root = std::nearbyint(kRootsPerUnit * std::sqrt(std::max(to_grid(scene), 0.0f)));
+  return root * root * (1 / (kRootsPerUnit * kRootsPerUnit));
+}
+
+}  // namespace pelage

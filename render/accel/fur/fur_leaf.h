@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "render/accel/fur/snapped_strands.h"
+
+namespace pelage {
+
+/// Four segments side by side, as leaves keep them: there is no other copy of the points.
+///
+/// A block is a header and then, for each motion key, the coordinates by axis, Bezier point and lane, and the
+/// radii by Bezier point and lane. A narrow block holds coordinates as 16-bit differences from its origin and
+/// radii as the 8-bit numbers whose squares over 256 they are; a block that has no room for that is wide and
+/// holds the same values as floats. Both decode to the same bits.
+struct FurBlockHeader {
+  static constexpr uint32_t kNone = ~0u;  ///< number of a lane without a segment: its points are all the same
+  static constexpr size_t kLanes = 4;
+
+  int32_t origin[3];
+  uint32_t unused;
+  uint32_t number[kLanes];  ///< of the segments, as SnappedStrands counts them
+};
+static_assert(sizeof(FurBlockHeader) == 32);
+
+/// Bytes of the parts of a block.
+struct FurBlockSizes {
+  size_t axis, radii;
+  constexpr size_t key() const { return 3 * axis + radii; }
+  constexpr size_t block(int motion_keys) const {
+    return sizeof(FurBlockHeader) + static_cast<size_t>(motion_keys) * key();
+  }
+};
+inline constexpr FurBlockSizes kNarrowBlock{32, 16}, kWideBlock{64, 64};
+
+/// What a block is made of: its segments (at most four), key by key.
+struct FurBlockContents {
+  std::array<uint32_t, FurBlockHeader::kLanes> numbers{FurBlockHeader::kNone, FurBlockHeader::kNone,
+                                                       FurBlockHeader::kNone, FurBlockHeader::kNone};
+  std::span<const SnappedSegment> segments;  ///< lane by lane; of each all keys in turn
+};
+
+/// Whether a narrow block can hold these.
+bool fits_narrow_block(const FurBlockContents& contents);
+/// Writes a block; `out` has room for it.
+void write_block(const FurBlockContents& contents, int motion_keys, bool wide, std::byte* out);
+/// What one lane holds at one key.
+SnappedSegment read_block(const std::byte* block, bool wide, size_t lane, int key);
+
+}  // namespace pelage

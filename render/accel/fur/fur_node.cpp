@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur/fur_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pelage {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kMostSteps = 255;
+
+void write_float_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
+  for (size_t key = 0; key < static_cast<size_t>(motion_keys); ++key) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      float sides[2][4];
+      for (size_t i = 0; i < 4; ++i) {
+        const bool there = i < children.size();
+        sides[0][i] = there ? children[i].boxes[key].low[axis] : kInfinity;
+        sides[1][i] = there ? children[i].boxes[key].high[axis] : -kInfinity;
+      }
+      std::memcpy(out + key * FurFloatNode::kKey + axis * FurFloatNode::kAxis, sides, sizeof(sides));
+    }
+  }
+  uint32_t references[4] = {};
+  for (size_t i = 0; i < children.size(); ++i) references[i] = children[i].reference.bits();
+  std::memcpy(out + FurFloatNode::references(motion_keys), references, sizeof(references));
+}
+
+/// The largest step from which origin + step * scale does not exceed `low`.
+uint8_t step_below(float low, float origin, float scale) {
+  float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMostSteps);
+  while (step > 0 && origin + step * scale > low) --step;
+  return static_cast<uint8_t>(step);
+}
+
+uint8_t step_above(float high, float origin, float scale) {
+  float step = std::clamp(std::ceil((high - origin) / scale), 0.0f, kMostSteps);
+  while (step < kMostSteps && origin + step * scale < high) ++step;
+  return static_cast<uint8_t>(step);
+}
+
+void write_quantised_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
+  FurBox whole;
+  for (const FurChild& child : children) {
+    for (const FurBox& box : child.boxes) whole.extend(box);
+  }
+  float scale[3];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const float extent = whole.high[axis] - whole.low[axis];
+    // A little more than needed, so that the last step lies beyond the high side in floats too; and not below
+    // what a float can add there.
+    const float reach = std::max(std::abs(whole.low[axis]), std::abs(whole.high[axis]));
+    scale[axis] = std::max({extent / (kMostSteps - 1), reach * 0x1p-23f, 0x1p-40f});
+  }
+  uint32_t references[4] = {};
+  for (size_t i = 0; i < children.size(); ++i) references[i] = children[i].reference.bits();
+  std::memcpy(out + FurQuantisedNode::kOrigin, whole.low.data(), sizeof(scale));
+  std::memcpy(out + FurQuantisedNode::kScale, scale, sizeof(scale));
+  std::memcpy(out + FurQuantisedNode::kReferences, references, sizeof(references));
+  for (size_t key = 0; key < static_cast<size_t>(motion_keys); ++key) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      uint8_t sides[2][4];
+      for (size_t i = 0; i < 4; ++i) {
+        const bool there = i < children.size();
+        sides[0][i] = there ? step_below(children[i].boxes[key].low[axis], whole.low[axis], scale[axis]) : 255;
+        sides[1][i] = there ? step_above(children[i].boxes[key].high[axis], whole.low[axis], scale[axis]) : 0;
+      }
+      std::memcpy(out + FurQuantisedNode::kPlanes + key * FurQuantisedNode::kKey + axis * FurQuantisedNode::kAxis,
+                  sides, sizeof(sides));
+    }
+  }
+}
+
+}  // namespace
+
+void FurBox::extend(const FurBox& o) {
+  for (size_t i = 0; i < 3; ++i) {
+    low[i] = std::min(low[i], o.low[i]);
+    high[i] = std::max(high[i], o.high[i]);
+  }
+}
+
+double FurBox::area() const {
+  if (is_empty()) return 0;
+  const double x = double(high[0]) - low[0], y = double(high[1]) - low[1], z = double(high[2]) - low[2];
+  return x * y + y * z + z * x;
+}
+
+size_t node_size(FurNodeLayout layout, int motion_keys) {
+  return layout == FurNodeLayout::kFloat ? FurFloatNode::size(motion_keys) : FurQuantisedNode::size(motion_keys);
+}
+
+void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out) {
+  std::memset(out, 0, node_size(layout, motion_keys));
+  if (layout == FurNodeLayout::kFloat) {
+    write_float_node(motion_keys, children, out);
+  } else {
+    write_quantised_node(motion_keys, children, out);
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur/fur_ray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelage {
+namespace {
+
+// What rounding may move a box or a hit by, relative to the largest number that goes in: 32 units in the last
+// place, of which slabs and hits each take less than half.
+constexpr float kDoubt = 0x1p-19f;
+constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
+
+bool is_finite(const Ray& ray) {
+  const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
+                    ray.direction.z + ray.near + ray.time;
+  return std::isfinite(sum) && !std::isnan(ray.far);
+}
+
+}  // namespace
+
+bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
+  if (!is_finite(ray)) return false;
+  const float grid = 1 / tree.step;
+  const V3f& d = ray.direction;
+  const float origin[3] = {ray.origin.x * grid, ray.origin.y * grid, ray.origin.z * grid};
+  const float size = std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
+  if (!(size <= FurGrid::kReach)) return false;
+  near = ray.near * grid;
+  far = ray.far * grid;
+  start = from;
+
+  const float doubt = kDoubt * (size + tree.reach);
+  for (int i = 0; i < 3; ++i) {
+    const float along = std::abs(d[i]) < kSmallest ? std::copysign(kSmallest, d[i]) : d[i];
+    const bool backward = along < 0;
+    inverse[i] = 1 / along;
+    near_side[i] = backward ? 1 : 0;
+    near_origin[i] = origin[i] + (backward ? -doubt : doubt);
+    far_origin[i] = origin[i] + (backward ? doubt : -doubt);
+  }
+  inverse[3] = near_origin[3] = far_origin[3] = 0;
+
+  const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
+  const uint32_t k = size_of.x > size_of.y ? (size_of.x > size_of.z ? 0 : 2) : (size_of.y > size_of.z ? 1 : 2);
+  const uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
+  axis[0] = i, axis[1] = j, axis[2] = k;
+  along_i = d[static_cast<int>(i)];
+  along_j = d[static_cast<int>(j)];
+  along_k = d[static_cast<int>(k)];
+  const double di = along_i, dj = along_j, dk = along_k;
+  const double length2 = di * di + dj * dj + dk * dk;
+  if (!(length2 > 0.25 && length2 < 4)) return false;
+  origin_x = static_cast<float>(dk * origin[i] - di * origin[k]);
+  origin_y = static_cast<float>(dk * origin[j] - dj * origin[k]);
+  // X and Y are products with e1 = dk i - di k and e2 = dk j - dj k; e2 - (e1 . e2 / e1 . e1) e1 has the length
+  // |dk| |d| / |e1|. The sign makes x, y and the ray a right-handed frame.
+  const double first2 = dk * dk + di * di;
+  const double first = std::sqrt(first2);
+  const double second = first / (dk * std::sqrt(length2));
+  scale_x = static_cast<float>(1 / first);
+  scale_y = static_cast<float>(second);
+  shear_y = static_cast<float>(second * (di * dj / first2));
+  const double unit = 1 / length2;
+  double along = 0;
+  for (int a = 0; a < 3; ++a) {
+    depth[a] = static_cast<float>(d[a] * unit);
+    along += static_cast<double>(depth[a]) * origin[a];
+  }
+  origin_depth = static_cast<float>(along);
+
+  key = 0;
+  fraction = 0;
+  if (tree.motion_keys > 1) {
+    const float scaled = std::clamp(ray.time, 0.0f, 1.0f) * static_cast<float>(tree.motion_keys - 1);
+    key = std::min(static_cast<int>(scaled), tree.motion_keys - 2);
+    fraction = scaled - static_cast<float>(key);
+  }
+  return true;
+}
+
+}  // namespace pelage

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/page_block.h"
+#include "render/accel/fur/fur_hit.h"
+#include "render/accel/fur/fur_node.h"
+#include "render/accel/fur/fur_topology.h"
+#include "render/accel/fur/snapped_strands.h"
+
+namespace pelage {
+
+struct FurTreeOptions {
+  FurNodeLayout layout = FurNodeLayout::kQuantised;
+  FurBuildOptions build;
+};
+
+/// What tracing needs of a tree: nodes and leaves wherever they stand. References are relative to the two
+/// pointers, which are aligned to 64 and 16 bytes.
+struct FurTreeView {
+  const std::byte* nodes = nullptr;  ///< the root first; null: nothing to meet
+  const std::byte* leaves = nullptr;
+  FurNodeLayout layout = FurNodeLayout::kQuantised;
+  int motion_keys = 1;
+  float step = 1;   ///< of the grid
+  float reach = 0;  ///< largest coordinate of the boxes, in grid units
+};
+
+/// Rays against the strands of one groom: a 4-wide BVH [RH13] over cubic segments, four of them to a block, which
+/// are ribbons that face every ray: the ray meets the segment at parameter u where its distance to the axis has a
+/// local minimum that is less than the radius. Whether and where is a function of the ray and the segment alone:
+/// neither the tree's shape and layout nor the instruction set nor the ray's far end reaches it.
+///
+/// Everything is one block of memory that holds no pointer. Points are snapped (see FurGrid), and the tree has
+/// the only copy of them. Strands of no length or no width are never met.
+/// Thread safety: immutable. Each query inside a FlushDenormals scope.
+class FurTree {
+ public:
+  /// Built by the calling thread alone. The strands are not needed afterwards.
+  FurTree(const SnappedStrands& strands, const FurTreeOptions& options);
+
+  /// The hit in (near, far) that stands first; `filter` may be null.
+  FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
+  /// Whether there is any hit in (near, far) that `filter`, if any, accepts.
+  bool occluded(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
+
+  const FurTreeView& view() const { return view_; }
+  /// Box of everything, in grid units, over all motion keys.
+  const FurBox& box() const { return box_; }
+  size_t bytes() const { return block_.bytes(); }
+  size_t node_bytes() const { return node_bytes_; }
+  size_t leaf_bytes() const { return leaf_bytes_; }
+
+ private:
+  class Writer;
+
+  PageBlock block_;
+  size_t node_bytes_ = 0, leaf_bytes_ = 0;
+  FurTreeView view_;
+  FurBox box_;
+};
+
+/// The queries of FurTree on any view.
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
+
+}  // namespace pelage

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/strands.h"
+#include "render/accel/fur/fur_grid.h"
+
+namespace pelage {
+
+/// One segment at one motion key in grid units: Bezier points as x, y, z, radius.
+using SnappedSegment = std::array<std::array<float, 4>, 4>;
+
+/// Strands as the fur tree sees them: every segment, of whatever basis, as a cubic Bezier curve on the grid.
+/// Neighbouring segments share their end point exactly, because both snap the same float.
+///
+/// Segments are numbered along the strands, strands in ascending order of their ids (then of their place in
+/// the batch), so that of two segments the one with the smaller number stands first where distances are equal.
+/// Borrows the strands. Thread safety: immutable.
+class SnappedStrands {
+ public:
+  SnappedStrands(const Strands& strands, const FurGrid& grid);
+
+  struct Place {
+    uint32_t strand = 0;  ///< in the batch
+    uint32_t segment = 0;
+  };
+
+  const FurGrid& grid() const { return grid_; }
+  int motion_keys() const { return strands_.motion_keys(); }
+  uint32_t segment_count() const { return first_segment_.back(); }
+  Place locate(uint32_t number) const;
+  /// The number of a strand's first segment.
+  uint32_t first_segment(uint32_t strand) const { return first_segment_[rank_[strand]]; }
+  SnappedSegment segment(Place place, int key) const;
+  /// Calls use(number, place) for every segment in turn.
+  template <class Use>
+  void for_each_segment(const Use& use) const {
+    for (size_t i = 0; i < order_.size(); ++i) {
+      for (uint32_t n = first_segment_[i]; n < first_segment_[i + 1]; ++n) {
+        use(n, Place{order_[i], n - first_segment_[i]});
+      }
+    }
+  }
+  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Others are left out
+  /// of trees: nothing meets them.
+  static bool is_drawable(const SnappedSegment& segment);
+
+ private:
+  const Strands& strands_;
+  FurGrid grid_;
+  std::vector<uint32_t> order_;          // strands by id
+  std::vector<uint32_t> rank_;           // where each strand stands there
+  std::vector<uint32_t> first_segment_;  // by rank, and the number of all at the end
+};
+
+}  // namespace pelage

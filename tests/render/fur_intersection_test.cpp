@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "render/accel/flush_denormals.h"
+#include "tests/render/fur_grooms.h"
+#include "tests/render/fur_truth.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kStrands = 30;
+constexpr uint64_t kRays = 1500;
+
+class FurIntersection : public testing::TestWithParam<GroomShape> {};
+
+/// Whether what the tree found is what the truth finds within `margin` sideways of the ray: then the ray passes an
+/// edge that near.
+bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
+  double nearest = 1e300, farthest = -1e300;
+  for (int i = 0; i < 17; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 16, r = i == 16 ? 0 : margin;
+    const FurTruth::Found found = truth.closest(r * std::cos(angle), r * std::sin(angle));
+    if (found.number != hit.number) continue;
+    if (!hit) return true;
+    nearest = std::min(nearest, found.distance);
+    farthest = std::max(farthest, found.distance);
+  }
+  return hit && hit.distance >= nearest - 10 * margin && hit.distance <= farthest + 10 * margin;
+}
+
+TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
+  const FlushDenormals flush;
+  const GroomShape& shape = GetParam();
+  const Strands strands = random_groom(shape, kStrands, 1);
+  const SnappedStrands snapped(strands, FurGrid(shape.width));
+  const FurTree tree(snapped, {});
+  TestRandom random(2);
+  uint64_t hits = 0, edges = 0;
+  const float step_of_float = std::max({std::abs(shape.centre.x), std::abs(shape.centre.y), 4.0f}) * 0x1p-23f;
+  const double margin = std::max(1e-3f * shape.width, step_of_float);
+  for (uint64_t i = 0; i < kRays; ++i) {
+    const Ray ray = ray_at_groom(shape, strands, random, i);
+    const FurTruth truth(snapped, ray);
+    const FurTruth::Found expected = truth.closest();
+    const FurHit hit = tree.closest(ray, {});
+    ASSERT_EQ(bool(hit), tree.occluded(ray, {})) << i;
+    hits += bool(hit);
+    if (hit.number == expected.number && (!hit || std::abs(hit.distance - expected.distance) < 4 * margin)) continue;
+    ++edges;
+    EXPECT_TRUE(agrees_near_edge(truth, hit, margin))
+        << "ray " << i << ": " << hit.number << " at " << hit.distance << ", truth " << expected.number << " at "
+        << expected.distance;
+  }
+  EXPECT_GT(hits, kRays / 100);
+  EXPECT_LT(edges, hits / 10 + 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(grooms, FurIntersection, testing::ValuesIn(groom_shapes()), [](const auto& info) {
+  std::string name = info.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+/// One straight strand along x from 0 to 7, half a unit wide.
+Strands straight() {
+  StrandArrays a;
+  a.first_point = {0, 8};
+  a.ids = {5};
+  for (int i = 0; i < 8; ++i) a.points.insert(a.points.end(), {static_cast<float>(i), 0, 0, 0.25f});
+  return Strands(std::move(a));
+}
+
+Ray towards_z(float x, float y) {
+  Ray ray;
+  ray.origin = {x, y, -1};
+  return ray;
+}
+
+TEST(FurHit, says_where_on_the_ribbon) {
+  const Strands strands = straight();
+  const SnappedStrands snapped(strands, FurGrid(0.5f));
+  const FurTree tree(snapped, {});
+  const FurHit hit = tree.closest(towards_z(2.25f, 0.125f), {});
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit.number, 2u);
+  EXPECT_NEAR(hit.distance, 1, 1e-5);
+  EXPECT_NEAR(hit.u, 0.25f, 1e-3);
+  // T = x, the ray runs along z: ez = T x -direction = y; the hit lies at axis - h r ez.
+  EXPECT_NEAR(hit.h, -0.5f, 1e-2);
+  EXPECT_FALSE(tree.closest(towards_z(2.25f, 0.26f), {}));
+  EXPECT_FALSE(tree.closest(towards_z(-0.1f, 0), {}));
+}
+
+TEST(FurHit, lies_between_near_and_far) {
+  const Strands strands = straight();
+  const SnappedStrands snapped(strands, FurGrid(0.5f));
+  const FurTree tree(snapped, {});
+  Ray ray = towards_z(3.5f, 0);
+  ray.far = 0.99f;
+  EXPECT_FALSE(tree.occluded(ray, {}));
+  ray.far = 1.01f;
+  EXPECT_TRUE(tree.occluded(ray, {}));
+  ray.near = 1.005f;
+  EXPECT_FALSE(tree.occluded(ray, {}));
+}
+
+TEST(FurHit, is_not_the_strand_that_the_ray_starts_on) {
+  const Strands strands = straight();
+  const SnappedStrands snapped(strands, FurGrid(0.5f));
+  const FurTree tree(snapped, {});
+  Ray ray = towards_z(3.5f, 0.1f);
+  ray.origin.z = -0.2f;
+  EXPECT_TRUE(tree.closest(ray, {}));
+  FurStart start{snapped.first_segment(0), 7, 3.5f};
+  EXPECT_FALSE(tree.closest(ray, start));
+  EXPECT_FALSE(tree.occluded(ray, start));
+  start.place = 6;  // 2.5 units along the strand from there: more than two widths
+  EXPECT_TRUE(tree.closest(ray, start));
+  start.place = 3.5f;
+  ray.origin.z = -1.1f;  // farther than two widths along the ray
+  EXPECT_TRUE(tree.closest(ray, start));
+  start.first_segment = 100;  // another strand
+  ray.origin.z = -0.2f;
+  EXPECT_TRUE(tree.closest(ray, start));
+}
+
+TEST(FurHit, is_asked_of_a_filter) {
+  struct Refuse final : FurFilter {
+    bool accepts(const FurHit& hit) override {
+      EXPECT_NEAR(hit.distance, hit.number == 3 ? 1 : 2, 0.3);
+      ++asked;
+      return hit.number != 3;
+    }
+    int asked = 0;
+  };
+  StrandArrays a = straight().release();
+  for (int i = 0; i < 8; ++i) a.points.insert(a.points.end(), {static_cast<float>(i), 0, 1, 0.25f});
+  a.first_point.push_back(16);
+  a.ids.push_back(9);
+  const Strands strands(std::move(a));
+  const SnappedStrands snapped(strands, FurGrid(0.5f));
+  const FurTree tree(snapped, {});
+  Refuse filter;
+  EXPECT_EQ(tree.closest(towards_z(3.5f, 0), {}, &filter).number, 10u);
+  EXPECT_EQ(tree.closest(towards_z(3.5f, 0), {}).number, 3u);
+  EXPECT_TRUE(tree.occluded(towards_z(3.5f, 0), {}, &filter));
+  EXPECT_GE(filter.asked, 2);
+  Ray ray = towards_z(3.5f, 0);
+  ray.far = 1.5f;
+  EXPECT_FALSE(tree.occluded(ray, {}, &filter));
+}
+
+TEST(FurHit, meets_nothing_of_what_is_not_finite) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  StrandArrays a = random_groom(groom_shapes()[0], 40, 3).release();
+  const float odd[] = {nan, inf, -inf, 1e38f, -3e30f, 1e20f, 1e-42f};
+  for (size_t i = 0; i < a.points.size(); i += 37) a.points[i] = odd[i % std::size(odd)];
+  const Strands strands(std::move(a));
+  for (float width : {0.02f, 0.0f, nan, inf, 1e-30f, 1e30f, -1.0f}) {
+    const SnappedStrands snapped(strands, FurGrid(width));
+    for (FurNodeLayout layout : {FurNodeLayout::kFloat, FurNodeLayout::kQuantised}) {
+      FurTreeOptions options;
+      options.layout = layout;
+      options.build.cuts = 0.2f;
+      const FurTree tree(snapped, options);
+      TestRandom random(4);
+      for (uint64_t i = 0; i < 200; ++i) {
+        Ray ray = ray_at_groom(groom_shapes()[0], strands, random, 2 + 8 * i);
+        ray.far = inf;
+        float* numbers[] = {&ray.origin.x, &ray.direction.y, &ray.near, &ray.far, &ray.time, &ray.direction.z};
+        *numbers[i % std::size(numbers)] = odd[i % std::size(odd)];
+        const FurHit hit = tree.closest(ray, {});
+        ASSERT_EQ(bool(hit), tree.occluded(ray, {}));
+        ASSERT_FALSE(std::isnan(hit.distance) || std::isnan(hit.u) || std::isnan(hit.h));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pelage

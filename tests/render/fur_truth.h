@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/accel/fur/fur_tree.h"
+
+namespace pelage {
+
+/// The fur tree's ribbons by brute force in double precision, on the points that it decodes: every segment is walked
+/// along in small steps, and every minimum of the distance to the ray's line refined by halving.
+class FurTruth {
+ public:
+  FurTruth(const SnappedStrands& strands, const Ray& ray) : strands_(strands), ray_(ray) {
+    const V3d d = V3d(ray.direction);
+    first_ = d.cross(std::abs(d.x) < 0.6 ? V3d(1, 0, 0) : V3d(0, 1, 0)).normalized();
+    second_ = d.cross(first_).normalized();
+    key_ = 0;
+    if (strands.motion_keys() > 1) {
+      const double scaled = std::clamp(double(ray.time), 0.0, 1.0) * (strands.motion_keys() - 1);
+      key_ = std::min(static_cast<int>(scaled), strands.motion_keys() - 2);
+      fraction_ = scaled - key_;
+    }
+  }
+
+  struct Found {
+    double distance = std::numeric_limits<double>::infinity();
+    uint32_t number = FurHit::kNone;
+    double radius = 0;
+  };
+
+  /// The nearest hit of the line moved sideways by `x` and `y`, scene units.
+  Found closest(double x = 0, double y = 0) const {
+    Found best;
+    strands_.for_each_segment([&](uint32_t number, SnappedStrands::Place place) {
+      each_hit(number, place, x, y, [&](double distance, double radius) {
+        if (distance < best.distance) best = {distance, number, radius};
+      });
+    });
+    return best;
+  }
+
+ private:
+  static constexpr int kSteps = 96;
+
+  struct Curve {
+    double x[4], y[4], z[4], r[4];
+  };
+
+  template <class Use>
+  void each_hit(uint32_t, SnappedStrands::Place place, double x, double y, const Use& use) const {
+    const Curve curve = seen_from_ray(place, x, y);
+    double nearest = 1e300, reach = 0;
+    for (int i = 0; i < 4; ++i) {
+      nearest = std::min(nearest, std::hypot(curve.x[i], curve.y[i]));
+      for (int j = 0; j < 4; ++j) {
+        reach = std::max(reach, std::hypot(curve.x[i] - curve.x[j], curve.y[i] - curve.y[j]));
+      }
+      reach = std::max(reach, curve.r[i]);
+    }
+    if (nearest > 2 * reach) return;
+    for (int i = 0; i < kSteps; ++i) {
+      double low = double(i) / kSteps, high = double(i + 1) / kSteps;
+      if (!(slope(curve, low) < 0 && slope(curve, high) >= 0)) continue;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (slope(curve, middle) < 0 ? low : high) = middle;
+      }
+      const double radius = value(curve.r, high), distance = value(curve.z, high);
+      if (std::hypot(value(curve.x, high), value(curve.y, high)) < radius && distance > ray_.near &&
+          distance < ray_.far) {
+        use(distance, radius);
+      }
+    }
+  }
+
+  Curve seen_from_ray(SnappedStrands::Place place, double x, double y) const {
+    Curve curve;
+    const double step = strands_.grid().step();
+    const SnappedSegment a = strands_.segment(place, key_);
+    const SnappedSegment b = fraction_ > 0 ? strands_.segment(place, key_ + 1) : a;
+    for (size_t i = 0; i < 4; ++i) {
+      double p[4];
+      for (size_t j = 0; j < 4; ++j) p[j] = step * ((1 - fraction_) * a[i][j] + fraction_ * b[i][j]);
+      const V3d relative = V3d(p[0], p[1], p[2]) - V3d(ray_.origin);
+      curve.x[i] = relative.dot(first_) - x;
+      curve.y[i] = relative.dot(second_) - y;
+      curve.z[i] = relative.dot(V3d(ray_.direction)) / V3d(ray_.direction).length2();
+      curve.r[i] = p[3];
+    }
+    return curve;
+  }
+
+  static double value(const double (&p)[4], double u) {
+    const double s = 1 - u;
+    return s * s * s * p[0] + 3 * s * s * u * p[1] + 3 * s * u * u * p[2] + u * u * u * p[3];
+  }
+  static double first(const double (&p)[4], double u) {
+    const double s = 1 - u;
+    return s * s * (p[1] - p[0]) + 2 * s * u * (p[2] - p[1]) + u * u * (p[3] - p[2]);
+  }
+  static double slope(const Curve& c, double u) {
+    return value(c.x, u) * first(c.x, u) + value(c.y, u) * first(c.y, u);
+  }
+
+  const SnappedStrands& strands_;
+  const Ray& ray_;
+  V3d first_{0}, second_{0};
+  int key_ = 0;
+  double fraction_ = 0;
+};
+
+}  // namespace pelage
