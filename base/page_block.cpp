@@ -40,7 +40,8 @@ void PageBlock::prefer_large_pages() {
   // Only whole pages within the block: nothing beyond it may become resident.
   const auto begin = (reinterpret_cast<uintptr_t>(data_) + kLargePage - 1) / kLargePage * kLargePage;
   const auto end = (reinterpret_cast<uintptr_t>(data_) + bytes_) / kLargePage * kLargePage;
-  if (bytes_ >= kOwnPages && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (bytes_ >= kOwnPages && begin < end)
+    ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fur tree over Embree's flat curves on the same B-splines, on one thread: runs alternate, and of each the best
-// counts.
+// The fur tree over Embree's flat curves on the same B-splines, on one thread: runs alternate, and of each
+// the best counts.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -41,8 +41,10 @@ class EmbreeCurvesOf {
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, compact ? RTC_SCENE_FLAG_COMPACT : RTC_SCENE_FLAG_NONE);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE);
-    void* v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, vertices.size() / 4);
-    void* i = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, segments.size());
+    void* v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16,
+                                      vertices.size() / 4);
+    void* i =
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, 4, segments.size());
     std::copy(vertices.begin(), vertices.end(), static_cast<float*>(v));
     std::copy(segments.begin(), segments.end(), static_cast<uint32_t*>(i));
     rtcSetGeometryTessellationRate(geometry, tessellation_rate);
@@ -90,8 +92,18 @@ class EmbreeCurvesOf {
 
  private:
   static RTCRay embree_ray(const Ray& ray) {
-    return {ray.origin.x, ray.origin.y, ray.origin.z, ray.near, ray.direction.x, ray.direction.y, ray.direction.z,
-            ray.time, ray.far, ~0u, 0, 0};
+    return {ray.origin.x,
+            ray.origin.y,
+            ray.origin.z,
+            ray.near,
+            ray.direction.x,
+            ray.direction.y,
+            ray.direction.z,
+            ray.time,
+            ray.far,
+            ~0u,
+            0,
+            0};
   }
   RTCDevice device_;
   RTCScene scene_;

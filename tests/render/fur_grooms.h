@@ -16,7 +16,7 @@ namespace pelage {
 struct GroomShape {
   std::string name;
   float width = 0.02f;
-  float curl = 0.1f;   ///< radius
+  float curl = 0.1f;  ///< radius
   float turns = 1;
   float length = 1;
   V3f centre{0};
@@ -58,13 +58,13 @@ inline Strands random_groom(const GroomShape& shape, size_t strand_count, uint64
     for (uint32_t i = 0; i < points; ++i) {
       const float v = static_cast<float>(i) / static_cast<float>(points - 1);
       const float angle = phase + 6.2832f * shape.turns * v;
-      V3f p = root + (shape.length * v) * along +
-              shape.curl * (std::cos(angle) * side + std::sin(angle) * other);
+      V3f p =
+          root + (shape.length * v) * along + shape.curl * (std::cos(angle) * side + std::sin(angle) * other);
       float radius = 0.5f * shape.width * (1 - 0.9f * v);
-      if (odd < 0.2f) p = root;                                              // no length
-      if (odd >= 0.2f && odd < 0.4f && i % 3 != 0) p = root + v * along;     // corners
-      if (odd >= 0.4f && odd < 0.6f && i > 1) p = root + 0.05f * side;       // points coincide
-      if (odd >= 0.6f && odd < 0.8f && i > 2) radius = 0;                    // no width
+      if (odd < 0.2f) p = root;                                           // no length
+      if (odd >= 0.2f && odd < 0.4f && i % 3 != 0) p = root + v * along;  // corners
+      if (odd >= 0.4f && odd < 0.6f && i > 1) p = root + 0.05f * side;    // points coincide
+      if (odd >= 0.6f && odd < 0.8f && i > 2) radius = 0;                 // no width
       for (int key = 0; key < shape.motion_keys; ++key) {
         const V3f q = p + static_cast<float>(key * key) * motion;
         auto& out = keys[static_cast<size_t>(key)];
@@ -86,7 +86,8 @@ inline Ray ray_at_groom(const GroomShape& shape, const Strands& strands, TestRan
   if (index % 8 == 0) {
     const auto point = static_cast<size_t>(random.unit() * static_cast<float>(strands.point_count() - 1));
     const V3f along = strands.point(point + 1) - strands.point(point);
-    if (along.length() > 1e-6f) ray.direction = (along.normalized() + 0.01f * random.direction()).normalized();
+    if (along.length() > 1e-6f)
+      ray.direction = (along.normalized() + 0.01f * random.direction()).normalized();
     ray.origin = strands.point(point) - 2.0f * random.unit() * ray.direction;
   } else if (index % 8 == 1) {
     const auto point = static_cast<size_t>(random.unit() * static_cast<float>(strands.point_count()));

@@ -13,8 +13,8 @@ constexpr uint64_t kRays = 1500;
 
 class FurIntersection : public testing::TestWithParam<GroomShape> {};
 
-/// Whether what the tree found is what the truth finds within `margin` sideways of the ray: then the ray passes an
-/// edge that near.
+/// Whether what the tree found is what the truth finds within `margin` sideways of the ray: then the ray
+/// passes an edge that near.
 bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
   double nearest = 1e300, farthest = -1e300;
   for (int i = 0; i < 17; ++i) {
@@ -32,11 +32,11 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
   const FlushDenormals flush;
   const GroomShape& shape = GetParam();
   const Strands strands = random_groom(shape, kStrands, 1);
-  const SnappedStrands snapped(strands, FurGrid(shape.width));
+  const SnappedStrands snapped(strands, FurGrid(shape.width, shape.centre));
   const FurTree tree(snapped, {});
   TestRandom random(2);
   uint64_t hits = 0, edges = 0;
-  const float step_of_float = std::max({std::abs(shape.centre.x), std::abs(shape.centre.y), 4.0f}) * 0x1p-23f;
+  const float step_of_float = 4 * 0x1p-23f;  // at coordinates that count from the anchor
   const double margin = std::max(1e-3f * shape.width, step_of_float);
   for (uint64_t i = 0; i < kRays; ++i) {
     const Ray ray = ray_at_groom(shape, strands, random, i);
@@ -45,18 +45,19 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
     const FurHit hit = tree.closest(ray, {});
     ASSERT_EQ(bool(hit), tree.occluded(ray, {})) << i;
     hits += bool(hit);
-    if (hit.number == expected.number && (!hit || std::abs(hit.distance - expected.distance) < 4 * margin)) continue;
+    if (hit.number == expected.number && (!hit || std::abs(hit.distance - expected.distance) < 4 * margin))
+      continue;
     ++edges;
     EXPECT_TRUE(agrees_near_edge(truth, hit, margin))
-        << "ray " << i << ": " << hit.number << " at " << hit.distance << ", truth " << expected.number << " at "
-        << expected.distance;
+        << "ray " << i << ": " << hit.number << " at " << hit.distance << ", truth " << expected.number
+        << " at " << expected.distance;
   }
   EXPECT_GT(hits, kRays / 100);
   EXPECT_LT(edges, hits / 10 + 3);
 }
 
-INSTANTIATE_TEST_SUITE_P(grooms, FurIntersection, testing::ValuesIn(groom_shapes()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(grooms, FurIntersection, testing::ValuesIn(groom_shapes()), [](const auto& of) {
+  std::string name = of.param.name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 });
@@ -167,7 +168,8 @@ TEST(FurHit, meets_nothing_of_what_is_not_finite) {
       for (uint64_t i = 0; i < 200; ++i) {
         Ray ray = ray_at_groom(groom_shapes()[0], strands, random, 2 + 8 * i);
         ray.far = inf;
-        float* numbers[] = {&ray.origin.x, &ray.direction.y, &ray.near, &ray.far, &ray.time, &ray.direction.z};
+        float* numbers[] = {&ray.origin.x, &ray.direction.y, &ray.near,
+                            &ray.far,      &ray.time,        &ray.direction.z};
         *numbers[i % std::size(numbers)] = odd[i % std::size(odd)];
         const FurHit hit = tree.closest(ray, {});
         ASSERT_EQ(bool(hit), tree.occluded(ray, {}));

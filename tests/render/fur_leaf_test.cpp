@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur/fur_leaf.h"
 
+#include <cstring>
+
 #include <gtest/gtest.h>
 
 #include "render/accel/fur/fur_grid.h"
@@ -25,10 +27,10 @@ TEST(FurGrid, snaps_to_whole_steps_and_once) {
   TestRandom random(1);
   for (int i = 0; i < 10000; ++i) {
     const float x = random.between(-1, 1) * std::ldexp(1.0f, i % 40 - 10);
-    const float snapped = grid.snap(x);
+    const float snapped = grid.snap(x, 0);
     ASSERT_EQ(snapped, std::round(snapped));
     ASSERT_LE(std::abs(grid.to_scene(snapped) - x), 0.5f * grid.step());
-    ASSERT_EQ(grid.snap(grid.to_scene(snapped)), snapped);
+    ASSERT_EQ(grid.snap(grid.to_scene(snapped), 0), snapped);
     const float r = random.unit() * 0.005f, snapped_r = grid.snap_radius(r);
     ASSERT_EQ(grid.snap_radius(grid.to_scene(snapped_r)), snapped_r);
     ASSERT_NEAR(grid.to_scene(snapped_r), r, 0.0075f * std::sqrt(r * 0.005f) + 0.001f * grid.step());
@@ -52,7 +54,9 @@ TEST(SnappedStrands, number_segments_by_strand_id_and_share_joints) {
       ASSERT_GE(strands.id(place.strand), last_id);
       last_id = strands.id(place.strand);
       const SnappedSegment segment = snapped.segment(place, 0);
-      if (place.segment > 0) ASSERT_EQ(segment[0], last[3]) << shape.name;
+      if (place.segment > 0) {
+        ASSERT_EQ(segment[0], last[3]) << shape.name;
+      }
       last = segment;
     });
     EXPECT_EQ(count, snapped.segment_count());
@@ -69,7 +73,8 @@ TEST(FurLeaf, narrow_and_wide_blocks_decode_the_same_floats) {
     std::vector<SnappedSegment> segments(lanes * static_cast<size_t>(keys));
     for (SnappedSegment& segment : segments) {
       for (auto& p : segment) {
-        for (size_t axis = 0; axis < 3; ++axis) p[axis] = std::nearbyint(random.between(-1, 1) * spread - 3e5f);
+        for (size_t axis = 0; axis < 3; ++axis)
+          p[axis] = std::nearbyint(random.between(-1, 1) * spread - 3e5f);
         const float root = std::nearbyint(random.unit() * (i % 50 == 0 ? 400.0f : 255.0f));
         p[3] = root * root / 256;
       }
@@ -110,7 +115,8 @@ TEST(FurNode, quantised_boxes_hold_the_boxes) {
     }
     FurChild children[4];
     for (size_t c = 0; c < count; ++c) {
-      const std::span<const FurBox> of_child(&boxes[c * static_cast<size_t>(keys)], static_cast<size_t>(keys));
+      const std::span<const FurBox> of_child(&boxes[c * static_cast<size_t>(keys)],
+                                             static_cast<size_t>(keys));
       children[c] = {FurReference::to_leaf(16 * c, 1, false), of_child};
     }
     std::vector<std::byte> node(node_size(FurNodeLayout::kQuantised, keys));

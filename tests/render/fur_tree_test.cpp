@@ -36,8 +36,10 @@ Strands every_other(const Strands& strands, size_t offset) {
   a.first_point.push_back(0);
   for (int key = 0; key < strands.motion_keys(); ++key) {
     for (size_t s = offset; s < strands.strand_count(); s += 2) {
-      const auto first = strands.points(key).begin() + 4 * static_cast<std::ptrdiff_t>(strands.first_point(s));
-      a.points.insert(a.points.end(), first, first + 4 * static_cast<std::ptrdiff_t>(strands.strand_points(s)));
+      const auto first =
+          strands.points(key).begin() + 4 * static_cast<std::ptrdiff_t>(strands.first_point(s));
+      a.points.insert(a.points.end(), first,
+                      first + 4 * static_cast<std::ptrdiff_t>(strands.strand_points(s)));
     }
   }
   for (size_t s = offset; s < strands.strand_count(); s += 2) {
@@ -100,8 +102,9 @@ TEST_P(FurTreeOf, answers_alike_however_it_is_cut_into_chunks) {
     const FurHit hits[] = {trees[0].closest(ray, {}), trees[1].closest(ray, {})};
     ASSERT_EQ(bool(expected), hits[0] || hits[1]) << i;
     if (!expected) return;
-    const size_t first = hits[0].distance != hits[1].distance ? hits[1].distance < hits[0].distance
-                         : name(snapped[1], parts[1], hits[1]) < name(snapped[0], parts[0], hits[0]);
+    const size_t first = hits[0].distance != hits[1].distance
+                             ? hits[1].distance < hits[0].distance
+                             : name(snapped[1], parts[1], hits[1]) < name(snapped[0], parts[0], hits[0]);
     ASSERT_EQ(name(snapped_, strands_, expected), name(snapped[first], parts[first], hits[first])) << i;
     ASSERT_EQ(expected.distance, hits[first].distance) << i;
     ASSERT_EQ(expected.u, hits[first].u) << i;
@@ -139,8 +142,8 @@ TEST_P(FurTreeOf, holds_together_wherever_it_stands) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(grooms, FurTreeOf, testing::ValuesIn(groom_shapes()), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(grooms, FurTreeOf, testing::ValuesIn(groom_shapes()), [](const auto& of) {
+  std::string name = of.param.name;
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 });

@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// The fur tree's ribbons by brute force in double precision, on the points that it decodes: every segment is walked
-/// along in small steps, and every minimum of the distance to the ray's line refined by halving.
+/// The fur tree's ribbons by brute force in double precision, on the points that it decodes: every segment is
+/// walked along in small steps, and every minimum of the distance to the ray's line refined by halving.
 class FurTruth {
  public:
   FurTruth(const SnappedStrands& strands, const Ray& ray) : strands_(strands), ray_(ray) {
@@ -84,7 +84,7 @@ class FurTruth {
     for (size_t i = 0; i < 4; ++i) {
       double p[4];
       for (size_t j = 0; j < 4; ++j) p[j] = step * ((1 - fraction_) * a[i][j] + fraction_ * b[i][j]);
-      const V3d relative = V3d(p[0], p[1], p[2]) - V3d(ray_.origin);
+      const V3d relative = V3d(strands_.grid().anchor()) - V3d(ray_.origin) + V3d(p[0], p[1], p[2]);
       curve.x[i] = relative.dot(first_) - x;
       curve.y[i] = relative.dot(second_) - y;
       curve.z[i] = relative.dot(V3d(ray_.direction)) / V3d(ray_.direction).length2();

@@ -53,7 +53,7 @@ struct Part {
 
 /// The one root between begin and end, below which c . c' is negative.
 float solve(const PlaneCurve& curve, float begin, float end) {
-  const auto evaluate = [](const float (&p)[4], float u, float& first, float& second) {
+  const auto evaluate = [](const float(&p)[4], float u, float& first, float& second) {
     const float c = 3 * (p[1] - p[0]), b = 3 * (p[2] - p[1]) - c, a = p[3] - p[0] - c - b;
     first = (3 * a * u + 2 * b) * u + c;
     second = 6 * a * u + 2 * b;

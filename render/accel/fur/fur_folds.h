@@ -11,10 +11,12 @@ struct PlaneCurve {
   float x[4], y[4];
 };
 
-/// The parameters in (0, 1] where the curve's distance to the origin has a local minimum: at most three, ascending.
+/// The parameters in (0, 1] where the curve's distance to the origin has a local minimum: at most three,
+/// ascending.
 ///
-/// The derivative of half the squared distance, c . c', is a quintic. Its Bernstein coefficients change sign at
-/// least as often as it has roots; where they do so more than once the curve is halved, as often as it takes
+/// The derivative of half the squared distance, c . c', is a quintic. Its Bernstein coefficients change sign
+/// at least as often as it has roots; where they do so more than once the curve is halved, as often as it
+/// takes
 /// ([Nakamaru02] halves until the curve is straight, which finds the same minima up to its tolerance).
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]);
 

@@ -12,7 +12,7 @@ constexpr float kRootsPerUnit = 16;  // of radii: their square roots have this m
 
 }  // namespace
 
-FurGrid::FurGrid(float root_width) {
+FurGrid::FurGrid(float root_width, const V3f& anchor) : anchor_(anchor) {
   if (!(root_width > 0) || !std::isfinite(root_width)) root_width = 0x1p-12f;
   int exponent = 0;
   std::frexp(std::clamp(root_width, 0x1p-60f, 0x1p60f) / kStepsPerWidth, &exponent);
@@ -20,10 +20,13 @@ FurGrid::FurGrid(float root_width) {
   inverse_ = std::ldexp(1.0f, 1 - exponent);
 }
 
-float FurGrid::snap(float scene) const { return std::nearbyint(to_grid(scene)); }
+float FurGrid::snap(float scene, int axis) const {
+  // Two floats differ by a double without rounding, unless one of them is out of the other's reach.
+  return static_cast<float>(std::nearbyint((static_cast<double>(scene) - anchor_[axis]) * inverse_));
+}
 
 float FurGrid::snap_radius(float scene) const {
-  const float root = std::nearbyint(kRootsPerUnit * std::sqrt(std::max(to_grid(scene), 0.0f)));
+  const float root = std::nearbyint(kRootsPerUnit * std::sqrt(std::max(scene * inverse_, 0.0f)));
   return root * root * (1 / (kRootsPerUnit * kRootsPerUnit));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include "base/vector.h"
 
 namespace pelage {
 
@@ -9,22 +9,23 @@ namespace pelage {
 /// two, so that going to grid units and back is exact; it depends on the groom's parameters alone, so that
 /// every tree over a strand, whatever its chunk, decodes the same floats.
 ///
-/// In grid units a coordinate is a whole number. Floats beyond 2^24 are whole numbers already, so that nothing
-/// special happens far from the origin. Radii are squares of whole numbers over 256: finer at a tip (2 % of a
-/// radius that is a tenth of the root's) and never off by more than 0.7 % at the root.
+/// In grid units a coordinate is a whole number. Floats beyond 2^24 are whole numbers already, so that
+/// nothing special happens far from the origin. Radii are squares of whole numbers over 256: finer at a tip
+/// (2 % of a radius that is a tenth of the root's) and never off by more than 0.7 % at the root.
 class FurGrid {
  public:
   /// `root_width`: of the groom's strands, in scene units. The step is the power of two by which this width
   /// has 192 to 384 steps; a width that is no positive number counts as 2^-12.
-  explicit FurGrid(float root_width);
+  /// `anchor`: any finite point near all strands of the groom, the same for all of them.
+  explicit FurGrid(float root_width, const V3f& anchor = V3f(0));
 
   float step() const { return step_; }
-  /// Coordinates and lengths in grid units.
-  float to_grid(float scene) const { return scene * inverse_; }
+  const V3f& anchor() const { return anchor_; }
+  /// Of a length.
   float to_scene(float grid) const { return grid * step_; }
 
-  /// The nearest whole number of steps; halves go to even ones.
-  float snap(float scene) const;
+  /// The coordinate along an axis in grid units: the nearest whole number of steps, halves to even ones.
+  float snap(float scene, int axis) const;
   /// Radii below 0 count as none.
   float snap_radius(float scene) const;
 
@@ -33,6 +34,7 @@ class FurGrid {
 
  private:
   float step_, inverse_;
+  V3f anchor_;
 };
 
 }  // namespace pelage

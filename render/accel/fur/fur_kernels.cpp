@@ -4,21 +4,22 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
 #define HWY_DISABLED_TARGETS HWY_SSSE3
-// The plain fallback is four lanes too. What g++ before 12.3 gets wrong there (high halves of 16-bit products) is
-// not used here.
+// The plain fallback is four lanes too. What g++ before 12.3 gets wrong there (high halves of 16-bit
+// products) is not used here.
 #define HWY_BROKEN_EMU128 0
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include <hwy/foreach_target.h>
 #include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "render/accel/fur/fur_folds.h"
 #include "render/accel/fur/fur_leaf.h"
 #include "render/accel/fur/fur_node.h"
+#include "render/accel/fur/fur_query.h"
 #include "render/accel/fur/fur_ray.h"
 #include "render/accel/fur/fur_tree.h"
 
@@ -46,7 +47,9 @@ HWY_INLINE uint32_t bits_of(hn::Mask<hn::Full128<T>> mask) {
   return bytes[0];
 }
 
-HWY_INLINE uint32_t sign_bits(V v) { return bits_of<int32_t>(hn::Lt(hn::BitCast(kInts, v), hn::Zero(kInts))); }
+HWY_INLINE uint32_t sign_bits(V v) {
+  return bits_of<int32_t>(hn::Lt(hn::BitCast(kInts, v), hn::Zero(kInts)));
+}
 
 HWY_INLINE V bytes_at(const std::byte* place) {
   const hn::Simd<uint8_t, 4, 0> bytes;
@@ -197,8 +200,8 @@ struct Minima {
   }
 };
 
-/// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a bracket;
-/// each lane stops by itself.
+/// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
+/// bracket; each lane stops by itself.
 HWY_INLINE V solve(const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
   V u = hn::Div(f0, hn::Sub(f0, f5));
   V low = hn::Zero(kFloats), high = all(1);
@@ -221,78 +224,6 @@ HWY_INLINE V solve(const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) 
   return u;
 }
 
-/// One lane of what is known of a block's curves.
-struct Lane {
-  float x[4], y[4], z[4], r[4];
-
-  static float value(const float (&p)[4], float u) {
-    const float s = 1 - u;
-    return (s * s * s * p[0] + 3 * (s * s * u) * p[1]) + (3 * (s * u * u) * p[2] + u * u * u * p[3]);
-  }
-  static float first(const float (&p)[4], float u) {
-    const float s = 1 - u;
-    return 3 * (s * s * (p[1] - p[0]) + 2 * s * u * (p[2] - p[1]) + u * u * (p[3] - p[2]));
-  }
-};
-
-/// Whether a hit is but the strand that the ray starts on, near the start: within two widths of it both along
-/// the ray and along the strand.
-bool is_start(const FurRay& ray, uint32_t number, const Lane& lane, float u, float distance) {
-  const float twice = 4 * Lane::value(lane.r, u);
-  if (!(distance < twice)) return false;
-  const float x = Lane::first(lane.x, u), y = Lane::first(lane.y, u), z = Lane::first(lane.z, u);
-  const float between = static_cast<float>(number - ray.start.first_segment) + u - ray.start.place;
-  return std::abs(between) * std::sqrt(x * x + y * y + z * z) < twice;
-}
-
-class Nearest {
- public:
-  HWY_INLINE Nearest(const FurRay& ray, FurFilter* filter, float step)
-      : near_(ray.near), step_(step), filter_(filter) {
-    hit.distance = ray.far;
-  }
-  HWY_INLINE float far() const { return hit.distance; }
-  static constexpr bool kOrdered = true;
-
-  /// Whether a hit at this distance may stand before what there is.
-  HWY_INLINE bool wants(float distance, uint32_t number) const {
-    return distance > near_ && (distance < hit.distance || (hit && distance == hit.distance && number < hit.number));
-  }
-  HWY_INLINE bool take(const FurHit& found) {
-    if (filter_) {
-      FurHit scene = found;
-      scene.distance *= step_;
-      if (!filter_->accepts(scene)) return false;
-    }
-    hit = found;
-    return false;
-  }
-  FurHit hit;
-
- private:
-  float near_, step_;
-  FurFilter* filter_;
-};
-
-class Any {
- public:
-  HWY_INLINE Any(const FurRay& ray, FurFilter* filter, float step)
-      : near_(ray.near), far_(ray.far), step_(step), filter_(filter) {}
-  HWY_INLINE float far() const { return far_; }
-  static constexpr bool kOrdered = false;
-  HWY_INLINE bool wants(float distance, uint32_t) const { return distance > near_ && distance < far_; }
-  HWY_INLINE bool take(FurHit found) {
-    found.distance *= step_;
-    hit = !filter_ || filter_->accepts(found);
-    return hit;
-  }
-  bool hit = false;
-
- private:
-  float near_, far_, step_;
-  FurFilter* filter_;
-};
-
 /// The curves of one block against the ray. True when nothing more need be known of this ray.
 template <bool kWide, bool kMoving, class Query>
 HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
@@ -311,8 +242,8 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
     y[i] = hn::Sub(hn::Mul(wide_y, scale_y), hn::Mul(wide_x, shear_y));
   }
 
-  // The curve lies within a strip along its chord: a cubic strays from the chord by at most 3/4 of what its inner
-  // points do.
+  // The curve lies within a strip along its chord: a cubic strays from the chord by at most 3/4 of what its
+  // inner points do.
   const V ex = hn::Sub(x[3], x[0]), ey = hn::Sub(y[3], y[0]);
   const V c0 = cross(ex, ey, x[0], y[0]);
   const V a = hn::Sub(cross(ex, ey, x[1], y[1]), c0), b = hn::Sub(cross(ex, ey, x[2], y[2]), c0);
@@ -333,17 +264,15 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
     const V di_z = all(ray.depth[ray.axis[0]]), dj_z = all(ray.depth[ray.axis[1]]),
             dk_z = all(ray.depth[ray.axis[2]]), origin = all(ray.origin_depth);
     for (int i = 0; i < 4; ++i) {
-      z[i] = hn::Sub(hn::Add(hn::Add(hn::Mul(di_z, pi[i]), hn::Mul(dj_z, pj[i])), hn::Mul(dk_z, pk[i])), origin);
+      z[i] =
+          hn::Sub(hn::Add(hn::Add(hn::Mul(di_z, pi[i]), hn::Mul(dj_z, pj[i])), hn::Mul(dk_z, pk[i])), origin);
     }
   };
   const uint32_t* numbers = reinterpret_cast<const FurBlockHeader*>(block)->number;
-  const auto is_on_start = [&](uint32_t number) HWY_ATTR {
-    return number - ray.start.first_segment < ray.start.segment_count;
-  };
   const auto lane_of = [&](uint32_t lane) HWY_ATTR {
     alignas(16) float values[4];
-    Lane result;
-    const auto copy = [&](const V (&from)[4], float (&to)[4]) HWY_ATTR {
+    FurLane result;
+    const auto copy = [&](const V(&from)[4], float(&to)[4]) HWY_ATTR {
       for (int i = 0; i < 4; ++i) {
         hn::Store(from[i], kFloats, values);
         to[i] = values[lane];
@@ -376,7 +305,7 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
         const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
         const uint32_t number = numbers[lane];
         if (!query.wants(ts[lane], number)) continue;
-        if (is_on_start(number) && is_start(ray, number, lane_of(lane), us[lane], ts[lane])) continue;
+        if (is_on_start(ray, number) && is_start(ray, number, lane_of(lane), us[lane], ts[lane])) continue;
         if (query.take({ts[lane], number, us[lane], hs[lane]})) return true;
       }
     }
@@ -384,26 +313,16 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
   if (HWY_LIKELY(folded == 0)) return false;
   load_depths();
   for (uint32_t lanes = folded; lanes != 0; lanes &= lanes - 1) {
-    const auto index = static_cast<uint32_t>(std::countr_zero(lanes));
-    const Lane lane = lane_of(index);
-    PlaneCurve curve;
-    std::copy_n(lane.x, 4, curve.x);
-    std::copy_n(lane.y, 4, curve.y);
-    float us[3];
-    const size_t count = nearest_parameters(curve, us);
-    for (size_t i = 0; i < count; ++i) {
-      const float u = us[i];
-      const float cx = Lane::value(lane.x, u), cy = Lane::value(lane.y, u), radius = Lane::value(lane.r, u);
-      const float distance2 = cx * cx + cy * cy;
-      if (!(distance2 < radius * radius)) continue;
-      const float t = Lane::value(lane.z, u);
-      if (!query.wants(t, numbers[index])) continue;
-      if (is_on_start(numbers[index]) && is_start(ray, numbers[index], lane, u, t)) continue;
-      const float side = Lane::first(lane.x, u) * cy - Lane::first(lane.y, u) * cx;
-      if (query.take({t, numbers[index], u, std::copysign(std::sqrt(distance2) / radius, side)})) return true;
-    }
+    const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
+    if (test_folded(lane_of(lane), numbers[lane], ray, query)) return true;
   }
   return false;
+}
+
+/// Wide blocks are rare.
+template <bool kMoving, class Query>
+HWY_NOINLINE bool test_wide_block(const std::byte* block, const FurRay& ray, Query& query) {
+  return test_block<true, kMoving>(block, ray, query);
 }
 
 template <bool kMoving, class Query>
@@ -412,7 +331,7 @@ HWY_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurR
   const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
   for (uint32_t i = 0; i < leaf.blocks(); ++i, block += size) {
     if (HWY_UNLIKELY(leaf.is_wide())) {
-      if (test_block<true, kMoving>(block, ray, query)) return true;
+      if (test_wide_block<kMoving>(block, ray, query)) return true;
     } else if (test_block<false, kMoving>(block, ray, query)) {
       return true;
     }
@@ -441,7 +360,8 @@ class FloatSlabs {
   }
   HWY_INLINE hn::Mask<Floats> meet(const std::byte* node, V& enter, V leave) const {
     for (size_t axis = 0; axis < 3; ++axis) {
-      const V near_side = side(node + near_side_[axis]), far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
+      const V near_side = side(node + near_side_[axis]),
+              far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
       enter = hn::Max(hn::Mul(hn::Sub(near_side, near_origin_[axis]), inverse_[axis]), enter);
       leave = hn::Min(hn::Mul(hn::Sub(far_side, far_origin_[axis]), inverse_[axis]), leave);
     }
@@ -510,13 +430,16 @@ class QuantisedSlabs {
   size_t near_side_[3];
 };
 
-constexpr size_t kStack = 512;    // the builder's trees never fill it
-constexpr size_t kDeferred = 3;   // leaves that may wait
+constexpr size_t kDeferred = 3;  // leaves that may wait
+// Nodes that may wait. A walk in depth keeps three per level, and trees have less than 70 levels; beyond
+// kMixed the walk is one in depth.
+constexpr size_t kStack = 512, kMixed = 256;
 
 /// Children that were met and wait for their visit: references and where the ray enters them.
+template <size_t kRoom>
 struct Waiting {
-  uint32_t references[kStack];
-  float enters[kStack];
+  uint32_t references[kRoom];
+  float enters[kRoom];
   size_t count = 0;
 
   /// Adds the lanes `chosen` in their order, without a branch.
@@ -546,12 +469,14 @@ HWY_INLINE void fetch_lines(const std::byte* place, size_t bytes) {
   for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(place + i);
 }
 
-/// Through the tree, more or less front to back. What will be visited later is fetched ahead: leaves wait until a
-/// few of them have come together, and where the order does not matter every node waits for one visit.
+/// Through the tree, more or less front to back. What will be visited later is fetched ahead: leaves wait
+/// until a few of them have come together, and where the order does not matter every node waits for one
+/// visit.
 template <class Slabs, bool kMoving, class Query>
 HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
   const Slabs slabs(tree, ray);
-  Waiting nodes, leaves;
+  Waiting<kStack> nodes;
+  Waiting<16> leaves{};
   nodes.references[0] = 0;
   nodes.enters[0] = ray.near;
   nodes.count = 1;
@@ -559,8 +484,8 @@ HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
     while (nodes.count > 0 && leaves.count < kDeferred) {
       --nodes.count;
       uint32_t next = nodes.references[nodes.count];
-      float next_enter = nodes.enters[nodes.count];
-      if (!Query::kOrdered && nodes.count > 0) {
+      const float next_enter = nodes.enters[nodes.count];
+      if (!Query::kOrdered && nodes.count > 0 && nodes.count < kMixed) {
         std::swap(next, nodes.references[nodes.count - 1]);
       }
       if (Query::kOrdered && next_enter > query.far()) continue;
@@ -568,7 +493,8 @@ HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
       V enter = all(ray.near);
       const auto met = slabs.meet(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));
-      const auto is_leaf = hn::MaskFromVec(hn::BitCast(kFloats, hn::BroadcastSignBit(hn::BitCast(kInts, references))));
+      const auto is_leaf =
+          hn::MaskFromVec(hn::BitCast(kFloats, hn::BroadcastSignBit(hn::BitCast(kInts, references))));
       const auto is_node = hn::RebindMask(kFloats, hn::Gt(hn::BitCast(kInts, references), hn::Zero(kInts)));
       const size_t first_node = nodes.count, first_leaf = leaves.count;
       nodes.add(references, enter, hn::And(met, is_node));
@@ -608,13 +534,13 @@ HWY_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) 
 }
 
 FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
-  Nearest query(ray, filter, tree.step);
+  NearestFur query(ray, filter, tree.step);
   trace(tree, ray, query);
   return query.hit;
 }
 
 bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
-  Any query(ray, filter, tree.step);
+  AnyFur query(ray, filter, tree.step);
   trace(tree, ray, query);
   return query.hit;
 }

@@ -65,11 +65,13 @@ void write_quantised_node(int motion_keys, std::span<const FurChild> children, s
       uint8_t sides[2][4];
       for (size_t i = 0; i < 4; ++i) {
         const bool there = i < children.size();
-        sides[0][i] = there ? step_below(children[i].boxes[key].low[axis], whole.low[axis], scale[axis]) : 255;
+        sides[0][i] =
+            there ? step_below(children[i].boxes[key].low[axis], whole.low[axis], scale[axis]) : 255;
         sides[1][i] = there ? step_above(children[i].boxes[key].high[axis], whole.low[axis], scale[axis]) : 0;
       }
-      std::memcpy(out + FurQuantisedNode::kPlanes + key * FurQuantisedNode::kKey + axis * FurQuantisedNode::kAxis,
-                  sides, sizeof(sides));
+      std::memcpy(
+          out + FurQuantisedNode::kPlanes + key * FurQuantisedNode::kKey + axis * FurQuantisedNode::kAxis,
+          sides, sizeof(sides));
     }
   }
 }
@@ -90,7 +92,8 @@ double FurBox::area() const {
 }
 
 size_t node_size(FurNodeLayout layout, int motion_keys) {
-  return layout == FurNodeLayout::kFloat ? FurFloatNode::size(motion_keys) : FurQuantisedNode::size(motion_keys);
+  return layout == FurNodeLayout::kFloat ? FurFloatNode::size(motion_keys)
+                                         : FurQuantisedNode::size(motion_keys);
 }
 
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out) {

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// How nodes keep the boxes of their four children: as floats, 128 bytes in all [RH13], or as 8-bit numbers on a
-/// grid of the node's own, 64 bytes.
+/// How nodes keep the boxes of their four children: as floats, 128 bytes in all [RH13], or as 8-bit numbers
+/// on a grid of the node's own, 64 bytes.
 enum class FurNodeLayout : uint8_t { kFloat, kQuantised };
 
 /// An axis-aligned box in grid units; inside out when nothing is in it.
@@ -38,8 +38,8 @@ struct FurFloatNode {
   static constexpr size_t size(int motion_keys) { return (references(motion_keys) + 16 + 63) / 64 * 64; }
 };
 
-/// Quantised layout: origin and scale of the three axes, references, and by motion key and axis the low and then
-/// the high sides of four children, one byte each.
+/// Quantised layout: origin and scale of the three axes, references, and by motion key and axis the low and
+/// then the high sides of four children, one byte each.
 struct FurQuantisedNode {
   static constexpr size_t kOrigin = 0, kScale = 12, kReferences = 24, kPlanes = 40;
   static constexpr size_t kKey = 24, kAxis = 8, kSide = 4;
@@ -49,8 +49,8 @@ struct FurQuantisedNode {
 };
 
 size_t node_size(FurNodeLayout layout, int motion_keys);
-/// Writes a node of 1 to 4 children. What is decoded holds the boxes, up to the rounding of one product and one
-/// sum.
+/// Writes a node of 1 to 4 children. What is decoded holds the boxes, up to the rounding of one product and
+/// one sum.
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
 
 }  // namespace pelage

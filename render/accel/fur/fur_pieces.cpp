@@ -95,8 +95,8 @@ class Cutter {
     return true;
   }
 
-  /// How often each segment is halved, so that the pieces beyond one per segment are at most `budget` and most
-  /// area is saved by them.
+  /// How often each segment is halved, so that the pieces beyond one per segment are at most `budget` and
+  /// most area is saved by them.
   std::vector<uint8_t> choose_cuts(size_t budget) const {
     struct Gain {
       float area;
@@ -111,7 +111,8 @@ class Cutter {
       return a.area != b.area ? a.area > b.area : a.number < b.number;
     });
     std::vector<uint8_t> cuts(strands_.segment_count());
-    // Halving halves what there is to gain by about four: the longest are halved again when they stand that far out.
+    // Halving halves what there is to gain by about four: the longest are halved again when they stand that
+    // far out.
     for (size_t i = 0, used = 0; i < gains.size() && used < budget; ++i) {
       int levels = 1;
       const float typical = gains[gains.size() / 2].area;
@@ -144,7 +145,8 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part) {
 
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts) {
   const Cutter cutter(strands);
-  const auto budget = static_cast<size_t>(static_cast<double>(strands.segment_count()) * std::max(cuts, 0.0f));
+  const auto budget =
+      static_cast<size_t>(static_cast<double>(strands.segment_count()) * std::max(cuts, 0.0f));
   const std::vector<uint8_t> levels = budget > 0 ? cutter.choose_cuts(budget) : std::vector<uint8_t>();
   std::vector<FurPiece> pieces;
   pieces.reserve(strands.segment_count() + budget);

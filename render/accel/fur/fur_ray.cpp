@@ -24,7 +24,11 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   if (!is_finite(ray)) return false;
   const float grid = 1 / tree.step;
   const V3f& d = ray.direction;
-  const float origin[3] = {ray.origin.x * grid, ray.origin.y * grid, ray.origin.z * grid};
+  const double grid_origin[3] = {(double(ray.origin.x) - tree.anchor.x) * grid,
+                                 (double(ray.origin.y) - tree.anchor.y) * grid,
+                                 (double(ray.origin.z) - tree.anchor.z) * grid};
+  const float origin[3] = {static_cast<float>(grid_origin[0]), static_cast<float>(grid_origin[1]),
+                           static_cast<float>(grid_origin[2])};
   const float size = std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
   if (!(size <= FurGrid::kReach)) return false;
   near = ray.near * grid;
@@ -43,7 +47,8 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   inverse[3] = near_origin[3] = far_origin[3] = 0;
 
   const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
-  const uint32_t k = size_of.x > size_of.y ? (size_of.x > size_of.z ? 0 : 2) : (size_of.y > size_of.z ? 1 : 2);
+  const uint32_t k =
+      size_of.x > size_of.y ? (size_of.x > size_of.z ? 0 : 2) : (size_of.y > size_of.z ? 1 : 2);
   const uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
   axis[0] = i, axis[1] = j, axis[2] = k;
   along_i = d[static_cast<int>(i)];
@@ -52,10 +57,10 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   const double di = along_i, dj = along_j, dk = along_k;
   const double length2 = di * di + dj * dj + dk * dk;
   if (!(length2 > 0.25 && length2 < 4)) return false;
-  origin_x = static_cast<float>(dk * origin[i] - di * origin[k]);
-  origin_y = static_cast<float>(dk * origin[j] - dj * origin[k]);
-  // X and Y are products with e1 = dk i - di k and e2 = dk j - dj k; e2 - (e1 . e2 / e1 . e1) e1 has the length
-  // |dk| |d| / |e1|. The sign makes x, y and the ray a right-handed frame.
+  origin_x = static_cast<float>(dk * grid_origin[i] - di * grid_origin[k]);
+  origin_y = static_cast<float>(dk * grid_origin[j] - dj * grid_origin[k]);
+  // X and Y are products with e1 = dk i - di k and e2 = dk j - dj k; e2 - (e1 . e2 / e1 . e1) e1 has the
+  // length |dk| |d| / |e1|. The sign makes x, y and the ray a right-handed frame.
   const double first2 = dk * dk + di * di;
   const double first = std::sqrt(first2);
   const double second = first / (dk * std::sqrt(length2));
@@ -66,7 +71,7 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   double along = 0;
   for (int a = 0; a < 3; ++a) {
     depth[a] = static_cast<float>(d[a] * unit);
-    along += static_cast<double>(depth[a]) * origin[a];
+    along += static_cast<double>(depth[a]) * grid_origin[a];
   }
   origin_depth = static_cast<float>(along);
 

@@ -8,8 +8,8 @@ namespace pelage {
 /// Where a child of a node is, in 32 bits that hold wherever the tree is: offsets count from the start of the
 /// nodes or of the leaves, in units of 16 bytes.
 ///
-/// Inner: 0 | offset:31. Leaf: 1 | wide:1 | blocks-1:2 | offset:28. No child is the root, so that 0 is free to
-/// say that there is none.
+/// Inner: 0 | offset:31. Leaf: 1 | wide:1 | blocks-1:2 | offset:28. No child is the root, so that 0 is free
+/// to say that there is none.
 class FurReference {
  public:
   static constexpr uint32_t kUnit = 16;

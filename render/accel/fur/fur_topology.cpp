@@ -13,8 +13,8 @@ namespace {
 
 constexpr size_t kLanes = FurBlockHeader::kLanes;
 constexpr size_t kBins = 16;
-constexpr size_t kSweep = 96;    // sets up to here are swept exactly
-constexpr int kDeepest = 40;     // levels of binary splits by area; below they are halved
+constexpr size_t kSweep = 96;  // sets up to here are swept exactly
+constexpr int kDeepest = 40;   // levels of binary splits by area; below they are halved
 constexpr float kFar = 1e30f;
 
 size_t blocks(size_t pieces) { return (pieces + kLanes - 1) / kLanes; }

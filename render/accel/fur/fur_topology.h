@@ -29,8 +29,8 @@ struct FurPiece {
 struct FurBuildOptions {
   /// What visiting a node costs, in tests of four segments.
   float node_cost = 1.2f;
-  /// Pieces that long or diagonal segments may be cut into beyond one, over the number of segments. Each piece
-  /// has a box of its own and tests the whole segment.
+  /// Pieces that long or diagonal segments may be cut into beyond one, over the number of segments. Each
+  /// piece has a box of its own and tests the whole segment.
   float cuts = 0;
 };
 
@@ -45,8 +45,8 @@ struct FurTopology {
     uint32_t child_count = 0;
   };
 
-  std::vector<Node> nodes;      ///< the root is the first; none for no segments
-  std::vector<FurPart> order;   ///< leaf after leaf
+  std::vector<Node> nodes;     ///< the root is the first; none for no segments
+  std::vector<FurPart> order;  ///< leaf after leaf
 };
 
 /// The Bezier curve of a part of a segment.
@@ -55,9 +55,10 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 /// The pieces of all drawable segments: boxes of their Bezier hulls, averaged over the motion keys.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts);
 
-/// Builds by binned surface areas [Wald07], where n segments cost as many tests as there are fours in them; sets
-/// of a few dozens are swept exactly, and cut at multiples of four only, so that nearly every lane is filled.
-/// Binary splits are collapsed into nodes of four. By the calling thread alone; the same for the same input.
+/// Builds by binned surface areas [Wald07], where n segments cost as many tests as there are fours in them;
+/// sets of a few dozens are swept exactly, and cut at multiples of four only, so that nearly every lane is
+/// filled. Binary splits are collapsed into nodes of four. By the calling thread alone; the same for the same
+/// input.
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options);
 
 }  // namespace pelage

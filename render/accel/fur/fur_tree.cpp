@@ -27,8 +27,8 @@ FurBox hull(const SnappedSegment& segment) {
 
 }  // namespace
 
-/// Writes a topology twice: once to count bytes, once in place. Nodes stand in the order of a walk down the tree,
-/// and so do leaves, those of one node side by side.
+/// Writes a topology twice: once to count bytes, once in place. Nodes stand in the order of a walk down the
+/// tree, and so do leaves, those of one node side by side.
 class FurTree::Writer {
  public:
   Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout)
@@ -50,7 +50,9 @@ class FurTree::Writer {
       }
     }
     const auto too_large = node_bytes_ > FurReference::kNodeReach || leaf_bytes_ > FurReference::kLeafReach;
-    if (too_large) throw Error(ErrorKind::kMemory, "one fur tree would need more than 4 GiB: make chunks of fewer strands");
+    if (too_large)
+      throw Error(ErrorKind::kMemory,
+                  "one fur tree would need more than 4 GiB: make chunks of fewer strands");
   }
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
@@ -131,7 +133,8 @@ class FurTree::Writer {
     FurChild children[4];
     for (size_t i = 0; i < node.child_count; ++i) {
       const FurTopology::Child& child = node.children[i];
-      const FurBox* boxes = child.count == 0 ? &node_boxes_[child.node * keys_] : &boxes_[(n * 4 + i) * keys_];
+      const FurBox* boxes =
+          child.count == 0 ? &node_boxes_[child.node * keys_] : &boxes_[(n * 4 + i) * keys_];
       children[i] = {references_[n * 4 + i], std::span(boxes, keys_)};
       for (size_t key = 0; key < keys_; ++key) node_boxes_[n * keys_ + key].extend(boxes[key]);
     }
@@ -145,9 +148,9 @@ class FurTree::Writer {
   const size_t keys_, node_size_;
   size_t node_bytes_ = 0, leaf_bytes_ = 0;
   std::byte *nodes_ = nullptr, *leaves_ = nullptr;
-  std::vector<bool> wide_;              // leaf by leaf
-  std::vector<FurBox> boxes_;           // of leaves: by node, child and key
-  std::vector<FurBox> node_boxes_;      // by node and key
+  std::vector<bool> wide_;                // leaf by leaf
+  std::vector<FurBox> boxes_;             // of leaves: by node, child and key
+  std::vector<FurBox> node_boxes_;        // by node and key
   std::vector<FurReference> references_;  // by node and child
   std::vector<SnappedSegment> segments_;
 };
@@ -156,6 +159,7 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.layout = options.layout;
   view_.motion_keys = strands.motion_keys();
   view_.step = strands.grid().step();
+  view_.anchor = strands.grid().anchor();
   const FurTopology topology = build_topology(make_pieces(strands, options.build.cuts), options.build);
   if (topology.nodes.empty()) return;
   Writer writer(strands, topology, options.layout);

@@ -36,7 +36,8 @@ SnappedSegment SnappedStrands::segment(Place place, int key) const {
   const CubicSegment curve = bezier_segment(strands_, place.strand, place.segment, key);
   SnappedSegment snapped;
   for (size_t i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis) snapped[i][static_cast<size_t>(axis)] = grid_.snap(curve.p[i][axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      snapped[i][static_cast<size_t>(axis)] = grid_.snap(curve.p[i][axis], axis);
     snapped[i][3] = grid_.snap_radius(curve.r[i]);
   }
   return snapped;

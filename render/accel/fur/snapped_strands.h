@@ -17,8 +17,8 @@ using SnappedSegment = std::array<std::array<float, 4>, 4>;
 /// Neighbouring segments share their end point exactly, because both snap the same float.
 ///
 /// Segments are numbered along the strands, strands in ascending order of their ids (then of their place in
-/// the batch), so that of two segments the one with the smaller number stands first where distances are equal.
-/// Borrows the strands. Thread safety: immutable.
+/// the batch), so that of two segments the one with the smaller number stands first where distances are
+/// equal. Borrows the strands. Thread safety: immutable.
 class SnappedStrands {
  public:
   SnappedStrands(const Strands& strands, const FurGrid& grid);
@@ -44,8 +44,8 @@ class SnappedStrands {
       }
     }
   }
-  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Others are left out
-  /// of trees: nothing meets them.
+  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Others are left
+  /// out of trees: nothing meets them.
   static bool is_drawable(const SnappedSegment& segment);
 
  private:

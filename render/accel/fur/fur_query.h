@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "render/accel/fur/fur_folds.h"
+#include "render/accel/fur/fur_hit.h"
+#include "render/accel/fur/fur_ray.h"
+
+// What the kernels do with one lane at a time.
+namespace pelage {
+
+/// One lane of what is known of a block's curves.
+struct FurLane {
+  float x[4], y[4], z[4], r[4];
+
+  static float value(const float (&p)[4], float u) {
+    const float s = 1 - u;
+    return (s * s * s * p[0] + 3 * (s * s * u) * p[1]) + (3 * (s * u * u) * p[2] + u * u * u * p[3]);
+  }
+  static float first(const float (&p)[4], float u) {
+    const float s = 1 - u;
+    return 3 * (s * s * (p[1] - p[0]) + 2 * s * u * (p[2] - p[1]) + u * u * (p[3] - p[2]));
+  }
+};
+
+/// Whether a hit is but the strand that the ray starts on, near the start: within two widths of it both along
+/// the ray and along the strand.
+inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, float u, float distance) {
+  const float twice = 4 * FurLane::value(lane.r, u);
+  if (!(distance < twice)) return false;
+  const float x = FurLane::first(lane.x, u), y = FurLane::first(lane.y, u), z = FurLane::first(lane.z, u);
+  const float between = static_cast<float>(number - ray.start.first_segment) + u - ray.start.place;
+  return std::abs(between) * std::sqrt(x * x + y * y + z * z) < twice;
+}
+
+class NearestFur {
+ public:
+  NearestFur(const FurRay& ray, FurFilter* filter, float step)
+      : near_(ray.near), step_(step), filter_(filter) {
+    hit.distance = ray.far;
+  }
+  float far() const { return hit.distance; }
+  static constexpr bool kOrdered = true;
+
+  /// Whether a hit at this distance may stand before what there is.
+  bool wants(float distance, uint32_t number) const {
+    return distance > near_ &&
+           (distance < hit.distance || (hit && distance == hit.distance && number < hit.number));
+  }
+  bool take(const FurHit& found) {
+    if (filter_) {
+      FurHit scene = found;
+      scene.distance *= step_;
+      if (!filter_->accepts(scene)) return false;
+    }
+    hit = found;
+    return false;
+  }
+  FurHit hit;
+
+ private:
+  float near_, step_;
+  FurFilter* filter_;
+};
+
+class AnyFur {
+ public:
+  AnyFur(const FurRay& ray, FurFilter* filter, float step)
+      : near_(ray.near), far_(ray.far), step_(step), filter_(filter) {}
+  float far() const { return far_; }
+  static constexpr bool kOrdered = false;
+  bool wants(float distance, uint32_t) const { return distance > near_ && distance < far_; }
+  bool take(FurHit found) {
+    found.distance *= step_;
+    hit = !filter_ || filter_->accepts(found);
+    return hit;
+  }
+  bool hit = false;
+
+ private:
+  float near_, far_, step_;
+  FurFilter* filter_;
+};
+
+inline bool is_on_start(const FurRay& ray, uint32_t number) {
+  return number - ray.start.first_segment < ray.start.segment_count;
+}
+
+/// A curve whose distance to the ray may have several minima. True when nothing more need be known of this
+/// ray.
+template <class Query>
+bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query& query) {
+  PlaneCurve curve;
+  std::copy_n(lane.x, 4, curve.x);
+  std::copy_n(lane.y, 4, curve.y);
+  float us[3];
+  const size_t count = nearest_parameters(curve, us);
+  for (size_t i = 0; i < count; ++i) {
+    const float u = us[i];
+    const float cx = FurLane::value(lane.x, u), cy = FurLane::value(lane.y, u),
+                radius = FurLane::value(lane.r, u);
+    const float distance2 = cx * cx + cy * cy;
+    if (!(distance2 < radius * radius)) continue;
+    const float t = FurLane::value(lane.z, u);
+    if (!query.wants(t, number)) continue;
+    if (is_on_start(ray, number) && is_start(ray, number, lane, u, t)) continue;
+    const float side = FurLane::first(lane.x, u) * cy - FurLane::first(lane.y, u) * cx;
+    if (query.take({t, number, u, std::copysign(std::sqrt(distance2) / radius, side)})) return true;
+  }
+  return false;
+}
+
+}  // namespace pelage
