@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// How nodes keep the boxes of their four children: as floats, 128 bytes in all [RH13], or as 8-bit numbers
-/// on a grid of the node's own, 64 bytes.
+/// How nodes keep the boxes of their four children: as floats, 128 bytes in all [Neulander13], or as 8-bit
+/// numbers on a grid of the node's own, 64 bytes.
 enum class FurNodeLayout : uint8_t { kFloat, kQuantised };
 
 /// An axis-aligned box in grid units; inside out when nothing is in it.

@@ -29,11 +29,11 @@ struct FurTreeView {
   float reach = 0;  ///< largest coordinate of the boxes, in grid units
 };
 
-/// Rays against the strands of one groom: a 4-wide BVH [RH13] over cubic segments, four of them to a block,
-/// which are ribbons that face every ray: the ray meets the segment at parameter u where its distance to the
-/// axis has a local minimum that is less than the radius. Whether and where is a function of the ray and the
-/// segment alone: neither the tree's shape and layout nor the instruction set nor the ray's far end reaches
-/// it.
+/// Rays against the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments, four of them to a
+/// block, which are ribbons that face every ray: the ray meets the segment at parameter u where its distance
+/// to the axis has a local minimum that is less than the radius. Whether and where is a function of the ray
+/// and the segment alone: neither the tree's shape and layout nor the instruction set nor the ray's far end
+/// reaches it.
 ///
 /// Everything is one block of memory that holds no pointer. Points are snapped (see FurGrid), and the tree
 /// has the only copy of them. Strands of no length or no width are never met. Thread safety: immutable. Each
