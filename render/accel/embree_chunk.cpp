@@ -14,19 +14,21 @@ namespace {
 
 // What Embree allocates, found by measuring trees over strands and skins of every kind and size, 1 to 4
 // motion keys; embree_chunk_test walks over them again.
-constexpr size_t kPerScene = 4096;       // the first node, what is small
-constexpr size_t kPerPrimitive = 52;     // of a tree without motion; 40 to 44 are usual
-constexpr size_t kPerFew = 140;          // of the first primitives, whose nodes are half empty
-constexpr size_t kFew = 48;              // how many those are
-constexpr size_t kReference = 32;        // of each primitive while the tree is built, in powers of two
-constexpr size_t kPerMoving = 95;        // and per pair of motion keys: time may be split between any two
-constexpr size_t kMovingReference = 80;  // of each primitive and pair of keys while the tree is built
+constexpr size_t kPerScene = 4096;         // the first node, what is small
+constexpr size_t kPerPrimitive = 52;       // of a tree without motion; 40 to 44 are usual
+constexpr size_t kPerFew = 140;            // of the first primitives, whose nodes are half empty
+constexpr size_t kFew = 48;                // how many those are
+constexpr size_t kReference = 32;          // of each primitive while the tree is built, in powers of two
+constexpr size_t kPerMoving = 95;          // and per pair of motion keys: time may be split between any two
+constexpr size_t kPerMovingTriangle = 60;  // the same of skins
+constexpr size_t kMovingReference = 80;    // of each primitive and pair of keys while the tree is built
 
-size_t tree_bytes_bound(size_t primitives, size_t pairs_of_keys) {
+size_t tree_bytes_bound(const ChunkCounts& n) {
+  const size_t primitives = n.segments + n.triangles, pairs_of_keys = static_cast<size_t>(n.motion_keys - 1);
   if (primitives == 0) return kPerScene;
   const size_t few = kPerScene + kPerFew * std::min(primitives, kFew) * std::max<size_t>(pairs_of_keys, 1);
-  const size_t tree =
-      few + (pairs_of_keys == 0 ? kPerPrimitive * primitives : kPerMoving * primitives * pairs_of_keys);
+  const size_t moving = kPerMoving * n.segments + kPerMovingTriangle * n.triangles;
+  const size_t tree = few + (pairs_of_keys == 0 ? kPerPrimitive * primitives : moving * pairs_of_keys);
   // The last block is partly used.
   return (tree / EmbreeDevice::kTreeBlock + 2) * EmbreeDevice::kTreeBlock;
 }
@@ -35,9 +37,9 @@ size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
   return heap_bytes(kMovingReference * primitives * pairs_of_keys);
 }
 
-/// Positions and normals; indices, faces and corners. Positions again: they may be copied to be padded.
+/// Positions and normals; indices, faces and corners.
 size_t skin_bytes_bound(const ChunkCounts& n) {
-  return (24 + 12) * static_cast<size_t>(n.motion_keys) * n.vertices + 40 * n.triangles;
+  return 24 * static_cast<size_t>(n.motion_keys) * n.vertices + 40 * n.triangles + 64;
 }
 
 /// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
@@ -265,11 +267,9 @@ CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {
 }
 
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n) {
-  const auto keys = static_cast<size_t>(n.motion_keys);
-  const size_t primitives = n.segments + n.triangles;
-  return bytes_bound(n, sizeof(EmbreeChunk) + skin_bytes_bound(n) + PackedStrands::bytes_bound(n) +
-                            tree_bytes_bound(primitives, keys - 1) +
-                            reference_bytes_bound(primitives, keys - 1));
+  return bytes_bound(
+      n, sizeof(EmbreeChunk) + skin_bytes_bound(n) + PackedStrands::bytes_bound(n) + tree_bytes_bound(n) +
+             reference_bytes_bound(n.segments + n.triangles, static_cast<size_t>(n.motion_keys) - 1));
 }
 
 size_t EmbreeChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
@@ -277,7 +277,9 @@ size_t EmbreeChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
   const size_t grown = 16 * keys * n.points + n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) +
                        n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
                        sizeof(float) * (n.points + n.attribute_floats) + kPerScene;
-  const size_t packing = PackedStrands::bytes_bound(n) + PackedStrands::scratch_bytes_bound(n);
+  // Positions may be copied to be padded.
+  const size_t packing =
+      PackedStrands::bytes_bound(n) + PackedStrands::scratch_bytes_bound(n) + 12 * keys * n.vertices;
   return std::max(sizeof(EmbreeChunk) + skin_bytes_bound(n) + grown + std::max(packing, n.growth_bytes),
                   build_peak);
 }
