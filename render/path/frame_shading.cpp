@@ -84,8 +84,8 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.wo = -ray.direction;
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
-  return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction,
-          fibre.material.at(at)};
+  return {point.position, point.tangent,        point.radius, ray.origin + hit.distance * ray.direction,
+          at.h,           fibre.material.at(at)};
 }
 
 Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,

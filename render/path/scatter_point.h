@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <variant>
 
@@ -14,9 +16,11 @@ namespace pelage {
 /// of rho = f cos(theta_i) as FibreBsdf has it.
 class ScatterPoint {
  public:
-  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface.
-  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, const FibreBsdf& bsdf)
-      : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), bsdf_(bsdf) {}
+  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface; `h` across it, as
+  /// the fibre's model was told.
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
+               const FibreBsdf& bsdf)
+      : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), h_(h), bsdf_(bsdf) {}
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
       : position_(position), surface_(start), bsdf_(bsdf) {}
@@ -40,14 +44,22 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
-  /// Origin of a ray towards `wi`. Light enters and leaves a fibre at one point of its axis; the ray begins
-  /// where it leaves the fibre's surface, so that the fibre does not shadow itself.
+  /// Origin of a ray towards `wi`. Light enters a fibre at one place of its circle and leaves it at another:
+  /// a smooth cylinder keeps the distance h at which light passes its axis, whatever the number of
+  /// reflections inside. So the ray begins where a line along `wi` at that distance leaves the circle: at the
+  /// hit for the mirror image in its normal, on the far side for light that goes through, and never under the
+  /// surface of the fibre, which does not shadow itself. Light that meets a fibre evenly across its width
+  /// leaves it so.
   V3f start(const V3f& wi) const {
     if (radius_ == 0) return surface_;
     const V3f side = wi - wi.dot(tangent_) * tangent_;
     const float length2 = side.length2();
     if (length2 < 1e-6f) return surface_;
-    return position_ + (kJustOutside * radius_ / std::sqrt(length2)) * side;
+    const V3f out = side / std::sqrt(length2);
+    const V3f from_axis = std::sqrt(std::max(0.0f, 1 - h_ * h_)) * out + h_ * tangent_.cross(out);
+    // Far from the origin a few units in the last place are more than a thousandth of a thin fibre.
+    const float largest = std::max({std::abs(position_.x), std::abs(position_.y), std::abs(position_.z)});
+    return position_ + (kJustOutside * radius_ + 0x1p-21f * largest) * from_axis;
   }
 
  private:
@@ -68,6 +80,7 @@ class ScatterPoint {
   V3f tangent_{0};
   V3f surface_;
   float radius_ = 0;
+  float h_ = 0;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

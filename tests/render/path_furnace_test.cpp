@@ -145,6 +145,34 @@ TEST(PathFurnace, WhiteFibresOfPhysicalModelsVanish) {
   }
 }
 
+/// A ball of dense white fur on white skin: hundreds of scatterings, and nothing is lost but by their number.
+TEST(PathFurnace, AWhiteFurballVanishes) {
+  ChiangParams chiang;
+  chiang.absorption = Rgb(0);
+  YanFastParams fast;
+  fast.sigma_ca = fast.sigma_ma = Rgb(0);
+  YanParams yan;
+  yan.sigma_ca = yan.sigma_ma = Rgb(0);
+  yan.made = MedullaTables::make(yan.optics(), Workers(2), 500);
+  LambertParams skin;
+  skin.color = Field(Rgb(1));
+  for (const MaterialParams& material : {MaterialParams(chiang), MaterialParams(fast), MaterialParams(yan)}) {
+    PathScene scene(20, 20);
+    scene.add_fur(furball(6000, 0.3f, 0.008f), material);
+    scene.add_skin(sphere_mesh(1), skin);
+    scene.add_sky(Rgb(1));
+    scene.camera.fov = 12.0f;
+    scene.render.bounces = 512;
+    scene.render.samples = 128;
+    const FrameResult result = scene.run();
+    EXPECT_EQ(result.film.alpha(0, 10), 1.0f);
+    EXPECT_NEAR(luminance(picture_mean(result.film).mean), 1, 0.01);
+    const auto& rays = scene.statistics.rays;
+    EXPECT_GT(rays.at("indirect"), 4 * rays.at("camera")) << "dense enough to scatter again and again";
+    expect_white(result, 2.5e-3);
+  }
+}
+
 /// A coarse convex mesh with smooth normals must not shadow itself, up to its silhouette.
 TEST(PathFurnace, AWhiteSphereVanishes) {
   PathScene scene(32, 32);

@@ -12,6 +12,8 @@
 #include "procedurals/fixed.h"
 #include "render/light/light_params.h"
 #include "render/path/path_integrator.h"
+#include "render/sampling/sample_stream.h"
+#include "render/sampling/warp.h"
 
 namespace pelage {
 
@@ -91,6 +93,24 @@ inline Strands one_strand(const std::vector<V3f>& points, float radius) {
   for (const V3f& p : points) a.points.insert(a.points.end(), {p.x, p.y, p.z, radius});
   a.first_point = {0, static_cast<uint32_t>(points.size())};
   a.ids = {7};
+  return Strands(std::move(a));
+}
+
+/// Straight hair all over a unit sphere about the origin, leaning every way.
+inline Strands furball(uint32_t strands, float length, float radius) {
+  StrandArrays a;
+  a.first_point = {0};
+  for (uint32_t i = 0; i < strands; ++i) {
+    SampleStream stream(17, i, 0, 0);
+    const V3f root = uniform_direction(stream.next2d());
+    const V3f along = (root + 0.5f * uniform_direction(stream.next2d())).normalized();
+    for (float v : {0.0f, 0.5f, 1.0f}) {
+      const V3f p = root + v * length * along;
+      a.points.insert(a.points.end(), {p.x, p.y, p.z, radius});
+    }
+    a.first_point.push_back(3 * (i + 1));
+    a.ids.push_back(i);
+  }
   return Strands(std::move(a));
 }
 
