@@ -152,7 +152,11 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   run.end = run_process(
       run.command, log, [&] { return display_.cancelled(); }, setup_.time_limit_s);
   run.statistics = RunStatistics::read(statistics);
-  if (!run.end.succeeded()) run.error = error_lines(log);
+  if (run.end.timed_out) {
+    run.error = fmt::format("ended after {:g} s", setup_.time_limit_s);
+  } else if (!run.end.succeeded()) {
+    run.error = error_lines(log);
+  }
   return run;
 }
 

@@ -32,7 +32,7 @@ std::vector<double> ends(const BarPlot& plot) {
 
 // From the least to the most; returns the most that is shown.
 double draw_spread(Svg& svg, const PlotScale& scale, const std::pair<double, double>& spread, double y) {
-  if (!scale.shows(spread.first) || !scale.shows(spread.second)) return 0;
+  if (!scale.shows(spread.first) || !scale.shows(spread.second) || spread.first == spread.second) return 0;
   const double x0 = scale.pixel(spread.first), x1 = scale.pixel(spread.second);
   svg.line(x0, y, x1, y, "axis");
   svg.line(x0, y - 3, x0, y + 3, "axis");
