@@ -430,7 +430,7 @@ class QuantisedSlabs {
   size_t near_side_[3];
 };
 
-constexpr size_t kDeferred = 3;  // leaves that may wait
+constexpr size_t kDeferred = 6;  // leaves that may wait: enough to hide the way to memory
 // Nodes that may wait. A walk in depth keeps three per level, and trees have less than 70 levels; beyond
 // kMixed the walk is one in depth.
 constexpr size_t kStack = 512, kMixed = 256;
