@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/embree_accel.h"
 
+#include <algorithm>
+
 #include "render/accel/embree_query.h"
 #include "render/accel/embree_scene.h"
 
@@ -8,10 +10,11 @@ namespace pelage {
 namespace {
 
 struct NearestQuery : EmbreeQuery {
-  NearestQuery(RTCFilterFunctionN filter_function, const EmbreeScene& in_scene, uint32_t random_word)
-      : EmbreeQuery(filter_function), scene(in_scene), random(random_word) {}
+  NearestQuery(RTCFilterFunctionN filter_function, const EmbreeScene& in_scene, const Ray& ray)
+      : EmbreeQuery(filter_function), scene(in_scene), random(ray.random), far(ray.far) {}
   const EmbreeScene& scene;
   uint32_t random;
+  float far;
   float distance = std::numeric_limits<float>::infinity();
   uint32_t geometry = RTC_INVALID_GEOMETRY_ID;
   uint32_t primitive = 0;
@@ -38,6 +41,10 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   auto& query = report.query<NearestQuery>();
   const float distance = report.distance();
   const uint32_t geometry = report.geometry(), primitive = report.primitive();
+  if (distance > query.distance) {
+    report.reject();
+    return;
+  }
   if (distance == query.distance && query.geometry != RTC_INVALID_GEOMETRY_ID &&
       !query.scene.stands_before(geometry, primitive, query.geometry, query.primitive)) {
     report.reject();
@@ -46,6 +53,9 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   query.distance = distance;
   query.geometry = geometry;
   query.primitive = primitive;
+  if (const float longest = query.scene.longest_segment(); longest > 0) {
+    report.trace_on_until(std::min(query.far, far_behind(distance, longest)));
+  }
   if (!query.scene.is_skin(geometry)) query.scene.curves(geometry).fetch_ahead(primitive);
 }
 
@@ -94,11 +104,11 @@ Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   RTCRayHit r;
   r.ray = embree_ray(ray);
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  NearestQuery query(scene_->opaque() ? keep_nearest : keep_nearest_stopping, *scene_, ray.random);
+  NearestQuery query(scene_->opaque() ? keep_nearest : keep_nearest_stopping, *scene_, ray);
   embree_intersect(scene_->get(), query, r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
 
-  hit.distance = r.ray.tfar;
+  hit.distance = query.distance;
   hit.u = r.hit.u;
   if (scene_->is_skin(r.hit.geomID)) {
     hit.kind = HitKind::kSkin;

@@ -55,10 +55,12 @@ struct EmbreeChunk::NearestQuery : EmbreeQuery {
       : EmbreeQuery(filter_function),
         chunk(in_chunk),
         random(ray.random),
+        far(ray.far),
         nearest(nearest_so_far),
         distance(nearest_so_far.hit.distance) {}
   const EmbreeChunk& chunk;
   uint32_t random;
+  float far;
   const NearestSoFar& nearest;
   float distance;  // of the primitive, or before there is one of `nearest`
   uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
@@ -93,6 +95,10 @@ struct EmbreeChunk::Filters {
     auto& query = report.query<NearestQuery>();
     const EmbreeChunk& chunk = query.chunk;
     const uint32_t primitive = report.primitive();
+    if (report.distance() > query.distance) {
+      report.reject();
+      return;
+    }
     if (report.distance() == query.distance) {
       const bool here = query.primitive != RTC_INVALID_GEOMETRY_ID;
       if ((here || query.nearest.hit) &&
@@ -104,6 +110,9 @@ struct EmbreeChunk::Filters {
     }
     query.distance = report.distance();
     query.primitive = primitive;
+    if (chunk.longest_ > 0) {
+      report.trace_on_until(std::min(query.far, far_behind(query.distance, chunk.longest_)));
+    }
     if (chunk.strands_) chunk.strands_->fetch_ahead(primitive);
   }
 
@@ -148,6 +157,7 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& optio
   if (auto* fur = std::get_if<FurContents>(&contents.geometry)) {
     // Emptied before the tree is built, so that the two never stand side by side.
     const FurContents grown = std::move(*fur);
+    longest_ = longest_segment(grown.strands, options.shape);
     strands_.emplace(grown.strands, grown.opacity, options.compact_attributes, patterns);
     held += strands_->bytes() - sizeof(PackedStrands);
   } else {
@@ -231,7 +241,7 @@ void EmbreeChunk::add_skin() {
 bool EmbreeChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const {
   RTCRayHit r;
   r.ray = embree_ray(ray);
-  r.ray.tfar = std::min(ray.far, nearest.hit.distance);
+  r.ray.tfar = std::min(ray.far, far_behind(nearest.hit.distance, longest_));
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   NearestQuery query(opaque() ? Filters::keep_nearest : Filters::keep_nearest_stopping, *this, ray, nearest);
   embree_intersect(scene_, query, r);
@@ -239,7 +249,7 @@ bool EmbreeChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& me
 
   nearest = Filters::place_of(*this, r.hit.primID);
   Hit& hit = nearest.hit;
-  hit.distance = r.ray.tfar;
+  hit.distance = query.distance;
   hit.u = r.hit.u;
   if (!strands_) {
     hit.v = r.hit.v;

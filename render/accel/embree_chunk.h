@@ -77,6 +77,7 @@ class EmbreeChunk final : public Resident {
   uint32_t part_ = 0;
   std::optional<PackedStrands> strands_;  // or skin_
   SkinMesh skin_;
+  float longest_ = 0;  // see far_behind()
   RTCScene scene_ = nullptr;
   size_t bytes_ = 0, build_peak_ = 0;
 };

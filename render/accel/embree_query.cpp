@@ -5,8 +5,23 @@
 #include <cmath>
 
 #include "geom/curve.h"
+#include "geom/curve_bounds.h"
 
 namespace pelage {
+
+float longest_segment(const Strands& strands, CurveShape shape) {
+  float longest = 0;
+  if (shape == CurveShape::kFlat) return longest;
+  for (int key = 0; key < strands.motion_keys(); ++key) {
+    for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
+      const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+      for (uint32_t i = 0; i < segments; ++i) {
+        longest = std::max(longest, hull_bounds(bezier_segment(strands, strand, i, key)).size().length());
+      }
+    }
+  }
+  return longest;
+}
 
 bool is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "geom/strands.h"
 #include "render/accel/accel.h"
 #include "render/accel/embree_api.h"
 #include "render/render_params.h"
@@ -29,10 +30,22 @@ class EmbreeReport {
            0;
   }
   void reject() const { arguments_->valid[0] = 0; }
+  /// To be said of a candidate that is kept: from now on the ray ends there instead of at the candidate.
+  void trace_on_until(float far) const { RTCRayN_tfar(arguments_->ray, 1, 0) = far; }
 
  private:
   const RTCFilterFunctionNArguments* arguments_;
 };
+
+/// Where a ray may end that has met something at `distance`, so that what it is told of other segments does
+/// not depend on that (law 1). Embree looks for round curves piece by piece, only in front of the ray's far
+/// end, and what it finds changes a little when that lies within the segment. `longest` is the diagonal of
+/// the largest box of a segment: no segment that is met before `distance` reaches further than this.
+inline float far_behind(float distance, float longest) {
+  return longest > 0 ? distance * (1 + 0x1p-20f) + longest : distance;
+}
+/// `longest` of far_behind(): 0 for flat curves, whose pieces are all looked at.
+float longest_segment(const Strands& strands, CurveShape shape);
 
 /// Whether every number of a ray that must be finite is.
 bool is_finite(const Ray& ray);

@@ -20,6 +20,7 @@ EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::ve
   for (const AccelStrands& batch : strands) {
     curves_.emplace_back(batch);
     opaque_ &= curves_.back().opaque();
+    longest_segment_ = std::max(longest_segment_, pelage::longest_segment(*batch.strands, options_.shape));
     held += curves_.back().bytes();
   }
   charge_ = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(held));

@@ -22,6 +22,8 @@ class EmbreeScene {
   RTCScene get() const { return scene_; }
   bool opaque() const { return opaque_; }
   bool is_round() const { return options_.shape == CurveShape::kRound; }
+  /// For far_behind().
+  float longest_segment() const { return longest_segment_; }
   bool is_skin(uint32_t geometry) const { return geometry >= curves_.size(); }
   uint32_t skin(uint32_t geometry) const { return geometry - static_cast<uint32_t>(curves_.size()); }
   const SkinMesh& skin_mesh(uint32_t geometry) const { return *skins_[skin(geometry)]; }
@@ -44,6 +46,7 @@ class EmbreeScene {
   std::vector<EmbreeCurves> curves_;
   std::vector<const SkinMesh*> skins_;
   bool opaque_ = true;
+  float longest_segment_ = 0;
   MemoryCharge charge_;
 };
 
