@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
+
+#include "geom/four_lanes.h"
 
 namespace pelage {
 namespace {
@@ -128,6 +131,38 @@ Box3f hull_bounds(const CubicSegment& s) {
   }
   const V3f slack = kRounding * V3f(largest(s, 0), largest(s, 1), largest(s, 2));
   return {box.min - slack, box.max + slack};
+}
+
+void append_hull_bounds(const Strands& strands, size_t strand, int key, std::vector<Box3f>& boxes) {
+  const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
+  if (strands.basis() != CurveBasis::kPinnedBSpline) {
+    for (uint32_t i = 0; i < segments; ++i) {
+      boxes.push_back(hull_bounds(bezier_segment(strands, strand, i, key)));
+    }
+    return;
+  }
+  const float* p = &strands.points(key)[size_t(strands.first_point(strand)) * 4];
+  const auto knot = [p](size_t i) { return Four{p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]}; };
+  constexpr float kThird = 1.0f / 3.0f;
+  // Neighbours share the Bezier point at their joint, half way between the inner points beside it.
+  Four start = knot(0);
+  for (uint32_t i = 0; i < segments; ++i) {
+    const Four a = knot(i), b = knot(i + 1);
+    const Four first = kThird * (2.0f * a + b), second = kThird * (a + 2.0f * b);
+    const bool last = i + 1 == segments;
+    const Four end = last ? b : 0.5f * (second + kThird * (2.0f * b + knot(i + 2)));
+    Four low = four(std::numeric_limits<float>::infinity()), high = -low, size = four(0);
+    for (const Four& at : {start, first, second, end}) {
+      const Four reach = four(std::max(at[3], 0.0f));
+      low = smaller(low, at - reach);
+      high = larger(high, at + reach);
+      size = larger(size, larger(at, -at) + four(std::abs(at[3])));
+    }
+    low -= four(kRounding) * size;
+    high += four(kRounding) * size;
+    boxes.emplace_back(V3f(low[0], low[1], low[2]), V3f(high[0], high[1], high[2]));
+    start = end;
+  }
 }
 
 Box3f exact_bounds(const CubicSegment& segment) {

@@ -25,11 +25,11 @@ SegmentParts::SegmentParts(const Strands& strands, const SegmentDivision& divisi
   const size_t count = places.size();
   if (count == 0) return;
   const auto keys = static_cast<size_t>(strands.motion_keys());
-  std::vector<Box3f> hulls(keys * count);
-  for (size_t key = 0; key < keys; ++key) {
-    for (size_t i = 0; i < count; ++i) {
-      hulls[key * count + i] =
-          hull_bounds(bezier_segment(strands, places[i].strand, places[i].segment, static_cast<int>(key)));
+  std::vector<Box3f> hulls;
+  hulls.reserve(keys * count);
+  for (int key = 0; key < strands.motion_keys(); ++key) {
+    for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
+      append_hull_bounds(strands, strand, key, hulls);
     }
   }
   std::vector<Item> items(count);

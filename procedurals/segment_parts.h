@@ -19,7 +19,8 @@ struct SegmentPlace {
 };
 
 /// How a batch is divided: parts are for the tree over all chunks, cells for what is known of one of them
-/// before it is grown.
+/// before it is grown. Of random rays through leaves of 5,600 segments of fur 30 % meet hair and 86 % a part;
+/// 72, 69 and 67 % meet a cell of 64, 32 and 16 segments, which cost 0.7, 1.4 and 2.8 KB a leaf.
 struct SegmentDivision {
   size_t cell_segments = 32;  ///< most of them
   size_t part_cells = 16;     ///< a power of 2

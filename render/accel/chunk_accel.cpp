@@ -21,6 +21,7 @@ constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
 // Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
 // times finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
+constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that has no fine ones
 
 size_t part_count_bound(const ChunkCounts& counts) {
   return std::clamp<size_t>((counts.segments + counts.triangles) / kSegmentsPerPart, 1, kMostParts);
@@ -107,10 +108,8 @@ class ChunkAccel::Growth final : public Grower {
 struct alignas(64) ChunkAccel::Scratch {
   struct Waiting {
     float entry;
+    uint32_t boxes;  // fine ones that the ray meets
     uint32_t chunk;
-    friend bool operator<(const Waiting& a, const Waiting& b) {
-      return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
-    }
   };
 
   /// Whether this ray has not come to the chunk before; now it has.
@@ -178,17 +177,20 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   Scratch& scratch = scratch_[static_cast<size_t>(thread.worker)];
   scratch.next_ray();
   ChunkWalk walk(*tree_, ray, order);
-  // Where the ray enters the chunk by what is known of it; infinity when it does not.
-  const auto enter = [&](uint32_t chunk, float entry, bool resident) {
+  const bool any = order == ChunkWalk::Order::kLongestFirst;
+  // Where the ray enters the chunk by what is known of it; infinity when it does not. `boxes` becomes the
+  // number of fine ones that a ray meets which looks for anything in its way.
+  const auto enter = [&](uint32_t chunk, float entry, bool resident, uint32_t& boxes) {
     const PartBoxes* learned = growth_->learned(chunk);
     if (learned && (!resident || learned->count() >= kFiner * given_parts_[chunk])) {
       thread.counts.box_tests += static_cast<int64_t>(learned->count());
       entry = learned->enter(walk.slabs(), far());
     }
-    if (!resident && growth_->knows(chunk) && entry < std::numeric_limits<float>::infinity()) {
-      entry = enter_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), thread.counts.box_tests);
-    }
-    return entry;
+    if (resident || !growth_->knows(chunk) || entry == std::numeric_limits<float>::infinity()) return entry;
+    const GatePassage passage =
+        pass_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), any, thread.counts.box_tests);
+    boxes = passage.boxes;
+    return passage.entry;
   };
   // The far end of a ray is often infinite too.
   const auto reaches = [&](float entry) {
@@ -213,21 +215,29 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
       continue;
     }
     const bool resident = residency_->is_resident(chunk);
-    entry = enter(chunk, entry, resident);
+    uint32_t boxes = kUnknown;
+    entry = enter(chunk, entry, resident, boxes);
     if (!reaches(entry)) continue;
     if (resident) {
       goes_on = visit_one(chunk);
     } else {
-      scratch.waiting.push_back({entry, chunk});
+      scratch.waiting.push_back({entry, boxes, chunk});
     }
   }
   thread.counts.box_tests += walk.box_tests();
   if (!goes_on) return;
-  std::sort(scratch.waiting.begin(), scratch.waiting.end());
-  for (const Scratch::Waiting& waiting : scratch.waiting) {
-    if (waiting.entry > far()) return;
-    // Another thread may have grown it meanwhile, and its boxes may be known now.
-    if (!reaches(enter(waiting.chunk, waiting.entry, false))) continue;
+  // What is nearest first, or what will most likely stop the ray: skins, then chunks of which it meets most.
+  using Waiting = Scratch::Waiting;
+  std::sort(scratch.waiting.begin(), scratch.waiting.end(), [any](const Waiting& a, const Waiting& b) {
+    if (any && a.boxes != b.boxes) return a.boxes > b.boxes;
+    return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
+  });
+  const float looked_until = far();
+  for (Waiting& waiting : scratch.waiting) {
+    if (waiting.entry > far()) continue;
+    // Since then the ray may have become shorter, and another thread may have grown the chunk.
+    const bool tells_more = far() < looked_until || growth_->learned(waiting.chunk);
+    if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
     if (!visit_one(waiting.chunk)) return;
   }
 }

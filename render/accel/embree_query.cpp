@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "geom/curve.h"
 #include "geom/curve_bounds.h"
@@ -12,12 +13,12 @@ namespace pelage {
 float longest_segment(const Strands& strands, CurveShape shape) {
   float longest = 0;
   if (shape == CurveShape::kFlat) return longest;
+  std::vector<Box3f> hulls;
   for (int key = 0; key < strands.motion_keys(); ++key) {
     for (size_t strand = 0; strand < strands.strand_count(); ++strand) {
-      const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
-      for (uint32_t i = 0; i < segments; ++i) {
-        longest = std::max(longest, hull_bounds(bezier_segment(strands, strand, i, key)).size().length());
-      }
+      hulls.clear();
+      append_hull_bounds(strands, strand, key, hulls);
+      for (const Box3f& hull : hulls) longest = std::max(longest, hull.size().length());
     }
   }
   return longest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/embree_scene.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/check.h"

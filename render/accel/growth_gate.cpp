@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/growth_gate.h"
 
+#include <algorithm>
 #include <array>
-#include <limits>
 
 namespace pelage {
 
-float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, int64_t& tests) {
-  if (boxes.count() == 0) return std::numeric_limits<float>::infinity();
+GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
+                            int64_t& tests) {
+  GatePassage passage;
+  if (boxes.count() == 0) return passage;
   const GridSlabs slabs(ray, boxes.grid());
   struct Entry {
     float distance;
@@ -17,7 +19,6 @@ float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, i
   std::array<Entry, 64> stack;
   size_t waiting = 0;
   stack[waiting++] = {0, static_cast<uint32_t>(boxes.levels() - 1), 0};
-  float nearest = std::numeric_limits<float>::infinity();
   while (waiting > 0) {
     const Entry top = stack[--waiting];
     if (top.distance > far) continue;
@@ -29,8 +30,9 @@ float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, i
     for (uint32_t lane = 0; lane < 4; ++lane) {
       if (!met[lane]) continue;
       if (top.level == 0) {
-        nearest = std::min(nearest, enter[lane]);
-        far = std::min(far, nearest);
+        passage.entry = std::min(passage.entry, enter[lane]);
+        ++passage.boxes;
+        if (!all) far = std::min(far, passage.entry);
         continue;
       }
       const uint32_t group = 4 * top.group + lane;
@@ -40,7 +42,7 @@ float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, i
       stack[at] = {enter[lane], top.level - 1, group};
     }
   }
-  return nearest;
+  return passage;
 }
 
 }  // namespace pelage

@@ -2,14 +2,22 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "procedurals/fine_boxes.h"
 #include "render/accel/ray_slabs.h"
 
 namespace pelage {
 
-/// Where the ray enters the first of the fine boxes that it meets before `far`; infinity when it meets none.
-/// Adds to `tests` how many boxes were looked at.
-float enter_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, int64_t& tests);
+/// What a ray meets of the fine boxes of a chunk.
+struct GatePassage {
+  float entry =
+      std::numeric_limits<float>::infinity();  ///< where it enters the first; infinity: it meets none
+  uint32_t boxes = 0;                          ///< how many it meets, where that was asked for
+};
+
+/// Looks before `far` for the first of the fine boxes that a ray meets, or, with `all`, for all of them. Adds
+/// to `tests` how many were looked at.
+GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests);
 
 }  // namespace pelage

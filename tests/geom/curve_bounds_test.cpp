@@ -83,6 +83,26 @@ TEST_P(Bounds, OfASegmentContainAndTouch) {
   });
 }
 
+TEST_P(Bounds, OfAllSegmentsOfAStrandAreThoseOfEach) {
+  RandomStrandOptions options = GetParam().options;
+  options.motion_keys = 2;
+  const Strands strands = random_strands(13, options);
+  for (int key : {0, 1}) {
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      std::vector<Box3f> boxes;
+      append_hull_bounds(strands, s, key, boxes);
+      ASSERT_EQ(boxes.size(), segment_count(strands.basis(), strands.strand_points(s)));
+      for (uint32_t i = 0; i < boxes.size(); ++i) {
+        const CubicSegment segment = bezier_segment(strands, s, i, key);
+        expect_contains(boxes[i], exact_bounds(segment));
+        const Box3f one = hull_bounds(segment);
+        const float gap = 0x1p-20f * std::max(one.max.length(), one.min.length());
+        expect_contains({one.min - V3f(gap), one.max + V3f(gap)}, boxes[i]);
+      }
+    }
+  }
+}
+
 TEST_P(Bounds, OfABatchContainAndTouch) {
   RandomStrandOptions options = GetParam().options;
   for (int keys : {1, 2, 4}) {

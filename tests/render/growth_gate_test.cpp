@@ -34,7 +34,7 @@ double enter_box(const Box3f& box, const Ray& ray, double margin) {
 class GrowthGate : public testing::TestWithParam<int> {};
 
 // The slow truth beside it: each box by itself.
-TEST_P(GrowthGate, IsEnteredWhereTheFirstOfItsBoxesIs) {
+TEST_P(GrowthGate, IsPassedAsItsBoxesAreOneByOne) {
   const auto count = static_cast<size_t>(GetParam());
   const float distance = GetParam() % 2 == 0 ? 0.0f : 300.0f;
   const V3f place = distance * vector(count, 9);
@@ -67,12 +67,23 @@ TEST_P(GrowthGate, IsEnteredWhereTheFirstOfItsBoxesIs) {
     if (i % 5 == 0) ray.far = 0.5f * away;
     const double margin = 4e-6 * (away + reach + distance);
     double first = INFINITY, loose = INFINITY;
+    uint32_t surely = 0, perhaps = 0;
     for (size_t b = 0; b < count; ++b) {
-      first = std::min(first, enter_box(boxes.box(b, ray.time), ray, -margin));
-      loose = std::min(loose, enter_box(boxes.box(b, ray.time), ray, margin));
+      const double inner = enter_box(boxes.box(b, ray.time), ray, -margin);
+      const double outer = enter_box(boxes.box(b, ray.time), ray, margin);
+      first = std::min(first, inner);
+      loose = std::min(loose, outer);
+      surely += inner < INFINITY;
+      perhaps += outer < INFINITY;
     }
-    int64_t tests = 0;
-    const float enter = enter_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, tests);
+    int64_t tests = 0, all_tests = 0;
+    const GatePassage first_met = pass_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, false, tests);
+    const GatePassage all_met = pass_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, true, all_tests);
+    const float enter = first_met.entry;
+    ASSERT_EQ(enter, all_met.entry) << i;
+    ASSERT_GE(all_met.boxes, surely) << i;
+    ASSERT_LE(all_met.boxes, perhaps) << i;
+    EXPECT_LE(tests, all_tests);
     ASSERT_LE(enter, first) << i;
     ASSERT_GE(enter, loose) << i;
     EXPECT_GT(tests, 0);
@@ -87,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Boxes, GrowthGate, testing::Values(1, 4, 5, 37, 64, 175
 
 TEST(GrowthGate, NothingIsMetWhereThereAreNoBoxes) {
   int64_t tests = 0;
-  EXPECT_EQ(enter_fine_boxes(FineBoxes(), RaySlabs(Ray(), 1), 1e9f, tests), INFINITY);
+  EXPECT_EQ(pass_fine_boxes(FineBoxes(), RaySlabs(Ray(), 1), 1e9f, false, tests).entry, INFINITY);
   EXPECT_EQ(tests, 0);
 }
 
