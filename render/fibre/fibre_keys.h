@@ -8,7 +8,8 @@
 namespace pelage {
 
 inline constexpr const char* kColorHelp =
-    "Colour of much such fur together, turned into absorption; unused where absorption or melanin is given";
+    "Colour of much such fur together, turned into absorption; unused where a preset, absorption or melanin "
+    "is given";
 
 template <class P>
 void add_color_keys(Schema<P>& s, const char* help) {
@@ -20,6 +21,12 @@ void add_color_keys(Schema<P>& s, const char* help) {
 template <class P>
 void add_absorption_keys(Schema<P>& s) {
   using Amount = std::optional<float> P::*;
+  s.key(
+      "preset", static_cast<HairPreset P::*>(&P::preset),
+      {.help =
+           "Pigments to start from; absorption, eumelanin and pheomelanin below take their place. What the "
+           "pigments absorb is measured [dEon11, after Donner and Jensen 2006]; the amounts are a guide for "
+           "people (blond, brown, black) and guesses for red hair and all animals"});
   s.key("absorption", static_cast<std::optional<Rgb> P::*>(&P::absorption),
         {.unit = "per radius of the fibre",
          .help = "Absorption coefficient; that of the pigments is added",

@@ -50,6 +50,7 @@ void complete(FibreOracle& oracle, KajiyaKayParams& p) {
 template <class P>
 void absorb(const FibreOracle& oracle, P& p) {
   p.absorption = Rgb(oracle.absorption);
+  p.preset = HairPreset::kNone;
   p.eumelanin.reset();
   p.pheomelanin.reset();
   p.alpha = 0;

@@ -124,10 +124,43 @@ const Schema<ChiangParams>& ChiangParams::schema() {
   return table;
 }
 
+namespace {
+
+struct Pigments {
+  float eumelanin = 0, pheomelanin = 0;
+};
+Pigments pigments_of(HairPreset preset) {
+  switch (preset) {
+    case HairPreset::kNone:
+    case HairPreset::kPolarBear:
+      return {};
+    case HairPreset::kHumanBlond:
+      return {0.3f, 0};
+    case HairPreset::kHumanBrown:
+      return {1.3f, 0};
+    case HairPreset::kHumanRed:
+      return {0.2f, 0.6f};
+    case HairPreset::kHumanBlack:
+    case HairPreset::kPanther:
+      return {8, 0};
+    case HairPreset::kFox:
+      return {0.1f, 0.9f};
+    case HairPreset::kMouse:
+      return {0.5f, 0.15f};
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<Rgb> given_absorption(const AbsorptionParams& params) {
-  if (!params.absorption && !params.eumelanin && !params.pheomelanin) return std::nullopt;
+  if (!params.absorption && !params.eumelanin && !params.pheomelanin && params.preset == HairPreset::kNone)
+    return std::nullopt;
+  // An absorption that is given takes the preset's place.
+  const Pigments pigments = params.absorption ? Pigments{} : pigments_of(params.preset);
   return params.absorption.value_or(Rgb(0)) +
-         melanin_absorption(params.eumelanin.value_or(0), params.pheomelanin.value_or(0));
+         melanin_absorption(params.eumelanin.value_or(pigments.eumelanin),
+                            params.pheomelanin.value_or(pigments.pheomelanin));
 }
 
 Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color) {

@@ -47,11 +47,32 @@ struct KajiyaKayParams : FibreParams {
   static const Schema<KajiyaKayParams>& schema();
 };
 
+/// Hair to start from, by its pigments. How much a pigment absorbs was measured; how much of it is in the
+/// hair is a guide of other programs' for people, and a guess for animals.
+enum class HairPreset {
+  kNone,
+  kHumanBlond,
+  kHumanBrown,
+  kHumanRed,
+  kHumanBlack,
+  kPolarBear,
+  kFox,
+  kMouse,
+  kPanther
+};
+template <>
+struct EnumNames<HairPreset> {
+  static constexpr const char* names[] = {"none",      "human-blond", "human-brown",
+                                          "human-red", "human-black", "polar-bear",
+                                          "fox",       "mouse",       "panther"};
+};
+
 /// How the colour of a translucent fibre is given: by what it absorbs, or else by `color`.
 struct AbsorptionParams {
-  std::optional<Rgb> absorption;     ///< per radius
-  std::optional<float> eumelanin;    ///< concentration of the black and brown pigment
-  std::optional<float> pheomelanin;  ///< of the red and yellow one
+  HairPreset preset = HairPreset::kNone;  ///< counts for pigments that are not given
+  std::optional<Rgb> absorption;          ///< per radius
+  std::optional<float> eumelanin;         ///< concentration of the black and brown pigment
+  std::optional<float> pheomelanin;       ///< of the red and yellow one
 };
 
 /// Whether the lobes are those of the paper or half as high, about what

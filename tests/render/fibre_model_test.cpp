@@ -280,6 +280,11 @@ TEST(FibreModels, PigmentsAddToAbsorptionAndColorStepsBack) {
   const ColorToAbsorption by_color(0.3f);
   AbsorptionParams params;
   EXPECT_EQ(fibre_absorption(params, by_color, Rgb(0.5f)), by_color(Rgb(0.5f)));
+  params.preset = HairPreset::kHumanBrown;
+  EXPECT_NEAR(fibre_absorption(params, by_color, Rgb(0.5f)).y, 1.3f * 0.697f, 1e-5);
+  params.preset = HairPreset::kPolarBear;
+  EXPECT_EQ(fibre_absorption(params, by_color, Rgb(0.5f)), Rgb(0));
+  params.preset = HairPreset::kHumanBrown;
   params.eumelanin = 1.0f;
   params.pheomelanin = 2.0f;
   EXPECT_NEAR(fibre_absorption(params, by_color, Rgb(0.5f)).z, 1.37f + 2.1f, 1e-5);
