@@ -43,14 +43,21 @@ class Warp {
 
   template <class Buffer>
   void draw(const FlowField::Block& block, float time, Buffer& buffer) const {
+    // How far from its own vector's end a pixel may be seen: its size, what its corners take over from
+    // others, and its seams.
+    const float margin =
+        static_cast<float>(target_.scale) * (2 + field_.slack() * std::abs(time) + target_.longest_seam);
     for (int y = block.y0; y < block.y1; ++y) {
       for (int x = block.x0; x < block.x1; ++x) {
         if (field_.is_rigid(x, y)) {
           draw_square(x, y, time, buffer);
-        } else {
+        } else if (is_near(x, y, time, buffer.samples(), margin)) {
           draw_quad(x, y, time, buffer);
         }
-        if (target_.longest_seam > 0 && field_.has_seam(x, y)) draw_seams(x, y, time, buffer);
+        if (target_.longest_seam > 0 && field_.has_seam(x, y) &&
+            is_near(x, y, time, buffer.samples(), margin)) {
+          draw_seams(x, y, time, buffer);
+        }
       }
     }
   }
@@ -67,6 +74,11 @@ class Warp {
     const auto scale = static_cast<float>(target_.scale);
     return {scale * (static_cast<float>(x - target_.origin_x) + time * motion.x),
             scale * (static_cast<float>(y - target_.origin_y) + time * motion.y)};
+  }
+  bool is_near(int x, int y, float time, const PixelBox& box, float margin) const {
+    const Point p = place(x, y, field_.motion(x, y), time);
+    return p.x >= static_cast<float>(box.x0) - margin && p.x <= static_cast<float>(box.x1) + margin &&
+           p.y >= static_cast<float>(box.y0) - margin && p.y <= static_cast<float>(box.y1) + margin;
   }
   /// The first of the samples low .. high whose centre is not before `edge`.
   static int first_sample(float edge, int low, int high) {
