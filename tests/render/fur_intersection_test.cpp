@@ -92,6 +92,26 @@ TEST(FurHit, says_where_on_the_ribbon) {
   EXPECT_FALSE(tree.closest(towards_z(-0.1f, 0), {}));
 }
 
+TEST(FurHit, is_not_beyond_an_end_where_points_coincide) {
+  StrandArrays a = straight().release();
+  // Files may repeat points: segments then end in, or are, a single point.
+  for (int i = 5; i < 8; ++i) a.points[static_cast<size_t>(i) * 4] = 5;
+  for (CurveBasis basis : {CurveBasis::kPinnedBSpline, CurveBasis::kLinear}) {
+    StrandArrays of_basis = a;
+    of_basis.basis = basis;
+    const Strands strands(std::move(of_basis));
+    const SnappedStrands snapped(strands, FurGrid(0.5f));
+    const FurTree tree(snapped, {});
+    for (const float side : {-0.1f, 0.0f, 0.1f}) {
+      EXPECT_TRUE(tree.occluded(towards_z(4.9f, side), {}));
+      EXPECT_FALSE(tree.occluded(towards_z(5.1f, side), {}));
+      EXPECT_FALSE(tree.occluded(towards_z(-0.1f, side), {}));
+      // Through a joint, and through its very middle.
+      EXPECT_TRUE(tree.occluded(towards_z(3, side), {}));
+    }
+  }
+}
+
 TEST(FurHit, lies_between_near_and_far) {
   const Strands strands = straight();
   const SnappedStrands snapped(strands, FurGrid(0.5f));

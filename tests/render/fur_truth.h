@@ -43,7 +43,7 @@ class FurTruth {
   }
 
  private:
-  static constexpr int kSteps = 96;
+  static constexpr int kSteps = 128;
 
   struct Curve {
     double x[4], y[4], z[4], r[4];
@@ -62,7 +62,8 @@ class FurTruth {
     }
     if (nearest > 2 * reach) return;
     for (int i = 0; i < kSteps; ++i) {
-      double low = double(i) / kSteps, high = double(i + 1) / kSteps;
+      // Just inside the ends, where the curve has a direction even if points coincide there.
+      double low = std::max(double(i) / kSteps, 1e-9), high = std::min(double(i + 1) / kSteps, 1 - 1e-9);
       if (!(slope(curve, low) < 0 && slope(curve, high) >= 0)) continue;
       for (int step = 0; step < 60; ++step) {
         const double middle = 0.5 * (low + high);

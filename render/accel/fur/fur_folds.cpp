@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur/fur_folds.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,24 +32,33 @@ struct Part {
   Quintic f;
   float begin, end;
   int depth;
+  bool flat_begin, flat_end;  // the curve's own ends, where points coincide
 
   void halve(Part& left, Part& right) const {
     Quintic row = f;
     const float middle = 0.5f * (begin + end);
-    left = {{}, begin, middle, depth + 1};
-    right = {{}, middle, end, depth + 1};
+    left = {{}, begin, middle, depth + 1, flat_begin, false};
+    right = {{}, middle, end, depth + 1, false, flat_end};
     for (size_t i = 0; i < 6; ++i) {
       left.f[i] = row[0];
       right.f[5 - i] = row[5 - i];
       for (size_t j = 0; j + 1 < 6 - i; ++j) row[j] = 0.5f * (row[j] + row[j + 1]);
     }
   }
+  /// Whether a coefficient counts as negative. At a flat end the first that is not zero speaks for it.
+  bool is_negative(size_t i) const {
+    if (i == 0 && flat_begin)
+      return *std::find_if(f.begin(), f.end() - 1, [](float x) { return x != 0; }) < 0;
+    if (i == 5 && flat_end)
+      return *std::find_if(f.rbegin(), f.rend() - 1, [](float x) { return x != 0; }) < 0;
+    return f[i] < 0;
+  }
   int sign_changes() const {
     int changes = 0;
-    for (size_t i = 1; i < 6; ++i) changes += (f[i] < 0) != (f[i - 1] < 0) ? 1 : 0;
+    for (size_t i = 1; i < 6; ++i) changes += is_negative(i) != is_negative(i - 1) ? 1 : 0;
     return changes;
   }
-  bool rises() const { return f[0] < 0 && !(f[5] < 0); }
+  bool rises() const { return is_negative(0) && !is_negative(5); }
 };
 
 /// The one root between begin and end, below which c . c' is negative.
@@ -79,7 +89,8 @@ float solve(const PlaneCurve& curve, float begin, float end) {
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]) {
   Part waiting[kDeepest + 2];
   size_t depth = 0, count = 0;
-  waiting[depth++] = {distance_derivative(curve), 0, 1, 0};
+  const auto is_flat = [&](size_t i) { return curve.x[i] == curve.x[i + 1] && curve.y[i] == curve.y[i + 1]; };
+  waiting[depth++] = {distance_derivative(curve), 0, 1, 0, is_flat(0), is_flat(2)};
   while (depth > 0 && count < 3) {
     const Part part = waiting[--depth];
     const int changes = part.sign_changes();

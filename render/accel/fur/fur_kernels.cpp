@@ -181,12 +181,23 @@ struct Minima {
     for (int i = 0; i < 3; ++i) dx[i] = hn::Sub(x[i + 1], x[i]), dy[i] = hn::Sub(y[i + 1], y[i]);
     const auto product = [&](int p, int d) HWY_ATTR { return dot(x[p], y[p], dx[d], dy[d]); };
     const V two = all(2), three = all(3), six = all(6);
-    f0 = product(0, 0);
-    f5 = product(3, 2);
-    const V f1 = hn::Add(hn::Mul(two, product(0, 1)), hn::Mul(three, product(1, 0)));
+    V f1 = hn::Add(hn::Mul(two, product(0, 1)), hn::Mul(three, product(1, 0)));
     const V f2 = hn::Add(hn::Add(product(0, 2), hn::Mul(six, product(1, 1))), hn::Mul(three, product(2, 0)));
     const V f3 = hn::Add(hn::Add(hn::Mul(three, product(1, 2)), hn::Mul(six, product(2, 1))), product(3, 0));
-    const V f4 = hn::Add(hn::Mul(three, product(2, 2)), hn::Mul(two, product(3, 1)));
+    V f4 = hn::Add(hn::Mul(three, product(2, 2)), hn::Mul(two, product(3, 1)));
+    // Minus zero becomes zero: a minimum at the end is one, and one at the beginning belongs to the segment
+    // before.
+    const V zero = hn::Zero(kFloats);
+    f0 = hn::Add(product(0, 0), zero);
+    f5 = hn::Add(product(3, 2), zero);
+    // Where points at an end coincide, the curve arrives there along the next difference that is not zero.
+    const auto flat0 = hn::And(hn::Eq(dx[0], zero), hn::Eq(dy[0], zero));
+    const auto flat1 = hn::And(hn::Eq(dx[1], zero), hn::Eq(dy[1], zero));
+    const auto flat2 = hn::And(hn::Eq(dx[2], zero), hn::Eq(dy[2], zero));
+    f1 = hn::IfThenElse(hn::And(flat0, flat1), f2, f1);
+    f0 = hn::IfThenElse(flat0, f1, f0);
+    f4 = hn::IfThenElse(hn::And(flat2, flat1), f3, f4);
+    f5 = hn::IfThenElse(flat2, f4, f5);
     // Sign bits: where a coefficient below zero follows one that is not, and the other way round.
     const V falls = hn::Or(hn::Or(hn::Or(hn::AndNot(f0, f1), hn::AndNot(f1, f2)),
                                   hn::Or(hn::AndNot(f2, f3), hn::AndNot(f3, f4))),
