@@ -150,10 +150,10 @@ LanczosResolve::Gathered LanczosResolve::gather(int x, int y, const PixelBox& sa
 }
 
 void LanczosResolve::fetch_colors() {
-  colors_.resize(sources_.size() * channels_.size());
+  colors_.resize(std::max<size_t>(1, sources_.size()) * channels_.size());  // never null
   for (size_t c0 = 0; c0 < channels_.size(); c0 += kLanes) {
     const PostChannel* const channels = &channels_[c0];
-    float* to = &colors_[c0];
+    float* to = colors_.data() + c0;
     for (const uint32_t pixel : sources_) {
       const int x = static_cast<int>(pixel & 0xffff), y = static_cast<int>(pixel >> 16);
       for (size_t c = 0; c < kLanes; ++c) {

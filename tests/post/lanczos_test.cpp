@@ -68,6 +68,12 @@ TEST(Lanczos, LeavesConstantsAlone) {
   for (const float v : other_eye(p, setup).color) ASSERT_EQ(v, 0.3f);
 }
 
+TEST(Lanczos, WhereNothingIsSeenThereIsNothing) {
+  Picture p(40, 20);
+  p.each([&](int, int, size_t i) { p.motion[i] = {1e6f, 0}; });
+  for (const float v : other_eye(p, {}).color) ASSERT_EQ(v, 0);
+}
+
 TEST(Lanczos, RingingStaysWithinTheNeighbourhood) {
   Picture p(60, 24);
   p.each([&](int x, int, size_t i) { p.color[i] = x % 20 < 10 ? 0.0f : 1000.0f; });
