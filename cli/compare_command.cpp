@@ -39,7 +39,6 @@ class ModelMaterials {
     white_ = with_fibre_model(white, model);
     if (auto* yan = std::get_if<YanParams>(&white_)) yan->tables.path = tables_;
     white_ = with_tables(white_, workers_, [](const std::string&) {});
-    model_ = model;
   }
   std::vector<MaterialParams> in_color() const {
     std::vector<MaterialParams> all;
@@ -75,7 +74,6 @@ class ModelMaterials {
   std::vector<MaterialParams> materials_;
   std::filesystem::path tables_;
   const Workers& workers_;
-  std::string model_;
   MaterialParams white_;
 };
 
