@@ -8,12 +8,9 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
-#include "bench/bumpy_ball.h"
-#include "image/texture.h"
-#include "procedurals/fixed.h"
+#include "bench/ball_scene.h"
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
-#include "render/light/light_params.h"
 #include "render/path/frame_geometry.h"
 #include "render/path/path_integrator.h"
 
@@ -22,50 +19,6 @@ namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
 constexpr int kRuns = 3;
-
-/// The scene of the peers: two rectangle lights and a constant sky.
-RenderScene ball_scene(const BumpyBall& ball, int bounces, int samples, MemoryLedger& ledger) {
-  TextureLibrary textures(ledger);
-  RectangleLightParams key, rim;
-  key.position = V3f(2.4f, 2.2f, 2.3f);
-  key.look_at = V3f(0);
-  key.size = V2f(2, 2);
-  key.radiance = Rgb(14, 13, 12);
-  rim.position = V3f(-2.2f, 1.8f, -2.8f);
-  rim.look_at = V3f(0);
-  rim.size = V2f(1.5f, 1.4f);
-  rim.radiance = Rgb(16, 18, 22);
-  EnvironmentLightParams sky;
-  sky.radiance = Rgb(0.25f, 0.28f, 0.33f);
-  std::vector<std::unique_ptr<Light>> lights;
-  lights.push_back(make_light("key", key, 1, textures, ledger));
-  lights.push_back(make_light("rim", rim, 1, textures, ledger));
-  lights.push_back(make_light("sky", sky, 1, textures, ledger));
-
-  CameraParams camera;
-  camera.position = V3f(0, 0, 4.7f);
-  camera.fov = 36.0f;
-  ImageParams image;
-  image.width = kWidth;
-  image.height = kHeight;
-  image.filter = PixelFilter::kBox;
-  RenderParams render;
-  render.bounces = bounces;
-  render.samples = samples;
-  LambertParams skin;
-  skin.color = Field(Rgb(0.45f, 0.30f, 0.22f));
-  RenderScene scene{{},
-                    {},
-                    {ConeShellParams{}, skin},
-                    LightSet(std::move(lights)),
-                    Camera(camera, 1, kWidth, kHeight),
-                    image,
-                    render};
-  scene.fur.push_back({"ball.fur", {}, 0, nullptr});
-  scene.fur[0].procedurals.push_back(std::make_unique<FixedStrands>(ball.strands));
-  scene.skins.push_back({"ball.skin", std::make_shared<FixedSkin>(ball.skin), nullptr, 1});
-  return scene;
-}
 
 struct RecordedRay {
   Ray ray;
@@ -148,7 +101,8 @@ void path_over_bare_rays(benchmark::State& state) {
   NoProgress progress;
   Statistics statistics;
   const BumpyBall ball = make_bumpy_ball(static_cast<size_t>(state.range(0)));
-  const RenderScene scene = ball_scene(ball, static_cast<int>(state.range(1)), 16, ledger);
+  const RenderScene scene =
+      ball_scene(ball, ConeShellParams{}, {kWidth, kHeight, 16, static_cast<int>(state.range(1))}, ledger);
   const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
   const EmbreeScene bare({{&ball.strands, 0, {}}}, {&ball.skin}, {}, ledger, workers);
 

@@ -42,6 +42,12 @@ const Schema<RenderParams>& RenderParams::schema() {
                  "into it says so in its header (`pelage:timeLimited`): another run may give others",
          .min = 0,
          .max = 1e7});
+    s.key("light_samples", &RenderParams::light_samples,
+          {.help =
+               "Points on lights that each scattering looks at: more is slower and less noisy, about as much "
+               "as more samples are",
+           .min = 1,
+           .max = 64});
     s.key(
         "bounces", &RenderParams::bounces,
         {.help = "Most scatterings of a path after the first; 0 = direct light only", .min = 0, .max = 1024});

@@ -54,7 +54,8 @@ struct RenderParams {
   int samples = 64;  ///< with adaptive sampling, the most that a pixel gets
   std::optional<AdaptiveParams> adaptive;
   float time_limit = 0;  ///< seconds; 0 is none
-  int bounces = 4;       ///< 0 = direct light only
+  int light_samples = 1;
+  int bounces = 4;  ///< 0 = direct light only
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   bool compact_attributes = true;

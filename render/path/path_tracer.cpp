@@ -11,6 +11,8 @@ namespace {
 /// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
 enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kVertexDraws = 4 };
+/// Light samples beyond the first take draws that no vertex of any path gets to.
+constexpr uint32_t kMoreLights = 1u << 20;
 
 /// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
 constexpr float kJustBefore = 1 - 1e-4f;
@@ -101,18 +103,27 @@ void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch
   }
 }
 
-/// Direct light by a point on one light.
+/// Direct light by points on lights.
 void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
-  path.seek(kLight);
-  // One pair for the choice and the point on the light: what the choice leaves of x keeps points stratified.
-  const V2f u = path.stream.next2d();
+  const auto count = static_cast<uint32_t>(scene_.render.light_samples);
+  for (uint32_t i = 0; i < count; ++i) {
+    path.seek(kLight);
+    if (i > 0) path.stream.seek(kMoreLights + path.vertex * count + i);
+    V2f u = path.stream.next2d();
+    u.x = std::min((u.x + static_cast<float>(i)) / static_cast<float>(count), kBelowOne);  // lights in turn
+    sample_light(point, u, path);
+  }
+}
+
+/// One pair for the choice and the point on the light: what the choice leaves of x keeps points stratified.
+void PathTracer::sample_light(const ScatterPoint& point, const V2f& u, Path& path) const {
   const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
   if (!(choice.probability > 0)) return;
   const Light& light = scene_.lights.light(choice.light);
   const auto sample = light.sample(point.position(), {choice.remapped, u.y});
   if (!sample || !(sample->pdf > 0)) return;
   const FibreValue value = point.eval(sample->direction);
-  const float pdf = choice.probability * sample->pdf;
+  const float pdf = choice.probability * sample->pdf * static_cast<float>(scene_.render.light_samples);
   const float weight = options_.direct == DirectLight::kBoth ? power_weight(pdf, value.pdf) : 1.0f;
   const Rgb light_in = sample->radiance * (weight / pdf);
   if (!(largest(value.total() * light_in) > 0)) return;
@@ -137,7 +148,8 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
     if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
     float weight = 1;
     if (options_.direct == DirectLight::kBoth) {
-      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
+      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction) *
+                        static_cast<float>(scene_.render.light_samples);
       weight = power_weight(lobe_pdf, pdf);
     }
     if (shadowed) {

@@ -38,10 +38,10 @@ struct PathScratch {
 /// Traces one path after another through a frame. A path is a function of (scene, pixel, number of the
 /// sample).
 ///
-/// At each vertex one light is chosen by importance and sampled, and the lobes are sampled; the two estimates
-/// of direct light are weighted by the power heuristic, the choice of the light being part of the density.
-/// Lights are transparent to rays and to each other. `bounces` scatterings follow the first at most; paths
-/// end early, with the probability of losing their weight, by roulette.
+/// At each vertex a light is chosen by importance and sampled, `light_samples` times, and the lobes are
+/// sampled; the two estimates of direct light are weighted by the power heuristic, the choice of the light
+/// being part of the density. Lights are transparent to rays and to each other. `bounces` scatterings follow
+/// the first at most; paths end early, with the probability of losing their weight, by roulette.
 class PathTracer {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
@@ -55,6 +55,7 @@ class PathTracer {
   Ray camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const;
   void see_lights(const Ray& ray, float distance, PathScratch& scratch) const;
   void sample_lights(const ScatterPoint& point, Path& path) const;
+  void sample_light(const ScatterPoint& point, const V2f& u, Path& path) const;
   bool sample_lobes(const ScatterPoint& point, Path& path) const;
   void gather_lights(const V3f& from, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
                      Path& path) const;

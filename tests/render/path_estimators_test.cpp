@@ -82,6 +82,18 @@ TEST(PathEstimators, LightsLobesAndBothAgree) {
   EXPECT_LT(with_both.standard_error, 1.2 * with_lobes.standard_error);
 }
 
+TEST(PathEstimators, MoreLightSamplesChangeTheNoiseOnly) {
+  FurryScene scene;
+  scene.render.bounces = 1;
+  const Estimate one = estimate(scene, {}, 500);
+  const int64_t shadow_rays = scene.statistics.rays["shadow"];
+  scene.render.light_samples = 3;
+  const Estimate three = estimate(scene, {}, 600);
+  expect_same(one, three);
+  EXPECT_LT(three.standard_error, one.standard_error);
+  EXPECT_GT(scene.statistics.rays["shadow"], 3 * shadow_rays);
+}
+
 TEST(PathEstimators, RouletteChangesNoMean) {
   FurryScene scene;
   scene.render.bounces = 8;

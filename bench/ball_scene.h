@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/ledger.h"
+#include "bench/bumpy_ball.h"
+#include "render/render_scene.h"
+
+namespace pelage {
+
+struct BallPicture {
+  int width, height, samples, bounces;
+  size_t chunk_strands = 0;  ///< most strands of a chunk; 0: one chunk
+};
+
+/// The scene that other renderers were measured on: the bumpy ball between two rectangle lights under a
+/// constant sky, one pixel wide box filter, no motion.
+RenderScene ball_scene(const BumpyBall& ball, const MaterialParams& fibre, const BallPicture& picture,
+                       MemoryLedger& ledger);
+
+}  // namespace pelage
