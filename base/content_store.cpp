@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/content_store.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -20,6 +21,26 @@ namespace pelage {
 
 namespace format = stored_file_format;
 
+namespace {
+
+/// Writing a time costs more than reading it, and nobody asks for minutes.
+void mark_used(const std::filesystem::path& path) {
+  std::error_code failed;
+  const auto now = std::filesystem::file_time_type::clock::now();
+  const auto before = std::filesystem::last_write_time(path, failed);
+  if (!failed && now - before > std::chrono::hours(1)) std::filesystem::last_write_time(path, now, failed);
+}
+
+/// Whether a file has the name of an entry: kind, '-', 32 hexadecimal digits, ending.
+bool is_entry_name(const std::string& name) {
+  const size_t digits = 32, ending = std::strlen(format::kEnding);
+  if (name.size() < digits + ending + 2 || !name.ends_with(format::kEnding)) return false;
+  const std::string hash = name.substr(name.size() - ending - digits, digits);
+  return name[name.size() - ending - digits - 1] == '-' && parse_hash(hash).has_value() && name[0] != '.';
+}
+
+}  // namespace
+
 std::filesystem::path ContentStore::file(const std::string& kind, const ContentHash& key) const {
   return folder_ / (kind + "-" + to_string(key) + format::kEnding);
 }
@@ -36,6 +57,7 @@ std::optional<StoredFile> ContentStore::open(const std::string& kind, const Cont
       warn(path.string() + ": holds something else than its name says; made again");
       return {};
     }
+    mark_used(path);
     return stored;
   } catch (const Error& e) {
     // Removed by another process between the question and the opening: as good as never there.
@@ -145,6 +167,37 @@ ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash
     ::close(descriptor);
     if (!mine || std::chrono::steady_clock::now() >= give_up) return lock;
   }
+}
+
+ContentStore::Removed ContentStore::remove_unused(const std::filesystem::path& file,
+                                                  std::chrono::seconds age) {
+  if (!is_entry_name(file.filename().string())) return {};
+  std::error_code failed;
+  const auto used = std::filesystem::last_write_time(file, failed);
+  if (failed || std::filesystem::file_time_type::clock::now() - used <= age) return {};
+  const uint64_t bytes = std::filesystem::file_size(file, failed);
+  if (failed || !std::filesystem::remove(file, failed)) return {};
+  return {1, bytes};
+}
+
+ContentStore::Removed ContentStore::prune(std::chrono::seconds age,
+                                          std::span<const std::filesystem::path> keep) const {
+  Removed removed;
+  std::error_code error;
+  std::vector<std::filesystem::path> found;
+  for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
+       at.increment(error)) {
+    const std::filesystem::path name = at->path().filename();
+    const bool kept =
+        std::any_of(keep.begin(), keep.end(), [&](const auto& k) { return k.filename() == name; });
+    if (!kept && is_entry_name(name.string())) found.push_back(at->path());
+  }
+  for (const std::filesystem::path& file : found) {
+    const Removed one = remove_unused(file, age);
+    removed.files += one.files;
+    removed.bytes += one.bytes;
+  }
+  return removed;
 }
 
 void ContentStore::sweep(std::chrono::seconds age) const {

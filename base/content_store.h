@@ -59,7 +59,8 @@ class ContentStore {
   /// Where an entry stands or would stand.
   std::filesystem::path file(const std::string& kind, const ContentHash& key) const;
 
-  /// Nothing when there is no such entry, or a damaged or foreign one: then `warn` has been told.
+  /// Nothing when there is no such entry, or a damaged or foreign one: then `warn` has been told. The time of
+  /// the file becomes that of its last use, to the hour.
   std::optional<StoredFile> open(const std::string& kind, const ContentHash& key,
                                  const WarningSink& warn) const;
 
@@ -117,6 +118,16 @@ class ContentStore {
 
   /// Removes what processes that were killed have left half-written, if it has not been touched for `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
+
+  struct Removed {
+    size_t files = 0;
+    uint64_t bytes = 0;
+  };
+  /// Removes entries that nobody has written or opened for `age`, but for the files in `keep`. Safe beside
+  /// processes that use the folder: who has a file open keeps it, who comes later makes it again.
+  Removed prune(std::chrono::seconds age, std::span<const std::filesystem::path> keep = {}) const;
+  /// The same for one file.
+  static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:
   std::filesystem::path folder_;

@@ -31,6 +31,7 @@ enum class ErrorKind {
   kArguments,  ///< bad arguments: 2
   kInput,      ///< a scene or an asset is missing, malformed or damaged: 3
   kMemory,     ///< the memory budget is too small: 4
+  kStopped,    ///< the user wanted to stop, and there is nothing to show: 130
 };
 
 /// The one exception type for what users and the outside world do wrong. Carries every problem found, in file

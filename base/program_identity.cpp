@@ -34,23 +34,48 @@ std::string build_id(const char* notes, size_t size) {
   return {};
 }
 
-// The first object is the program itself; a value other than 0 ends the walk.
-int look_at(dl_phdr_info* object, size_t, void* found) {
-  for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& part = object->dlpi_phdr[i];
+std::string build_id(const dl_phdr_info& object) {
+  std::string id;
+  for (int i = 0; i < object.dlpi_phnum && id.empty(); ++i) {
+    const ElfW(Phdr)& part = object.dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
-    const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
-    std::string id = build_id(notes, part.p_memsz);
-    if (!id.empty()) *static_cast<std::string*>(found) = std::move(id);
+    id = build_id(reinterpret_cast<const char*>(object.dlpi_addr + part.p_vaddr), part.p_memsz);
   }
+  return id;
+}
+
+// The first object is the program itself; a value other than 0 ends the walk.
+int look_at_first(dl_phdr_info* object, size_t, void* found) {
+  *static_cast<std::string*>(found) = build_id(*object);
+  return 1;
+}
+
+struct Wanted {
+  std::string_view name;
+  std::string id = "none";
+};
+
+int look_for(dl_phdr_info* object, size_t, void* data) {
+  auto& wanted = *static_cast<Wanted*>(data);
+  std::string_view file = object->dlpi_name;
+  file.remove_prefix(file.rfind('/') + 1);  // npos + 1 is 0
+  if (file.find(wanted.name) == std::string_view::npos) return 0;
+  wanted.id = build_id(*object);
+  if (wanted.id.empty()) wanted.id = "unknown";
   return 1;
 }
 
 }  // namespace
 
+std::string library_identity(std::string_view name) {
+  Wanted wanted{name};
+  ::dl_iterate_phdr(look_for, &wanted);
+  return wanted.id;
+}
+
 std::string program_identity() {
   std::string id;
-  ::dl_iterate_phdr(look_at, &id);
+  ::dl_iterate_phdr(look_at_first, &id);
   if (!id.empty()) return id;
   try {
     return to_string(content_hash(MappedFile("/proc/self/exe").bytes()));

@@ -88,6 +88,10 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
   grow->add_flag("--explain", options.explain,
                  "Say of each operator of a cache whether it was stale, and why");
+  grow->add_flag(
+      "--prune", options.prune,
+      "Remove what no groom of the scene needs, and nothing has used for an hour, from the folders of "
+      "their caches");
   grow->add_option("--frames", texts.frames, "Frame whose pose to grow on")->type_name("FRAME");
   add_run_flags(*grow, options, texts);
 
@@ -223,7 +227,8 @@ Experiment parse_experiment(const std::string& text) {
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
-    fail("the experiment " + quote(text) + " is not built yet; there are bounds, growth, residency and samplers");
+    fail("the experiment " + quote(text) +
+         " is not built yet; there are bounds, growth, residency and samplers");
   fail("there is no experiment " + quote(text) + suggest(text, names));
 }
 

@@ -45,6 +45,7 @@ struct Options {
   std::vector<std::string> models;  ///< compare: --models; empty: all
 
   std::string groom;     ///< grow: only this one; empty: all
+  bool prune = false;    ///< grow: remove what the scene does not need from the folders of its caches
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh
 
   std::string frames;          ///< motionblur, stereo: --frames, for names with a place for the number

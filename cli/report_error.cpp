@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cli/signals.h"
+
 namespace pelage {
 
 int exit_code(ErrorKind kind) {
@@ -15,6 +17,8 @@ int exit_code(ErrorKind kind) {
       return 3;
     case ErrorKind::kMemory:
       return 4;
+    case ErrorKind::kStopped:
+      return kInterruptedExitCode;
   }
   return 1;
 }

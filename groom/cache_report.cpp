@@ -10,6 +10,9 @@ namespace {
 
 constexpr const char* kKind = "manifest";
 constexpr size_t kLongest = 60;  // of a value that is shown
+constexpr const char* kState = "+";
+constexpr size_t kStatesKept = 8;
+constexpr std::chrono::hours kStateAge{24};
 
 ContentHash key_of(const std::string& groom) { return ContentHasher().add("groom").add(groom).digest(); }
 
@@ -31,7 +34,7 @@ bool is_contents(const std::string& key) {
 }
 
 std::string change_of(const std::string& key, const std::string* before, const std::string& now) {
-  if (key == "program") return "another build of the program";
+  if (key == "program") return "another version of the program, its libraries or the processor";
   if (key == "mesh") return "the rest skin has changed";
   if (now == "missing") return key.substr(key.find(' ') + 1 + 3) + " is missing";
   if (is_contents(key)) return key + " changed";
@@ -84,7 +87,34 @@ std::string GroomManifest::text() const {
     text += fmt::format("{}\t{}\n", stage.name, to_string(stage.hash));
     for (const auto& [key, value] : stage.inputs) text += fmt::format("\t{}\t{}\n", key, value);
   }
+  for (const State& state : states_)
+    text += fmt::format("{}\t{}\t{}\n", kState, state.offsets, state.follicles);
   return text;
+}
+
+void GroomManifest::add_state(State now, const std::optional<GroomManifest>& before,
+                              const ContentStore& store) {
+  states_ = {std::move(now)};
+  if (!before) return;
+  std::vector<State> forgotten;
+  for (const State& old : before->states_) {
+    if (old == states_.front()) continue;
+    const bool gone = states_.size() >= kStatesKept &&
+                      (ContentStore::remove_unused(store.folder() / old.offsets, kStateAge).files > 0 ||
+                       !std::filesystem::exists(store.folder() / old.offsets));
+    (gone ? forgotten : states_).push_back(old);
+  }
+  // States may have their follicles in common.
+  for (const State& old : forgotten) {
+    const bool shared = std::any_of(states_.begin(), states_.end(),
+                                    [&](const State& state) { return state.follicles == old.follicles; });
+    if (!shared && !old.follicles.empty())
+      ContentStore::remove_unused(store.folder() / old.follicles, kStateAge);
+  }
+}
+
+std::filesystem::path GroomManifest::file(const ContentStore& store, const std::string& groom) {
+  return store.file(kKind, key_of(groom));
 }
 
 std::optional<GroomManifest> GroomManifest::read(const ContentStore& store, const std::string& groom) {
@@ -96,7 +126,12 @@ std::optional<GroomManifest> GroomManifest::read(const ContentStore& store, cons
   while (!text.empty()) {
     std::string_view line = cut(text, '\n');
     const std::string first(cut(line, '\t'));
-    if (!first.empty()) {
+    if (first == kState) {
+      State& state = manifest.states_.emplace_back();
+      // Names only: a path would lead out of the folder.
+      state.offsets = std::filesystem::path(cut(line, '\t')).filename().string();
+      state.follicles = std::filesystem::path(line).filename().string();
+    } else if (!first.empty()) {
       GroomStage& stage = manifest.stages_.emplace_back();
       stage.name = first;
       stage.hash = parse_hash(line).value_or(ContentHash{});

@@ -64,7 +64,7 @@ struct FrozenGrowth {
   };
   /// Grows all leaves, from the last operator on whose result the store has, and stores the state behind each
   /// operator that runs, but the last. Prepares the operators that it needs. Throws what they throw, and
-  /// Error (kFailed) when `progress` was cancelled.
+  /// Error (kStopped) when `progress` was cancelled: then nothing is stored.
   Result run(const PrepareContext& context, int leaf_strands) const;
   /// Whether growth can go on from a layer; then `reaches` are those behind its operator.
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;

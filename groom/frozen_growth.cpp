@@ -3,6 +3,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "groom/frozen_coat.h"
 #include "groom/frozen_leaf_writer.h"
@@ -130,6 +131,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
     workers.for_each(count, 1, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         const size_t leaf = first + i;
+        if (progress.cancelled()) return;
         result.leaves[leaf] =
             LeafGrowth(*this, leaf)
                 .run(result.resumed, layer ? layer->section(leaf + 1) : std::span<const std::byte>(),
@@ -137,6 +139,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
         progress.advance(1);
       }
     });
+    if (progress.cancelled()) throw Error(ErrorKind::kStopped, "stopped before a coat was grown");
     for (const auto& of_leaf : layers) {
       for (size_t i = 0; i < writers.size(); ++i) writers[i]->add(std::span<const std::byte>(of_leaf[i]));
     }

@@ -53,7 +53,8 @@ class Groom {
  public:
   /// Places follicles and prepares the operators (clump centres, guides). `name` is for messages; `rest` is
   /// null for a groom on no skin. Throws Error (kInput) for missing maps, guide files and combinations that
-  /// make no sense. What is wrong with a cache goes to the hooks; growing goes on.
+  /// make no sense, Error (kStopped) when the hooks' progress says so. What is wrong with a cache goes to the
+  /// hooks; growing goes on.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
                                              TextureLibrary& textures, const Workers& workers,

@@ -12,6 +12,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// What nothing has used for so long goes whenever something is stored.
+constexpr std::chrono::hours kUnusedAge{24 * 30};
+
 size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   size_t end = stack.size();
   while (end > 0 && stack.operators()[end - 1]->name() != freeze) --end;
@@ -51,7 +54,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   const ContentHash follicle_key =
       in_leaves(identity.stages()[GroomIdentity::kStrands].hash, params.leaf_strands);
   const ContentHash offset_key = in_leaves(identity.of_operator(frozen_end - 1).hash, params.leaf_strands);
-  const GroomManifest now(identity, GroomIdentity::kFirstOperator + frozen_end);
+  GroomManifest now(identity, GroomIdentity::kFirstOperator + frozen_end);
   const std::optional<GroomManifest> before = GroomManifest::read(*store, name);
   report.emplace();
   report->file = FrozenCoat::file(*store, offset_key);
@@ -101,7 +104,14 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   for (GroomCacheReport::Stage& stage : report->stages) {
     if (report->fresh) stage = {stage.name, true, ""};
   }
-  if (!before || before->stages().back().hash != now.stages().back().hash) now.write(*store, name);
+  // Of strands of a file nothing but the offsets is kept.
+  const std::filesystem::path follicles = source.imported ? "" : follicle_file(*store, follicle_key);
+  now.add_state({report->file.filename().string(), follicles.filename().string()}, before, *store);
+  if (!before || before->text() != now.text()) now.write(*store, name);
+  report->files = {report->file, follicles, GroomManifest::file(*store, name)};
+  for (const GroomStage& stage : now.stages())
+    report->files.push_back(layer_file(*store, stage.hash, params.leaf_strands));
+  if (!report->fresh) store->prune(kUnusedAge);
   stack->prepare(frozen_end, stack->size(), context);
   prepare_rest(context.workers);
   report->strands = source.follicles().size();

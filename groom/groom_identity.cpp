@@ -3,8 +3,8 @@
 
 #include "base/error.h"
 #include "base/mapped_file.h"
-#include "base/program_identity.h"
 #include "geom/limit_surface.h"
+#include "groom/growth_identity.h"
 
 namespace pelage {
 namespace {
@@ -26,7 +26,7 @@ void describe(const T& value, const char* key, std::vector<ParameterText>& out) 
 
 GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
                              const LimitSurface* rest) {
-  add("skin", {{"program", program_identity()}, {"mesh", rest ? to_string(rest->hash()) : "none"}});
+  add("skin", {{"program", growth_identity()}, {"mesh", rest ? to_string(rest->hash()) : "none"}});
 
   std::vector<ParameterText> strands;
   strands.push_back({"seed", std::to_string(seed)});

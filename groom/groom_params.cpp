@@ -29,7 +29,14 @@ std::optional<Problem> check_freeze(const GroomParams& params) {
 
 const Schema<GroomCacheParams>& GroomCacheParams::schema() {
   static const Schema<GroomCacheParams> table = [] {
-    Schema<GroomCacheParams> s("groom cache", "Where what the frozen operators do is kept between runs.");
+    Schema<GroomCacheParams> s("groom cache",
+                               "Where what the frozen operators do is kept between runs. Of each groom the "
+                               "folder keeps the last eight "
+                               "states and those used within a day; what nothing has used for thirty days "
+                               "goes when something is stored. "
+                               "`pelage grow SCENE --prune` removes all that the scene does not need. "
+                               "Programs whose growth is built from "
+                               "the same sources share a folder.");
     s.key(
         "directory", &GroomCacheParams::directory,
         {.help = "Folder; files in it are named by what they were made from, and may be removed at any time",

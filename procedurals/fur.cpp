@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "procedurals/segment_parts.h"
 
@@ -108,7 +109,13 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  record.key = ContentHasher().add(groom_->content_hash()).add(skin_->hash()).add(skin_->length()).digest();
+  // How boxes are made is code of this room: those of another build of the program are not asked for.
+  record.key = ContentHasher()
+                   .add(program_identity())
+                   .add(groom_->content_hash())
+                   .add(skin_->hash())
+                   .add(skin_->length())
+                   .digest();
   record.index = leaf_;
   record.count = groom_->follicles().leaves().size();
   return record;

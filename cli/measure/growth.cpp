@@ -5,6 +5,7 @@
 
 #include "cli/measure/caches.h"
 #include "cli/measure/experiments.h"
+#include "cli/measure/growth_edits.h"
 #include "cli/measure/outcome_table.h"
 
 namespace pelage {
@@ -12,19 +13,31 @@ namespace {
 
 constexpr const char* kMethod =
     "Each groom is grown on its own by pelage grow: uncached, by its operators; cold, with an empty cache "
-    "that the run "
-    "fills; and warm, from the cache so filled. Caches of all other grooms are switched off; grooms without "
-    "a cache in "
-    "the scene have only their uncached run. Every variant runs {} time{} in processes of its own; the run "
-    "of median "
-    "wall time is reported. Uncached runs grow the coat once, warm ones on every character that wears it and "
-    "write a "
-    "strand file; times of growth are for one coat, without writing. Filling the cache is the time by which "
-    "reading "
-    "the scene takes longer cold than warm; after so many growths from the cache it is earned back. Files "
-    "are read "
-    "from the page cache. Growth reads offsets and "
-    "follicles; layers, one per operator, are kept so that editing one recomputes only it and what follows.";
+    "that the "
+    "run fills; and warm, from the cache so filled. Caches of all other grooms are switched off; grooms "
+    "without a "
+    "cache in the scene have only their uncached run. Every variant runs {} time{} in processes of its own; "
+    "the run "
+    "of median wall time is reported. Uncached runs grow the coat once, warm ones on every character that "
+    "wears it "
+    "and write a strand file; times of growth are for one coat, without writing. Filling the cache is the "
+    "time by "
+    "which opening it takes longer cold than warm, follicles included; after so many growths from the cache "
+    "it is "
+    "earned back. Files are read from the page cache. Growth reads offsets and follicles; layers, one per "
+    "operator, "
+    "are kept so that editing one recomputes only it and what follows.";
+
+constexpr const char* kEdits =
+    "Each run finds the cache as an edit of the operator leaves it: offsets and layers from it on are not "
+    "there, "
+    "those before it are. It goes on from the last layer, runs this operator and all that follow, and stores "
+    "what "
+    "they make; the time is that of all this. Read from the last row up, the times are the cumulative cost "
+    "of the "
+    "stack; the difference of two rows is what one operator costs, storing its layer included. Follicles "
+    "stay. The "
+    "last operator leaves no layer, but the offsets.";
 
 // Three ways to grow one groom: its operators, its operators and a new cache, its cache.
 struct GroomVariants {
@@ -32,6 +45,8 @@ struct GroomVariants {
   std::filesystem::path cache;
   std::filesystem::path strands;  // that the warm one writes
   std::vector<Variant> variants;  // uncached, or uncached, cold and warm
+  const GroomParams* params = nullptr;
+  std::vector<GrowthEdit> edits;  // of a groom with a cache
 };
 
 GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams>::Item& item,
@@ -40,6 +55,8 @@ GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams
   GroomVariants v{name,
                   std::filesystem::absolute(setup.folder) / "caches" / ("growth-" + name),
                   setup.folder / (name + "-warm.hair"),
+                  {},
+                  &item.value,
                   {}};
   // The other grooms are loaded too: their caches must be neither read nor written.
   std::vector<std::string> common{"--groom", name};
@@ -56,7 +73,9 @@ GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams
   add("uncached", item.value.cache ? "=null" : "");
   if (!item.value.cache) return v;  // what to freeze only the scene can say
   const std::string cached = ".directory=" + yaml_quoted(v.cache.string());
-  add("cold", cached).prepare = [cache = v.cache] { std::filesystem::remove_all(cache); };
+  Variant& cold = add("cold", cached);
+  v.edits = growth_edits(name, item.value, v.cache, cold);
+  cold.prepare = [cache = v.cache] { std::filesystem::remove_all(cache); };
   // A groom that is cached is grown only for a file.
   Variant& warm = add("warm", cached);
   warm.arguments.insert(warm.arguments.end(), {"-o", v.strands.string()});
@@ -86,7 +105,7 @@ std::vector<Cell> summary_row(const std::string& groom, const std::filesystem::p
   const Outcome &uncached = three[0], &cold = three[1], &warm = three[2];
   const double strands = uncached.number("strands_generated");
   const double without = strands / rate(uncached), with = strands / rate(warm);
-  const double fill = cold.number("stages_s.read") - warm.number("stages_s.read");
+  const double fill = cold.number("stages_s.cache") - warm.number("stages_s.cache");
   double growths = NAN;
   if (std::isfinite(fill) && std::isfinite(without) && std::isfinite(with))
     growths = without > with ? std::fmax(0, std::ceil(fill / (without - with))) : INFINITY;
@@ -110,7 +129,7 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
   size_t count = 0;
   for (const auto& item : scene.grooms.items) {
     grooms.push_back(variants_of(scene, item, setup));
-    count += grooms.back().variants.size();
+    count += grooms.back().variants.size() + grooms.back().edits.size();
   }
   VariantRunner runner(setup, display, count);
   Measured measured;
@@ -118,6 +137,7 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
   Table summary = summary_table();
   BarPlot rates{"Strands grown per second.", {"strands per second", Quantity::kRate}, {}, {}, false, false};
   rates.series = {{"by operators", {}}, {"from the cache", {}}};
+  std::vector<Table> edits;
   for (const GroomVariants& v : grooms) {
     std::vector<Outcome> own;
     for (const Variant& variant : v.variants) {
@@ -130,6 +150,13 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
     rates.series[0].values.push_back(own.empty() ? NAN : rate(own.front()));
     rates.series[1].values.push_back(own.size() == 3 ? rate(own.back()) : NAN);
     outcomes.insert(outcomes.end(), own.begin(), own.end());
+    if (own.size() < 3) continue;
+    std::vector<Outcome> edited;
+    for (const GrowthEdit& edit : v.edits) {
+      if (!display.cancelled()) edited.push_back(runner.run(edit.variant));
+    }
+    edits.push_back(edit_table(v.groom, *v.params, v.cache, v.edits, edited, own[1]));
+    outcomes.insert(outcomes.end(), edited.begin(), edited.end());
   }
 
   Report& report = measured.report;
@@ -142,11 +169,19 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
   report.sections.push_back({"Cached against uncached", {}});
   if (!summary.rows.empty()) report.sections.back().blocks.push_back(std::move(summary));
   report.sections.back().blocks.push_back(std::move(rates));
+  if (!edits.empty()) report.sections.push_back({"Editing one operator", {Paragraph{kEdits}}});
+  for (Table& table : edits) {
+    BarPlot plot{table.caption, {"seconds", Quantity::kSeconds}, {}, {}, false, true};
+    plot.series = {{"wall time of the edit", column_values(table, "edit_s")}};
+    for (const auto& row : table.rows) plot.groups.push_back(std::get<Text>(row.front()).text);
+    report.sections.back().blocks.push_back(std::move(table));
+    report.sections.back().blocks.push_back(std::move(plot));
+  }
   report.sections.push_back(
       {"Runs",
        {select(report.data,
                {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "stage_read_s",
-                "stage_grow_s", "strands_generated", "strands_per_s", "peak_rss_bytes"},
+                "stage_cache_s", "stage_grow_s", "strands_generated", "strands_per_s", "peak_rss_bytes"},
                "Every variant."),
         stage_plot(report.data, outcomes, "Wall time by stage of the run.")}});
   return measured;

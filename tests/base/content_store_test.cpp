@@ -79,6 +79,37 @@ TEST(ContentStore, BelievesNoFileWithAChangedByte) {
   }
 }
 
+TEST(ContentStore, RemovesWhatNothingHasUsed) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  Warnings warnings;
+  const auto aged = [&](uint64_t key, int hours) {
+    const std::string bytes = "text";
+    const std::span<const std::byte> section = std::as_bytes(std::span(bytes.data(), bytes.size()));
+    EXPECT_TRUE(store.store("test", {key, 0}, {&section, 1}, warnings.sink()));
+    const auto path = store.file("test", {key, 0});
+    std::filesystem::last_write_time(
+        path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
+    return path;
+  };
+  const auto young = aged(1, 1), kept = aged(2, 100), used = aged(3, 100), old = aged(4, 100),
+             older = aged(5, 200);
+  const auto foreign = folder.path() / "holiday.cache";
+  std::filesystem::copy_file(older, foreign);
+  std::filesystem::last_write_time(foreign, std::filesystem::last_write_time(older));
+  // Opening is using; and who has a file open keeps what it says.
+  ASSERT_TRUE(store.open("test", {3, 0}, warnings.sink()));
+  const StoredFile open(old);
+  const ContentStore::Removed removed = store.prune(std::chrono::hours(50), {{kept}});
+  EXPECT_EQ(removed.files, 2u);
+  EXPECT_GT(removed.bytes, 0u);
+  for (const auto& path : {young, kept, used, foreign}) EXPECT_TRUE(std::filesystem::exists(path)) << path;
+  for (const auto& path : {old, older}) EXPECT_FALSE(std::filesystem::exists(path)) << path;
+  EXPECT_EQ(text(open.section(0)), "text");
+  EXPECT_EQ(ContentStore::remove_unused(foreign, std::chrono::seconds(0)).files, 0u);
+  EXPECT_EQ(ContentStore(folder.path() / "none").prune(std::chrono::seconds(0)).files, 0u);
+}
+
 TEST(ContentStore, TakesCutForeignAndEmptyFilesForAbsent) {
   const TemporaryFolder folder;
   const ContentStore store(folder.path());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <atomic>
 #include <fstream>
 
 #include "base/file.h"
+#include "base/progress.h"
 #include "geom/closest_point.h"
 #include "geom/io/strand_file.h"
 #include "geom/tessellation.h"
@@ -154,6 +156,58 @@ TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   const auto again = make(with("0.5", "0.02"));
   for (const GroomCacheReport::Stage& stage : again->cache_report()->stages)
     EXPECT_TRUE(stage.fresh) << stage.reason;
+}
+
+TEST_F(GroomCacheTest, OldStatesGoAndThoseInUseStay) {
+  const auto with = [](int state) {
+    return Coat{"- length: {value: 0.5}\n- frizz: {amplitude: 0." + std::to_string(100 + state) + "}\n",
+                "frizz", 50};
+  };
+  const auto age = [&](int hours) {
+    for (const char* kind : {"offsets", "follicles"}) {
+      for (const auto& path : files(kind))
+        std::filesystem::last_write_time(
+            path, std::filesystem::file_time_type::clock::now() - std::chrono::hours(hours));
+    }
+  };
+  for (int state = 0; state < 12; ++state) make(with(state));
+  EXPECT_EQ(files("offsets").size(), 12u) << "none is a day old";
+  age(30);
+  make(with(20));
+  EXPECT_EQ(files("offsets").size(), 8u);
+  EXPECT_EQ(files("follicles").size(), 1u) << "the states have them in common";
+  for (int state = 5; state < 12; ++state) EXPECT_TRUE(make(with(state))->cache_report()->fresh) << state;
+  EXPECT_FALSE(make(with(4))->cache_report()->fresh);
+
+  // Of grooms that nobody grows any more, nothing says a word: their files go by age alone.
+  age(24 * 40);
+  make(Coat{"- length: {value: 0.7}\n", "length", 50, 500, 8, {}, "another"});
+  EXPECT_EQ(files("offsets").size(), 1u);
+  EXPECT_EQ(files("follicles").size(), 1u);
+  EXPECT_TRUE(warnings_.empty());
+}
+
+TEST_F(GroomCacheTest, GrowingStopsWhenTheUserSaysSo) {
+  struct Stopped final : Progress {
+    void begin(std::string_view, double) override {}
+    void advance(double) override { ++leaves; }
+    void end() override {}
+    bool cancelled() const override { return leaves > 2; }
+    std::atomic<int> leaves{0};
+  } progress;
+  GroomCacheHooks hooks;
+  hooks.progress = &progress;
+  const Coat coat{"- length: {value: 0.5}\n- frizz: {}\n", "frizz", 2000, 50};
+  try {
+    Groom::create("coat", params_of(coat), rest_, textures_, Workers(2), ledger_, hooks);
+    ADD_FAILURE() << "grown to the end";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kStopped);
+  }
+  EXPECT_LT(progress.leaves, 10);
+  EXPECT_TRUE(files("offsets").empty() && files("layer").empty());
+  for (const auto& entry : std::filesystem::directory_iterator(cache()))
+    EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
 }
 
 TEST_F(GroomCacheTest, ImportedStrandsKeepTheirGapsAndTheirPointCounts) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "groom/growth_identity.h"
+
+#include "base/program_identity.h"
+
+namespace pelage {
+
+std::string growth_identity() {
+  std::string identity(growth_sources());
+  // Subdivision, vectors, and the functions of the C library, which differ by what the processor can do.
+  for (const char* library : {"libm.so", "libosdCPU.so", "libImath", "libhwy.so"})
+    identity += " " + library_identity(library);
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("fma")) identity += " fma";
+  if (__builtin_cpu_supports("avx2")) identity += " avx2";
+  if (__builtin_cpu_supports("avx512f")) identity += " avx512f";
+#endif
+  return identity;
+}
+
+}  // namespace pelage
