@@ -62,27 +62,27 @@ std::vector<GrowthEdit> growth_edits(const std::string& groom, const GroomParams
 }
 
 Table edit_table(const std::string& groom, const GroomParams& params, const std::filesystem::path& cache,
-                 const std::vector<GrowthEdit>& edits, const std::vector<Outcome>& outcomes, double whole_s,
-                 const Outcome& warm) {
+                 const std::vector<GrowthEdit>& edits, const std::vector<Outcome>& outcomes,
+                 const Outcome& cold) {
   Table table{
-      fmt::format("{}: what growing it again after an edit of one operator costs, and what its layer takes.",
-                  groom),
+      fmt::format("{}: what growing it again after an edit of one operator costs, and its layer.", groom),
       {{"operator", "operator edited"},
-       {"recomputed", "operators run again", Quantity::kCount},
-       {"edit_s", "wall time", Quantity::kSeconds},
-       {"edit_cpu_s", "CPU time", Quantity::kSeconds},
-       {"part_of_whole", "part of filling an empty cache"},
+       {"recomputed", "operators run", Quantity::kCount},
+       {"edit_s", "time of the cache", Quantity::kSeconds},
+       {"part_of_whole", "relative to an empty cache"},
        {"layer_bytes", "its layer", Quantity::kBytes}},
       {}};
   const auto layers = layers_of(groom, params, cache);
   for (size_t i = 0; i < std::min(edits.size(), outcomes.size()); ++i) {
-    const double edit = outcomes[i].number("stages_s.read") - warm.number("stages_s.read");
+    const double edit = outcomes[i].number("stages_s.cache");
+    double bytes = NAN;
     std::error_code failed;
-    const bool has_layer = edits[i].place < layers.size();
-    const auto bytes = has_layer ? std::filesystem::file_size(layers[edits[i].place], failed) : 0;
+    if (edits[i].place < layers.size()) {
+      const auto size = std::filesystem::file_size(layers[edits[i].place], failed);
+      if (!failed) bytes = static_cast<double>(size);
+    }
     table.rows.push_back({Text{edits[i].op}, static_cast<double>(edits.size() - edits[i].place), edit,
-                          outcomes[i].number("cpu_s") - warm.number("cpu_s"), edit / whole_s,
-                          failed ? NAN : static_cast<double>(bytes)});
+                          edit / cold.number("stages_s.cache"), bytes});
   }
   return table;
 }

@@ -23,10 +23,9 @@ struct GrowthEdit {
 std::vector<GrowthEdit> growth_edits(const std::string& groom, const GroomParams& params,
                                      const std::filesystem::path& cache, const Variant& common);
 
-/// A row per operator, for the first of `outcomes` each: `whole_s` is what filling an empty cache takes,
-/// `warm` the run that finds it full.
+/// A row per operator, for the first of `outcomes` each; `cold` is the run that finds an empty cache.
 Table edit_table(const std::string& groom, const GroomParams& params, const std::filesystem::path& cache,
-                 const std::vector<GrowthEdit>& edits, const std::vector<Outcome>& outcomes, double whole_s,
-                 const Outcome& warm);
+                 const std::vector<GrowthEdit>& edits, const std::vector<Outcome>& outcomes,
+                 const Outcome& cold);
 
 }  // namespace pelage

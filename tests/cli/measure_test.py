@@ -133,7 +133,10 @@ class Measure(unittest.TestCase):
     def test_growth(self):
         self.measure("growth", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")
         rows = self.read("out")["rows"]
-        self.assertEqual([row["variant"] for row in rows], ["coat, uncached", "coat, cold", "coat, warm"])
+        self.assertEqual([row["variant"] for row in rows[:3]], ["coat, uncached", "coat, cold", "coat, warm"])
+        self.assertEqual([row["variant"] for row in rows[3:]], ["coat, length edited", "coat, width edited"])
+        self.assertEqual({row["status"] for row in rows}, {"done"})
+        self.assertGreater(rows[1]["stage_cache_s"], 0)
         self.assertEqual([rows[0]["strands_generated"], rows[2]["strands_generated"]], [400, 400])
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
 
