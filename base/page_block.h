@@ -22,8 +22,8 @@ class PageBlock {
   }
   ~PageBlock();
 
-  /// Asks the system for pages of 2 MiB where it has them, for what is read in no order at all. Before the block
-  /// is written to.
+  /// Asks the system for pages of 2 MiB where it has them, for what is read in no order at all. Before the
+  /// block is written to.
   void prefer_large_pages();
 
   std::byte* data() { return data_; }

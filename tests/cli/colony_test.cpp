@@ -81,7 +81,8 @@ TEST_P(ColonyTest, NoRatStandsInAnother) {
   }
 }
 
-// What an animal costs before any hair grows is its posed cages; beside these there are a few poses at a time.
+// What an animal costs before any hair grows is its posed cages; beside these there are a few poses at a
+// time.
 TEST_P(ColonyTest, ARatIsItsPosedCages) {
   const int64_t before = ledger_.current(MemoryTag::kSkins);
   const World world = compose(scene_, *assets_, 1, workers_, ledger_);

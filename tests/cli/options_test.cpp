@@ -126,7 +126,8 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(problem({"measure", "growht", "s"}), "there is no experiment 'growht'; did you mean 'growth'?");
   for (const std::string promised : {"lod", "accel", "shading", "scaling"}) {
     EXPECT_EQ(problem({"measure", promised, "s"}),
-              "the experiment '" + promised + "' is not built yet; there are bounds, growth, residency and samplers");
+              "the experiment '" + promised +
+                  "' is not built yet; there are bounds, growth, residency and samplers");
   }
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
