@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// leaf_strands changes no pixel, of coats from a cache too.
+// leaf_strands changes no pixel, of coats from a cache too; and what is in a cache is found again.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -13,11 +13,10 @@ namespace {
 
 class LeafStrandsTest : public testing::Test {
  protected:
-  std::string render(const std::string& leaf_strands, const std::string& run) const {
+  Options options_for(Command command, const std::string& leaf_strands) const {
     Options options;
-    options.command = Command::kRender;
+    options.command = command;
     options.input = (std::filesystem::path(PELAGE_SOURCE_DIR) / "examples" / "colony_small.yaml").string();
-    options.output = (folder_.path() / (leaf_strands + run + ".exr")).string();
     options.progress = ProgressStyle::kQuiet;
     options.overrides = {{"image.width", "160"},
                          {"image.height", "90"},
@@ -29,12 +28,31 @@ class LeafStrandsTest : public testing::Test {
       options.overrides.push_back({prefix + ".cache.directory", (folder_.path() / "cache").string()});
       options.overrides.push_back({prefix + ".leaf_strands", leaf_strands});
     }
+    return options;
+  }
+
+  std::string render(const std::string& leaf_strands, const std::string& run) const {
+    Options options = options_for(Command::kRender, leaf_strands);
+    options.output = (folder_.path() / (leaf_strands + run + ".exr")).string();
     EXPECT_EQ(run_render(options), 0);
     return options.output;
   }
 
   TemporaryFolder folder_;
 };
+
+// The first groom of the first run is named before any texture has been read, and its libraries loaded.
+TEST_F(LeafStrandsTest, EveryCacheIsFreshTheSecondTime) {
+  const Options options = options_for(Command::kGrow, "500");
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_grow(options), 0);
+  testing::internal::GetCapturedStdout();
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_grow(options), 0);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_EQ(said.find("stale"), std::string::npos) << said;
+  EXPECT_NE(said.find("whiskers: fresh"), std::string::npos) << said;
+}
 
 TEST_F(LeafStrandsTest, ChangesNoPixelOfACachedCoat) {
   const std::string first = render("500", "cold");
