@@ -20,7 +20,8 @@ ContentHash entry_key(const BoundsRecord& record, BoundSpan span, int keys) {
 template <class T>
 std::vector<T> numbers(std::span<const std::byte> section) {
   std::vector<T> values(section.size() / sizeof(T));
-  std::memcpy(values.data(), section.data(), values.size() * sizeof(T));
+  if (!values.empty())
+    std::memcpy(values.data(), section.data(), values.size() * sizeof(T));  // no null to memcpy
   return values;
 }
 
