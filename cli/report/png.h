@@ -8,8 +8,7 @@
 
 namespace pelage {
 
-/// A picture as a PNG file [PNG]. Its pixels are stored, not compressed: pictures in reports are small, and
-/// this needs no library.
+/// A picture as a PNG file [PNG], compressed as well as its noise lets it.
 std::string png_bytes(const Picture& picture);
 
 /// Base 64 with padding [RFC 4648, section 4].

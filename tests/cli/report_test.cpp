@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/hash.h"
 #include "cli/report/axis_ticks.h"
 #include "cli/report/markup.h"
 #include "cli/report/plot_svg.h"
@@ -12,6 +15,8 @@
 #include "cli/report/report_html.h"
 #include "cli/report/report_json.h"
 #include "cli/report/svg.h"
+#include "image/texture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {
@@ -139,6 +144,31 @@ TEST(Png, IsWhatReadersExpect) {
   const std::string png = png_bytes({"", 1, 1, 1, {255}});
   // Checked with an independent decoder (tests/cli/measure_test.py reads larger ones).
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+}
+
+/// An independent reader gets the pixels back, whatever filter their rows are best served by.
+TEST(Png, IsReadBackAndSmaller) {
+  Picture picture{"", 61, 50, 3, {}};
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int noise = static_cast<int>(mix64(static_cast<uint64_t>(61 * y + x)) & 255);
+      const int values[] = {4 * x, y < 10 ? 200 : y < 20 ? noise : 3 * y + 2 * x, x ^ y};
+      for (int value : values) picture.pixels.push_back(static_cast<unsigned char>(value));
+    }
+  }
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "a.png";
+  std::ofstream(file, std::ios::binary) << png_bytes(picture);
+  EXPECT_LT(std::filesystem::file_size(file), picture.pixels.size() / 3);
+  MemoryLedger ledger;
+  TextureLibrary library(ledger);
+  const auto texture = library.load(AssetPath{file, {}}, ColorSpace::kLinear);
+  ASSERT_EQ(texture->image().width, picture.width);
+  for (size_t i = 0; i < picture.pixels.size(); ++i)
+    ASSERT_NEAR(texture->image().pixels[i] * 255, picture.pixels[i], 1e-3) << i;
+}
+
+TEST(Base64, IsPadded) {
   EXPECT_EQ(base64("Man"), "TWFu");
   EXPECT_EQ(base64("Ma"), "TWE=");
   EXPECT_EQ(base64("M"), "TQ==");
