@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one step of shading costs: random numbers, models of fibres, lights. The yardstick is a sine and a
-// cosine of a float, as the C library computes them.
+// What one step of shading costs: random numbers, parts of fibre models, lights. The yardstick is a sine and
+// a cosine of a float, as the C library computes them.
 #include <cmath>
 #include <vector>
 
@@ -116,70 +116,6 @@ void cone_shell_sample(benchmark::State& state) {
   }
 }
 BENCHMARK(cone_shell_sample)->Name("cone-shell: sample, eval and pdf")->ArgName("literal")->Arg(0)->Arg(1);
-
-/// Every model of a fibre: a colour, a place on it and a view become a value that is then evaluated or drawn
-/// from.
-struct ModelBench {
-  explicit ModelBench(const MaterialParams& params) : material(params) {
-    for (size_t k = 0; k < 64; ++k) bsdfs.push_back(material.at(point(k)));
-  }
-  static FibrePoint point(size_t i) {
-    const size_t n = Inputs::kCount;
-    FibrePoint p;
-    p.tangents.fill(inputs().directions[i % n]);
-    p.wo = inputs().directions[(i + 3) % n];
-    p.h = 2 * inputs().numbers[i % n].x - 1;
-    p.color = Rgb(0.5f, 0.3f, 0.2f);
-    return p;
-  }
-  FibreMaterial material;
-  std::vector<FibreBsdf> bsdfs;
-};
-
-void model_construct(benchmark::State& state, const MaterialParams& params) {
-  const ModelBench bench(params);
-  size_t i = 0;
-  const Meter meter(state);
-  for (auto _ : state) benchmark::DoNotOptimize(bench.material.at(ModelBench::point(++i)));
-}
-void model_eval(benchmark::State& state, const MaterialParams& params) {
-  const ModelBench bench(params);
-  size_t i = 0;
-  const Meter meter(state);
-  for (auto _ : state) {
-    ++i;
-    benchmark::DoNotOptimize(bench.bsdfs[i % 64].eval(inputs().directions[i % Inputs::kCount]));
-  }
-}
-void model_sample(benchmark::State& state, const MaterialParams& params) {
-  const ModelBench bench(params);
-  size_t i = 0;
-  const Meter meter(state);
-  for (auto _ : state) {
-    ++i;
-    benchmark::DoNotOptimize(bench.bsdfs[i % 64].sample(inputs().numbers[i % Inputs::kCount]));
-  }
-}
-
-template <class P>
-int register_model() {
-  const std::string name = P::kTypeName;
-  const auto add = [&](const char* what, auto function) {
-    benchmark::RegisterBenchmark(
-        (name + what).c_str(), [function](benchmark::State& state) { function(state, MaterialParams(P{})); });
-  };
-  add(": construct", model_construct);
-  add(": eval and pdf", model_eval);
-  add(": sample, eval and pdf", model_sample);
-  return 0;
-}
-const int kModels[] = {register_model<LambertCylinderParams>(),
-                       register_model<KajiyaKayParams>(),
-                       register_model<MarschnerParams>(),
-                       register_model<DeonParams>(),
-                       register_model<ChiangParams>(),
-                       register_model<YanFastParams>(),
-                       register_model<YanParams>()};
 
 std::unique_ptr<Light> rectangle() {
   Rectangle shape;
