@@ -45,14 +45,15 @@ std::filesystem::path ContentStore::file(const std::string& kind, const ContentH
   return folder_ / (kind + "-" + to_string(key) + format::kEnding);
 }
 
-std::optional<StoredFile> ContentStore::open(const std::string& kind, const ContentHash& key,
-                                             const WarningSink& warn) const {
+template <class File>
+std::optional<File> ContentStore::open_as(const std::string& kind, const ContentHash& key,
+                                          const WarningSink& warn) const {
   const std::filesystem::path path = file(kind, key);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) return {};
   try {
-    StoredFile stored(path);
+    File stored(path);
     if (stored.kind() != kind || stored.key() != key) {
       warn(path.string() + ": holds something else than its name says; made again");
       return {};
@@ -64,6 +65,16 @@ std::optional<StoredFile> ContentStore::open(const std::string& kind, const Cont
     if (std::filesystem::exists(path, error)) warn(std::string(e.what()) + "; made again");
     return {};
   }
+}
+
+std::optional<StoredFile> ContentStore::open(const std::string& kind, const ContentHash& key,
+                                             const WarningSink& warn) const {
+  return open_as<StoredFile>(kind, key, warn);
+}
+
+std::optional<StoredSections> ContentStore::open_sections(const std::string& kind, const ContentHash& key,
+                                                          const WarningSink& warn) const {
+  return open_as<StoredSections>(kind, key, warn);
 }
 
 ContentStore::Writer::Writer(const std::filesystem::path& path, const std::string& kind,

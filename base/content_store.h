@@ -14,6 +14,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/mapped_file.h"
+#include "base/stored_sections.h"
 
 namespace pelage {
 
@@ -63,6 +64,9 @@ class ContentStore {
   /// the file becomes that of its last use, to the hour.
   std::optional<StoredFile> open(const std::string& kind, const ContentHash& key,
                                  const WarningSink& warn) const;
+  /// The same of an entry whose sections are read one by one: each is checked when it is read.
+  std::optional<StoredSections> open_sections(const std::string& kind, const ContentHash& key,
+                                              const WarningSink& warn) const;
 
   /// Writes one entry, section by section; it exists from commit() on. After the first failure nothing more
   /// is written and commit() says what was wrong, once, to `warn`.
@@ -130,6 +134,9 @@ class ContentStore {
   static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:
+  template <class File>
+  std::optional<File> open_as(const std::string& kind, const ContentHash& key, const WarningSink& warn) const;
+
   std::filesystem::path folder_;
 };
 

@@ -63,9 +63,9 @@ class RaySlabs {
  private:
   friend class GridSlabs;
 
-  // What rounding may move a side or a hit by, relative to the largest number that goes in: 16 units in the
-  // last place. Embree's hits and these tests each take less than half of it.
-  static constexpr float kDoubt = 0x1p-20f;
+  // What rounding may move a side or a hit by, relative to the largest number that goes in: 32 units in the
+  // last place. The hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
+  static constexpr float kDoubt = 0x1p-19f;
   static constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
 
   struct Axis {

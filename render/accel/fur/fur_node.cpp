@@ -76,6 +76,11 @@ void write_quantised_node(int motion_keys, std::span<const FurChild> children, s
   }
 }
 
+size_t references_of(FurNodeLayout layout, int motion_keys) {
+  return layout == FurNodeLayout::kFloat ? FurFloatNode::references(motion_keys)
+                                         : FurQuantisedNode::kReferences;
+}
+
 }  // namespace
 
 void FurBox::extend(const FurBox& o) {
@@ -103,6 +108,42 @@ void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild>
   } else {
     write_quantised_node(motion_keys, children, out);
   }
+}
+
+FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i) {
+  uint32_t bits = 0;
+  std::memcpy(&bits, node + references_of(layout, motion_keys) + i * sizeof(bits), sizeof(bits));
+  return FurReference::from_bits(bits);
+}
+
+void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
+                         FurReference reference) {
+  const uint32_t bits = reference.bits();
+  std::memcpy(node + references_of(layout, motion_keys) + i * sizeof(bits), &bits, sizeof(bits));
+}
+
+FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key) {
+  FurBox box;
+  const auto k = static_cast<size_t>(key);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (layout == FurNodeLayout::kFloat) {
+      float sides[2][4];
+      std::memcpy(sides, node + k * FurFloatNode::kKey + axis * FurFloatNode::kAxis, sizeof(sides));
+      box.low[axis] = sides[0][i];
+      box.high[axis] = sides[1][i];
+      continue;
+    }
+    float origin = 0, scale = 0;
+    uint8_t sides[2][4];
+    std::memcpy(&origin, node + FurQuantisedNode::kOrigin + axis * sizeof(float), sizeof(float));
+    std::memcpy(&scale, node + FurQuantisedNode::kScale + axis * sizeof(float), sizeof(float));
+    std::memcpy(
+        sides, node + FurQuantisedNode::kPlanes + k * FurQuantisedNode::kKey + axis * FurQuantisedNode::kAxis,
+        sizeof(sides));
+    box.low[axis] = std::nextafter(origin + static_cast<float>(sides[0][i]) * scale, -kInfinity);
+    box.high[axis] = std::nextafter(origin + static_cast<float>(sides[1][i]) * scale, kInfinity);
+  }
+  return box;
 }
 
 }  // namespace pelage

@@ -53,4 +53,11 @@ size_t node_size(FurNodeLayout layout, int motion_keys);
 /// one sum.
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
 
+/// Child `i` of a node that write_node() wrote; none where there are fewer.
+FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
+void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
+                         FurReference reference);
+/// The box of child `i` at one key as rays see it; holds the one that was written, rounding included.
+FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key);
+
 }  // namespace pelage

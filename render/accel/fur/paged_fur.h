@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/ledger.h"
+#include "cache/residency.h"
+#include "render/accel/chunk_tree.h"
+#include "render/accel/fur/fur_page_file.h"
+
+namespace pelage {
+
+/// A hit of one of several trees.
+struct PagedFurHit {
+  FurHit hit;
+  uint32_t tree = 0;
+
+  explicit operator bool() const { return bool(hit); }
+  /// Nearer; or as near, and of the smaller tree or segment.
+  bool stands_before(const PagedFurHit& o) const {
+    if (hit.distance == o.hit.distance && tree != o.tree) return tree < o.tree;
+    return hit.stands_before(o.hit);
+  }
+};
+
+/// Where a ray starts that leaves a strand: in which tree, and where there.
+struct PagedFurStart {
+  FurStart start;
+  uint32_t tree = 0;
+};
+
+struct PagedFurCounts {
+  int64_t box_tests = 0;  ///< rays against boxes above the treelets
+  int64_t treelet_visits = 0;
+};
+
+struct PagedFurOptions {
+  int threads = 1;            ///< numbers of threads are below it
+  uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
+  bool poison = false;        ///< pages are overwritten when they are dropped, for tests
+};
+
+/// Rays against fur trees whose pages are read from a file when a ray needs them and dropped when the memory
+/// limit asks for it. Resident are the tree over the boxes of all treelets, the table, and the pages that a
+/// Residency holds. A ray's answer is a function of the ray and the segments: the same as that of the trees
+/// in memory, whatever is resident.
+///
+/// Errors of the file pass through the queries. Thread safety: const members from any thread, each number
+/// `thread` by one thread at a time and inside a FlushDenormals scope.
+class PagedFur {
+ public:
+  /// Throws Error (kMemory) when the limit does not hold the tables and one page per thread.
+  PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger, const Workers& workers);
+  ~PagedFur();
+
+  /// The hit in (near, far) that stands first.
+  PagedFurHit closest(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
+  /// Whether there is any hit in (near, far). Pages that are not resident are asked last.
+  bool occluded(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
+
+  /// The same for many rays at once. A ray that comes to a page which is not resident waits, and the others
+  /// go on; then the page that most rays wait for is read, for all of them. Every ray still visits its
+  /// treelets front to back, so that nothing is tested that it would not test alone. `starts` is empty or as
+  /// long as `rays`, and so are the answers, which are the same.
+  void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
+               std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
+  void occluded(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
+                std::span<uint8_t> answers, PagedFurCounts& counts) const;
+
+  const FurPageTable& table() const { return file_.table(); }
+  const Box3f& bounds() const { return tree_->bounds(); }
+  /// What is resident whatever the rays do.
+  size_t fixed_bytes() const { return fixed_bytes_; }
+  /// Expansions are pages read.
+  ResidencyCounts counts() const { return residency_->counts(); }
+  uint64_t bytes_read() const;
+
+ private:
+  class Pages;
+  class Batch;
+  struct Nearest;
+  struct Any;
+
+  /// What asks for one ray: the treelet is visited, its page is pinned meanwhile. False ends the ray.
+  template <class Query>
+  bool visit(uint32_t treelet, Query& query, int thread) const;
+  bool is_resident(uint32_t treelet) const { return residency_->is_resident(table().treelets[treelet].page); }
+
+  const FurPageFile file_;
+  std::unique_ptr<ChunkTree> tree_;
+  size_t fixed_bytes_ = 0;
+  MemoryCharge charge_;
+  std::unique_ptr<Pages> pages_;
+  std::unique_ptr<Residency> residency_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur/paged_fur.h"
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/page_block.h"
+#include "base/parallel.h"
+#include "render/accel/flush_denormals.h"
+#include "tests/render/fur_paging.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kStrands = 300;
+constexpr uint64_t kRays = 500;
+
+/// A page for each of `threads` and `share` of the rest.
+PagedFurOptions budget(StoredGroom& groom, double share, int threads) {
+  PagedFurOptions options;
+  options.threads = threads;
+  options.poison = true;
+  MemoryLedger ledger;
+  const PagedFur idle(groom.open(), options, ledger, Workers::alone());  // holds what is always held
+  const uint64_t pages = idle.table().page_bytes.size();
+  const uint64_t frame = PageBlock::held_bytes(idle.table().largest_page()) + 128;
+  const uint64_t own = std::min<uint64_t>(pages, static_cast<uint64_t>(threads));
+  const auto others = static_cast<uint64_t>(share * static_cast<double>(pages - own));
+  options.memory_limit = static_cast<uint64_t>(ledger.budgeted()) + frame * (own + others);
+  return options;
+}
+
+struct Queries {
+  std::vector<Ray> rays;
+  std::vector<PagedFurStart> starts;
+  std::vector<FurHit> closest;
+  std::vector<uint8_t> occluded;
+};
+
+/// Rays at a groom, some of which start on a strand, and what the tree in memory answers.
+Queries queries(const GroomShape& shape, const StoredGroom& groom) {
+  const FlushDenormals flush;
+  TestRandom random(8);
+  Queries q;
+  for (uint64_t i = 0; i < kRays; ++i) {
+    Ray ray = ray_at_groom(shape, groom.strands, random, i);
+    PagedFurStart start;
+    const FurHit hit = groom.tree.closest(ray, {});
+    if (i % 3 == 0 && hit) {
+      ray.origin = ray.origin + hit.distance * ray.direction;
+      ray.direction = random.direction();
+      ray.near = 0;
+      const SnappedStrands::Place place = groom.snapped.locate(hit.number);
+      start.start = {groom.snapped.first_segment(place.strand), place.segment + 1,
+                     static_cast<float>(place.segment) + hit.u};
+    }
+    q.rays.push_back(ray);
+    q.starts.push_back(start);
+    q.closest.push_back(groom.tree.closest(ray, start.start));
+    q.occluded.push_back(groom.tree.occluded(ray, start.start));
+  }
+  return q;
+}
+
+class PagedFurOf : public testing::TestWithParam<GroomShape> {};
+
+INSTANTIATE_TEST_SUITE_P(Grooms, PagedFurOf, testing::ValuesIn(groom_shapes()), [](const auto& test) {
+  std::string name = test.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
+  for (const FurNodeLayout layout : {FurNodeLayout::kFloat, FurNodeLayout::kQuantised}) {
+    StoredGroom groom(GetParam(), kStrands, layout);
+    const Queries q = queries(GetParam(), groom);
+    EXPECT_GT(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
+    for (const double share : {1.0, 0.25, 0.0}) {
+      const FlushDenormals flush;
+      MemoryLedger ledger;
+      const PagedFurOptions options = budget(groom, share, 1);
+      const PagedFur fur(groom.open(), options, ledger, Workers::alone());
+      PagedFurCounts counts;
+      for (size_t i = 0; i < kRays; ++i) {
+        ASSERT_TRUE(same_hit(fur.closest(q.rays[i], q.starts[i], 0, counts).hit, q.closest[i])) << i;
+        ASSERT_EQ(fur.occluded(q.rays[i], q.starts[i], 0, counts), q.occluded[i] != 0) << i;
+      }
+      EXPECT_LE(ledger.peak(MemoryTag::kChunks), static_cast<int64_t>(options.memory_limit));
+      const ResidencyCounts pages = fur.counts();
+      if (share == 1) {
+        EXPECT_EQ(pages.reexpansions, 0);
+      } else {
+        EXPECT_GT(pages.evictions, 0);
+      }
+      EXPECT_EQ(pages.overruns, 0);
+    }
+  }
+}
+
+TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised);
+  const Queries q = queries(GetParam(), groom);
+  const FlushDenormals flush;
+  MemoryLedger ledger, other;
+  const PagedFurOptions options = budget(groom, 0.1, 1);
+  const PagedFur together(groom.open(), options, ledger, Workers::alone());
+  const PagedFur alone(groom.open(), options, other, Workers::alone());
+  PagedFurCounts counts, alone_counts;
+  std::vector<PagedFurHit> hits(kRays);
+  together.closest(q.rays, q.starts, 0, hits, counts);
+  for (size_t i = 0; i < kRays; ++i) {
+    ASSERT_TRUE(same_hit(hits[i].hit, q.closest[i])) << i;
+    alone.closest(q.rays[i], q.starts[i], 0, alone_counts);
+  }
+  EXPECT_LE(counts.treelet_visits, alone_counts.treelet_visits);
+  EXPECT_LT(together.counts().expansions, alone.counts().expansions);
+  std::vector<uint8_t> answers(kRays);
+  together.occluded(q.rays, q.starts, 0, answers, counts);
+  EXPECT_EQ(answers, q.occluded);
+}
+
+TEST(PagedFur, answers_alike_for_any_number_of_threads) {
+  const GroomShape shape = groom_shapes()[1];
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised);
+  const Queries q = queries(shape, groom);
+  for (const int threads : {2, 5}) {
+    for (const double share : {0.5, 0.0}) {
+      MemoryLedger ledger;
+      const PagedFurOptions options = budget(groom, share, threads);
+      const Workers workers(threads);
+      const PagedFur fur(groom.open(), options, ledger, workers);
+      std::atomic<int> wrong{0}, worker{0};
+      // As many ranges as threads: each has a number of its own.
+      const size_t grain = (kRays + static_cast<size_t>(threads) - 1) / static_cast<size_t>(threads);
+      workers.for_each(kRays, grain, [&](WorkRange range) {
+        const FlushDenormals flush;
+        const int own = worker.fetch_add(1);
+        PagedFurCounts counts;
+        for (size_t i = range.begin; i < range.end; ++i) {
+          const bool same = same_hit(fur.closest(q.rays[i], q.starts[i], own, counts).hit, q.closest[i]) &&
+                            fur.occluded(q.rays[i], q.starts[i], own, counts) == (q.occluded[i] != 0);
+          if (!same) ++wrong;
+        }
+        std::vector<PagedFurHit> hits(range.end - range.begin);
+        fur.closest(std::span(q.rays).subspan(range.begin, hits.size()),
+                    std::span(q.starts).subspan(range.begin, hits.size()), own, hits, counts);
+        for (size_t i = 0; i < hits.size(); ++i) wrong += !same_hit(hits[i].hit, q.closest[range.begin + i]);
+      });
+      EXPECT_EQ(wrong, 0);
+      EXPECT_LE(ledger.peak(MemoryTag::kChunks), static_cast<int64_t>(options.memory_limit));
+    }
+  }
+}
+
+TEST(PagedFur, refuses_a_budget_without_a_page_per_thread) {
+  StoredGroom groom(groom_shapes()[0], kStrands, FurNodeLayout::kQuantised);
+  MemoryLedger ledger;
+  try {
+    const PagedFur fur(groom.open(), {4, 1000}, ledger, Workers::alone());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+  }
+}
+
+TEST(PagedFur, reports_a_page_that_was_damaged_meanwhile) {
+  const GroomShape shape = groom_shapes()[0];
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised);
+  const Queries q = queries(shape, groom);
+  MemoryLedger ledger;
+  const PagedFur fur(groom.open(), {}, ledger, Workers::alone());
+  {
+    std::fstream file(groom.path(), std::ios::in | std::ios::out | std::ios::binary);
+    for (int at = 100; at < 30000; at += 512) file.seekp(at).put('\x55');
+  }
+  const FlushDenormals flush;
+  PagedFurCounts counts;
+  EXPECT_THROW(for (const Ray& ray : q.rays) fur.closest(ray, {}, 0, counts), Error);
+}
+
+TEST(PagedFur, of_nothing_is_never_met) {
+  TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  FurWarnings warnings;
+  FurPageFile::Writer writer(store, kFurKey);
+  ASSERT_TRUE(writer.commit(warnings.sink()));
+  MemoryLedger ledger;
+  const PagedFur fur(FurPageFile::open(store, kFurKey, warnings.sink()).value(), {}, ledger,
+                     Workers::alone());
+  PagedFurCounts counts;
+  EXPECT_FALSE(fur.closest(Ray(), {}, 0, counts));
+  EXPECT_FALSE(fur.occluded(Ray(), {}, 0, counts));
+  EXPECT_EQ(warnings.lines.size(), 0u);
+}
+
+}  // namespace
+}  // namespace pelage
