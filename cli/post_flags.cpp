@@ -14,13 +14,16 @@
 namespace pelage {
 namespace {
 
-void add_file_flags(CLI::App& command, Options& options, PostTexts& texts) {
+void add_file_flags(CLI::App& command, Options& options, PostTexts& texts, int usual_scale) {
   command.add_option("IN", options.input, "EXR to read; %04d is the frame")->required()->type_name("IN.exr");
   command.add_option("-o,--output", options.output, "EXR to write; %04d is the frame")
       ->required()
       ->type_name("OUT.exr");
   command.add_option("--frames", options.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
-  command.add_option("--scale", texts.scale, "Samples per pixel and side in the work buffer")
+  command
+      .add_option(
+          "--scale", texts.scale,
+          "Samples per pixel and side in the work buffer (default: " + std::to_string(usual_scale) + ")")
       ->check(CLI::Range(1, 8))
       ->type_name("1-8");
   command.add_option("--depth-layer", texts.depth_layer, "Layer, part or channel of the depth (default: Z)")
@@ -44,7 +47,8 @@ void add_vector_flags(CLI::App& command, PostTexts& texts, const char* layer, co
   command
       .add_option("--" + what + "-y", texts.up, "Where positive v points: down (default) or up, as in Nuke")
       ->type_name("down|up");
-  command.add_option("--" + what + "-scale", texts.vector_scale, "What to multiply the vectors by")
+  command
+      .add_option("--" + what + "-scale", texts.vector_scale, "What to multiply the vectors by (default: 1)")
       ->type_name("FACTOR");
 }
 
@@ -61,12 +65,18 @@ bool is_second(const std::string& flag, const std::string& text, const std::vect
   fail(flag + " " + quote(text) + " is not known" + suggest(text, words));
 }
 
-void interpret_file(const PostTexts& texts, PostFileParams& file) {
+void check_finite(const std::string& flag, float value) {
+  if (!std::isfinite(value)) fail(flag + ": expected a finite number");
+}
+
+/// `vectors` is what the flags of the vectors begin with.
+void interpret_file(const PostTexts& texts, const std::string& vectors, PostFileParams& file) {
   file.layers.depth = texts.depth_layer;
   file.layers.data = texts.data;
   file.layers.colors = texts.colors;
-  file.vectors.is_ndc = is_second("--motion-units", texts.units, {"pixels", "ndc"});
-  file.vectors.is_y_up = is_second("--motion-y", texts.up, {"down", "up"});
+  file.vectors.is_ndc = is_second(vectors + "-units", texts.units, {"pixels", "ndc"});
+  file.vectors.is_y_up = is_second(vectors + "-y", texts.up, {"down", "up"});
+  check_finite(vectors + "-scale", texts.vector_scale);
   file.vectors.scale = texts.vector_scale;
   if (texts.scale > 0) file.scale = texts.scale;
 }
@@ -74,7 +84,7 @@ void interpret_file(const PostTexts& texts, PostFileParams& file) {
 }  // namespace
 
 void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts) {
-  add_file_flags(command, options, texts);
+  add_file_flags(command, options, texts, options.motion_blur.file.scale);
   ShutterParams& shutter = options.motion_blur.shutter;
   command.add_option("--shutter", shutter.length, "Frames that the shutter is open (default: 0.5)")
       ->check(CLI::Range(0.0, 1000.0))
@@ -96,7 +106,7 @@ void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts
 }
 
 void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
-  add_file_flags(command, options, texts);
+  add_file_flags(command, options, texts, options.stereo.file.scale);
   StereoFileParams& stereo = options.stereo;
   command
       .add_option("--eye-separation", stereo.eye_separation,
@@ -125,10 +135,18 @@ void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
 }
 
 void interpret_post(const PostTexts& texts, Options& options) {
-  interpret_file(texts, options.motion_blur.file);
-  options.motion_blur.file.layers.motion = texts.motion_layer;
-  interpret_file(texts, options.stereo.file);
+  if (options.command == Command::kMotionBlur) {
+    interpret_file(texts, "--motion", options.motion_blur.file);
+    options.motion_blur.file.layers.motion = texts.motion_layer;
+    check_finite("--shutter", options.motion_blur.shutter.length);
+    check_finite("--shutter-centre", options.motion_blur.shutter.centre);
+  }
+  if (options.command != Command::kStereo) return;
+  interpret_file(texts, "--parallax", options.stereo.file);
   options.stereo.parallax = texts.motion_layer;
+  check_finite("--eye-separation", options.stereo.eye_separation.value_or(0));
+  check_finite("--focal-pixels", options.stereo.focal_pixels.value_or(1));
+  check_finite("--fov", options.stereo.fov_deg.value_or(1));
   options.stereo.to_left = is_second("--eye", texts.eye, {"right", "left"});
   if (is_second("--filter", texts.filter, {"lanczos", "box"})) options.stereo.filter = StereoFilter::kBox;
   if (texts.convergence.empty() || texts.convergence == "infinite") return;

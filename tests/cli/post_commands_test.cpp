@@ -129,6 +129,16 @@ TEST_F(PostCommands, MistakesAreNamed) {
             "--motion-y 'upp' is not known; did you mean 'up'?");
   EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", "--convergence", "-3"}),
             "--convergence: expected a distance above 0 or 'infinite', got '-3'");
+  EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", "--parallax-units", "meters"}),
+            "--parallax-units 'meters' is not known; expected one of pixels, ndc");
+  for (const char* flag : {"--shutter", "--shutter-centre", "--motion-scale"}) {
+    EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.exr", flag, "nan"}),
+              flag + std::string(": expected a finite number"));
+  }
+  for (const char* flag : {"--eye-separation", "--focal-pixels", "--fov", "--parallax-scale"}) {
+    EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", flag, "nan"}),
+              flag + std::string(": expected a finite number"));
+  }
   EXPECT_NE(refusal({"motionblur", "a.exr", "-o", "b.exr", "--scale", "9"}), "accepted");
   EXPECT_NE(refusal({"motionblur", "a.exr"}), "accepted");
 }
