@@ -136,22 +136,28 @@ bool FlowField::hides_behind_another(int x, int y) const {
 }
 
 void FlowField::bound_blocks() {
+  const auto widen = [](Flow& low, Flow& high, Flow least, Flow most) {
+    low = {std::min(low.x, least.x), std::min(low.y, least.y)};
+    high = {std::max(high.x, most.x), std::max(high.y, most.y)};
+  };
   low_ = high_ = motion_[0];
   for (int y0 = 0; y0 < height_; y0 += kBlockHeight) {
+    const Flow first = motion(0, y0);
+    Block row{0, y0, width_, std::min(y0 + kBlockHeight, height_), first, first};
     for (int x0 = 0; x0 < width_; x0 += kBlockWidth) {
-      Block block{x0, y0, std::min(x0 + kBlockWidth, width_), std::min(y0 + kBlockHeight, height_), {}, {}};
+      Block block{x0, y0, std::min(x0 + kBlockWidth, width_), row.y1, {}, {}};
       block.low = block.high = motion(x0, y0);
       for (int y = block.y0; y < block.y1; ++y) {
         for (int x = block.x0; x < block.x1; ++x) {
           const Flow m = motion(x, y);
-          block.low = {std::min(block.low.x, m.x), std::min(block.low.y, m.y)};
-          block.high = {std::max(block.high.x, m.x), std::max(block.high.y, m.y)};
+          widen(block.low, block.high, m, m);
         }
       }
-      low_ = {std::min(low_.x, block.low.x), std::min(low_.y, block.low.y)};
-      high_ = {std::max(high_.x, block.high.x), std::max(high_.y, block.high.y)};
+      widen(row.low, row.high, block.low, block.high);
       blocks_.push_back(block);
     }
+    widen(low_, high_, row.low, row.high);
+    block_rows_.push_back(row);
   }
 }
 

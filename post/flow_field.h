@@ -73,6 +73,8 @@ class FlowField {
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.
   const std::vector<Block>& blocks() const { return blocks_; }
+  /// One for each row of blocks, around all of them.
+  const std::vector<Block>& block_rows() const { return block_rows_; }
   int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
   /// By how much a corner may move further than any pixel of its block.
   float slack() const { return slack_; }
@@ -104,7 +106,7 @@ class FlowField {
   std::vector<Flow> motion_;
   std::vector<float> depth_;
   std::vector<uint8_t> links_;
-  std::vector<Block> blocks_;
+  std::vector<Block> blocks_, block_rows_;
   Flow low_, high_;
   float slack_;
 };

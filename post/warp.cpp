@@ -20,8 +20,13 @@ bool Warp::reaches(const FlowField::Block& block, const PixelBox& samples, float
 std::vector<const FlowField::Block*> Warp::reaching(const PixelBox& samples, float first_time,
                                                     float last_time) const {
   std::vector<const FlowField::Block*> found;
-  for (const FlowField::Block& block : field_.blocks()) {
-    if (reaches(block, samples, first_time, last_time)) found.push_back(&block);
+  const auto across = static_cast<size_t>(field_.blocks_across());
+  for (size_t row = 0; row < field_.block_rows().size(); ++row) {
+    if (!reaches(field_.block_rows()[row], samples, first_time, last_time)) continue;
+    const FlowField::Block* const blocks = &field_.blocks()[row * across];
+    for (size_t i = 0; i < across; ++i) {
+      if (reaches(blocks[i], samples, first_time, last_time)) found.push_back(&blocks[i]);
+    }
   }
   return found;
 }
