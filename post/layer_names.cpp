@@ -34,6 +34,9 @@ const char* const kMotionLayers[] = {"forward",       "motion",  "motionvector",
                                      "motionforward", "vectors", "vector",       "velocity",      "mv"};
 const char* const kDepthLayers[] = {"depth", "z", "zdepth", "depthz"};
 
+/// Layers that hold the picture itself, where it has no bare names.
+const char* const kBeautyLayers[] = {"combined", "beauty", "rgba"};
+
 /// Layers of which no mean makes sense, and beginnings of such names.
 const std::set<std::string> kDataLayers = {
     "n",      "nn",       "ng",       "ns",         "normal",  "normals", "p",        "pos",      "position",
@@ -133,6 +136,24 @@ bool LayerFinder::is_called(const NamedChannel& channel, const std::string& plai
          without(part.name, view_) == plain_layer;
 }
 
+std::string LayerFinder::name_in_file(const NamedChannel& channel) const {
+  const std::string& part = parts_[channel.part].name;
+  const bool needs_part = channel.layer.empty() && parts_.size() > 1 && !part.empty();
+  return needs_part ? part + "." + channel.component : channel.name();
+}
+
+/// By its name, or else by that with its part's, the view taken out or not.
+std::optional<size_t> LayerFinder::find_channel(const std::string& view, const std::string& name) const {
+  std::optional<size_t> in_part;
+  for (size_t i = 0; i < channels_.size(); ++i) {
+    if (channels_[i].view != view) continue;
+    if (plain(channels_[i].name()) == plain(name)) return i;
+    const std::string in_file = name_in_file(channels_[i]);
+    if (!in_part && (plain(in_file) == plain(name) || without(in_file, view) == plain(name))) in_part = i;
+  }
+  return in_part;
+}
+
 std::optional<size_t> LayerFinder::find(const std::string& view, const std::string& plain_layer,
                                         const std::vector<std::string>& components) const {
   for (const std::string& component : components) {
@@ -149,14 +170,8 @@ std::optional<std::pair<size_t, size_t>> LayerFinder::vectors_in(const std::stri
                                                                  const std::string& name) const {
   const std::vector<std::string> both = split(name, ',');
   if (both.size() == 2) {
-    std::optional<size_t> found[2];
-    for (size_t k = 0; k < 2; ++k) {
-      for (size_t i = 0; i < channels_.size() && !found[k]; ++i) {
-        if (channels_[i].view == view && plain(channels_[i].name()) == plain(both[k])) found[k] = i;
-      }
-    }
-    if (found[0] && found[1]) return std::pair(*found[0], *found[1]);
-    return {};
+    const auto u = find_channel(view, both[0]), v = find_channel(view, both[1]);
+    return u && v ? std::optional(std::pair(*u, *v)) : std::nullopt;
   }
   const char* const pairs[][2] = {{"u", "v"}, {"x", "y"}, {"r", "g"}, {"red", "green"}};
   for (const auto& pair : pairs) {
@@ -185,10 +200,8 @@ std::optional<size_t> LayerFinder::find_depth() const {
 std::optional<size_t> LayerFinder::depth_in(const std::string& view) const {
   const std::vector<std::string> components = {"z", "depth", "r", "y", "v", "x", "red"};
   if (!choice_.depth.empty()) {
-    for (size_t i = 0; i < channels_.size(); ++i) {
-      if (channels_[i].view == view && plain(channels_[i].name()) == plain(choice_.depth)) return i;
-    }
-    return find(view, plain(choice_.depth), components);
+    const auto channel = find_channel(view, choice_.depth);
+    return channel ? channel : find(view, plain(choice_.depth), components);
   }
   // A bare Z, unless it stands beside X and Y: then it is the third number of a vector.
   for (size_t i = 0; i < channels_.size(); ++i) {
@@ -206,6 +219,15 @@ std::optional<size_t> LayerFinder::depth_in(const std::string& view) const {
 }
 
 std::optional<size_t> LayerFinder::alpha() const {
+  const auto bare = bare_alpha();
+  if (bare) return bare;
+  for (const char* layer : kBeautyLayers) {
+    if (const auto found = find(view_, layer, {"a", "alpha"})) return found;
+  }
+  return {};
+}
+
+std::optional<size_t> LayerFinder::bare_alpha() const {
   for (size_t i = 0; i < channels_.size(); ++i) {
     const NamedChannel& c = channels_[i];
     if (!is_here(i) || !c.layer.empty()) continue;
@@ -282,7 +304,8 @@ std::string LayerFinder::listing() const {
   std::string text;
   size_t count = 0;
   for (size_t i = 0; i < channels_.size(); ++i) {
-    if (is_here(i) && count++ < kShown) text += (text.empty() ? "" : ", ") + channels_[i].name();
+    if (!is_here(i) && !channels_[i].view.empty()) continue;
+    if (count++ < kShown) text += (text.empty() ? "" : ", ") + name_in_file(channels_[i]);
   }
   return count > kShown ? text + " and " + std::to_string(count - kShown) + " more" : text;
 }

@@ -53,13 +53,15 @@ class LayerFinder {
   /// The same in a layer of this name. What the view lacks may belong to no view.
   std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
   std::optional<size_t> depth() const { return depth_; }
+  /// The bare one, or that of a layer "combined", "beauty" or "rgba".
   std::optional<size_t> alpha() const;
   LayerRole role(size_t channel) const;
   /// Cryptomattes that the attributes announce, as indices of channels.
   const std::vector<RankedMatte>& mattes() const { return mattes_; }
   bool has_colors() const;
 
-  /// What the file has, for messages: "R, G, B, A, key.diffuse.R and 12 more".
+  /// What there is to choose from, for messages: "R, G, B, A, key.diffuse.R and 12 more". Of several parts, a
+  /// bare name stands behind that of its part: "mv.R".
   std::string listing() const;
 
  private:
@@ -71,8 +73,11 @@ class LayerFinder {
     return found || view_.empty() ? found : search(std::string());
   }
   std::optional<std::pair<size_t, size_t>> vectors_in(const std::string& view, const std::string& name) const;
+  std::optional<size_t> bare_alpha() const;
   std::optional<size_t> depth_in(const std::string& view) const;
   bool is_called(const NamedChannel& channel, const std::string& plain_layer) const;
+  std::string name_in_file(const NamedChannel& channel) const;
+  std::optional<size_t> find_channel(const std::string& view, const std::string& name) const;
   std::optional<std::pair<size_t, size_t>> find_motion() const;
   std::optional<size_t> find_depth() const;
   std::vector<RankedMatte> find_mattes() const;

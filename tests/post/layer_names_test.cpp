@@ -61,6 +61,30 @@ TEST(LayerNames, TakesWhatItIsTold) {
   EXPECT_EQ(Names(parts, {"mv", "", {}, {}}).motion(), ":mv.x :mv.y");
   EXPECT_EQ(Names(parts, {"odd.first,odd.second", "", {}, {}}).motion(), ":odd.first :odd.second");
   EXPECT_EQ(Names(parts, {"missing", "", {}, {}}).motion(), "none");
+  const std::vector<ExrPart> bare = {part("rgba_left", {"R", "G"}, "left"),
+                                     part("far_left", {"R", "G"}, "left"),
+                                     part("mv_left", {"R", "G"}, "left")};
+  EXPECT_EQ(Names(bare, {"mv.R,mv.G", "", {}, {}}, "left").motion(), "mv_left:R mv_left:G");
+  EXPECT_EQ(Names(bare, {"mv_left.R,far_left.G", "", {}, {}}, "left").motion(), "mv_left:R far_left:G");
+  const Names depth(bare, {"", "far.G", {}, {}}, "left");
+  EXPECT_EQ(depth.name(depth.finder.depth()), "far_left:G");
+}
+
+TEST(LayerNames, ListsWhatThereIsToChooseFrom) {
+  const std::vector<ExrPart> parts = {part("rgba_left", {"R", "key.R"}, "left"),
+                                      part("z_right", {"Z"}, "right"), part("disparity", {"x", "y"})};
+  EXPECT_EQ(Names(parts, {}, "left").finder.listing(), "rgba_left.R, key.R, disparity.x, disparity.y");
+  EXPECT_EQ(Names({part("rgba", {"R", "Z"})}).finder.listing(), "R, Z");
+}
+
+TEST(LayerNames, FindsTheAlphaOfThePicture) {
+  const auto alpha = [](std::vector<ExrPart> parts) {
+    const Names names(std::move(parts));
+    return names.name(names.finder.alpha());
+  };
+  EXPECT_EQ(alpha({part("", {"A", "View.Combined.A", "mask.A"})}), ":A");
+  EXPECT_EQ(alpha({part("", {"View.Shadow.A", "View.Combined.A", "View.Combined.R"})}), ":View.Combined.A");
+  EXPECT_EQ(alpha({part("", {"mask.A", "R"})}), "none");
 }
 
 TEST(LayerNames, FindsDepthButNotTheThirdNumberOfAVector) {
