@@ -52,6 +52,8 @@ void check(const pelage_post_image* image, const pelage_post_options& options) {
               image->height <= FlowField::kLargestSide,
           "image: width and height must be 1 to 65535");
   require(options.scale >= 1 && options.scale <= 8, "scale must be 1 to 8");
+  require(options.longest_fill >= -1 && options.longest_fill <= FlowField::kLargestSide,
+          "longest_fill must be -1 to 65535");
   require(options.threads >= 0 && options.threads <= 4096, "threads must be 0 to 4096");
   require(image->channel_count == 0 || image->channels != nullptr, "image: channels are missing");
   for (size_t i = 0; i < image->channel_count; ++i) {
@@ -80,6 +82,7 @@ std::vector<float> depth_of(const pelage_post_image& image, std::vector<Flow>& m
   std::vector<uint8_t> is_soft;
   std::vector<float> depth;
   depth.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+  is_soft.reserve(depth.capacity());
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const bool is_clear = image.alpha.words && value(image.alpha, x, y) == 0;
@@ -99,6 +102,7 @@ void blur(const pelage_post_image& image, const pelage_post_options& options, Pr
   require(options.steps >= 0 && options.steps <= 4096, "steps must be 0 to 4096");
   const Workers workers(options.threads);
   std::vector<Flow> motion;
+  motion.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
   float longest = 0;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {

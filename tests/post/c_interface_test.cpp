@@ -66,6 +66,9 @@ TEST(CInterface, SaysWhatIsWrong) {
   image.width = image.height = 4;
   EXPECT_EQ(pelage_motion_blur(&image, &options), PELAGE_POST_BAD_ARGUMENT);
   EXPECT_STREQ(options.message, "image: motion is missing");
+  options.longest_fill = 1 << 30;
+  EXPECT_EQ(pelage_motion_blur(&image, &options), PELAGE_POST_BAD_ARGUMENT);
+  EXPECT_STREQ(options.message, "longest_fill must be -1 to 65535");
   options.scale = 9;
   EXPECT_EQ(pelage_stereo(&image, &options), PELAGE_POST_BAD_ARGUMENT);
 }
