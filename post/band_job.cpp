@@ -14,19 +14,23 @@ constexpr int kFewestRows = 16;
 /// Larger bands gain nothing, and their memory has to be fetched from the system first.
 constexpr int64_t kEnoughBytes = int64_t{256} << 20;
 
-std::string megabytes(int64_t bytes) { return fmt::format("{} MiB", (bytes >> 20) + 1); }
+constexpr int64_t kMebibyte = int64_t{1} << 20;
 
-[[noreturn]] void fail_memory(const std::filesystem::path& path, int64_t needed, int64_t budget) {
+/// `needed` says how much, rounded up so that it is enough.
+[[noreturn]] void fail_memory(const std::filesystem::path& path, const char* needs, int64_t needed,
+                              int64_t budget) {
   throw Error(ErrorKind::kMemory, {path.string(), 0, 0},
-              fmt::format("needs {} of memory, the budget is {}", megabytes(needed), megabytes(budget)));
+              fmt::format("needs {} {} MiB of memory, the budget is {:.6g} MiB", needs,
+                          needed / kMebibyte + 1, static_cast<double>(budget) / kMebibyte));
 }
 
 }  // namespace
 
-void check_field_memory(const ViewImage& image, int64_t budget) {
+void check_field_memory(const ViewImage& image, int64_t held, int64_t budget) {
   const int64_t pixels = int64_t{image.canvas().width()} * image.canvas().height();
-  const int64_t needed = pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 2);
-  if (needed > budget) fail_memory(image.reader().path(), needed, budget);
+  // With a mark, and whether its edge is soft.
+  const int64_t needed = held + pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 2);
+  if (needed > budget) fail_memory(image.reader().path(), "more than", needed, budget);
 }
 
 void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice) {
@@ -40,7 +44,11 @@ WarpTarget BandJob::target(const MovingView& view) const {
 }
 
 int64_t BandJob::fixed_bytes() const {
-  int64_t bytes = scratch_bytes + 2 * reader->buffer_bytes();  // reads and writes
+  return scratch_bytes + 2 * reader->buffer_bytes() + field_bytes();  // reads and writes
+}
+
+int64_t BandJob::field_bytes() const {
+  int64_t bytes = 0;
   for (const MovingView& view : views) {
     if (!view.field) continue;
     bytes +=
@@ -70,7 +78,7 @@ BandJob::Band BandJob::next_band(int first) const {
     if (needed <= std::min(room, kEnoughBytes)) return band;
     if (rows > kFewestRows) continue;
     if (needed <= room) return band;
-    fail_memory(reader->path(), memory - room + needed, memory);
+    fail_memory(reader->path(), "about", fixed_bytes() + needed, memory);
   }
 }
 

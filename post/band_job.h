@@ -81,6 +81,9 @@ class BandJob {
   void run(const std::filesystem::path& output, const Workers& workers, Progress& progress,
            MemoryLedger& ledger, PostReport& report);
 
+  /// What the fields of the views hold.
+  int64_t field_bytes() const;
+
   /// Where the view lies in the window.
   WarpTarget target(const MovingView& view) const;
 
@@ -97,12 +100,11 @@ class BandJob {
   Band band_{0, 0};
 };
 
-/// Bytes of the fields of pictures of this size, at most, while they are made; throws Error (kMemory) naming
-/// the file when they exceed the budget.
-void check_field_memory(const ViewImage& image, int64_t budget);
+/// Throws Error (kMemory) naming the file when the field of this picture, while it is made, and `held` bytes
+/// of others exceed the budget.
+void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
-/// Several parts of the two tools' beginnings: throws Error (kInput) saying what is missing and what there
-/// is.
+/// Throws Error (kInput) saying what is missing, what to do, and what there is.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

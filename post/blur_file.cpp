@@ -33,9 +33,10 @@ float longest_of(const FlowField& field) {
   return std::hypot(x, y);
 }
 
-/// The field of a view, or none where it has no vectors or nothing to blur.
+/// The field of a view, or none where it has no vectors or nothing to blur. `held`: bytes of those before.
 std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFileParams& params,
-                                      const std::string& view, const Workers& workers, PostReport& report) {
+                                      const std::string& view, int64_t held, const Workers& workers,
+                                      PostReport& report) {
   const LayerFinder& layers = image.layers();
   const auto motion = layers.motion();
   if (!motion || !layers.has_colors()) return nullptr;
@@ -43,14 +44,15 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
   if (!layers.depth() && !without_depth) {
     fail_missing(image, "depth" + of_view(view), "name a layer with --depth-layer, or 'none' to go without");
   }
-  check_field_memory(image, params.file.memory);
+  check_field_memory(image, held, params.file.memory);
   std::vector<uint8_t> is_soft;
   std::vector<float> depth =
       image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), is_soft);
   size_t not_finite = 0;
   std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, not_finite);
   if (not_finite > 0) {
-    report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
+    report.notes.push_back(
+        fmt::format("{} vectors{} are not finite and count as none", not_finite, of_view(view)));
   }
   join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
   const ShutterParams& shutter = params.shutter;
@@ -91,15 +93,22 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     MovingView moving;
     moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
     if (moving.image->own().empty()) continue;
-    moving.field = make_field(*moving.image, params, view, workers, report);
+    moving.field = make_field(*moving.image, params, view, job.field_bytes(), workers, report);
     if (moving.field) report.longest = std::max(report.longest, longest_of(*moving.field));
     if (!moving.field && moving.image->layers().has_colors()) {
       report.notes.push_back("no motion vectors" + of_view(view) + ": copied");
     }
     job.views.push_back(std::move(moving));
   }
-  const bool moves = std::any_of(job.views.begin(), job.views.end(), [](const auto& v) { return !!v.field; });
-  if (!moves) {
+  const auto moving =
+      std::count_if(job.views.begin(), job.views.end(), [](const auto& v) { return !!v.field; });
+  if (moving == 0) {
+    const bool has_vectors = std::any_of(job.views.begin(), job.views.end(), [](const auto& v) {
+      return v.image->layers().motion().has_value();
+    });
+    if (has_vectors) {
+      fail_missing(*job.views.front().image, "colours to blur", "name their layer with --color-layer");
+    }
     fail_missing(*job.views.front().image,
                  params.file.layers.motion.empty() ? "motion vectors"
                                                    : "motion vectors '" + params.file.layers.motion + "'",
@@ -151,9 +160,8 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
         }
       }
     }
-    progress.advance(band.last - band.first);
   };
-  progress.begin("blur", static_cast<double>(job.window.height()) * static_cast<double>(job.views.size()));
+  progress.begin("blur", static_cast<double>(job.window.height()) * static_cast<double>(moving));
   job.run(output, workers, progress, ledger, report);
   progress.end();
   return report;

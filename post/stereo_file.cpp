@@ -27,10 +27,11 @@ std::string pick_view(const ExrReader& reader, const std::vector<std::string>& v
     return std::find(views.begin(), views.end(), view) != views.end();
   };
   if (params.view) {
-    if (!has(*params.view)) {
-      refuse(reader, "has no view " + quote(*params.view) + suggest(*params.view, views));
-    }
-    return *params.view;
+    if (has(*params.view)) return *params.view;
+    std::vector<std::string> named = views;
+    std::erase(named, "");  // what belongs to none
+    refuse(reader, named.empty() ? "has no views"
+                                 : "has no view " + quote(*params.view) + suggest(*params.view, named));
   }
   const std::string usual = params.to_left ? "right" : "left";
   return has(usual) ? usual : views.front();
@@ -130,7 +131,7 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
 std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFileParams& params,
                                       const StereoCamera& camera, const Workers& workers,
                                       PostReport& report) {
-  check_field_memory(image, params.file.memory);
+  check_field_memory(image, 0, params.file.memory);
   const LayerFinder& layers = image.layers();
   if (!layers.depth()) fail_missing(image, "depth", "name a layer with --depth-layer");
   std::vector<uint8_t> is_soft;

@@ -201,6 +201,12 @@ TEST_F(BlurFile, RefusesInOneLineWhatItCannotUse) {
   EXPECT_EQ(without("Z"),
             ": has no depth; name a layer with --depth-layer, or 'none' to go without; it has A, B, N.X, R, "
             "forward.u, forward.v, id, key.diffuse.R");
+  ExrImage data = image;
+  std::erase_if(data.channels,
+                [](const ExrChannel& c) { return c.name != "Z" && !c.name.starts_with("forward"); });
+  write_exr(path("data.exr"), data);
+  EXPECT_EQ(refusal("data.exr"),
+            ": has no colours to blur; name their layer with --color-layer; it has Z, forward.u, forward.v");
   EXPECT_EQ(refusal("missing.exr"), ": there is no such file");
   std::ofstream(path("text.exr")) << "no picture";
   EXPECT_EQ(refusal("text.exr"), ": is not an EXR file");
