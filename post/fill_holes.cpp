@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "post/fill_holes.h"
 
+#include <algorithm>
+
 #include "base/check.h"
 
 namespace pelage {

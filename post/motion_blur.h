@@ -31,34 +31,40 @@ struct PostTiling {
   int columns = 128, rows = 16;  ///< pixels of a piece that a worker draws and resolves at a time
 };
 
-/// Pixmotor [Neulander07; Neulander13]: warps the picture to each of the `times`, resolves what is seen, and
-/// averages. `rows` are rows of the result (the picture shifted by target.origin), `width` its columns; the
-/// layers' sources must hold every row of the field from which something reaches these rows
-/// (`rows_reaching`), their targets these rows. Throws nothing of its own. Returns early when `progress` is
-/// cancelled, to which it reports a step per row; otherwise a function of its arguments but the tiling and
-/// the workers.
+/// Which rows of the result (the picture shifted by target.origin) are made, and of what.
 struct BlurJob {
   const FlowField* field = nullptr;
   WarpTarget target;
   std::vector<float> times;
-  int width = 0;
+  int width = 0;                    ///< columns of the result
   int first_row = 0, last_row = 0;  ///< half-open
 };
+
+/// Pixmotor [Neulander07; Neulander13]: warps the picture to each of the job's times, resolves what is seen,
+/// and averages. The layers' sources must hold every row of the field from which something reaches the job's
+/// rows
+/// (`rows_reaching`), their targets those rows. Throws nothing of its own. Returns early when `progress` is
+/// cancelled, to which it reports a step per row; otherwise a function of its arguments but the tiling and
+/// the workers.
 void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, const Workers& workers,
                Progress& progress);
 
-/// Rows of the field from which a pixel may reach rows first_row .. last_row of the result at one of the
-/// times; half-open, empty as {0, 0}.
+/// Half-open; empty as {0, 0}.
 struct RowRange {
   int first = 0, last = 0;
 };
+
+/// Rows of the field from which a pixel may reach rows first_row .. last_row (half-open) of the result at one
+/// of the times.
 RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row,
                        int last_row, const std::vector<float>& times);
 
-/// How far pixels come to lie outside the field at any of the times, in whole pixels per side.
+/// Whole pixels per side.
 struct Overhang {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
+
+/// How far pixels come to lie outside the field at any of the times.
 Overhang overhang(const FlowField& field, const std::vector<float>& times);
 
 }  // namespace pelage

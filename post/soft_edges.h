@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "post/flow_field.h"
@@ -15,9 +16,10 @@ inline bool is_soft_edge(float alpha, float depth) {
   return alpha > 0 && alpha < 1 && !(distance > 0 && distance < std::numeric_limits<float>::infinity());
 }
 
+inline constexpr int kSoftEdgeReach = 2;
+
 /// Gives each marked pixel depth and vector of the nearest surface within kSoftEdgeReach pixels, if there is
 /// one. `motion` may be empty. Equal depths: the one that comes first.
-inline constexpr int kSoftEdgeReach = 2;
 void join_soft_edges(int width, int height, const std::vector<uint8_t>& is_soft, std::vector<float>& depth,
                      std::vector<Flow>& motion);
 

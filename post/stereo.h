@@ -39,10 +39,8 @@ inline constexpr int kStripRows = 16;
 
 enum class StereoFilter { kLanczos, kBox };
 
-/// Pixstereo [Neulander13]: warps the picture once, to the other eye, fills what that eye sees and the first
-/// one did not, and resolves. The field holds the parallax (time 1 is the other eye). Rows and columns are
-/// those of BlurJob. `invented` and `missing`, where given, get the part of each pixel that was filled, and
-/// the part that stayed empty. Progress, cancelling and memory as in blur_rows.
+/// The field holds the parallax (time 1 is the other eye). Rows and columns are those of BlurJob. `invented`
+/// and `missing`, where given, get the part of each pixel that was filled, and the part that stayed empty.
 struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};
@@ -53,7 +51,10 @@ struct StereoJob {
   int first_row = 0, last_row = 0;
   std::optional<Plane> invented, missing;
 };
-/// `strip_rows`: of the strips that a worker holds at a time; changes no pixel.
+
+/// Pixstereo [Neulander13]: warps the picture once, to the other eye, fills what that eye sees and the first
+/// one did not, and resolves. Layers, progress and cancelling as in blur_rows. `strip_rows`: of the strips
+/// that a worker holds at a time; changes no pixel.
 void stereo_rows(const StereoJob& job, const PostLayers& layers, int strip_rows, const Workers& workers,
                  Progress& progress);
 
