@@ -49,27 +49,20 @@ Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudg
   refuse_small_budget();
 }
 
-/// While one thread reserves, every other pins or grows at most one slot. So the largest slots of all threads
-/// together are what any order of events can ask for.
+/// Threads that lack room wait and hold nothing, so whoever pins or grows gets done, and in the end there is
+/// room for any slot that fits alone.
 void Residency::refuse_small_budget() const {
   if (budget_.limit == 0) return;
-  std::vector<size_t> sizes(slots_.size());
-  for (size_t slot = 0; slot < sizes.size(); ++slot) {
-    sizes[slot] = grower_.reserve_bytes(static_cast<uint32_t>(slot));
+  size_t largest = 0;
+  for (size_t slot = 0; slot < slots_.size(); ++slot) {
+    largest = std::max(largest, grower_.reserve_bytes(static_cast<uint32_t>(slot)));
   }
-  const size_t count = std::min(hazards_.size(), sizes.size());
-  std::partial_sort(sizes.begin(), sizes.begin() + static_cast<ptrdiff_t>(count), sizes.end(),
-                    std::greater<>());
-  int64_t largest = 0;
-  for (size_t i = 0; i < count; ++i) largest += static_cast<int64_t>(sizes[i]);
-  const int64_t least = ledger_.budgeted() + largest;
+  const int64_t least = ledger_.budgeted() + static_cast<int64_t>(largest);
   if (least <= static_cast<int64_t>(budget_.limit)) return;
-  throw Error(
-      ErrorKind::kMemory,
-      fmt::format("render.memory ({}) is too small: {}, and {} threads need {} for a chunk each (the "
-                  "largest: {}); {}M would do",
-                  size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_), hazards_.size(),
-                  size_text(largest), size_text(static_cast<int64_t>(sizes[0])), (least >> 20) + 1));
+  throw Error(ErrorKind::kMemory,
+              fmt::format("render.memory ({}) is too small: {}, and the largest chunk needs {}; {}M would do",
+                          size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
+                          size_text(static_cast<int64_t>(largest)), (least >> 20) + 1));
 }
 
 Residency::~Residency() {

@@ -69,7 +69,8 @@ struct ResidencyCounts {
 /// no thread was seen to pin it; when one pins it after all, it goes back. Reservations are all or nothing: a
 /// thread reserves what growing can take at most before it claims the slot, and until then it holds nothing,
 /// neither memory nor pin nor claim. So a thread that needs room can have all that the others do not pin or
-/// grow at this moment, and every budget that holds the largest slots of all threads at once finishes.
+/// grow at this moment, and they get done: every budget that holds the largest slot finishes. One that holds
+/// the largest slots of all threads at once lets none of them wait for room.
 ///
 /// Whatever else is charged to budgeted tags is seen by the next reservation; what may grow while a Residency
 /// works (poses, say) should be charged at its most before.
@@ -79,7 +80,7 @@ struct ResidencyCounts {
 class Residency {
  public:
   /// `threads`: visits carry 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the largest
-  /// slots of all threads beside what the ledger has already.
+  /// slot beside what the ledger has already.
   Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget, MemoryLedger& ledger,
             MemoryTag tag);
   /// Drops everything. No visit is under way.

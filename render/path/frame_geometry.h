@@ -16,7 +16,7 @@ namespace pelage {
 class FrameGeometry {
  public:
   /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
-  /// one chunk per thread. Returns null when cancelled.
+  /// the largest chunk. Returns null when cancelled.
   static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Workers& workers,
                                                    Progress& progress, MemoryLedger& ledger,
                                                    Statistics& statistics);

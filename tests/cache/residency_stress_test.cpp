@@ -24,7 +24,7 @@ uint64_t soak_scale() {
   return text ? std::max<uint64_t>(1, std::strtoull(text, nullptr, 10)) : 1;
 }
 
-/// Percent of all units; 0 is just one chunk per thread.
+/// Percent of all units; 0 is just the largest of them, so that threads grow one after the other.
 class ResidencyStress : public testing::TestWithParam<int> {
  protected:
   ResidencyStress() : grower_(kSlots, kMostWords, 3) {}
@@ -33,9 +33,9 @@ class ResidencyStress : public testing::TestWithParam<int> {
   uint64_t limit(int percent) {
     MemoryLedger ledger;
     const Residency empty(grower_, kSlots, kThreads, {}, ledger, MemoryTag::kChunks);
-    const uint64_t least = kThreads * grower_.largest_reservation();
     const uint64_t wanted = grower_.all_bytes() * static_cast<uint64_t>(percent) / 100;
-    return static_cast<uint64_t>(ledger.budgeted() + fixed_) + std::max(wanted, least);
+    return static_cast<uint64_t>(ledger.budgeted() + fixed_) +
+           std::max(wanted, grower_.largest_reservation());
   }
 
   TestGrower grower_;
