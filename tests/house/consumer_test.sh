@@ -13,5 +13,12 @@ said=$("$scratch/build/consumer")
 echo "$said"
 [ "$said" = "2 strands, 6 points, box -0.100 -0.100 -0.100 to 3.100 2.100 0.100" ]
 
+# A host in plain C that calls the motion blur and the other eye.
+said=$("$scratch/build/host")
+echo "$said"
+[ "$said" = "blurred: 0 0 0 0 0 0.5 0.5 0.5 0.5 0 0 0
+other eye: 0 0 1 1 0 0 0 0 0 0 0 0
+scale must be 1 to 8" ]
+
 # The installed command, where there is one, runs from there and finds what it needs.
 if [ -x "$scratch/prefix/bin/pelage" ]; then "$scratch/prefix/bin/pelage" --version; fi
