@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
+#include "cli/grow_boxes.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
@@ -133,6 +134,9 @@ int run_grow(const Options& options) {
     if (groom->cache_report()) report_cache(name, *groom->cache_report(), options.explain);
   }
   if (options.prune) prune_caches(*assets);
+  if (options.output.empty() && options.groom.empty() && !grow_boxes(scene, *assets, run)) {
+    return kInterruptedExitCode;
+  }
   // What a cache holds needs no pose; strands are made for those who ask for them.
   if (all_cached && options.output.empty()) {
     run.finish(options);

@@ -82,7 +82,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_run_flags(*render, options, texts);
 
   CLI::App* grow =
-      app.add_subcommand("grow", "Grow the grooms of a scene and what their caches lack, write strand files");
+      app.add_subcommand("grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
   add_scene_flags(*grow, options, texts);
   grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx)")->type_name("FILE");
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
@@ -92,7 +92,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       "--prune", options.prune,
       "Remove what no groom of the scene needs, and nothing has used for an hour, from the folders of "
       "their caches");
-  grow->add_option("--frames", texts.frames, "Frame whose pose to grow on")->type_name("FRAME");
+  grow->add_option("--frames", texts.frames, "Frames whose boxes to grow; strands grow on the first")->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
 
   CLI::App* measure = app.add_subcommand(

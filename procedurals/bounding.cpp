@@ -82,6 +82,11 @@ BoundSpan bound_span(BoundingStrategy strategy) {
              : BoundSpan::kFrame;
 }
 
+bool measures_strands(BoundingStrategy strategy) {
+  return strategy == BoundingStrategy::kExact || strategy == BoundingStrategy::kExactShutter ||
+         strategy == BoundingStrategy::kLinear;
+}
+
 int bound_keys(BoundingStrategy strategy) { return strategy == BoundingStrategy::kLinear ? 2 : 1; }
 
 BoundsArea bounds_area(std::span<const ChunkBounds> bounds) {
@@ -105,10 +110,7 @@ std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       BoundingCounts* counts) {
   if (options.strategy == BoundingStrategy::kNone) return std::vector<ChunkBounds>(chunks.size());
   progress.begin("bound", static_cast<double>(chunks.size()));
-  const bool measures = options.strategy == BoundingStrategy::kExact ||
-                        options.strategy == BoundingStrategy::kExactShutter ||
-                        options.strategy == BoundingStrategy::kLinear;
-  if (!measures) {
+  if (!measures_strands(options.strategy)) {
     std::vector<ChunkBounds> bounds = stated_bounds(options, chunks, workers, progress);
     progress.end();
     return bounds;

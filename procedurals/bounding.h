@@ -22,6 +22,8 @@ struct BoundingOptions {
 
 /// During which time the boxes of a strategy hold what they hold, for skins too.
 BoundSpan bound_span(BoundingStrategy strategy);
+/// Whether it grows chunks to learn their boxes, which side files remember.
+bool measures_strands(BoundingStrategy strategy);
 /// ChunkBounds::keys of all chunks.
 int bound_keys(BoundingStrategy strategy);
 

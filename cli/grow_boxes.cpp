@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/grow_boxes.h"
+
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "cli/compose.h"
+#include "procedurals/bounding.h"
+#include "render/path/frame_chunks.h"
+
+namespace pelage {
+
+bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
+  const BoundingOptions bounding{.strategy = scene.render.bounds};
+  if (!measures_strands(bounding.strategy)) return true;
+  for (const int frame : scene.frames.frames) {
+    const double began = run.seconds();
+    const World world =
+        run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
+    const FrameChunks chunks(world.scene, run.workers());
+    std::vector<const Procedural*> remembering;
+    for (const Procedural* leaf : chunks.leaves()) {
+      if (leaf->bounds_record()) remembering.push_back(leaf);
+    }
+    if (remembering.empty()) continue;
+    BoundingCounts counts;
+    bound_chunks(
+        bounding, remembering, run.workers(), run.display(), run.ledger(),
+        [&](const std::string& line) { run.display().warn(line); }, &counts);
+    if (run.display().cancelled()) return false;
+    const double seconds = run.seconds() - began;
+    run.statistics().stages_s["bound"] += seconds;
+    std::cout << fmt::format("boxes of frame {}: {} chunks, {} of them remembered, {:.2f} s\n", frame,
+                             remembering.size(), counts.remembered, seconds);
+  }
+  return true;
+}
+
+}  // namespace pelage
