@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
 
 namespace pelage {
 namespace {
@@ -31,6 +32,22 @@ void check_field_memory(const ViewImage& image, int64_t held, int64_t budget) {
   // With a mark, and whether its edge is soft.
   const int64_t needed = held + pixels * static_cast<int64_t>(FlowField::kBytesPerPixel + 2);
   if (needed > budget) fail_memory(image.reader().path(), "more than", needed, budget);
+}
+
+void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice) {
+  for (const auto* names : {&choice.data, &choice.colors}) {
+    for (const std::string& name : *names) {
+      const bool is_known = std::any_of(
+          views.begin(), views.end(), [&](const MovingView& view) { return view.image->layers().has(name); });
+      if (is_known) continue;
+      fail_missing(*views.front().image, "layer " + quote(name),
+                   names == &choice.data ? "check --data-layer" : "check --color-layer");
+    }
+  }
+}
+
+std::string what_was_named(const std::string& what, const std::string& name) {
+  return name.empty() ? what : what + " " + quote(name);
 }
 
 void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice) {

@@ -104,6 +104,12 @@ class BandJob {
 /// of others exceed the budget.
 void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
+/// Throws Error (kInput) naming a layer that was said to be data or colours and that none of the views finds.
+void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
+
+/// "depth", or "depth 'far'" where it was named.
+std::string what_was_named(const std::string& what, const std::string& name);
+
 /// Throws Error (kInput) saying what is missing, what to do, and what there is.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 

@@ -42,7 +42,8 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
   if (!motion || !layers.has_colors()) return nullptr;
   const bool without_depth = params.file.layers.depth == "none";
   if (!layers.depth() && !without_depth) {
-    fail_missing(image, "depth" + of_view(view), "name a layer with --depth-layer, or 'none' to go without");
+    fail_missing(image, what_was_named("depth", params.file.layers.depth) + of_view(view),
+                 "name a layer with --depth-layer, or 'none' to go without");
   }
   check_field_memory(image, held, params.file.memory);
   std::vector<uint8_t> is_soft;
@@ -109,11 +110,10 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     if (has_vectors) {
       fail_missing(*job.views.front().image, "colours to blur", "name their layer with --color-layer");
     }
-    fail_missing(*job.views.front().image,
-                 params.file.layers.motion.empty() ? "motion vectors"
-                                                   : "motion vectors '" + params.file.layers.motion + "'",
+    fail_missing(*job.views.front().image, what_was_named("motion vectors", params.file.layers.motion),
                  "name their layer with --motion-layer");
   }
+  check_named_layers(job.views, params.file.layers);
   const std::vector<float> times = shutter_times(params.shutter, report.longest);
   report.steps = static_cast<int>(times.size());
 

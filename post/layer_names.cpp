@@ -241,17 +241,23 @@ std::optional<size_t> LayerFinder::bare_alpha() const {
   return {};
 }
 
+bool LayerFinder::is_listed(const NamedChannel& channel, const std::vector<std::string>& names) const {
+  return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return plain(channel.name()) == plain(name) || is_called(channel, plain(name));
+  });
+}
+
+bool LayerFinder::has(const std::string& name) const {
+  return std::any_of(channels_.begin(), channels_.end(),
+                     [&](const NamedChannel& c) { return is_listed(c, {name}); });
+}
+
 LayerRole LayerFinder::role(size_t i) const {
   const NamedChannel& channel = channels_[i];
-  const auto listed = [&](const std::vector<std::string>& names) {
-    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-      return plain(channel.name()) == plain(name) || is_called(channel, plain(name));
-    });
-  };
   if (ranked_.contains(i)) return LayerRole::kMatte;
   if (channel.type == ChannelType::kUint) return LayerRole::kData;
-  if (listed(choice_.data)) return LayerRole::kData;
-  if (listed(choice_.colors)) return LayerRole::kColor;
+  if (is_listed(channel, choice_.data)) return LayerRole::kData;
+  if (is_listed(channel, choice_.colors)) return LayerRole::kColor;
   if (depth() == i) return LayerRole::kDepth;
   if (const auto m = motion(); m && (m->first == i || m->second == i)) return LayerRole::kData;
   const std::string component = plain(channel.component);

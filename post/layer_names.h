@@ -59,6 +59,8 @@ class LayerFinder {
   /// Cryptomattes that the attributes announce, as indices of channels.
   const std::vector<RankedMatte>& mattes() const { return mattes_; }
   bool has_colors() const;
+  /// Whether any channel of the file goes by this name of a channel, layer or part.
+  bool has(const std::string& name) const;
 
   /// What there is to choose from, for messages: "R, G, B, A, key.diffuse.R and 12 more". Of several parts, a
   /// bare name stands behind that of its part: "mv.R".
@@ -76,6 +78,7 @@ class LayerFinder {
   std::optional<size_t> bare_alpha() const;
   std::optional<size_t> depth_in(const std::string& view) const;
   bool is_called(const NamedChannel& channel, const std::string& plain_layer) const;
+  bool is_listed(const NamedChannel& channel, const std::vector<std::string>& names) const;
   std::string name_in_file(const NamedChannel& channel) const;
   std::optional<size_t> find_channel(const std::string& view, const std::string& name) const;
   std::optional<std::pair<size_t, size_t>> find_motion() const;

@@ -133,7 +133,9 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
                                       PostReport& report) {
   check_field_memory(image, 0, params.file.memory);
   const LayerFinder& layers = image.layers();
-  if (!layers.depth()) fail_missing(image, "depth", "name a layer with --depth-layer");
+  if (!layers.depth()) {
+    fail_missing(image, what_was_named("depth", params.file.layers.depth), "name a layer with --depth-layer");
+  }
   std::vector<uint8_t> is_soft;
   std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha(), is_soft);
   std::vector<Flow> vectors;
@@ -185,6 +187,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
   job.window.x1 = std::min(job.window.x1 + by.right, image.limits().x1);
   plan_parts(job, image, view, camera);
   job.views.push_back(std::move(moving));
+  check_named_layers(job.views, params.file.layers);
 
   const int margin = stereo_margin(params.filter), height = job.window.height();
   const int strip_rows = std::max(1, params.strip_rows);

@@ -213,6 +213,22 @@ TEST_F(BlurFile, RefusesInOneLineWhatItCannotUse) {
   write_exr(path("in.exr"), image);
   params_.file.layers.motion = "mv";
   EXPECT_EQ(refusal("in.exr").find(": has no motion vectors 'mv'; name"), 0u);
+  params_.file.layers = {"", "far", {}, {}};
+  EXPECT_EQ(refusal("in.exr").find(": has no depth 'far'; name"), 0u);
+  params_.file.layers = {"", "", {"N", "mask"}, {}};
+  EXPECT_EQ(refusal("in.exr").find(": has no layer 'mask'; check --data-layer; it has A,"), 0u);
+  params_.file.layers = {"", "", {"N"}, {"key.diffuse", "sky"}};
+  EXPECT_EQ(refusal("in.exr").find(": has no layer 'sky'; check --color-layer; it has A,"), 0u);
+}
+
+TEST_F(BlurFile, RefusesChannelsWithFewerPixels) {
+  write_exr(path("in.exr"), still_image(16, 16));
+  std::string bytes = read_file(path("in.exr"));
+  const std::string name("forward.u\0", 10);
+  // Behind the name: type, linearity, sampling across.
+  bytes.at(bytes.find(name) + name.size() + 8) = 2;
+  std::ofstream(path("sub.exr"), std::ios::binary) << bytes;
+  EXPECT_EQ(refusal("sub.exr"), ": channel 'forward.u' is subsampled, which is not supported");
 }
 
 TEST_F(BlurFile, GoesWithoutDepthWhenTold) {
