@@ -79,4 +79,9 @@ ChunkCounts BallChunks::counts(uint32_t chunk) const {
   return n;
 }
 
+StrandScale BallChunks::scale(uint32_t) const {
+  const auto* fur = std::get_if<FurContents>(&contents_.front().geometry);
+  return {fur && fur->strands.point_count() > 0 ? 2 * fur->strands.radius(0) : 0, V3f(0)};
+}
+
 }  // namespace pelage

@@ -16,6 +16,7 @@ class BallChunks final : public ChunkGrower {
   BallChunks(const BumpyBall& ball, size_t chunk_strands);
   ChunkContents grow(uint32_t chunk) const override { return contents_[chunk]; }
   ChunkCounts counts(uint32_t chunk) const override;
+  StrandScale scale(uint32_t) const override;
   const std::vector<ChunkContents>& contents() const { return contents_; }
 
  private:

@@ -77,6 +77,11 @@ CubicSegment segment_of(const Strands& strands, size_t strand, uint32_t segment,
       return b_spline_segment(strands, strand, s, time);
     case CurveBasis::kCatmullRom:
       return catmull_rom_segment(strands, strand, s, time);
+    case CurveBasis::kBezier: {
+      const size_t first = strands.first_point(strand) + size_t(3) * segment;
+      return cubic(knot(strands, first, time), knot(strands, first + 1, time), knot(strands, first + 2, time),
+                   knot(strands, first + 3, time));
+    }
     case CurveBasis::kLinear:
       break;
   }

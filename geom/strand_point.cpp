@@ -35,6 +35,15 @@ Weights catmull_rom_derivative(float t) {
            0.5f * (3 * t2 - 2 * t)}};
 }
 
+Weights bezier_weights(float t) {
+  const float u = 1 - t;
+  return {{u * u * u, 3 * (u * u * t), 3 * (u * t * t), t * t * t}};
+}
+Weights bezier_derivative(float t) {
+  const float u = 1 - t, ut = 2 * (u * t);
+  return {{-3 * (u * u), 3 * (u * u - ut), 3 * (ut - t * t), 3 * (t * t)}};
+}
+
 /// Points first .. first + 3 of a strand, of which `before` at the front and `after` at the back do not
 /// exist: a phantom point 2 P0 - P1 is folded into the weights of P0 and P1.
 struct Window {
@@ -45,6 +54,10 @@ struct Window {
   Window(const Strands& strands, size_t strand, uint32_t segment) {
     first = strands.first_point(strand) + segment;
     if (strands.basis() == CurveBasis::kBSpline) return;
+    if (strands.basis() == CurveBasis::kBezier) {
+      first += size_t(2) * segment;
+      return;
+    }
     if (strands.basis() == CurveBasis::kLinear) {
       count = 2;
       return;
@@ -104,10 +117,12 @@ Sum weighted_points(const Strands& strands, const Window& window, const Weights&
 
 Weights position_weights(CurveBasis basis, float t) {
   if (basis == CurveBasis::kLinear) return {{1 - t, t, 0, 0}};
+  if (basis == CurveBasis::kBezier) return bezier_weights(t);
   return basis == CurveBasis::kCatmullRom ? catmull_rom_weights(t) : b_spline_weights(t);
 }
 Weights derivative_weights(CurveBasis basis, float t) {
   if (basis == CurveBasis::kLinear) return {{-1, 1, 0, 0}};
+  if (basis == CurveBasis::kBezier) return bezier_derivative(t);
   return basis == CurveBasis::kCatmullRom ? catmull_rom_derivative(t) : b_spline_derivative(t);
 }
 

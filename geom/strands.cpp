@@ -91,6 +91,7 @@ size_t Strands::bytes() const {
 }
 
 uint32_t segment_count(CurveBasis basis, uint32_t points) {
+  if (basis == CurveBasis::kBezier) return points > 0 ? (points - 1) / 3 : 0;
   const uint32_t lost = basis == CurveBasis::kBSpline ? 3 : 1;
   return points > lost ? points - lost : 0;
 }
@@ -105,8 +106,9 @@ void interpolate_attribute(const Strands& strands, const StrandAttribute& attrib
   }
   // A span of an unpinned B-spline lies beside the second and third of its four points.
   const size_t before = strands.basis() == CurveBasis::kBSpline ? 1 : 0;
-  const float* a = &attribute.values[(strands.first_point(strand) + segment + before) * n];
-  const float* b = a + n;
+  const size_t stride = strands.basis() == CurveBasis::kBezier ? 3 : 1;
+  const float* a = &attribute.values[(strands.first_point(strand) + segment * stride + before) * n];
+  const float* b = a + stride * n;
   for (size_t c = 0; c < n; ++c) out[c] = interpolate(a[c], b[c], t);
 }
 

@@ -14,8 +14,10 @@ namespace pelage {
 /// How the points of a strand make a curve. Grown strands are uniform cubic B-splines whose first and last
 /// points are met: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are made only where
 /// needed, so n points give n - 1 segments. `kBSpline` (files) has no phantom points: n points give n - 3
-/// segments. `kCatmullRom` gets phantom ends of the same kind and passes through all its points.
-enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom };
+/// segments. `kCatmullRom` gets phantom ends of the same kind and passes through all its points. `kBezier` is
+/// what strands are while they are rendered: 3 n + 1 points are n segments, and of what its points carry only
+/// that at the ends of segments counts. Neither files nor grooms have it.
+enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom, kBezier };
 
 /// Where on a skin a strand grows: ptex face and parameters in [0, 1]^2.
 struct RootAddress {

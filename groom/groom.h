@@ -86,6 +86,8 @@ class Groom {
   bool grows_on_skin() const;
   /// Farthest that any point of a strand, with its radius, may be from its root, for a character of scale 1.
   float reach() const;
+  /// Of the widest strands, about, for a character of scale 1: the same however the coat is divided.
+  float width() const;
   /// A box that holds every point +- radius that grow() can give: roots in the pose, longest strand, each
   /// operator's reach. No strand is grown.
   Box3f conservative_bound(size_t leaf, const PosedSkin& pose) const;

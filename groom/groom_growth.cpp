@@ -206,6 +206,13 @@ float Groom::reach() const {
   return most;
 }
 
+float Groom::width() const {
+  float most = 0;
+  for (size_t leaf = 0; leaf < impl_->source.follicles().leaves().size(); ++leaf)
+    most = std::max(most, 2 * impl_->reach(leaf).radius);
+  return most;
+}
+
 Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose) const {
   const Impl& g = *impl_;
   const FollicleTree& follicles = g.source.follicles();

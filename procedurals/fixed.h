@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <utility>
 
 #include "geom/curve_bounds.h"
@@ -25,6 +26,11 @@ class FixedStrands final : public Procedural {
       counts.segments += segment_count(strands_.basis(), strands_.strand_points(i));
     for (const StrandAttribute& a : strands_.attributes()) counts.attribute_floats += a.values.size();
     return counts;
+  }
+  StrandScale scale() const override {
+    float radius = 0;
+    for (size_t i = 0; i < strands_.point_count(); ++i) radius = std::max(radius, strands_.radius(i));
+    return {2 * radius, strands_.point_count() > 0 ? strands_.point(0) : V3f(0)};
   }
   ChunkBounds exact_bounds(BoundSpan, int keys) const override {
     return SegmentParts(strands_).exact_bounds(keys);

@@ -18,6 +18,11 @@ auto in_pose(const Groom& groom, const PosedCharacterSkin& skin, size_t leaf, Bo
   return use(skin.pose(span, leaf_faces(groom, leaf)).skin());
 }
 
+StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin) {
+  const Box3f box = skin.bound(BoundSpan::kFrame);
+  return {groom.width() * skin.scale(), box.isEmpty() ? V3f(0) : box.center()};
+}
+
 ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& pose, int keys) {
   const Strands strands = groom.grow(leaf, pose);
   return SegmentParts(strands).exact_bounds(keys);
@@ -69,6 +74,8 @@ StrandCounts FurProcedural::counts() const {
   return sum;
 }
 
+StrandScale FurProcedural::scale() const { return coat_scale(*groom_, *skin_); }
+
 ChunkBounds FurProcedural::exact_bounds(BoundSpan span, int keys) const {
   const auto pose = skin_->pose(span);
   ChunkBounds all;
@@ -99,6 +106,8 @@ StrandCounts FurLeafProcedural::counts() const {
   counts.motion_keys = static_cast<size_t>(skin_->motion_keys());
   return counts;
 }
+
+StrandScale FurLeafProcedural::scale() const { return coat_scale(*groom_, *skin_); }
 
 ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
   return in_pose(*groom_, *skin_, leaf_, span,

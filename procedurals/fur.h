@@ -18,6 +18,7 @@ class FurProcedural final : public Procedural {
   /// The whole coat at once, leaf after leaf, for tools that want one batch.
   Strands generate() const override;
   StrandCounts counts() const override;
+  StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
 
  private:
@@ -34,6 +35,7 @@ class FurLeafProcedural final : public Procedural {
   Box3f bound(BoundSpan span) const override;
   Strands generate() const override;
   StrandCounts counts() const override;
+  StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
   /// Beside the cache of the groom, for all leaves of the coat in one file.
   std::optional<BoundsRecord> bounds_record() const override;

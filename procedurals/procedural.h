@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/vector.h"
 #include "geom/strand_counts.h"
+#include "geom/strand_scale.h"
 #include "geom/strands.h"
 #include "procedurals/chunk_bounds.h"
 
@@ -45,6 +46,8 @@ class Procedural {
   virtual Strands generate() const = 0;
   /// How much generate() gives: exactly, or an upper bound.
   virtual StrandCounts counts() const = 0;
+  /// Of the coat: the same for all that it splits into.
+  virtual StrandScale scale() const = 0;
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
   /// drops it. `keys` is 1, or 2 for boxes linear in time over the shutter.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;

@@ -29,7 +29,11 @@ const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "How the picture is computed.");
     s.key("integrator", &RenderParams::integrator, {.help = "Method"});
-    s.key("accel", &RenderParams::accel, {.help = "What rays are traced with"});
+    s.key(
+        "accel", &RenderParams::accel,
+        {.help =
+             "What strands are traced with: Embree's curves, or our own tree over fur, which is smaller and "
+             "faster. Skins and `curves: round` are Embree's either way"});
     s.key("curves", &RenderParams::curves,
           {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups)"});
     s.key("samples", &RenderParams::samples,

@@ -17,10 +17,10 @@ template <>
 struct EnumNames<Integrator> {
   static constexpr const char* names[] = {"path"};
 };
-enum class AccelKind { kEmbree };
+enum class AccelKind { kEmbree, kFur };
 template <>
 struct EnumNames<AccelKind> {
-  static constexpr const char* names[] = {"embree"};
+  static constexpr const char* names[] = {"embree", "fur"};
 };
 enum class CurveShape { kFlat, kRound };
 template <>

@@ -11,6 +11,17 @@
 
 namespace pelage {
 
+/// The strand that a ray starts from, in terms of the accelerator that met it (Hit::start): near the place
+/// where the ray begins it is not met again.
+struct StrandStart {
+  static constexpr uint32_t kNone = ~0u;
+
+  uint32_t chunk = kNone;      ///< which holds the strand; kNone: the ray starts elsewhere
+  uint32_t first_segment = 0;  ///< of the strand in the chunk
+  uint32_t segment_count = 0;
+  float place = 0;  ///< segment of the strand + parameter in it
+};
+
 struct Ray {
   V3f origin{0};
   float near = 0;
@@ -19,6 +30,7 @@ struct Ray {
   float time = 0;  ///< in [0, 1] of the shutter
   uint32_t random =
       0;  ///< decides at which semi-transparent crossings closest() stops; unused when all is opaque
+  StrandStart start = {};
 };
 
 enum class HitKind : uint8_t { kNone, kStrand, kSkin };
@@ -32,6 +44,7 @@ struct Hit {
   uint32_t segment = 0;    ///< of the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
+  StrandStart start = {};  ///< for rays that go on from here
 
   explicit operator bool() const { return kind != HitKind::kNone; }
 };

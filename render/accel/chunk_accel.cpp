@@ -27,13 +27,20 @@ size_t part_count_bound(const ChunkCounts& counts) {
   return std::clamp<size_t>((counts.segments + counts.triangles) / kSegmentsPerPart, 1, kMostParts);
 }
 
+/// No strand in a box is wider than the box.
+float widest_radius(const ChunkBounds& bounds) {
+  const Box3f box = bounds.whole();
+  const V3f size = box.isEmpty() ? V3f(0) : box.size();
+  return 0.5f * std::min({size.x, size.y, size.z});
+}
+
 }  // namespace
 
 /// Grows chunks for the residency, and knows of each what is known before it is grown: the fine boxes that it
 /// was given, or the boxes that it learned when it was first grown.
 class ChunkAccel::Growth final : public Grower {
  public:
-  /// Takes the fine boxes out of `bounds`.
+  /// Takes the fine boxes out of `bounds`, and widens what is left by what snapping to a grid may add.
   Growth(const ChunkGrower& grower, std::span<ChunkBounds> bounds, const ChunkAccelOptions& options,
          const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
       : grower_(grower),
@@ -46,7 +53,10 @@ class ChunkAccel::Growth final : public Grower {
     size_t bytes = bounds.size() * (sizeof(known_[0]) + sizeof(learned_[0]) + sizeof(build_pages_[0]));
     for (uint32_t chunk = 0; chunk < bounds.size(); ++chunk) {
       const ChunkCounts counts = grower.counts(chunk);
-      if (counts.strands > 0 && counts.segments % counts.strands == 0)
+      if (stands_in_fur_tree(counts)) {
+        known_[chunk].margin = grid(chunk).margin(widest_radius(bounds[chunk]));
+        widen(bounds[chunk], known_[chunk].margin);
+      } else if (counts.strands > 0 && counts.segments % counts.strands == 0)
         patterns.expect(counts.segments / counts.strands, counts.strands);
       Known& known = known_[chunk];
       known.fine = std::move(bounds[chunk].fine);
@@ -64,19 +74,23 @@ class ChunkAccel::Growth final : public Grower {
   size_t reserve_bytes(uint32_t slot) const override {
     ChunkCounts counts = grower_.counts(slot);
     const size_t build_peak = kPage * size_t(build_pages_[slot].load(std::memory_order_relaxed));
-    if (build_peak > 0) return EmbreeChunk::bytes_bound(counts, build_peak);
+    const bool fur = stands_in_fur_tree(counts);
+    if (build_peak > 0)
+      return fur ? FurChunk::bytes_bound(counts, build_peak) : EmbreeChunk::bytes_bound(counts, build_peak);
     if (known_[slot].learns) counts.growth_bytes = std::max(counts.growth_bytes, part_bounds_scratch(counts));
-    return EmbreeChunk::bytes_bound(counts);
+    return fur ? FurChunk::bytes_bound(counts, options_.fur) : EmbreeChunk::bytes_bound(counts);
   }
 
   Grown grow(uint32_t slot) override {
     ChunkContents contents = grower_.grow(slot);
     if (known_[slot].learns && !learned(slot)) {
       // One thread at a time grows a slot, so nobody else stores here.
-      auto boxes = std::make_unique<const PartBoxes>(part_bounds(contents, kSegmentsPerPart, kMostParts));
+      ChunkBounds bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
+      if (stands_in_fur_tree(grower_.counts(slot))) widen(bounds, grid(slot).margin(widest_radius(bounds)));
+      auto boxes = std::make_unique<const PartBoxes>(bounds);
       learned_[slot].store(boxes.release(), std::memory_order_release);
     }
-    auto unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
+    std::unique_ptr<ChunkGeometry> unit = make(std::move(contents), slot);
     const size_t bytes = unit->bytes();
     build_pages_[slot].store(static_cast<uint32_t>(unit->build_peak_bytes() / kPage + 1),
                              std::memory_order_relaxed);
@@ -86,13 +100,30 @@ class ChunkAccel::Growth final : public Grower {
   /// Null before the chunk was first grown, and where the fine boxes say as much.
   const PartBoxes* learned(uint32_t slot) const { return learned_[slot].load(std::memory_order_acquire); }
   const FineBoxes& fine(uint32_t slot) const { return known_[slot].fine; }
+  /// By how much fine boxes have to be larger.
+  float margin(uint32_t slot) const { return known_[slot].margin; }
   bool knows(uint32_t slot) const { return fine(slot).count() > 0; }
 
  private:
   struct Known {
     FineBoxes fine;
+    float margin = 0;
     bool learns = true;
   };
+
+  bool stands_in_fur_tree(const ChunkCounts& counts) const {
+    return options_.kind == AccelKind::kFur && options_.chunk.shape == CurveShape::kFlat &&
+           counts.vertices == 0;
+  }
+  FurGrid grid(uint32_t slot) const {
+    const StrandScale scale = grower_.scale(slot);
+    return FurGrid(scale.width, scale.anchor);
+  }
+  std::unique_ptr<ChunkGeometry> make(ChunkContents contents, uint32_t slot) const {
+    if (stands_in_fur_tree(grower_.counts(slot)))
+      return std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), options_.fur);
+    return std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
+  }
 
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
@@ -187,8 +218,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
       entry = learned->enter(walk.slabs(), far());
     }
     if (resident || !growth_->knows(chunk) || entry == std::numeric_limits<float>::infinity()) return entry;
-    const GatePassage passage =
-        pass_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), any, thread.counts.box_tests);
+    const GatePassage passage = pass_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), any,
+                                                thread.counts.box_tests, growth_->margin(chunk));
     boxes = passage.boxes;
     return passage.entry;
   };
@@ -250,7 +281,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
       [&](uint32_t chunk) {
         const bool found = residency_->visit(chunk, thread.worker, [&](Resident& unit) {
-          return static_cast<const EmbreeChunk&>(unit).closest(ray, nearest, thread.met);
+          return static_cast<const ChunkGeometry&>(unit).closest(ray, nearest, thread.met);
         });
         if (found) nearest_chunk = chunk;
         return true;
@@ -269,7 +300,7 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
       [&](uint32_t chunk) {
         const size_t before = crossings.reports();
         blocked = !residency_->visit(chunk, thread.worker, [&](Resident& unit) {
-          return static_cast<const EmbreeChunk&>(unit).collect(ray, crossings);
+          return static_cast<const ChunkGeometry&>(unit).collect(ray, crossings);
         });
         if (blocked || crossings.reports() != before) residency_->mark_hit(chunk);
         return !blocked;

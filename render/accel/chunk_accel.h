@@ -12,6 +12,7 @@
 #include "render/accel/chunk_grower.h"
 #include "render/accel/chunk_tree.h"
 #include "render/accel/embree_chunk.h"
+#include "render/accel/fur_chunk.h"
 
 namespace pelage {
 
@@ -19,7 +20,9 @@ class Progress;
 class Workers;
 
 struct ChunkAccelOptions {
+  AccelKind kind = AccelKind::kEmbree;  ///< of flat strands; round ones and skins are Embree's
   EmbreeChunkOptions chunk;
+  FurChunkOptions fur;
   bool eager = false;         ///< everything is grown before the first ray
   bool opaque = false;        ///< every strand is known to be opaque
   uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
@@ -27,7 +30,7 @@ struct ChunkAccelOptions {
 };
 
 /// Accel over geometry that exists only while something needs it. Three parts: a ChunkTree says which chunks
-/// a ray may meet, a Residency grows and drops them, and an EmbreeChunk is what one of them holds.
+/// a ray may meet, a Residency grows and drops them, and a ChunkGeometry is what one of them holds.
 ///
 /// A ray visits the chunks that are resident first, front to back, and then those that it still reaches of
 /// the others; each at most once. A chunk that is not resident grows only for a ray that meets one of its

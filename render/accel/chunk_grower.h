@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "geom/strand_scale.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
 
@@ -43,6 +44,8 @@ class ChunkGrower {
   virtual ChunkContents grow(uint32_t chunk) const = 0;
   /// Upper bounds, without growing.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
+  /// Of fur, without growing.
+  virtual StrandScale scale(uint32_t chunk) const = 0;
 };
 
 }  // namespace pelage

@@ -2,11 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <tuple>
 
-#include "cache/residency.h"
-#include "render/accel/accel.h"
-#include "render/accel/crossings.h"
+#include "render/accel/chunk_geometry.h"
 #include "render/accel/embree_device.h"
 #include "render/accel/packed_strands.h"
 #include "render/render_params.h"
@@ -19,21 +16,10 @@ struct EmbreeChunkOptions {
   bool compact_attributes = true;
 };
 
-/// The nearest hit that a ray has so far, over all chunks that it visited.
-struct NearestSoFar {
-  Hit hit;
-  uint32_t triangle = 0;  ///< of a skin's hit
-
-  /// What decides between equal distances: strands before skins, then strand id, part, segment or triangle.
-  auto rank() const {
-    return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? triangle : hit.segment);
-  }
-};
-
 /// What a chunk holds while it is resident: packed strands or a skin, and a compact Embree scene over it on a
 /// device that all chunks share. Thread safety: const members from any thread, each inside a FlushDenormals
 /// scope.
-class EmbreeChunk final : public Resident {
+class EmbreeChunk final : public ChunkGeometry {
  public:
   /// Built by the calling thread alone, so that it may be made inside a loop of another team. Throws Error
   /// for what Embree reports; the device outlives the chunk.
@@ -43,18 +29,14 @@ class EmbreeChunk final : public Resident {
   EmbreeChunk(const EmbreeChunk&) = delete;
   EmbreeChunk& operator=(const EmbreeChunk&) = delete;
 
-  /// Whether the ray meets something here between near and far that stands before `nearest`, which then
-  /// becomes that; `met` its geometry.
-  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const;
-  /// Adds the semi-transparent crossings of a ray; false when something opaque blocks it.
-  bool collect(const Ray& ray, Crossings& crossings) const;
+  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool collect(const Ray& ray, Crossings& crossings) const override;
 
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }
-  /// What is held, this object and Embree's share included.
-  size_t bytes() const { return bytes_; }
-  /// Most that was held while the tree was built.
-  size_t build_peak_bytes() const { return build_peak_; }
+  /// Embree's share included.
+  size_t bytes() const override { return bytes_; }
+  size_t build_peak_bytes() const override { return build_peak_; }
   /// At least what making a chunk of these counts holds at any moment, the contents that it is given
   /// included, and what it holds afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);

@@ -54,6 +54,8 @@ RTCGeometryType embree_curve_type(CurveBasis basis, CurveShape shape) {
       return flat ? RTC_GEOMETRY_TYPE_FLAT_LINEAR_CURVE : RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE;
     case CurveBasis::kCatmullRom:
       return flat ? RTC_GEOMETRY_TYPE_FLAT_CATMULL_ROM_CURVE : RTC_GEOMETRY_TYPE_ROUND_CATMULL_ROM_CURVE;
+    case CurveBasis::kBezier:
+      return flat ? RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE : RTC_GEOMETRY_TYPE_ROUND_BEZIER_CURVE;
     case CurveBasis::kPinnedBSpline:
     case CurveBasis::kBSpline:
       break;

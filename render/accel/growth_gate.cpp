@@ -6,11 +6,11 @@
 
 namespace pelage {
 
-GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
-                            int64_t& tests) {
+GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests,
+                            float margin) {
   GatePassage passage;
   if (boxes.count() == 0) return passage;
-  const GridSlabs slabs(ray, boxes.grid());
+  const GridSlabs slabs(ray, boxes.grid(), margin);
   struct Entry {
     float distance;
     uint32_t level, group;

@@ -17,7 +17,8 @@ struct GatePassage {
 };
 
 /// Looks before `far` for the first of the fine boxes that a ray meets, or, with `all`, for all of them. Adds
-/// to `tests` how many were looked at.
-GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests);
+/// to `tests` how many were looked at. Boxes are taken to be larger by `margin` on every side.
+GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests,
+                            float margin = 0);
 
 }  // namespace pelage

@@ -26,28 +26,33 @@ bool same(const float* a, const float* b, size_t count) {
 /// then the block is made and written.
 class PackedStrands::Packer {
  public:
-  Packer(PackedStrands& out, const Strands& strands, bool compact)
-      : out_(out), strands_(strands), compact_(compact) {
+  /// Points are kept here when there are `patterns`.
+  Packer(PackedStrands& out, const Strands& strands, bool compact, SegmentPatterns* patterns)
+      : out_(out), strands_(strands), compact_(compact), patterns_(patterns) {
+    PELAGE_CHECK(strands.basis() != CurveBasis::kBezier);
     kept_.reserve(strands.strand_count());
     for (uint32_t s = 0; s < strands.strand_count(); ++s) {
       if (segments_of(s) > 0) kept_.push_back(s);
     }
+    if (patterns_) return;
+    std::stable_sort(kept_.begin(), kept_.end(),
+                     [&](uint32_t a, uint32_t b) { return strands.id(a) < strands.id(b); });
   }
 
-  void pack(std::span<const float> opacity, SegmentPatterns& patterns) {
+  void pack(std::span<const float> opacity) {
     out_.basis_ = strands_.basis();
     out_.motion_keys_ = strands_.motion_keys();
     out_.extra_ = strands_.basis() == CurveBasis::kLinear ? 1 : 3;
     out_.phantoms_ =
         strands_.basis() == CurveBasis::kPinnedBSpline || strands_.basis() == CurveBasis::kCatmullRom ? 2 : 0;
     count();
-    place(sizeof(float) * 4 * out_.vertex_count_ * static_cast<size_t>(out_.motion_keys_));
-    plan_segments(patterns);
+    if (patterns_) place(sizeof(float) * 4 * out_.vertex_count_ * static_cast<size_t>(out_.motion_keys_));
+    plan_segments();
     plan_ids();
     plan_roots();
     plan_values(opacity);
     out_.block_ = PageBlock(size_);
-    write_points();
+    if (patterns_) write_points();
     write_segments();
     write_ids();
     write_roots();
@@ -87,14 +92,15 @@ class PackedStrands::Packer {
     if (uniform) out_.segments_per_strand_ = segments_of(kept_.front());
   }
 
-  void plan_segments(SegmentPatterns& patterns) {
+  void plan_segments() {
     if (out_.segments_per_strand_ != 0) {
-      out_.pattern_ = patterns.get(out_.segments_per_strand_, out_.segments_per_strand_ + out_.extra_,
-                                   out_.strand_count_);
+      if (patterns_)
+        out_.pattern_ = patterns_->get(out_.segments_per_strand_, out_.segments_per_strand_ + out_.extra_,
+                                       out_.strand_count_);
       return;
     }
     out_.first_segments_ = place(sizeof(uint32_t) * (kept_.size() + 1));
-    own_segments_ = place(sizeof(uint32_t) * out_.segment_count_);
+    if (patterns_) own_segments_ = place(sizeof(uint32_t) * out_.segment_count_);
   }
 
   void plan_ids() {
@@ -237,20 +243,24 @@ class PackedStrands::Packer {
   }
 
   void write_segments() {
-    if (out_.pattern_) {
-      out_.segments_ = out_.pattern_->first_vertex.data();
+    if (out_.segments_per_strand_ != 0) {
+      if (out_.pattern_) out_.segments_ = out_.pattern_->first_vertex.data();
       return;
     }
     auto* first_segment = array<uint32_t>(out_.first_segments_);
-    auto* segment = array<uint32_t>(own_segments_);
-    uint32_t segments = 0, vertex = 0;
+    uint32_t segments = 0;
     for (uint32_t s : kept_) {
       *first_segment++ = segments;
-      for (uint32_t i = 0; i < segments_of(s); ++i) *segment++ = vertex + i;
       segments += segments_of(s);
-      vertex += segments_of(s) + out_.extra_;
     }
     *first_segment = segments;
+    if (!patterns_) return;
+    auto* segment = array<uint32_t>(own_segments_);
+    uint32_t vertex = 0;
+    for (uint32_t s : kept_) {
+      for (uint32_t i = 0; i < segments_of(s); ++i) *segment++ = vertex + i;
+      vertex += segments_of(s) + out_.extra_;
+    }
     out_.segments_ = array<uint32_t>(own_segments_);
   }
 
@@ -280,6 +290,7 @@ class PackedStrands::Packer {
   PackedStrands& out_;
   const Strands& strands_;
   const bool compact_;
+  SegmentPatterns* const patterns_;
   std::vector<uint32_t> kept_;
   std::vector<Planned> planned_;
   size_t size_ = 0;
@@ -288,7 +299,11 @@ class PackedStrands::Packer {
 
 PackedStrands::PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact,
                              SegmentPatterns& patterns) {
-  Packer(*this, strands, compact).pack(opacity, patterns);
+  Packer(*this, strands, compact, &patterns).pack(opacity);
+}
+
+PackedStrands::PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact) {
+  Packer(*this, strands, compact, nullptr).pack(opacity);
 }
 
 PackedStrands::Place PackedStrands::search(uint32_t primitive) const {
@@ -321,13 +336,29 @@ void PackedStrands::copy_strand(uint32_t strand, Strands& out) const {
   const uint32_t count = strand_points(strand);
   const size_t first_vertex = first_segment(strand) + static_cast<size_t>(extra_) * strand + phantoms_ / 2;
   a.basis = basis_;
-  a.motion_keys = motion_keys_;
   a.points.clear();
   for (int key = 0; key < motion_keys_; ++key) {
     const float* points = vertices(key) + 4 * first_vertex;
     a.points.insert(a.points.end(), points, points + size_t(4) * count);
   }
-  a.first_point.assign({0, count});
+  copy_rest(strand, {first_point(strand), count, 1}, a);
+  out = Strands(std::move(a));
+}
+
+StrandArrays PackedStrands::bezier_strand(uint32_t strand, StrandArrays a) const {
+  const uint32_t segments = strand_segments(strand);
+  // A span of an unpinned B-spline lies beside its second and third points.
+  const size_t before = basis_ == CurveBasis::kBSpline ? 1 : 0;
+  a.basis = CurveBasis::kBezier;
+  a.points.resize(static_cast<size_t>(motion_keys_) * 4 * (3 * segments + 1));
+  copy_rest(strand, {first_point(strand) + before, segments + 1, 3}, a);
+  return a;
+}
+
+void PackedStrands::copy_rest(uint32_t strand, const PointRange& range, StrandArrays& a) const {
+  const uint32_t points = range.stride * (range.count - 1) + 1;
+  a.motion_keys = motion_keys_;
+  a.first_point.assign({0, points});
   a.ids.assign({id(strand)});
   a.roots.clear();
   a.root_uv.clear();
@@ -347,17 +378,22 @@ void PackedStrands::copy_strand(uint32_t strand, Strands& out) const {
   for (size_t i = 0; i < attributes_.size(); ++i) {
     const Values& values = attributes_[i].values;
     StrandAttribute& attribute = a.attributes[i];
+    const size_t n = values.components;
     attribute.name = attributes_[i].name;
     attribute.frequency = values.frequency;
-    attribute.components = static_cast<int>(values.components);
-    const size_t begin = values.frequency == AttributeClass::kConstant    ? 0
-                         : values.frequency == AttributeClass::kPerStrand ? strand
-                                                                          : first_point(strand);
-    const size_t numbers = values.components * (values.frequency == AttributeClass::kPerPoint ? count : 1u);
-    attribute.values.resize(numbers);
-    for (size_t k = 0; k < numbers; ++k) attribute.values[k] = value(values, begin * values.components + k);
+    attribute.components = static_cast<int>(n);
+    if (values.frequency != AttributeClass::kPerPoint) {
+      const size_t begin = values.frequency == AttributeClass::kConstant ? 0 : strand * n;
+      attribute.values.resize(n);
+      for (size_t k = 0; k < n; ++k) attribute.values[k] = value(values, begin + k);
+      continue;
+    }
+    attribute.values.resize(n * points);
+    for (size_t p = 0; p < range.count; ++p) {
+      float* out = &attribute.values[p * range.stride * n];
+      for (size_t k = 0; k < n; ++k) out[k] = value(values, (range.first + p) * n + k);
+    }
   }
-  out = Strands(std::move(a));
 }
 
 void PackedStrands::fetch_ahead(uint32_t primitive) const {
@@ -388,11 +424,12 @@ size_t numbers_bound(const ChunkCounts& n) { return n.attribute_floats + n.point
 
 }  // namespace
 
-size_t PackedStrands::bytes_bound(const ChunkCounts& n) {
+size_t PackedStrands::bytes_bound(const ChunkCounts& n, PackedPoints points) {
   const auto keys = static_cast<size_t>(n.motion_keys);
-  const size_t block = 16 * keys * (n.points + 2 * n.strands) +
+  const size_t vertices = 16 * keys * (n.points + 2 * n.strands) + sizeof(uint32_t) * n.segments;
+  const size_t block = (points == PackedPoints::kHere ? vertices : 0) +
                        n.strands * (sizeof(uint64_t) + sizeof(uint32_t)) +
-                       sizeof(uint32_t) * (n.strands + 1 + n.segments) + sizeof(float) * numbers_bound(n);
+                       sizeof(uint32_t) * (n.strands + 1) + sizeof(float) * numbers_bound(n);
   // Per attribute: its name and places, the end of its array.
   const size_t named = kAttributeBytes * (kArrays + std::min(n.attribute_floats, kMostAttributes));
   return sizeof(PackedStrands) + PageBlock::held_bytes(block) + named;

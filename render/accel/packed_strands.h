@@ -15,8 +15,15 @@
 
 namespace pelage {
 
+/// Where the control points of packed strands are.
+enum class PackedPoints {
+  kHere,      ///< as Embree reads them
+  kElsewhere  ///< in a fur tree: strands are in the order of their ids, segments have the tree's numbers
+};
+
 /// The strands of a chunk as they are kept: one block of memory with the control points as Embree reads them,
-/// phantom ends in place, and the rest in the smallest form that gives it back.
+/// phantom ends in place, unless they are kept elsewhere, and the rest in the smallest form that gives it
+/// back.
 ///
 /// Points, radii and ids come back bit by bit. Attributes, opacities, root addresses and texture coordinates
 /// do so where `compact` is off; otherwise as packed_value(), in the rarest class that they need (constant,
@@ -24,9 +31,11 @@ namespace pelage {
 /// Thread safety: immutable.
 class PackedStrands {
  public:
-  /// `opacity`: one in [0, 1] per point, or empty.
+  /// `opacity`: one in [0, 1] per point, or empty. Points are kept here.
   PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact,
                 SegmentPatterns& patterns);
+  /// The same of strands whose points are kept elsewhere.
+  PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact);
 
   size_t strand_count() const { return strand_count_; }
   size_t segment_count() const { return segment_count_; }
@@ -34,7 +43,8 @@ class PackedStrands {
   int motion_keys() const { return motion_keys_; }
   bool opaque() const { return opaque_; }
 
-  /// x, y, z, radius of every control point of one motion key, phantoms included.
+  /// x, y, z, radius of every control point of one motion key, phantoms included. This, segments(),
+  /// copy_strand() and fetch_ahead() only where points are kept here.
   const float* vertices(int key) const {
     return reinterpret_cast<const float*>(block_.data()) + static_cast<size_t>(key) * vertex_count_ * 4;
   }
@@ -59,13 +69,21 @@ class PackedStrands {
   float opacity(Place place, float u) const;
   /// Strand `strand` becomes the only one of `out`, whose memory is reused.
   void copy_strand(uint32_t strand, Strands& out) const;
+  uint32_t first_segment(uint32_t strand) const {
+    return segments_per_strand_ != 0 ? strand * segments_per_strand_ : at<uint32_t>(first_segments_)[strand];
+  }
+  uint32_t strand_segments(uint32_t strand) const {
+    return first_segment(strand + 1) - first_segment(strand);
+  }
+  /// A strand as Bezier curves, all of it but the points, for which there is room; `memory` is reused.
+  StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
   /// Asks the processor to fetch what copy_strand() will read first.
   void fetch_ahead(uint32_t primitive) const;
 
   /// What is held, this object included.
   size_t bytes() const;
   /// At least bytes() of every batch of these counts.
-  static size_t bytes_bound(const ChunkCounts& counts);
+  static size_t bytes_bound(const ChunkCounts& counts, PackedPoints points = PackedPoints::kHere);
   /// What is held beside it while it is packed.
   static size_t scratch_bytes_bound(const ChunkCounts& counts);
 
@@ -87,12 +105,13 @@ class PackedStrands {
     return reinterpret_cast<const T*>(block_.data() + offset);
   }
   Place search(uint32_t primitive) const;
-  uint32_t first_segment(uint32_t strand) const {
-    return segments_per_strand_ != 0 ? strand * segments_per_strand_ : at<uint32_t>(first_segments_)[strand];
-  }
-  uint32_t strand_segments(uint32_t strand) const {
-    return first_segment(strand + 1) - first_segment(strand);
-  }
+  struct PointRange {
+    size_t first;
+    uint32_t count, stride;
+  };
+  /// Everything of a strand but basis and points. `range` says which numbers of those kept per point are
+  /// wanted, and where in `out` each of them goes.
+  void copy_rest(uint32_t strand, const PointRange& range, StrandArrays& out) const;
   /// Points of a strand as they were given: without phantoms, and where the first of them counts from.
   uint32_t strand_points(uint32_t strand) const;
   size_t first_point(uint32_t strand) const;

@@ -120,6 +120,12 @@ ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part,
   return bounds;
 }
 
+void widen(ChunkBounds& bounds, float margin) {
+  for (Box3f& box : bounds.boxes) {
+    if (!box.isEmpty()) box = Box3f(box.min - V3f(margin), box.max + V3f(margin));
+  }
+}
+
 size_t part_bounds_scratch(const ChunkCounts& counts) {
   return (counts.segments + counts.triangles) * (sizeof(Item) + 4 * sizeof(uint32_t));
 }

@@ -80,15 +80,17 @@ class RaySlabs {
 /// The same ray before boxes whose sides are whole numbers of steps from a corner that moves (FineBoxes).
 class GridSlabs {
  public:
-  GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid) : near_(ray.near_) {
+  /// `margin`: how much larger boxes are taken to be, on every side.
+  GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid, float margin) : near_(ray.near_) {
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<size_t>(i);
       const RaySlabs::Axis& of = ray.axes_[axis];
       const Four corner = four(grid.corner[i]) + ray.time_ * four(grid.motion[i]), step = four(grid.step[i]);
+      const Four outward = four(of.near_side == 1 ? margin : -margin);
       const Four near_inverse = of.inverse * four(1 - RaySlabs::kDoubt);
       const Four far_inverse = of.inverse * four(1 + RaySlabs::kDoubt);
-      axes_[axis] = {(corner - of.near_origin) * near_inverse, step * near_inverse,
-                     (corner - of.far_origin) * far_inverse, step * far_inverse, of.near_side};
+      axes_[axis] = {(corner + outward - of.near_origin) * near_inverse, step * near_inverse,
+                     (corner - outward - of.far_origin) * far_inverse, step * far_inverse, of.near_side};
     }
   }
 

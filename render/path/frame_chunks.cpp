@@ -35,7 +35,10 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers)
     : scene_(scene), skin_sizes_(scene.skins.size()) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
-    for (const auto& procedural : scene.fur[part].procedurals) collect(*procedural, part);
+    for (const auto& procedural : scene.fur[part].procedurals) {
+      collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
+      scales_.push_back(procedural->scale());
+    }
   }
   workers.for_each(skin_sizes_.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)
@@ -43,15 +46,16 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers)
   });
 }
 
-void FrameChunks::collect(const Procedural& procedural, uint32_t part) {
+void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t coat) {
   std::vector<std::unique_ptr<Procedural>> children = procedural.split();
   if (children.empty()) {
     leaves_.push_back(&procedural);
     parts_.push_back(part);
+    coats_.push_back(coat);
   }
   for (std::unique_ptr<Procedural>& child : children) {
     made_.push_back(std::move(child));
-    collect(*made_.back(), part);
+    collect(*made_.back(), part, coat);
   }
 }
 
@@ -90,6 +94,10 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   counts.motion_keys = static_cast<int>(strands.motion_keys);
   counts.growth_bytes = growth_bytes(strands);
   return counts;
+}
+
+StrandScale FrameChunks::scale(uint32_t chunk) const {
+  return chunk < leaves_.size() ? scales_[coats_[chunk]] : StrandScale{};
 }
 
 bool FrameChunks::opaque() const {

@@ -24,6 +24,7 @@ class FrameChunks final : public ChunkGrower {
 
   ChunkContents grow(uint32_t chunk) const override;
   ChunkCounts counts(uint32_t chunk) const override;
+  StrandScale scale(uint32_t chunk) const override;
 
   size_t size() const { return leaves_.size() + skin_sizes_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
@@ -37,12 +38,14 @@ class FrameChunks final : public ChunkGrower {
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
 
  private:
-  void collect(const Procedural& procedural, uint32_t part);
+  void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
   const RenderScene& scene_;
   std::vector<std::unique_ptr<Procedural>> made_;  // on the way down
   std::vector<const Procedural*> leaves_;
-  std::vector<uint32_t> parts_;  // of RenderScene::fur, per leaf
+  std::vector<uint32_t> parts_;      // of RenderScene::fur, per leaf
+  std::vector<StrandScale> scales_;  // of coats: of what stands in the scene, before it is split
+  std::vector<uint32_t> coats_;      // per leaf
   std::vector<TessellationSize> skin_sizes_;
   mutable std::atomic<int64_t> strands_grown_{0};
 };

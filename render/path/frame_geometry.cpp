@@ -31,8 +31,9 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   statistics.part_bounds_area += area.parts;
 
   ChunkAccelOptions options;
+  options.kind = scene.render.accel;
   options.chunk.shape = scene.render.curves;
-  options.chunk.compact_attributes = scene.render.compact_attributes;
+  options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
   options.eager = scene.render.bounds == BoundingStrategy::kNone;
   options.memory_limit = scene.render.memory.bytes;
   options.threads = workers.thread_count();

@@ -133,6 +133,7 @@ void PathTracer::sample_light(const ScatterPoint& point, const V2f& u, Path& pat
   ray.direction = sample->direction;
   ray.far = sample->distance * kJustBefore;
   ray.time = path.time;
+  ray.start = path.hit.start;
   ++path.scratch.rays.shadow;
   const float through = accel_.transmittance(ray, path.scratch.thread);
   if (through > 0) path.add_scattered(choice.light, value, light_in * through);
@@ -182,6 +183,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ray.origin = point.start(sample->wi);
   ray.direction = sample->wi;
   ray.time = path.time;
+  ray.start = path.hit.start;
   if (last) {
     gather_lights(point.position(), ray, ray.far, value.pdf, true, path);
     return false;

@@ -235,6 +235,7 @@ class Remembering final : public Procedural {
   Box3f bound(BoundSpan span) const override { return inner_.bound(span); }
   Strands generate() const override { return inner_.generate(); }
   StrandCounts counts() const override { return inner_.counts(); }
+  StrandScale scale() const override { return inner_.scale(); }
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override {
     return inner_.exact_bounds(span, keys);
   }
@@ -398,6 +399,7 @@ TEST(Bounding, PassesOnWhatGrowingThrows) {
     Box3f bound(BoundSpan) const override { return {V3f(0), V3f(1)}; }
     Strands generate() const override { throw std::runtime_error("bald"); }
     StrandCounts counts() const override { return {}; }
+    StrandScale scale() const override { return {}; }
     ChunkBounds exact_bounds(BoundSpan, int) const override { throw std::runtime_error("bald"); }
   } failing;
   EXPECT_THROW(bounds_of({&failing}, {BoundingStrategy::kExact}), std::runtime_error);

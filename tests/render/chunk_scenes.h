@@ -42,6 +42,8 @@ class TestChunks final : public ChunkGrower {
     return n;
   }
 
+  StrandScale scale(uint32_t) const override { return {0.024f, V3f(0.1f, -0.2f, 0.05f)}; }
+
   void add_fur(Strands strands, uint32_t part, std::vector<float> opacity = {}) {
     for (float& o : opacity) o = packed_value(o);
     contents.push_back({FurContents{std::move(strands), std::move(opacity)}, part});

@@ -30,4 +30,11 @@ float FurGrid::snap_radius(float scene) const {
   return root * root * (1 / (kRootsPerUnit * kRootsPerUnit));
 }
 
+float FurGrid::margin(float radius) const {
+  // Half a step of the axis, and the square root of the radius by half of one of its own.
+  const float root = kRootsPerUnit * std::sqrt(std::max(radius * inverse_, 0.0f));
+  const float wider = (root + 0.25f) / (kRootsPerUnit * kRootsPerUnit);
+  return 1.001f * step_ * (0.5f + wider);
+}
+
 }  // namespace pelage

@@ -29,6 +29,10 @@ class FurGrid {
   /// Radii below 0 count as none.
   float snap_radius(float scene) const;
 
+  /// How far a ribbon of at most this radius may reach, once it is snapped, beyond where it reached before:
+  /// scene units.
+  float margin(float radius) const;
+
   /// Beyond this many steps nothing is drawn: products of five coordinates must stay finite.
   static constexpr float kReach = 0x1p56f;
 

@@ -61,7 +61,7 @@ Hull mean_hull(const Moving& part) {
   return {mean.low * share, mean.high * share};
 }
 
-void add_parts(const Moving& part, FurPart name, int cuts, std::vector<FurPiece>& pieces) {
+void add_parts(const Moving& part, CurvePart name, int cuts, std::vector<FurPiece>& pieces) {
   if (cuts == 0) {
     const Hull hull = mean_hull(part);
     pieces.emplace_back(hull.low, hull.high, name);
@@ -145,8 +145,7 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part) {
 
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts) {
   const Cutter cutter(strands);
-  const auto budget =
-      static_cast<size_t>(static_cast<double>(strands.segment_count()) * std::max(cuts, 0.0f));
+  const size_t budget = piece_count_bound(strands.segment_count(), cuts) - strands.segment_count();
   const std::vector<uint8_t> levels = budget > 0 ? cutter.choose_cuts(budget) : std::vector<uint8_t>();
   std::vector<FurPiece> pieces;
   pieces.reserve(strands.segment_count() + budget);

@@ -13,8 +13,9 @@ namespace {
 
 constexpr size_t kLanes = FurBlockHeader::kLanes;
 constexpr size_t kBins = 16;
-constexpr size_t kSweep = 96;  // sets up to here are swept exactly
-constexpr int kDeepest = 40;   // levels of binary splits by area; below they are halved
+constexpr size_t kSweep = 96;   // sets up to here are swept exactly
+constexpr size_t kFewest = 32;  // pieces that a bin split leaves on a side, unless they fill their blocks
+constexpr int kDeepest = 40;    // levels of binary splits by area; below they are halved
 constexpr float kFar = 1e30f;
 
 size_t blocks(size_t pieces) { return (pieces + kLanes - 1) / kLanes; }
@@ -44,7 +45,7 @@ class Builder {
 
   FurTopology build() {
     if (pieces_.empty()) return {};
-    tree_.nodes.reserve(blocks(pieces_.size()) / 2 + 1);
+    tree_.nodes.reserve(topology_bound(pieces_.size()).nodes);
     tree_.nodes.emplace_back();
     build_node(0, {0, pieces_.size(), 0, kFar});
     tree_.order.reserve(pieces_.size());
@@ -169,6 +170,8 @@ class Builder {
       left.extend(bins[i - 1].low, bins[i - 1].high);
       count += counts[i - 1];
       if (count == 0 || count == all) continue;
+      // Or the number of half filled blocks would know no limit.
+      if (std::min(count, all - count) < kFewest && count % kLanes != 0) continue;
       const float cost = left.area() * static_cast<float>(blocks(count)) +
                          right_area[i] * static_cast<float>(blocks(all - count));
       if (cost < best.cost) best = {cost, axis, i};
@@ -225,14 +228,21 @@ class Builder {
 
 }  // namespace
 
-FurPiece::FurPiece(const Four& box_low, const Four& box_high, FurPart part) : low(box_low), high(box_high) {
+FurPiece::FurPiece(const Four& box_low, const Four& box_high, CurvePart part) : low(box_low), high(box_high) {
   low[3] = std::bit_cast<float>(part.number);
   high[3] = std::bit_cast<float>(part.part);
 }
 
-FurPart FurPiece::part() const {
+CurvePart FurPiece::part() const {
   const float number = low[3], part = high[3];
   return {std::bit_cast<uint32_t>(number), std::bit_cast<uint32_t>(part)};
+}
+
+FurTopologySize topology_bound(size_t pieces) {
+  // A split makes one more block half empty than there was, unless it falls between blocks: that happens only
+  // where both sides are large. Nodes above other nodes have four children, the others two blocks or more.
+  const size_t most = blocks(pieces) + pieces / kFewest;
+  return {2 * most / 3 + 1, most};
 }
 
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options) {

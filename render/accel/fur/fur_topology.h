@@ -12,7 +12,7 @@
 namespace pelage {
 
 /// A segment, or a part of it: `part` is 1 for all of it; parts 2 p and 2 p + 1 are the halves of part p.
-struct FurPart {
+struct CurvePart {
   uint32_t number = 0;
   uint32_t part = 1;
 };
@@ -22,8 +22,8 @@ struct FurPiece {
   Four low, high;
 
   FurPiece() = default;
-  FurPiece(const Four& box_low, const Four& box_high, FurPart part);
-  FurPart part() const;
+  FurPiece(const Four& box_low, const Four& box_high, CurvePart part);
+  CurvePart part() const;
 };
 
 struct FurBuildOptions {
@@ -45,15 +45,27 @@ struct FurTopology {
     uint32_t child_count = 0;
   };
 
-  std::vector<Node> nodes;     ///< the root is the first; none for no segments
-  std::vector<FurPart> order;  ///< leaf after leaf
+  std::vector<Node> nodes;       ///< the root is the first; none for no segments
+  std::vector<CurvePart> order;  ///< leaf after leaf
+
+  size_t bytes() const { return nodes.capacity() * sizeof(Node) + order.capacity() * sizeof(CurvePart); }
 };
+
+/// How large a topology over so many pieces is at most: nodes, and blocks of four segments in its leaves.
+struct FurTopologySize {
+  size_t nodes, blocks;
+};
+FurTopologySize topology_bound(size_t pieces);
 
 /// The Bezier curve of a part of a segment.
 SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 
 /// The pieces of all drawable segments: boxes of their Bezier hulls, averaged over the motion keys.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts);
+/// At least their number, for so many segments.
+inline size_t piece_count_bound(size_t segments, float cuts) {
+  return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));
+}
 
 /// Builds by binned surface areas [Wald07], where n segments cost as many tests as there are fours in them;
 /// sets of a few dozens are swept exactly, and cut at multiples of four only, so that nearly every lane is

@@ -56,6 +56,11 @@ class FurTree::Writer {
   }
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
+  /// What is held while it writes, for so many nodes.
+  static size_t scratch_bytes(size_t nodes, size_t keys) {
+    return nodes * (4 * keys * sizeof(FurBox) + keys * sizeof(FurBox) + 4 * sizeof(FurReference) + 1) +
+           FurBlockHeader::kLanes * keys * sizeof(SnappedSegment);
+  }
 
   /// Fills both parts; returns the boxes of everything, one per key.
   std::vector<FurBox> write(std::byte* nodes, std::byte* leaves) {
@@ -160,7 +165,11 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.motion_keys = strands.motion_keys();
   view_.step = strands.grid().step();
   view_.anchor = strands.grid().anchor();
-  const FurTopology topology = build_topology(make_pieces(strands, options.build.cuts), options.build);
+  std::vector<FurPiece> pieces = make_pieces(strands, options.build.cuts);
+  build_bytes_ = pieces.capacity() * sizeof(FurPiece);
+  const FurTopology topology = build_topology(std::move(pieces), options.build);
+  const size_t topology_bytes = topology.bytes();
+  build_bytes_ += topology_bytes;
   if (topology.nodes.empty()) return;
   Writer writer(strands, topology, options.layout);
   writer.measure();
@@ -170,11 +179,25 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   block_ = PageBlock(leaves + leaf_bytes_);
   block_.prefer_large_pages();
   for (const FurBox& box : writer.write(block_.data(), block_.data() + leaves)) box_.extend(box);
+  build_bytes_ =
+      std::max(build_bytes_,
+               topology_bytes + block_.bytes() +
+                   Writer::scratch_bytes(topology.nodes.size(), static_cast<size_t>(strands.motion_keys())));
   view_.nodes = block_.data();
   view_.leaves = block_.data() + leaves;
   for (size_t axis = 0; axis < 3; ++axis) {
     view_.reach = std::max({view_.reach, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
   }
+}
+
+size_t FurTree::build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options) {
+  const size_t pieces = piece_count_bound(segments, options.build.cuts);
+  const FurTopologySize size = topology_bound(pieces);
+  const size_t topology = size.nodes * sizeof(FurTopology::Node) + pieces * sizeof(CurvePart);
+  const size_t tree = PageBlock::held_bytes(size.nodes * node_size(options.layout, motion_keys) +
+                                            kNodeAlignment + size.blocks * kWideBlock.block(motion_keys));
+  return topology + std::max(pieces * sizeof(FurPiece),
+                             tree + Writer::scratch_bytes(size.nodes, static_cast<size_t>(motion_keys)));
 }
 
 FurHit FurTree::closest(const Ray& ray, const FurStart& start, FurFilter* filter) const {

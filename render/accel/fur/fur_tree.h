@@ -52,6 +52,10 @@ class FurTree {
   /// Box of everything, in grid units, over all motion keys.
   const FurBox& box() const { return box_; }
   size_t bytes() const { return block_.bytes(); }
+  /// Most that was held while it was built, itself included.
+  size_t build_bytes() const { return build_bytes_; }
+  /// At least build_bytes() of every tree over so many segments.
+  static size_t build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options);
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
 
@@ -59,7 +63,7 @@ class FurTree {
   class Writer;
 
   PageBlock block_;
-  size_t node_bytes_ = 0, leaf_bytes_ = 0;
+  size_t node_bytes_ = 0, leaf_bytes_ = 0, build_bytes_ = 0;
   FurTreeView view_;
   FurBox box_;
 };

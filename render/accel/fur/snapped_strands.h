@@ -44,6 +44,8 @@ class SnappedStrands {
       }
     }
   }
+  /// Held beside the strands, for so many of them.
+  static size_t bytes(size_t strands) { return 3 * sizeof(uint32_t) * (strands + 1); }
   /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Others are left
   /// out of trees: nothing meets them.
   static bool is_drawable(const SnappedSegment& segment);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/page_block.h"
+#include "render/accel/fur/fur_tree.h"
+
+namespace pelage {
+
+/// Where each segment of a fur tree stands in its leaves: the way back from numbers to points. Two bytes per
+/// segment where the tree is small and has no wide leaf, otherwise four. Thread safety: immutable.
+class FurPlaces {
+ public:
+  FurPlaces() = default;
+  /// Walks through a tree over segments 0 .. segment_count - 1.
+  FurPlaces(const FurTreeView& tree, uint32_t segment_count);
+
+  /// A lane of a block.
+  struct Place {
+    const std::byte* block = nullptr;  ///< null for a segment that is in no leaf
+    size_t lane = 0;
+    bool wide = false;
+  };
+  /// `tree` as it was, wherever it stands now.
+  Place find(const FurTreeView& tree, uint32_t number) const;
+
+  size_t bytes() const { return block_.bytes(); }
+  static size_t bytes_bound(size_t segments) { return PageBlock::held_bytes(4 * segments); }
+
+ private:
+  PageBlock block_;
+  bool short_ = false;
+};
+
+}  // namespace pelage

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur_chunk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/accel/fur/fur_leaf.h"
+
+namespace pelage {
+namespace {
+
+/// Of a narrow segment the crossing belongs to the joint that it is nearer to.
+uint32_t joint_beside(float u) { return u > 0.5f ? 1 : 0; }
+
+/// What growing gives.
+size_t grown_bytes_bound(const ChunkCounts& n) {
+  return 16 * static_cast<size_t>(n.motion_keys) * n.points +
+         n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) + n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
+         sizeof(float) * (n.points + n.attribute_floats);
+}
+size_t bytes_of(const FurContents& grown) {
+  return grown.strands.bytes() + grown.opacity.capacity() * sizeof(float);
+}
+
+}  // namespace
+
+/// Accepts the crossings at which a ray stops.
+class FurChunk::StoppingFilter final : public FurFilter {
+ public:
+  StoppingFilter(const FurChunk& chunk, uint32_t random) : chunk_(chunk), random_(random) {}
+  bool accepts(const FurHit& hit) override {
+    const PackedStrands::Place place = chunk_.strands_.locate(hit.number);
+    return stops_at(random_, chunk_.crossing(place, hit.u), chunk_.strands_.opacity(place, hit.u));
+  }
+
+ private:
+  const FurChunk& chunk_;
+  const uint32_t random_;
+};
+
+/// Collects semi-transparent crossings; accepts opaque ones.
+class FurChunk::CollectingFilter final : public FurFilter {
+ public:
+  CollectingFilter(const FurChunk& chunk, Crossings& crossings) : chunk_(chunk), crossings_(crossings) {}
+  bool accepts(const FurHit& hit) override {
+    const PackedStrands::Place place = chunk_.strands_.locate(hit.number);
+    const float opacity = chunk_.strands_.opacity(place, hit.u);
+    if (opacity >= 1) return true;
+    if (opacity > 0) crossings_.add(chunk_.crossing(place, hit.u), opacity);
+    return false;
+  }
+
+ private:
+  const FurChunk& chunk_;
+  Crossings& crossings_;
+};
+
+FurChunk::FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid,
+                   const FurChunkOptions& options)
+    : FurChunk(FurContents(std::move(std::get<FurContents>(contents.geometry))), contents.part, number, grid,
+               options) {}
+
+FurChunk::FurChunk(const FurContents& grown, uint32_t part, uint32_t number, const FurGrid& grid,
+                   const FurChunkOptions& options)
+    : part_(part),
+      number_(number),
+      strands_(grown.strands, grown.opacity, options.compact_attributes),
+      tree_(SnappedStrands(grown.strands, grid), options.tree),
+      places_(tree_.view(), static_cast<uint32_t>(strands_.segment_count())) {
+  bytes_ = sizeof(*this) + strands_.bytes() - sizeof(strands_) + tree_.bytes() + places_.bytes();
+  build_peak_ = sizeof(*this) + bytes_of(grown) + strands_.bytes() +
+                SnappedStrands::bytes(grown.strands.strand_count()) +
+                std::max(tree_.build_bytes(), tree_.bytes() + places_.bytes());
+}
+
+FurStart FurChunk::start_of(const Ray& ray) const {
+  if (ray.start.chunk != number_) return {};
+  return {ray.start.first_segment, ray.start.segment_count, ray.start.place};
+}
+
+bool FurChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const {
+  Ray here = ray;
+  // What is as near as the nearest so far may stand before it.
+  if (nearest.hit)
+    here.far =
+        std::min(ray.far, std::nextafter(nearest.hit.distance, std::numeric_limits<float>::infinity()));
+  StoppingFilter filter(*this, ray.random);
+  const FurHit found = tree_.closest(here, start_of(ray), strands_.opaque() ? nullptr : &filter);
+  if (!found) return false;
+  const PackedStrands::Place place = strands_.locate(found.number);
+  const uint32_t first = strands_.first_segment(place.strand);
+  NearestSoFar candidate;
+  Hit& hit = candidate.hit;
+  hit.kind = HitKind::kStrand;
+  hit.distance = found.distance;
+  hit.part = part_;
+  hit.strand_id = strands_.id(place.strand);
+  hit.segment = place.segment;
+  hit.u = found.u;
+  hit.v = found.h;
+  hit.start = {number_, first, strands_.strand_segments(place.strand),
+               static_cast<float>(place.segment) + found.u};
+  if (!nearest.gives_way_to(candidate)) return false;
+  nearest = candidate;
+  copy_strand(place.strand, met.strand);
+  return true;
+}
+
+bool FurChunk::collect(const Ray& ray, Crossings& crossings) const {
+  CollectingFilter filter(*this, crossings);
+  return !tree_.occluded(ray, start_of(ray), strands_.opaque() ? nullptr : &filter);
+}
+
+CrossingPlace FurChunk::crossing(PackedStrands::Place place, float u) const {
+  return {strands_.id(place.strand), part_, place.segment + joint_beside(u)};
+}
+
+void FurChunk::copy_strand(uint32_t strand, Strands& out) const {
+  StrandArrays arrays = strands_.bezier_strand(strand, std::move(out).release());
+  const FurTreeView& tree = tree_.view();
+  const uint32_t first = strands_.first_segment(strand), segments = strands_.strand_segments(strand);
+  const size_t key_floats = size_t(4) * (3 * segments + 1);
+  for (uint32_t s = 0; s < segments; ++s) {
+    const FurPlaces::Place place = places_.find(tree, first + s);
+    for (int key = 0; key < tree.motion_keys; ++key) {
+      // The last point of a segment is the first of the next.
+      float* point = &arrays.points[static_cast<size_t>(key) * key_floats + size_t(12) * s];
+      if (!place.block) {
+        // Nothing meets a segment that is not drawn; it stays at its beginning.
+        if (s == 0) std::fill_n(point, 4, 0.0f);
+        for (size_t i = 1; i < 4; ++i) std::copy_n(point, 4, point + 4 * i);
+        continue;
+      }
+      const SnappedSegment segment = read_block(place.block, place.wide, place.lane, key);
+      for (size_t i = 0; i < 4; ++i, point += 4) {
+        for (int axis = 0; axis < 3; ++axis)
+          point[axis] = static_cast<float>(
+              tree.anchor[axis] + static_cast<double>(segment[i][static_cast<size_t>(axis)]) * tree.step);
+        point[3] = segment[i][3] * tree.step;
+      }
+    }
+  }
+  out = Strands(std::move(arrays));
+}
+
+size_t FurChunk::bytes_bound(const ChunkCounts& n, const FurChunkOptions& options) {
+  const size_t segments = n.segments;
+  const size_t packed = PackedStrands::bytes_bound(n, PackedPoints::kElsewhere);
+  const size_t tree = FurTree::build_bytes_bound(segments, n.motion_keys, options.tree);
+  return bytes_bound(n, sizeof(FurChunk) + grown_bytes_bound(n) + packed + SnappedStrands::bytes(n.strands) +
+                            tree + FurPlaces::bytes_bound(segments));
+}
+
+size_t FurChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
+  const size_t packing =
+      PackedStrands::bytes_bound(n, PackedPoints::kElsewhere) + PackedStrands::scratch_bytes_bound(n);
+  return std::max(sizeof(FurChunk) + grown_bytes_bound(n) + std::max(packing, n.growth_bytes), build_peak);
+}
+
+}  // namespace pelage

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/accel/chunk_geometry.h"
+#include "render/accel/chunk_grower.h"
+#include "render/accel/fur/fur_places.h"
+#include "render/accel/fur/fur_tree.h"
+#include "render/accel/packed_strands.h"
+
+namespace pelage {
+
+struct FurChunkOptions {
+  FurTreeOptions tree;
+  bool compact_attributes = true;
+};
+
+/// Fur of one part in a fur tree, which has the only copy of the points, beside what shading needs of the
+/// strands: ids, roots, attributes. Hits come out as strands of Bezier curves on the grid of the coat, the
+/// curves that were hit.
+class FurChunk final : public ChunkGeometry {
+ public:
+  /// `number`: what Ray::start calls this chunk. `grid`: the same for all chunks of a coat. Built by the
+  /// calling thread alone.
+  FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid, const FurChunkOptions& options);
+
+  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool collect(const Ray& ray, Crossings& crossings) const override;
+
+  const FurTree& tree() const { return tree_; }
+  size_t bytes() const override { return bytes_; }
+  size_t build_peak_bytes() const override { return build_peak_; }
+  /// At least what making a chunk of these counts holds at any moment, the contents that it is given
+  /// included, and what it holds afterwards.
+  static size_t bytes_bound(const ChunkCounts& counts, const FurChunkOptions& options);
+  /// The same where the build_peak_bytes() of an equal chunk are known.
+  static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
+
+ private:
+  class StoppingFilter;
+  class CollectingFilter;
+
+  FurChunk(const FurContents& grown, uint32_t part, uint32_t number, const FurGrid& grid,
+           const FurChunkOptions& options);
+  FurStart start_of(const Ray& ray) const;
+  CrossingPlace crossing(PackedStrands::Place place, float u) const;
+  void copy_strand(uint32_t strand, Strands& out) const;
+
+  uint32_t part_, number_;
+  PackedStrands strands_;
+  FurTree tree_;
+  FurPlaces places_;
+  size_t bytes_ = 0, build_peak_ = 0;
+};
+
+}  // namespace pelage
