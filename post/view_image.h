@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/ledger.h"
 #include "post/flow_field.h"
 #include "post/layer_names.h"
 
