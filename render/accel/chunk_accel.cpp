@@ -23,8 +23,8 @@ constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
 constexpr size_t kFiner = 8;
 constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that has no fine ones
 
-size_t part_count_bound(const ChunkCounts& counts) {
-  return std::clamp<size_t>((counts.segments + counts.triangles) / kSegmentsPerPart, 1, kMostParts);
+size_t part_count(size_t primitives) {
+  return std::clamp<size_t>(primitives / kSegmentsPerPart, 1, kMostParts);
 }
 
 /// No strand in a box is wider than the box.
@@ -63,7 +63,9 @@ class ChunkAccel::Growth final : public Grower {
       // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
       known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds[chunk].keys == 1);
       bytes += known.fine.bytes();
-      if (known.learns) bytes += PartBoxes::bytes_bound(part_count_bound(counts), counts.motion_keys > 1);
+      if (known.learns)
+        bytes += PartBoxes::bytes_bound(part_count(counts.segments + counts.triangles) + 3,
+                                        counts.motion_keys > 1);
     }
     charge_ = MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
   }
@@ -77,20 +79,27 @@ class ChunkAccel::Growth final : public Grower {
     const bool fur = stands_in_fur_tree(counts);
     if (build_peak > 0)
       return fur ? FurChunk::bytes_bound(counts, build_peak) : EmbreeChunk::bytes_bound(counts, build_peak);
+    if (fur) return FurChunk::bytes_bound(counts, options_.fur);
     if (known_[slot].learns) counts.growth_bytes = std::max(counts.growth_bytes, part_bounds_scratch(counts));
-    return fur ? FurChunk::bytes_bound(counts, options_.fur) : EmbreeChunk::bytes_bound(counts);
+    return EmbreeChunk::bytes_bound(counts);
   }
 
   Grown grow(uint32_t slot) override {
     ChunkContents contents = grower_.grow(slot);
-    if (known_[slot].learns && !learned(slot)) {
-      // One thread at a time grows a slot, so nobody else stores here.
-      ChunkBounds bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
-      if (stands_in_fur_tree(grower_.counts(slot))) widen(bounds, grid(slot).margin(widest_radius(bounds)));
-      auto boxes = std::make_unique<const PartBoxes>(bounds);
-      learned_[slot].store(boxes.release(), std::memory_order_release);
+    // One thread at a time grows a slot, so nobody else stores what is learned.
+    const bool learns = known_[slot].learns && !learned(slot);
+    std::unique_ptr<ChunkGeometry> unit;
+    ChunkBounds bounds;
+    if (stands_in_fur_tree(grower_.counts(slot))) {
+      auto fur = std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), options_.fur);
+      if (learns) bounds = fur->part_bounds(part_count(fur->segment_count()));
+      unit = std::move(fur);
+    } else {
+      if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
+      unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
     }
-    std::unique_ptr<ChunkGeometry> unit = make(std::move(contents), slot);
+    if (learns)
+      learned_[slot].store(std::make_unique<const PartBoxes>(bounds).release(), std::memory_order_release);
     const size_t bytes = unit->bytes();
     build_pages_[slot].store(static_cast<uint32_t>(unit->build_peak_bytes() / kPage + 1),
                              std::memory_order_relaxed);
@@ -119,12 +128,6 @@ class ChunkAccel::Growth final : public Grower {
     const StrandScale scale = grower_.scale(slot);
     return FurGrid(scale.width, scale.anchor);
   }
-  std::unique_ptr<ChunkGeometry> make(ChunkContents contents, uint32_t slot) const {
-    if (stands_in_fur_tree(grower_.counts(slot)))
-      return std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), options_.fur);
-    return std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
-  }
-
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
   const EmbreeDevice& device_;

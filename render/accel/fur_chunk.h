@@ -3,6 +3,7 @@
 
 #include "render/accel/chunk_geometry.h"
 #include "render/accel/chunk_grower.h"
+#include "render/accel/fur/fur_parts.h"
 #include "render/accel/fur/fur_places.h"
 #include "render/accel/fur/fur_tree.h"
 #include "render/accel/packed_strands.h"
@@ -27,6 +28,9 @@ class FurChunk final : public ChunkGeometry {
   bool collect(const Ray& ray, Crossings& crossings) const override;
 
   const FurTree& tree() const { return tree_; }
+  size_t segment_count() const { return strands_.segment_count(); }
+  /// Boxes of about so many parts that hold every hit.
+  ChunkBounds part_bounds(size_t parts) const { return subtree_bounds(tree_.view(), parts); }
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
   /// At least what making a chunk of these counts holds at any moment, the contents that it is given

@@ -77,17 +77,6 @@ Box3f bounds_at(const Primitives& primitives, std::span<const Item> items, int k
   return all;
 }
 
-/// Enlarges the boxes at both ends so that between them they hold `inside` at `time`.
-void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time) {
-  const V3f low = (1 - time) * open.min + time * close.min, high = (1 - time) * open.max + time * close.max;
-  for (int i = 0; i < 3; ++i) {
-    const float below = std::max(0.0f, low[i] - inside.min[i]);
-    const float above = std::max(0.0f, inside.max[i] - high[i]);
-    open.min[i] -= below, close.min[i] -= below;
-    open.max[i] += above, close.max[i] += above;
-  }
-}
-
 }  // namespace
 
 ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t most_parts) {
@@ -118,6 +107,16 @@ ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part,
     bounds.boxes.push_back(close);
   });
   return bounds;
+}
+
+void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time) {
+  const V3f low = (1 - time) * open.min + time * close.min, high = (1 - time) * open.max + time * close.max;
+  for (int i = 0; i < 3; ++i) {
+    const float below = std::max(0.0f, low[i] - inside.min[i]);
+    const float above = std::max(0.0f, inside.max[i] - high[i]);
+    open.min[i] -= below, close.min[i] -= below;
+    open.max[i] += above, close.max[i] += above;
+  }
 }
 
 void widen(ChunkBounds& bounds, float margin) {

@@ -15,6 +15,8 @@ namespace pelage {
 /// whole shutter; linear in time when there is motion. Parts do not follow strands: a box of a piece of many
 /// strands is much smaller than one of a few whole strands.
 ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t most_parts);
+/// Enlarges the boxes at shutter open and close so that between them they hold `inside` at `time`.
+void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time);
 /// Moves all sides of all boxes outward.
 void widen(ChunkBounds& bounds, float margin);
 /// What part_bounds() holds at most while it works.

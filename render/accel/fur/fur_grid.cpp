@@ -8,7 +8,6 @@ namespace pelage {
 namespace {
 
 constexpr float kStepsPerWidth = 192;
-constexpr float kRootsPerUnit = 16;  // of radii: their square roots have this many steps
 
 }  // namespace
 
@@ -18,16 +17,6 @@ FurGrid::FurGrid(float root_width, const V3f& anchor) : anchor_(anchor) {
   std::frexp(std::clamp(root_width, 0x1p-60f, 0x1p60f) / kStepsPerWidth, &exponent);
   step_ = std::ldexp(1.0f, exponent - 1);
   inverse_ = std::ldexp(1.0f, 1 - exponent);
-}
-
-float FurGrid::snap(float scene, int axis) const {
-  // Two floats differ by a double without rounding, unless one of them is out of the other's reach.
-  return static_cast<float>(std::nearbyint((static_cast<double>(scene) - anchor_[axis]) * inverse_));
-}
-
-float FurGrid::snap_radius(float scene) const {
-  const float root = std::nearbyint(kRootsPerUnit * std::sqrt(std::max(scene * inverse_, 0.0f)));
-  return root * root * (1 / (kRootsPerUnit * kRootsPerUnit));
 }
 
 float FurGrid::margin(float radius) const {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/vector.h"
 
 namespace pelage {
@@ -25,9 +28,15 @@ class FurGrid {
   float to_scene(float grid) const { return grid * step_; }
 
   /// The coordinate along an axis in grid units: the nearest whole number of steps, halves to even ones.
-  float snap(float scene, int axis) const;
+  float snap(float scene, int axis) const {
+    // Two floats differ by a double without rounding, unless one of them is out of the other's reach.
+    return static_cast<float>(whole((static_cast<double>(scene) - anchor_[axis]) * inverse_));
+  }
   /// Radii below 0 count as none.
-  float snap_radius(float scene) const;
+  float snap_radius(float scene) const {
+    const double root = whole(kRootsPerUnit * std::sqrt(std::max(scene * inverse_, 0.0f)));
+    return static_cast<float>(root * root) * (1 / (kRootsPerUnit * kRootsPerUnit));
+  }
 
   /// How far a ribbon of at most this radius may reach, once it is snapped, beyond where it reached before:
   /// scene units.
@@ -37,6 +46,14 @@ class FurGrid {
   static constexpr float kReach = 0x1p56f;
 
  private:
+  static constexpr float kRootsPerUnit = 16;  // of radii: their square roots have this many steps
+
+  /// As std::nearbyint(), without a call: beyond 2^51 every number is whole.
+  static double whole(double x) {
+    constexpr double kAllWhole = 0x1.8p52;
+    return std::abs(x) < 0x1p51 ? (x + kAllWhole) - kAllWhole : x;
+  }
+
   float step_, inverse_;
   V3f anchor_;
 };

@@ -21,23 +21,19 @@ constexpr uint16_t kShortNowhere = 0xffff;
 template <class Use>
 void for_each_block(const FurTreeView& tree, const Use& use) {
   if (!tree.nodes) return;
-  const size_t references = tree.layout == FurNodeLayout::kFloat ? FurFloatNode::references(tree.motion_keys)
-                                                                 : FurQuantisedNode::kReferences;
   std::vector<uint64_t> waiting{0};
   while (!waiting.empty()) {
     const std::byte* node = tree.nodes + waiting.back();
     waiting.pop_back();
-    uint32_t children[4];
-    std::memcpy(children, node + references, sizeof(children));
-    for (uint32_t bits : children) {
-      const FurReference child = FurReference::from_bits(bits);
+    for (size_t i = 0; i < 4; ++i) {
+      const FurReference child = child_reference(tree.layout, tree.motion_keys, node, i);
       if (child.is_none()) continue;
       if (!child.is_leaf()) {
         waiting.push_back(child.node_offset());
         continue;
       }
       const size_t size = (child.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
-      for (uint32_t i = 0; i < child.blocks(); ++i) use(child.leaf_offset() + i * size, child.is_wide());
+      for (uint32_t b = 0; b < child.blocks(); ++b) use(child.leaf_offset() + b * size, child.is_wide());
     }
   }
 }

@@ -27,8 +27,8 @@ FurBox hull(const SnappedSegment& segment) {
 
 }  // namespace
 
-/// Writes a topology twice: once to count bytes, once in place. Nodes stand in the order of a walk down the
-/// tree, and so do leaves, those of one node side by side.
+/// Writes a topology. Nodes stand in the order of a walk down the tree, and so do leaves, those of one node
+/// side by side.
 class FurTree::Writer {
  public:
   Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout)
@@ -36,24 +36,11 @@ class FurTree::Writer {
         topology_(topology),
         layout_(layout),
         keys_(static_cast<size_t>(strands.motion_keys())),
-        node_size_(node_size(layout, strands.motion_keys())) {}
+        node_bytes_(topology.nodes.size() * node_size(layout, strands.motion_keys())),
+        wide_(topology.nodes.size() * 4) {}
 
-  /// Counts bytes. Leaves are read here for the first time: which of them are wide is kept.
-  void measure() {
-    node_bytes_ = topology_.nodes.size() * node_size_;
-    for (const FurTopology::Node& node : topology_.nodes) {
-      for (const FurTopology::Child& child : std::span(node.children).first(node.child_count)) {
-        if (child.count == 0) continue;
-        const bool wide = is_wide(child);
-        wide_.push_back(wide);
-        leaf_bytes_ += block_count(child) * block_size(wide);
-      }
-    }
-    const auto too_large = node_bytes_ > FurReference::kNodeReach || leaf_bytes_ > FurReference::kLeafReach;
-    if (too_large)
-      throw Error(ErrorKind::kMemory,
-                  "one fur tree would need more than 4 GiB: make chunks of fewer strands");
-  }
+  /// Where leaves begin.
+  size_t leaves() const { return (node_bytes_ + kNodeAlignment - 1) / kNodeAlignment * kNodeAlignment; }
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
   /// What is held while it writes, for so many nodes.
@@ -62,38 +49,74 @@ class FurTree::Writer {
            FurBlockHeader::kLanes * keys * sizeof(SnappedSegment);
   }
 
-  /// Fills both parts; returns the boxes of everything, one per key.
-  std::vector<FurBox> write(std::byte* nodes, std::byte* leaves) {
-    nodes_ = nodes, leaves_ = leaves;
-    boxes_.resize(topology_.nodes.size() * 4 * keys_);
-    node_boxes_.resize(topology_.nodes.size() * keys_);
-    size_t leaf = 0;
-    uint64_t leaf_offset = 0;
-    references_.resize(topology_.nodes.size() * 4);
-    for (size_t n = 0; n < topology_.nodes.size(); ++n) {
-      const FurTopology::Node& node = topology_.nodes[n];
-      for (size_t i = 0; i < node.child_count; ++i) {
-        const FurTopology::Child& child = node.children[i];
-        if (child.count == 0) {
-          references_[n * 4 + i] = FurReference::to_node(child.node * node_size_);
-          continue;
-        }
-        const bool wide = wide_[leaf++];
-        references_[n * 4 + i] =
-            FurReference::to_leaf(leaf_offset, static_cast<uint32_t>(block_count(child)), wide);
-        write_leaf(child, wide, leaves_ + leaf_offset, &boxes_[(n * 4 + i) * keys_]);
-        leaf_offset += block_count(child) * block_size(wide);
+  /// Nodes, and leaves behind them. At first all leaves are taken to be narrow; which are not is known once
+  /// they were written, and where there are any, all is written again.
+  PageBlock write() {
+    while (true) {
+      place_leaves();
+      PageBlock block(leaves() + leaf_bytes_);
+      block.prefer_large_pages();
+      if (write_leaves(block.data() + leaves())) {
+        write_nodes(block.data());
+        return block;
       }
     }
-    // Children have larger numbers than their parents.
-    for (size_t n = topology_.nodes.size(); n-- > 0;) write_node_of(n);
-    return {node_boxes_.begin(), node_boxes_.begin() + static_cast<std::ptrdiff_t>(keys_)};
   }
+  /// Boxes of everything, one per key.
+  std::span<const FurBox> boxes() const { return std::span(node_boxes_).first(keys_); }
 
  private:
   static size_t block_count(const FurTopology::Child& child) {
     return (child.count + FurBlockHeader::kLanes - 1) / FurBlockHeader::kLanes;
   }
+  void place_leaves() {
+    references_.assign(topology_.nodes.size() * 4, {});
+    leaf_bytes_ = 0;
+    for (size_t n = 0; n < topology_.nodes.size(); ++n) {
+      const FurTopology::Node& node = topology_.nodes[n];
+      for (size_t i = 0; i < node.child_count; ++i) {
+        const FurTopology::Child& child = node.children[i];
+        if (child.count == 0) {
+          references_[n * 4 + i] =
+              FurReference::to_node(child.node * node_size(layout_, strands_.motion_keys()));
+          continue;
+        }
+        const bool wide = wide_[n * 4 + i];
+        references_[n * 4 + i] =
+            FurReference::to_leaf(leaf_bytes_, static_cast<uint32_t>(block_count(child)), wide);
+        leaf_bytes_ += block_count(child) * block_size(wide);
+      }
+    }
+    if (node_bytes_ > FurReference::kNodeReach || leaf_bytes_ > FurReference::kLeafReach)
+      throw Error(ErrorKind::kMemory,
+                  "one fur tree would need more than 4 GiB: make chunks of fewer strands");
+  }
+
+  /// False when leaves turned out to be wide for which narrow places were kept.
+  bool write_leaves(std::byte* leaves) {
+    boxes_.assign(topology_.nodes.size() * 4 * keys_, {});
+    bool all_fit = true;
+    for (size_t n = 0; n < topology_.nodes.size(); ++n) {
+      const FurTopology::Node& node = topology_.nodes[n];
+      for (size_t i = 0; i < node.child_count; ++i) {
+        if (node.children[i].count == 0) continue;
+        const FurReference leaf = references_[n * 4 + i];
+        if (write_leaf(node.children[i], leaf.is_wide(), leaves + leaf.leaf_offset(),
+                       &boxes_[(n * 4 + i) * keys_]))
+          continue;
+        wide_[n * 4 + i] = true;
+        all_fit = false;
+      }
+    }
+    return all_fit;
+  }
+
+  void write_nodes(std::byte* nodes) {
+    node_boxes_.resize(topology_.nodes.size() * keys_);
+    // Children have larger numbers than their parents.
+    for (size_t n = topology_.nodes.size(); n-- > 0;) write_node_of(n, nodes);
+  }
+
   size_t block_size(bool wide) const {
     return (wide ? kWideBlock : kNarrowBlock).block(static_cast<int>(keys_));
   }
@@ -114,16 +137,11 @@ class FurTree::Writer {
     return block;
   }
 
-  bool is_wide(const FurTopology::Child& child) {
-    for (size_t first = 0; first < child.count; first += FurBlockHeader::kLanes) {
-      if (!fits_narrow_block(contents(child, first))) return true;
-    }
-    return false;
-  }
-
-  void write_leaf(const FurTopology::Child& child, bool wide, std::byte* out, FurBox* boxes) {
+  /// False when the leaf is to be narrow and has no room for its segments.
+  bool write_leaf(const FurTopology::Child& child, bool wide, std::byte* out, FurBox* boxes) {
     for (size_t first = 0; first < child.count; first += FurBlockHeader::kLanes) {
       const FurBlockContents block = contents(child, first);
+      if (!wide && !fits_narrow_block(block)) return false;
       write_block(block, static_cast<int>(keys_), wide, out);
       out += block_size(wide);
       for (size_t i = 0; i < block.segments.size(); ++i) {
@@ -131,9 +149,10 @@ class FurTree::Writer {
         boxes[i % keys_].extend(hull(part_of(block.segments[i], part)));
       }
     }
+    return true;
   }
 
-  void write_node_of(size_t n) {
+  void write_node_of(size_t n, std::byte* nodes) {
     const FurTopology::Node& node = topology_.nodes[n];
     FurChild children[4];
     for (size_t i = 0; i < node.child_count; ++i) {
@@ -144,16 +163,15 @@ class FurTree::Writer {
       for (size_t key = 0; key < keys_; ++key) node_boxes_[n * keys_ + key].extend(boxes[key]);
     }
     write_node(layout_, static_cast<int>(keys_), std::span(children, node.child_count),
-               nodes_ + n * node_size_);
+               nodes + n * node_size(layout_, strands_.motion_keys()));
   }
 
   const SnappedStrands& strands_;
   const FurTopology& topology_;
   const FurNodeLayout layout_;
-  const size_t keys_, node_size_;
-  size_t node_bytes_ = 0, leaf_bytes_ = 0;
-  std::byte *nodes_ = nullptr, *leaves_ = nullptr;
-  std::vector<bool> wide_;                // leaf by leaf
+  const size_t keys_, node_bytes_;
+  size_t leaf_bytes_ = 0;
+  std::vector<bool> wide_;                // of leaves: by node and child
   std::vector<FurBox> boxes_;             // of leaves: by node, child and key
   std::vector<FurBox> node_boxes_;        // by node and key
   std::vector<FurReference> references_;  // by node and child
@@ -172,19 +190,16 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   build_bytes_ += topology_bytes;
   if (topology.nodes.empty()) return;
   Writer writer(strands, topology, options.layout);
-  writer.measure();
+  block_ = writer.write();
   node_bytes_ = writer.node_bytes();
   leaf_bytes_ = writer.leaf_bytes();
-  const size_t leaves = (node_bytes_ + kNodeAlignment - 1) / kNodeAlignment * kNodeAlignment;
-  block_ = PageBlock(leaves + leaf_bytes_);
-  block_.prefer_large_pages();
-  for (const FurBox& box : writer.write(block_.data(), block_.data() + leaves)) box_.extend(box);
+  for (const FurBox& box : writer.boxes()) box_.extend(box);
   build_bytes_ =
       std::max(build_bytes_,
                topology_bytes + block_.bytes() +
                    Writer::scratch_bytes(topology.nodes.size(), static_cast<size_t>(strands.motion_keys())));
   view_.nodes = block_.data();
-  view_.leaves = block_.data() + leaves;
+  view_.leaves = block_.data() + writer.leaves();
   for (size_t axis = 0; axis < 3; ++axis) {
     view_.reach = std::max({view_.reach, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
   }

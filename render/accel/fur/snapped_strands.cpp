@@ -17,16 +17,19 @@ SnappedStrands::SnappedStrands(const Strands& strands, const FurGrid& grid)
                    [&](uint32_t a, uint32_t b) { return strands.id(a) < strands.id(b); });
   first_segment_.reserve(order_.size() + 1);
   uint64_t count = 0;
+  bool uniform = true;
   for (uint32_t i = 0; i < order_.size(); ++i) {
     rank_[order_[i]] = i;
     first_segment_.push_back(static_cast<uint32_t>(count));
     count += pelage::segment_count(strands.basis(), strands.strand_points(order_[i]));
+    uniform &= strands.strand_points(order_[i]) == strands.strand_points(order_[0]);
   }
   PELAGE_CHECK(count < UINT32_MAX);
   first_segment_.push_back(static_cast<uint32_t>(count));
+  if (uniform && count > 0) segments_per_strand_ = first_segment_[1];
 }
 
-SnappedStrands::Place SnappedStrands::locate(uint32_t number) const {
+SnappedStrands::Place SnappedStrands::search(uint32_t number) const {
   const auto after = std::upper_bound(first_segment_.begin(), first_segment_.end(), number);
   const auto rank = static_cast<size_t>(after - first_segment_.begin() - 1);
   return {order_[rank], number - first_segment_[rank]};

@@ -31,7 +31,11 @@ class SnappedStrands {
   const FurGrid& grid() const { return grid_; }
   int motion_keys() const { return strands_.motion_keys(); }
   uint32_t segment_count() const { return first_segment_.back(); }
-  Place locate(uint32_t number) const;
+  Place locate(uint32_t number) const {
+    if (segments_per_strand_ == 0) return search(number);
+    const uint32_t rank = number / segments_per_strand_;
+    return {order_[rank], number - rank * segments_per_strand_};
+  }
   /// The number of a strand's first segment.
   uint32_t first_segment(uint32_t strand) const { return first_segment_[rank_[strand]]; }
   SnappedSegment segment(Place place, int key) const;
@@ -51,11 +55,14 @@ class SnappedStrands {
   static bool is_drawable(const SnappedSegment& segment);
 
  private:
+  Place search(uint32_t number) const;
+
   const Strands& strands_;
   FurGrid grid_;
   std::vector<uint32_t> order_;          // strands by id
   std::vector<uint32_t> rank_;           // where each strand stands there
   std::vector<uint32_t> first_segment_;  // by rank, and the number of all at the end
+  uint32_t segments_per_strand_ = 0;     // when all strands have equally many; otherwise 0
 };
 
 }  // namespace pelage
