@@ -3,11 +3,13 @@
 #include "cli/compose.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
 
 #include "cli/drawn_characters.h"
 #include "procedurals/fur.h"
+#include "procedurals/strand_nature.h"
 
 namespace pelage {
 
@@ -22,14 +24,16 @@ size_t material_index(const SceneDescription& scene, const NameReference& materi
 /// Poses a frame's characters one after the other.
 class Composer {
  public:
-  Composer(const SceneDescription& scene, const Assets& assets, double frame, int threads,
+  Composer(const SceneDescription& scene, const Assets& assets, double frame, const Workers& workers,
            MemoryLedger& ledger, World& world)
       : scene_(scene),
         assets_(assets),
         frame_(frame),
+        workers_(workers),
         ledger_(ledger),
         world_(world),
-        poses_(std::make_shared<PoseCache>(threads, ledger)) {}
+        lod_view_(lod_camera().lod_view()),
+        poses_(std::make_shared<PoseCache>(workers.thread_count(), ledger)) {}
 
   void add(const DrawnCharacter& character) {
     Box3f box;
@@ -40,6 +44,11 @@ class Composer {
   }
 
  private:
+  Camera lod_camera() const {
+    const std::optional<CameraParams>& own = scene_.render.lod.camera.own;
+    return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
+  }
+
   void add_part(const DrawnCharacter& character, size_t index, Box3f& box) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
@@ -59,11 +68,29 @@ class Composer {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
-      fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed));
+      if (scene_.render.lod.enabled) fur.lod = simplification(*coat, skin.rest.get(), *posed);
+      fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed, fur.lod));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
     }
+  }
+
+  Simplification simplification(const Groom& groom, const LimitSurface* rest,
+                                const PosedCharacterSkin& skin) {
+    auto known = natures_.find(&groom);
+    if (known == natures_.end())
+      known = natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, workers_))
+                  .first;
+    StrandNature nature = known->second;
+    nature.width *= skin.scale();
+    nature.length *= skin.scale() * skin.length();
+    nature.area_share *= skin.length();
+    const LodParams& lod = scene_.render.lod;
+    const float budget = groom.role() == StrandRole::kGuard     ? lod.guard
+                         : groom.role() == StrandRole::kWhisker ? lod.whisker
+                                                                : lod.under;
+    return {lod, lod_view_, nature, budget};
   }
 
   /// What sharing a topology saves is measured by not doing it.
@@ -89,9 +116,12 @@ class Composer {
   const SceneDescription& scene_;
   const Assets& assets_;
   const double frame_;
+  const Workers& workers_;
   MemoryLedger& ledger_;
   World& world_;
+  const LodView lod_view_;
   std::shared_ptr<PoseCache> poses_;
+  std::map<const Groom*, StrandNature> natures_;
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };
 
@@ -114,7 +144,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               {}};
-  Composer composer(scene, assets, frame, workers.thread_count(), ledger, world);
+  Composer composer(scene, assets, frame, workers, ledger, world);
   for (const DrawnCharacter& character : drawn_characters(scene, assets)) composer.add(character);
   return world;
 }

@@ -98,12 +98,6 @@ void check_references(const SceneDescription& scene, Problems& problems) {
 
 namespace {
 
-void check_lod(const SceneDescription& scene, const Value& document, Problems& problems) {
-  if (!scene.render.lod.enabled) return;
-  problems.add(document.find("render")->find("lod")->find("enabled")->position(),
-               "level of detail is not built yet; set render.lod.enabled to false");
-}
-
 void check_shutter(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (scene.camera.shutter.x <= scene.camera.shutter.y) return;
   problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
@@ -121,7 +115,6 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
-      check_lod(scene, *document, problems);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

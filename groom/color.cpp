@@ -36,11 +36,16 @@ std::optional<AttributeClass> Color::colors() const {
   return same ? AttributeClass::kConstant : AttributeClass::kPerStrand;
 }
 
+Operator::Brightness Color::brightness(uint64_t seed, uint64_t strand_id) const {
+  return {1.0f - params_.variation * unit_float(hash64(seed, strand_id, random_use("color"))),
+          1.0f - 0.5f * params_.variation};
+}
+
 void Color::apply(StrandBatch& batch) const {
   if (batch.colors.empty()) return;
   StrandRow factor;
   for (size_t s = 0; s < batch.count && params_.variation > 0; ++s)
-    factor[s] = 1.0f - params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("color")));
+    factor[s] = brightness(seed_, batch.ids[s]).value;
   StrandColor color(params_.value, batch);
   for (size_t p = 0; p < batch.colors.size(); ++p) {
     // Not in place: the value may read the colour that the strand has.

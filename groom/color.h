@@ -24,6 +24,8 @@ class Color final : public Operator {
   std::string_view name() const override { return kName; }
   std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   std::optional<AttributeClass> colors() const override;
+  Brightness brightness(uint64_t seed, uint64_t strand_id) const override;
+  bool replaces_colors() const override { return !params_.value.dependence().attributes; }
   bool attributes_only() const override { return true; }
   RestUse rest_use() const override {
     return params_.value.dependence().rest ? RestUse::kPositions : RestUse::kNone;

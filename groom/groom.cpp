@@ -26,6 +26,27 @@ const ContentHash& Groom::content_hash() const { return impl_->hash; }
 const ContentStore* Groom::store() const { return impl_->store ? &*impl_->store : nullptr; }
 const GroomCacheReport* Groom::cache_report() const { return impl_->report ? &*impl_->report : nullptr; }
 
+V3f Groom::root(size_t follicle, const PosedSkin& pose, size_t key) const {
+  const CoatSource& source = impl_->source;
+  if (source.rest) {
+    const RootAddress& root = source.follicles().root(follicle);
+    return pose.keys[key].evaluate(root.face, root.u, root.v).position;
+  }
+  V3f at = source.imported->first_point(follicle);
+  if (!pose.free_transforms.empty()) pose.free_transforms[key].multVecMatrix(V3f(at), at);
+  return at;
+}
+
+bool Groom::has_priority_order() const { return !impl_->source.imported; }
+
+float Groom::priority(size_t follicle) const {
+  const FollicleTree& follicles = impl_->source.follicles();
+  const uint64_t id = follicles.id(follicle);
+  // Ids of grown strands are ranks in their progressive order; those of a file may run along the skin.
+  if (!has_priority_order()) return unit_float(hash64(id, random_use("priority")));
+  return static_cast<float>((static_cast<double>(id) + 0.5) / static_cast<double>(follicles.size()));
+}
+
 namespace {
 
 void check_combination(const std::string& name, const GroomParams& params, bool has_skin) {
@@ -75,6 +96,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
   const PrepareContext context{impl->source.rest.get(),           textures,      workers, {},
                                hash64(seed, random_use("groom")), params.points, {}};
+  impl->operator_seed = context.seed;
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
   impl->hash = ContentHasher()
                    .add(identity.whole())

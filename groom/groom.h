@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 
@@ -31,6 +30,15 @@ struct PosedSkin {
   /// Of strands that grow on no skin, one per motion key; empty: they stay where their file puts them.
   std::span<const M44f> free_transforms;
   float length = 1;  ///< scale of the finished strands about their roots; their widths stay
+};
+
+/// Which strands of a leaf are wanted, and how they differ from those that the operators make (level of
+/// detail).
+struct KeptStrands {
+  std::span<const uint32_t> strands;  ///< by number in the leaf, ascending
+  std::span<const float> width;       ///< one per strand: factor on its width
+  std::span<const float>
+      contrast;  ///< one per strand: factor on what tells its colour from the mean; or none
 };
 
 /// Whom a groom with `cache:` tells what it does.
@@ -77,20 +85,27 @@ class Groom {
 
   /// All strands of a leaf in a pose, ids ascending, with the attribute "color" (3 components) when an
   /// operator colours them: constant, per strand or per point, whichever is the least that holds the colours.
-  /// Only the first `count` of them when `count` is given (an LOD prefix).
-  Strands grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> count = {}) const;
+  /// Only some of them when `kept` is given; growing then costs as if all up to the last of them were.
+  Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
-  /// Exactly what grow() of the whole leaf gives, but for the motion keys, which are the pose's.
-  StrandCounts counts(size_t leaf) const;
+  /// Exactly what grow() of the whole leaf, or of its first `count` strands, gives, but for the motion keys,
+  /// which are the pose's.
+  StrandCounts counts(size_t leaf, size_t count = SIZE_MAX) const;
 
   bool grows_on_skin() const;
+  /// Where a strand stands at a motion key.
+  V3f root(size_t follicle, const PosedSkin& pose, size_t key) const;
+  /// Evenly spread over [0, 1), from the strand's id alone: who comes first stays longest when detail is
+  /// reduced. Ascends within a leaf where has_priority_order().
+  float priority(size_t follicle) const;
+  bool has_priority_order() const;
   /// Farthest that any point of a strand, with its radius, may be from its root, for a character of scale 1.
   float reach() const;
   /// Of the widest strands, about, for a character of scale 1: the same however the coat is divided.
   float width() const;
   /// A box that holds every point +- radius that grow() can give: roots in the pose, longest strand, each
-  /// operator's reach. No strand is grown.
-  Box3f conservative_bound(size_t leaf, const PosedSkin& pose) const;
+  /// operator's reach. No strand is grown. Of the first `count` strands, where that is given.
+  Box3f conservative_bound(size_t leaf, const PosedSkin& pose, size_t count = SIZE_MAX) const;
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Imath/ImathBoxAlgo.h>
 
@@ -44,8 +45,10 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
   const auto batch = std::make_unique<StrandBatch>();
   // One key is made in place; more need the rest state again.
   const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
-  for (size_t at = begin; at < end; at += batch->count) {
-    batch->count = source.run_length(at, end);
+  for (size_t at = begin, run = 0; at < end; at += run) {
+    run = source.run_length(at, end);
+    batch->count = writer.needed(at - begin, run);
+    if (batch->count == 0) continue;
     batch->colors.resize(writer.color_rows(source.strand_points(at)));
     source.start(*batch, at);
     stack->apply_frozen(*batch);
@@ -60,8 +63,7 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
       stack->apply_live(*target);
       writer.write(*target, at - begin, key, pose.length);
     }
-    for (size_t s = 0; s < batch->count; ++s)
-      writer.write_root(*batch, at - begin, s, source.follicles().root(at + s));
+    writer.write_roots(*batch, at - begin, source.follicles(), at);
   }
 }
 
@@ -91,7 +93,8 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
   for (const FrozenLeaf::Block& block : strands.blocks()) {
     const size_t at = begin + block.first;
     if (at >= end) break;
-    batch->count = std::min<size_t>(block.count, end - at);
+    batch->count = writer.needed(block.first, std::min<size_t>(block.count, end - at));
+    if (batch->count == 0) continue;
     batch->points.resize(static_cast<size_t>(block.points));
     batch->colors.resize(writer.color_rows(block.points));
     batch->scale = 1;
@@ -129,24 +132,42 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
       stack->apply(live, stack->size(), *target);
       writer.write(*target, at - begin, key, pose.length);
     }
-    for (size_t s = 0; s < batch->count; ++s)
-      writer.write_root(*batch, at - begin, s, source.follicles().root(at + s));
+    writer.write_roots(*batch, at - begin, source.follicles(), at);
   }
 }
 
-Strands Groom::grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> count) const {
+StrandWriter::Chosen Groom::Impl::chosen(const KeptStrands& kept, size_t begin) const {
+  constexpr float kDarkest = 1e-3f;  // what is black already stays so
+  StrandWriter::Chosen chosen{kept.strands, kept.width, {}};
+  if (kept.contrast.empty()) return chosen;
+  chosen.color.reserve(kept.strands.size());
+  for (size_t i = 0; i < kept.strands.size(); ++i) {
+    const auto [value, mean] = stack->brightness(operator_seed, source.follicles().id(begin + kept.strands[i]));
+    const bool changes = kept.contrast[i] != 1 && value > kDarkest;
+    chosen.color.push_back(changes ? (mean + kept.contrast[i] * (value - mean)) / value : 1.0f);
+  }
+  return chosen;
+}
+
+Strands Groom::grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept) const {
   const Impl& g = *impl_;
   const bool on_skin = g.source.rest != nullptr;
   const FollicleTree::Leaf& range = g.source.follicles().leaves()[leaf];
-  const size_t end = range.begin + std::min<size_t>(count.value_or(SIZE_MAX), range.end - range.begin);
   PELAGE_CHECK(!on_skin || !pose.keys.empty());
   PELAGE_CHECK(!g.stack->needs_closest_point() || pose.trees.size() == key_count(pose, on_skin));
 
-  StrandWriter writer(end - range.begin, key_count(pose, on_skin), g.stack->colors(), on_skin);
-  if (g.source.imported) {
-    for (size_t f = range.begin; f < end; ++f) writer.expect(g.source.strand_points(f));
-  } else {
+  const size_t keys = key_count(pose, on_skin);
+  const std::optional<AttributeClass> colors = g.stack->colors();
+  size_t end = range.end;
+  if (kept) end = range.begin + (kept->strands.empty() ? 0 : kept->strands.back() + size_t(1));
+  StrandWriter writer = kept ? StrandWriter(g.chosen(*kept, range.begin), keys, colors, on_skin)
+                             : StrandWriter(range.end - range.begin, keys, colors, on_skin);
+  if (!g.source.imported) {
     writer.expect_all(g.source.points);
+  } else if (kept) {
+    for (const uint32_t s : kept->strands) writer.expect(g.source.strand_points(range.begin + s));
+  } else {
+    for (size_t f = range.begin; f < end; ++f) writer.expect(g.source.strand_points(f));
   }
   if (g.frozen) {
     g.grow_cached(leaf, pose, range.begin, end, writer);
@@ -156,18 +177,30 @@ Strands Groom::grow(size_t leaf, const PosedSkin& pose, std::optional<size_t> co
   StrandArrays arrays = writer.take();
   if (g.source.imported) {
     arrays.basis = g.source.imported->basis();
-    for (StrandAttribute& a :
-         g.source.imported->attributes(range.begin, end, g.stack->colors() ? "color" : "")) {
+    std::vector<uint32_t> follicles;
+    for (size_t i = 0; i < arrays.ids.size(); ++i)
+      follicles.push_back(range.begin + (kept ? kept->strands[i] : static_cast<uint32_t>(i)));
+    for (StrandAttribute& a : g.source.imported->attributes(follicles, colors ? "color" : "")) {
       arrays.attributes.push_back(std::move(a));
     }
   }
   return Strands(std::move(arrays));
 }
 
-StrandCounts Groom::counts(size_t leaf) const {
+namespace {
+
+FollicleTree::Leaf first_of(const FollicleTree::Leaf& leaf, size_t count) {
+  FollicleTree::Leaf part = leaf;
+  if (count < leaf.end - leaf.begin) part.end = leaf.begin + static_cast<uint32_t>(count);
+  return part;
+}
+
+}  // namespace
+
+StrandCounts Groom::counts(size_t leaf, size_t count) const {
   const CoatSource& source = impl_->source;
   const std::optional<AttributeClass> colors = impl_->stack->colors();
-  const FollicleTree::Leaf& range = source.follicles().leaves()[leaf];
+  const FollicleTree::Leaf range = first_of(source.follicles().leaves()[leaf], count);
   StrandCounts counts;
   counts.strands = range.end - range.begin;
   if (source.imported) {
@@ -176,8 +209,9 @@ StrandCounts Groom::counts(size_t leaf) const {
       counts.points += points;
       counts.segments += segment_count(source.imported->basis(), points);
     }
-    for (const StrandAttribute& a :
-         source.imported->attributes(range.begin, range.end, colors ? "color" : "")) {
+    std::vector<uint32_t> follicles(range.end - range.begin);
+    std::iota(follicles.begin(), follicles.end(), range.begin);
+    for (const StrandAttribute& a : source.imported->attributes(follicles, colors ? "color" : "")) {
       counts.attribute_floats += a.values.size();
     }
   } else {
@@ -213,11 +247,12 @@ float Groom::width() const {
   return most;
 }
 
-Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose) const {
+Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose, size_t count) const {
   const Impl& g = *impl_;
   const FollicleTree& follicles = g.source.follicles();
-  const FollicleTree::Leaf& range = follicles.leaves()[leaf];
+  const FollicleTree::Leaf range = first_of(follicles.leaves()[leaf], count);
   Box3f box;
+  if (range.begin == range.end) return box;
   if (g.source.rest) {
     for (const LimitSurface& surface : pose.keys) {
       for (uint32_t f = range.begin; f < range.end; ++f) {

@@ -9,12 +9,14 @@
 #include "groom/groom.h"
 #include "groom/groom_identity.h"
 #include "groom/operator_stack.h"
+#include "groom/strand_writer.h"
 
 namespace pelage {
 
 /// What a groom is made of, for the sources that make and grow it.
 struct Groom::Impl {
   StrandRole role = StrandRole::kUnder;
+  uint64_t operator_seed = 0;  // of their context
   CoatSource source;
   std::optional<OperatorStack> stack;
   ContentHash hash;
@@ -32,13 +34,13 @@ struct Groom::Impl {
                   const GroomCacheHooks& hooks);
   FollicleTree place_follicles(const GroomParams& params, const PrepareContext& context, uint64_t seed) const;
 
-  void grow_plain(const PosedSkin& pose, size_t begin, size_t end, class StrandWriter& writer) const;
+  void grow_plain(const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const;
   /// What growing from the cache needs of the rest skin.
   void prepare_rest(const Workers& workers);
-  void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end,
-                   class StrandWriter& writer) const;
+  void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const;
   /// Where batch.count strands stand at a motion key.
   void stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const;
+  StrandWriter::Chosen chosen(const KeptStrands& kept, size_t begin) const;
   StrandReach reach(size_t leaf) const;
 };
 

@@ -81,7 +81,7 @@ size_t ImportedStrands::run_length(size_t begin, size_t end) const {
 void ImportedStrands::place_free(StrandBatch& batch, size_t begin) const {
   for (size_t s = 0; s < batch.count; ++s) {
     batch.ids[s] = follicles_.id(begin + s);
-    batch.rest.set(s, file_.strands.point(file_.strands.first_point(place_[begin + s])), Frame{});
+    batch.rest.set(s, first_point(begin + s), Frame{});
     batch.u[s] = batch.v[s] = 0;
     batch.clump[s] = 0;
   }
@@ -100,7 +100,7 @@ void ImportedStrands::start(StrandBatch& batch, size_t begin) const {
   }
 }
 
-std::vector<StrandAttribute> ImportedStrands::attributes(size_t begin, size_t end,
+std::vector<StrandAttribute> ImportedStrands::attributes(std::span<const uint32_t> follicles,
                                                          std::string_view except) const {
   const Strands& strands = file_.strands;
   std::vector<StrandAttribute> result;
@@ -115,8 +115,8 @@ std::vector<StrandAttribute> ImportedStrands::attributes(size_t begin, size_t en
     if (from.frequency == AttributeClass::kConstant) {
       to.values = from.values;
     } else {
-      for (size_t f = begin; f < end; ++f) {
-        const size_t place = place_[f];
+      for (const uint32_t follicle : follicles) {
+        const size_t place = place_[follicle];
         if (from.frequency == AttributeClass::kPerStrand) copy(place, 1);
         if (from.frequency == AttributeClass::kPerPoint)
           copy(strands.first_point(place), strands.strand_points(place));

@@ -32,8 +32,12 @@ class ImportedStrands {
   void start(StrandBatch& batch, size_t begin) const;
   /// What holds of the strands [begin, end).
   const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
-  /// Attributes of the file for follicles [begin, end), all but `except`.
-  std::vector<StrandAttribute> attributes(size_t begin, size_t end, std::string_view except) const;
+  /// Where the strand of a follicle begins, in the space of the file.
+  V3f first_point(size_t follicle) const {
+    return file_.strands.point(file_.strands.first_point(place_[follicle]));
+  }
+  /// Attributes of the file for some follicles, all but `except`.
+  std::vector<StrandAttribute> attributes(std::span<const uint32_t> follicles, std::string_view except) const;
   size_t bytes() const {
     return file_.strands.bytes() + follicles_.bytes() + place_.capacity() * sizeof(uint32_t);
   }

@@ -65,6 +65,14 @@ class Operator {
   virtual bool needs_closest_point() const { return false; }
   /// How often the colours that apply() writes change; nothing when it writes none.
   virtual std::optional<AttributeClass> colors() const { return {}; }
+  /// What apply() multiplies the colour of a strand by at random, given the seed that prepare() was or would
+  /// be given, and the mean of that over all strands.
+  struct Brightness {
+    float value = 1, mean = 1;
+  };
+  virtual Brightness brightness(uint64_t /*seed*/, uint64_t /*strand_id*/) const { return {}; }
+  /// Whether colours that strands had before do not matter any more.
+  virtual bool replaces_colors() const { return false; }
   /// Whether the widths that apply() gives are one profile along the strands, times a number of each strand.
   virtual bool has_one_width_profile() const { return true; }
   /// Whether apply() reads and writes nothing of a batch but ids, texture coordinates, rest positions, clump

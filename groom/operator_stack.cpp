@@ -55,14 +55,18 @@ void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& cont
     if (operators_[i]->learns_from_preceding()) prepare(0, i, context);
     PrepareContext own = context;
     own.preceding = std::span(operators_).first(i);
-    // The seed of an operator depends on how many of its name come before, not on its place, so that adding
-    // an operator of another name changes nothing in it.
-    own.seed = hash64(context.seed, place.name, place.number);
+    own.seed = seed_of(context.seed, i);
     own.position = place.position;
     operators_[i]->prepare(own);
     check_bounded(*operators_[i], place.position);
     place.prepared = true;
   }
+}
+
+/// Depends on how many of its name come before, not on its place, so that adding an operator of another name
+/// changes nothing in it.
+uint64_t OperatorStack::seed_of(uint64_t groom, size_t i) const {
+  return hash64(groom, places_[i].name, places_[i].number);
 }
 
 void OperatorStack::prepare_coverage(const PrepareContext& context) {
@@ -107,6 +111,19 @@ std::optional<AttributeClass> OperatorStack::colors(size_t begin, size_t end) co
     if (own && (!most || *own > *most)) most = own;
   }
   return most;
+}
+
+Operator::Brightness OperatorStack::brightness(uint64_t seed, uint64_t strand_id) const {
+  Operator::Brightness product;
+  for (size_t i = size(); i-- > 0;) {
+    const Operator& op = *operators_[i];
+    if (!op.colors()) continue;
+    const Operator::Brightness own = op.brightness(seed_of(seed, i), strand_id);
+    product.value *= own.value;
+    product.mean *= own.mean;
+    if (op.replaces_colors()) break;
+  }
+  return product;
 }
 
 StrandReach OperatorStack::reach(StrandReach before, size_t begin, size_t end) const {

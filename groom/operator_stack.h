@@ -49,6 +49,9 @@ class OperatorStack {
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }
   /// The same of [begin, end).
   std::optional<AttributeClass> colors(size_t begin, size_t end) const;
+  /// The product of what operators multiply the colour of a strand by at random. `seed` is that of the
+  /// context that prepare() gets.
+  Operator::Brightness brightness(uint64_t seed, uint64_t strand_id) const;
   /// What holds of strands after the operators [begin, end) when `before` held before.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
   /// Product over the operators.
@@ -63,6 +66,8 @@ class OperatorStack {
     uint64_t number = 0;  // how many of its name stand before it
     bool prepared = false;
   };
+  uint64_t seed_of(uint64_t groom, size_t i) const;
+
   std::vector<std::unique_ptr<Operator>> operators_;
   std::vector<Place> places_;
   size_t live_ = 0;  // first operator that reads live state

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "groom/strand_writer.h"
 
+#include <algorithm>
+
 namespace pelage {
 
 StrandWriter::StrandWriter(size_t strands, size_t motion_keys, std::optional<AttributeClass> colors,
@@ -16,6 +18,20 @@ StrandWriter::StrandWriter(size_t strands, size_t motion_keys, std::optional<Att
   }
 }
 
+StrandWriter::StrandWriter(Chosen chosen, size_t motion_keys, std::optional<AttributeClass> colors,
+                           bool has_roots)
+    : StrandWriter(chosen.strands.size(), motion_keys, colors, has_roots) {
+  chosen_ = std::move(chosen);
+}
+
+size_t StrandWriter::needed(size_t first, size_t count) const {
+  if (!chosen_) return count;
+  const auto& strands = chosen_->strands;
+  const auto end = std::lower_bound(strands.begin(), strands.end(), first + count);
+  if (end == strands.begin() || *(end - 1) < first) return 0;
+  return *(end - 1) - first + 1;
+}
+
 void StrandWriter::expect(int points) {
   arrays_.first_point.push_back(arrays_.first_point.back() + static_cast<uint32_t>(points));
 }
@@ -29,19 +45,35 @@ size_t StrandWriter::color_rows(int points) const {
   return *colors_ == AttributeClass::kPerPoint ? static_cast<size_t>(points) : 1;
 }
 
+/// Calls `use` with each strand of the batch that is written, its number in the arrays, and the factors on
+/// its width and colour.
+template <class Use>
+void StrandWriter::each(const StrandBatch& batch, size_t first, const Use& use) const {
+  if (!chosen_) {
+    for (size_t s = 0; s < batch.count; ++s) use(s, first + s, 1.0f, 1.0f);
+    return;
+  }
+  const auto& strands = chosen_->strands;
+  for (auto at = std::lower_bound(strands.begin(), strands.end(), first);
+       at != strands.end() && *at < first + batch.count; ++at) {
+    const auto i = static_cast<size_t>(at - strands.begin());
+    use(*at - first, i, chosen_->width[i], chosen_->color.empty() ? 1.0f : chosen_->color[i]);
+  }
+}
+
 void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key, float length) {
   const size_t total = arrays_.first_point.back();
   if (arrays_.points.empty()) arrays_.points.resize(keys_ * total * 4);
-  const size_t stride = batch.points.size() * 4;
   for (size_t p = 0; p < batch.points.size(); ++p) {
     const StrandBatch::PointRows& rows = batch.points[p];
-    float* __restrict out = &arrays_.points[(key * total + arrays_.first_point[first] + p) * 4];
-    for (size_t s = 0; s < batch.count; ++s, out += stride) {
+    float* to = &arrays_.points[(key * total + p) * 4];
+    each(batch, first, [&](size_t s, size_t strand, float width, float) {
+      float* __restrict out = to + size_t(arrays_.first_point[strand]) * 4;
       out[0] = batch.here.position[0][s] + rows.offset[0][s] * length;
       out[1] = batch.here.position[1][s] + rows.offset[1][s] * length;
       out[2] = batch.here.position[2][s] + rows.offset[2][s] * length;
-      out[3] = rows.radius[s];
-    }
+      out[3] = rows.radius[s] * width;
+    });
   }
   if (key == 0 && colors_) write_colors(batch, first);
 }
@@ -49,33 +81,32 @@ void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key, flo
 void StrandWriter::write_colors(const StrandBatch& batch, size_t first) {
   if (arrays_.attributes.empty()) {
     StrandAttribute color{"color", *colors_, 3, {}};
-    const size_t values = *colors_ == AttributeClass::kConstant    ? 1
+    const size_t values = *colors_ == AttributeClass::kConstant    ? std::min<size_t>(1, arrays_.ids.size())
                           : *colors_ == AttributeClass::kPerStrand ? arrays_.ids.size()
                                                                    : arrays_.first_point.back();
     color.values.resize(3 * values);
     arrays_.attributes.push_back(std::move(color));
   }
   std::vector<float>& values = arrays_.attributes.front().values;
-  const size_t rows = batch.colors.size();
-  const size_t start = *colors_ == AttributeClass::kPerPoint ? arrays_.first_point[first] : first;
-  const size_t count = *colors_ == AttributeClass::kConstant ? 1 : batch.count;
-  for (size_t p = 0; p < rows; ++p) {
+  for (size_t p = 0; p < batch.colors.size(); ++p) {
     const VectorRow& color = batch.colors[p];
-    for (size_t s = 0; s < count; ++s) {
-      float* out = &values[*colors_ == AttributeClass::kConstant ? 0 : 3 * (start + s * rows + p)];
-      out[0] = color[0][s];
-      out[1] = color[1][s];
-      out[2] = color[2][s];
-    }
+    each(batch, first, [&](size_t s, size_t strand, float, float factor) {
+      const size_t at = *colors_ == AttributeClass::kConstant    ? 0
+                        : *colors_ == AttributeClass::kPerStrand ? strand
+                                                                 : arrays_.first_point[strand] + p;
+      for (size_t c = 0; c < 3; ++c) values[3 * at + c] = color[c][s] * factor;
+    });
   }
 }
 
-void StrandWriter::write_root(const StrandBatch& batch, size_t first, size_t strand,
-                              const RootAddress& root) {
-  arrays_.ids[first + strand] = batch.ids[strand];
-  if (!has_roots_) return;
-  arrays_.roots[first + strand] = root;
-  arrays_.root_uv[first + strand] = V2f(batch.u[strand], batch.v[strand]);
+void StrandWriter::write_roots(const StrandBatch& batch, size_t first, const FollicleTree& follicles,
+                               size_t begin) {
+  each(batch, first, [&](size_t s, size_t strand, float, float) {
+    arrays_.ids[strand] = batch.ids[s];
+    if (!has_roots_) return;
+    arrays_.roots[strand] = follicles.root(begin + s);
+    arrays_.root_uv[strand] = V2f(batch.u[s], batch.v[s]);
+  });
 }
 
 StrandArrays StrandWriter::take() { return std::move(arrays_); }

@@ -4,14 +4,28 @@
 #include <optional>
 
 #include "geom/strands.h"
+#include "groom/follicles.h"
 #include "groom/strand_batch.h"
 
 namespace pelage {
 
-/// Collects finished batches into the arrays of a Strands, which it reserves exactly.
+/// Collects finished batches into the arrays of a Strands, which it reserves exactly: all of their strands,
+/// or some of them with other widths and colours.
 class StrandWriter {
  public:
+  /// Which strands are written: by number, ascending, each with a factor on its width and one on its colours.
+  struct Chosen {
+    std::span<const uint32_t> strands;
+    std::span<const float> width;
+    std::vector<float> color;  ///< or none
+  };
+
   StrandWriter(size_t strands, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
+  StrandWriter(Chosen chosen, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
+
+  /// How many of `count` strands from `first` on need to be made so that all that are written are: 0, or up
+  /// to the last of them.
+  size_t needed(size_t first, size_t count) const;
 
   /// Point count of the next strand, before anything is written / of all strands.
   void expect(int points);
@@ -22,12 +36,16 @@ class StrandWriter {
   /// Writes a batch whose strands come from number `first` on, scaled by `length` about their roots, widths
   /// apart; colours with key 0.
   void write(const StrandBatch& batch, size_t first, size_t key, float length);
-  void write_root(const StrandBatch& batch, size_t first, size_t strand, const RootAddress& root);
+  /// Ids and roots of the same, which are follicles [begin, ...).
+  void write_roots(const StrandBatch& batch, size_t first, const FollicleTree& follicles, size_t begin);
   StrandArrays take();
 
  private:
+  template <class Use>
+  void each(const StrandBatch& batch, size_t first, const Use& use) const;
   void write_colors(const StrandBatch& batch, size_t first);
 
+  std::optional<Chosen> chosen_;
   size_t keys_;
   std::optional<AttributeClass> colors_;
   bool has_roots_;

@@ -6,6 +6,7 @@
 #include "base/program_identity.h"
 #include "geom/strand_merge.h"
 #include "procedurals/segment_parts.h"
+#include "procedurals/thinned_fur.h"
 
 namespace pelage {
 namespace {
@@ -18,31 +19,36 @@ auto in_pose(const Groom& groom, const PosedCharacterSkin& skin, size_t leaf, Bo
   return use(skin.pose(span, leaf_faces(groom, leaf)).skin());
 }
 
-StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin) {
-  const Box3f box = skin.bound(BoundSpan::kFrame);
-  return {groom.width() * skin.scale(), box.isEmpty() ? V3f(0) : box.center()};
-}
-
 ChunkBounds exact_leaf_bounds(const Groom& groom, size_t leaf, const PosedSkin& pose, int keys) {
   const Strands strands = groom.grow(leaf, pose);
   return SegmentParts(strands).exact_bounds(keys);
 }
 
+Box3f bound_of(const std::vector<std::unique_ptr<Procedural>>& chunks, BoundSpan span) {
+  Box3f box;
+  for (const auto& chunk : chunks) box.extendBy(chunk->bound(span));
+  return box;
+}
+
 }  // namespace
 
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
-                             std::shared_ptr<const PosedCharacterSkin> skin)
+                             std::shared_ptr<const PosedCharacterSkin> skin,
+                             const std::optional<Simplification>& lod)
     : groom_(std::move(groom)), skin_(std::move(skin)) {
-  skin_->expect_leaves(*groom_);
+  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod);
+  skin_->expect_leaves(*groom_, detail_ != nullptr);
 }
 
 Box3f FurProcedural::bound(BoundSpan span) const {
   if (groom_->grows_on_skin()) {
     // Without posing the skin: a crowd asks this of every animal.
     Box3f box = skin_->bound(span);
-    const V3f out(groom_->reach() * skin_->scale() * std::max(1.0f, skin_->length()));
+    const float wider = detail_ ? 0.5f * groom_->width() * (detail_->most_width_factor() - 1) : 0.0f;
+    const V3f out((groom_->reach() * std::max(1.0f, skin_->length()) + wider) * skin_->scale());
     return {box.min - out, box.max + out};
   }
+  if (detail_) return bound_of(ThinnedFurProcedural::divide(detail_, skin_), span);
   const SkinPose pose = skin_->pose(span, {});
   Box3f box;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
@@ -52,6 +58,7 @@ Box3f FurProcedural::bound(BoundSpan span) const {
 }
 
 std::vector<std::unique_ptr<Procedural>> FurProcedural::split() const {
+  if (detail_) return ThinnedFurProcedural::divide(detail_, skin_);
   std::vector<std::unique_ptr<Procedural>> leaves;
   for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
     leaves.push_back(std::make_unique<FurLeafProcedural>(groom_, skin_, leaf));
@@ -60,28 +67,24 @@ std::vector<std::unique_ptr<Procedural>> FurProcedural::split() const {
 }
 
 Strands FurProcedural::generate() const {
-  const auto pose = skin_->pose(BoundSpan::kShutter);
-  std::vector<Strands> leaves;
-  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf)
-    leaves.push_back(groom_->grow(leaf, pose->skin()));
-  return merge(leaves);
+  std::vector<Strands> chunks;
+  for (const auto& chunk : split()) chunks.push_back(chunk->generate());
+  return merge(chunks);
 }
 
 StrandCounts FurProcedural::counts() const {
   StrandCounts sum;
-  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) sum += groom_->counts(leaf);
-  sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
+  for (const auto& chunk : split()) sum += chunk->counts();
   return sum;
 }
 
-StrandScale FurProcedural::scale() const { return coat_scale(*groom_, *skin_); }
+StrandScale FurProcedural::scale() const { return coat_scale(*groom_, *skin_, detail_.get()); }
 
 ChunkBounds FurProcedural::exact_bounds(BoundSpan span, int keys) const {
-  const auto pose = skin_->pose(span);
   ChunkBounds all;
   all.keys = keys;
-  for (size_t leaf = 0; leaf < groom_->follicles().leaves().size(); ++leaf) {
-    const ChunkBounds bounds = exact_leaf_bounds(*groom_, leaf, pose->skin(), keys);
+  for (const auto& chunk : split()) {
+    const ChunkBounds bounds = chunk->exact_bounds(span, keys);
     all.boxes.insert(all.boxes.end(), bounds.boxes.begin(), bounds.boxes.end());
   }
   return all;
@@ -107,7 +110,7 @@ StrandCounts FurLeafProcedural::counts() const {
   return counts;
 }
 
-StrandScale FurLeafProcedural::scale() const { return coat_scale(*groom_, *skin_); }
+StrandScale FurLeafProcedural::scale() const { return coat_scale(*groom_, *skin_, nullptr); }
 
 ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
   return in_pose(*groom_, *skin_, leaf_, span,

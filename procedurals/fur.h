@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "procedurals/coat_detail.h"
 #include "procedurals/posed_character_skin.h"
 #include "procedurals/procedural.h"
 
@@ -11,7 +12,9 @@ namespace pelage {
 /// The coat of one groom on one character: splits into one leaf per leaf of the groom's follicle hierarchy.
 class FurProcedural final : public Procedural {
  public:
-  FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin);
+  /// With `lod`, detail is reduced as that says, and leaves may go together in one chunk.
+  FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
+                const std::optional<Simplification>& lod = {});
 
   Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;
@@ -24,6 +27,7 @@ class FurProcedural final : public Procedural {
  private:
   std::shared_ptr<const Groom> groom_;
   std::shared_ptr<const PosedCharacterSkin> skin_;
+  std::shared_ptr<const CoatDetail> detail_;  // null: every strand
 };
 
 /// One leaf of a coat: a chunk.

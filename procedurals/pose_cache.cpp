@@ -33,6 +33,12 @@ void PoseCache::expect_leaves(const Groom& groom, const SurfaceTopology& topolog
   }
 }
 
+void PoseCache::expect_whole(const SurfaceTopology& topology, size_t keys) {
+  const std::lock_guard lock(mutex_);
+  const auto [held, making] = topology.pose_bytes();
+  raise(largest_part_, sizeof(SkinPose) + keys * (held + sizeof(M44f)) + making, threads_);
+}
+
 void PoseCache::keep(std::shared_ptr<const SkinPose> pose) {
   std::shared_ptr<const SkinPose> dropped;  // freed when nobody waits for it
   const std::lock_guard lock(mutex_);

@@ -75,6 +75,8 @@ void PosedCharacterSkin::add_keys(BoundSpan span, SkinPose& pose, const AddSurfa
   if (with_ends) add(pose_.frame_ends, 0);
   for (size_t i = 0; i < pose_.shutter.cages.size(); ++i) add(pose_.shutter, i);
   if (with_ends) add(pose_.frame_ends, 1);
+  pose.open_key = with_ends ? 1 : 0;
+  pose.close_key = pose.open_key + pose_.shutter.cages.size() - 1;
   pose.scale = pose_.scale;
   pose.length = pose_.length;
 }
@@ -102,8 +104,13 @@ SkinPose PosedCharacterSkin::pose(BoundSpan span, std::span<const uint32_t> face
   return made;
 }
 
-void PosedCharacterSkin::expect_leaves(const Groom& groom) const {
-  poses_->expect_leaves(groom, *pose_.topology, pose_.shutter.cages.size() + pose_.frame_ends.cages.size());
+void PosedCharacterSkin::expect_leaves(const Groom& groom, bool together) const {
+  const size_t keys = pose_.shutter.cages.size() + pose_.frame_ends.cages.size();
+  if (together) {
+    poses_->expect_whole(*pose_.topology, keys);
+  } else {
+    poses_->expect_leaves(groom, *pose_.topology, keys);
+  }
 }
 
 /// Whole, for a moment: not kept where making it again is cheaper than what it would take.

@@ -54,8 +54,9 @@ class PosedCharacterSkin final : public DeferredSkin {
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
   /// Ready for strands on `faces` that keep clear of nothing: without trees, for the caller alone.
   SkinPose pose(BoundSpan span, std::span<const uint32_t> faces) const;
-  /// Says that the leaves of a groom will grow here, each in the pose of its faces.
-  void expect_leaves(const Groom& groom) const;
+  /// Says that the leaves of a groom will grow here, each in the pose of its faces, or, `together`, any
+  /// number of them at once.
+  void expect_leaves(const Groom& groom, bool together = false) const;
 
   /// The hull of the control points, a little widened.
   Box3f bound(BoundSpan span) const override;

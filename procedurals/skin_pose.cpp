@@ -12,15 +12,20 @@ size_t SkinPose::bytes() const {
   return sum;
 }
 
-std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf) {
-  std::vector<uint32_t> faces;
-  if (!groom.grows_on_skin()) return faces;
+void add_faces(const Groom& groom, size_t leaf, size_t count, std::vector<uint32_t>& faces) {
+  if (!groom.grows_on_skin()) return;
   const FollicleTree& follicles = groom.follicles();
-  const FollicleTree::Leaf& range = follicles.leaves()[leaf];
-  for (uint32_t f = range.begin; f < range.end; ++f) {
+  const uint32_t begin = follicles.leaves()[leaf].begin;
+  for (size_t f = begin; f < begin + count; ++f) {
     const uint32_t face = follicles.root(f).face;
     if (faces.empty() || faces.back() != face) faces.push_back(face);
   }
+}
+
+std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf) {
+  std::vector<uint32_t> faces;
+  const FollicleTree::Leaf& range = groom.follicles().leaves()[leaf];
+  add_faces(groom, leaf, range.end - range.begin, faces);
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   return faces;

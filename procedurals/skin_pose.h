@@ -19,6 +19,7 @@ struct SkinPose {
   std::unique_ptr<const SkinMesh> mesh;  ///< what `trees` are over; null without them
   std::vector<ClosestPointTree> trees;   ///< one per key, only for grooms that keep clear of the skin
   std::vector<M44f> transforms;          ///< of the character, per key: for strands that grow on no skin
+  size_t open_key = 0, close_key = 0;    ///< when the shutter opens and closes
   float scale = 1;
   float length = 1;
 
@@ -26,6 +27,9 @@ struct SkinPose {
   size_t bytes() const;
 };
 
+/// Adds the ptex faces that the first `count` strands of a leaf stand on, one or more times; none for a groom
+/// on no skin.
+void add_faces(const Groom& groom, size_t leaf, size_t count, std::vector<uint32_t>& faces);
 /// The ptex faces that the strands of a leaf stand on, ascending; none for a groom on no skin.
 std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf);
 

@@ -17,9 +17,16 @@ bool ValueReader<LodCamera>::read(const Value& value, const KeyOptions& options,
 
 const Schema<LodParams>& LodParams::schema() {
   static const Schema<LodParams> table = [] {
-    Schema<LodParams> s("lod", "Level of detail: not built yet, every strand is grown.");
-    s.key("enabled", &LodParams::enabled, {.help = "Only false for now"});
-    s.key("camera", &LodParams::camera, {.help = "Camera whose view decides"});
+    Schema<LodParams> s(
+        "lod",
+        "Level of detail: of strands too thin, too fast or too blurred to be told apart, fewer "
+        "are grown, and those are wider.");
+    s.key("enabled", &LodParams::enabled, {.help = "false grows every strand"});
+    s.key(
+        "camera", &LodParams::camera,
+        {.help = "Camera whose view decides: one for both eyes of a stereo pair, or for shots that show the "
+                 "same hair"});
+    add_simplification_keys(s);
     return s;
   }();
   return table;

@@ -6,6 +6,7 @@
 
 #include "base/schema.h"
 #include "base/value_readers.h"
+#include "lod/simplification_params.h"
 #include "procedurals/chunk_bounds.h"
 #include "render/camera/camera.h"
 #include "render/sampling/adaptive_params.h"
@@ -40,7 +41,7 @@ struct ValueReader<LodCamera> {
 };
 
 /// `lod:` of `render:`.
-struct LodParams {
+struct LodParams : SimplificationParams {
   bool enabled = false;
   LodCamera camera;
   static const Schema<LodParams>& schema();

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lod/simplification.h"
 #include "procedurals/deferred_skin.h"
 #include "procedurals/procedural.h"
 #include "render/camera/camera.h"
@@ -24,6 +26,7 @@ struct FurPart {
   /// may be null, then strands rest at their roots.
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};  ///< multiplies the colour of the strands
+  std::optional<Simplification> lod = {};  ///< by which detail was reduced
 };
 
 /// A skin. Texture coordinates of its hits are asked of the topology of `rest`, rest positions of `rest`

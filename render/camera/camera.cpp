@@ -117,6 +117,17 @@ View Camera::view() const {
   return view;
 }
 
+LodView Camera::lod_view() const {
+  const auto pose = [this](float time) {
+    const Pose at = pose_at(time);
+    return LodPose{at.position, at.right, at.up, at.forward, static_cast<float>(height_) / (2 * at.tan_half)};
+  };
+  LodView view{pose(0), pose(1)};
+  view.lens_diameter = 2 * lens_radius_;
+  if (has_lens()) view.focus_distance = focus_distance_;
+  return view;
+}
+
 float Camera::frame_time() const { return shutter_frames() > 0 ? -shutter_.x / shutter_frames() : 0.0f; }
 
 M44f Camera::world_to_camera() const {

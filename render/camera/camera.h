@@ -8,6 +8,7 @@
 #include "base/schema.h"
 #include "base/vector.h"
 #include "geom/view.h"
+#include "lod/lod_view.h"
 
 namespace pelage {
 
@@ -59,8 +60,10 @@ class Camera {
   /// behind the camera or beyond one border of the picture. Without the blur of the lens.
   bool may_see(const Box3f& box) const;
 
-  /// At the frame itself: for tessellation and LOD.
+  /// At the frame itself: for tessellation.
   View view() const;
+  /// What level of detail measures by: the shutter and the lens.
+  LodView lod_view() const;
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }

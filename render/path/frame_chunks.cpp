@@ -92,7 +92,7 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   counts.segments = strands.segments;
   counts.attribute_floats = strands.attribute_floats;
   counts.motion_keys = static_cast<int>(strands.motion_keys);
-  counts.growth_bytes = growth_bytes(strands);
+  counts.growth_bytes = growth_bytes(strands) + leaves_[chunk]->making_bytes();
   return counts;
 }
 

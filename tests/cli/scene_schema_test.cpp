@@ -155,13 +155,12 @@ TEST_F(SceneSchema, CrowdsAreChecked) {
             Lines{"s:21:42: expected a number 0 .. 180, got 200"});
 }
 
-TEST_F(SceneSchema, LevelOfDetailIsRefusedUntilItExists) {
+TEST_F(SceneSchema, LevelOfDetailHasACameraOfItsOwn) {
   EXPECT_EQ(problems(kScene, {{"render.lod.enabled", "false"}, {"render.lod.camera", "main"}}), Lines{});
   EXPECT_EQ(problems(kScene, {{"render.lod.camera", "{position: [0, 0, 9]}"}}), Lines{});
   EXPECT_EQ(problems(kScene, {{"render.lod.camera", "mine"}}),
             Lines{"--set render.lod.camera: expected main or a block with the keys of camera, got 'mine'"});
-  EXPECT_EQ(problems(std::string(kScene) + "render: {lod: {enabled: true}}\n"),
-            Lines{"s:20:25: level of detail is not built yet; set render.lod.enabled to false"});
+  EXPECT_EQ(problems(kScene, {{"render.lod.enabled", "true"}, {"render.lod.quality", "2"}}), Lines{});
 }
 
 TEST_F(SceneSchema, IsOutlinedByInfo) {

@@ -8,6 +8,7 @@
 #include "geom/io/strand_file.h"
 #include "geom/tessellation.h"
 #include "tests/groom/cached_coats.h"
+#include "tests/groom/kept_strands.h"
 
 namespace pelage {
 namespace {
@@ -65,11 +66,13 @@ TEST_F(GroomCacheTest, NoPointMovesByMoreThanATwentiethOfAWidth) {
   }
 }
 
-TEST_F(GroomCacheTest, APrefixIsThePrefixOfTheWhole) {
+TEST_F(GroomCacheTest, SomeStrandsAreThoseOfTheWhole) {
   const auto groom = make(Coat{kEveryFrozenOperator, "frizz"});
-  const Strands whole = groom->grow(1, at_rest()), part = groom->grow(1, at_rest(), 300);
-  ASSERT_EQ(part.strand_count(), 300u);
-  EXPECT_TRUE(std::equal(part.points().begin(), part.points().end(), whole.points().begin()));
+  std::vector<uint32_t> some{0, 1, 17, 255, 256, 300};  // blocks are of 256
+  const std::vector<float> width{1, 2, 3, 4, 5, 6};
+  const KeptStrands kept{some, width, {}};
+  const Strands whole = groom->grow(1, at_rest()), part = groom->grow(1, at_rest(), &kept);
+  expect_strands_of(whole, kept, part);
 }
 
 TEST_F(GroomCacheTest, LiveOperatorsGoOnFromTheFrozenOnes) {

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <map>
+#include <numeric>
 
 #include "geom/closest_point.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
 #include "geom/tessellation.h"
+#include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
 #include "tests/support/temporary_folder.h"
@@ -81,14 +83,41 @@ TEST_F(GroomTest, AStrandIsTheSameWhateverTheLeavesThreadsAndBatches) {
   EXPECT_EQ(first, by_id(*grow_coat(kEveryFrozenOperator, 3000, 37, 3), skin));
 }
 
-TEST_F(GroomTest, APrefixIsThePrefixOfTheWhole) {
+TEST_F(GroomTest, SomeStrandsAreThoseOfTheWhole) {
   const auto groom = grow_coat(kEveryFrozenOperator);
   const PosedSkin skin{{rest_.get(), 1}, {}, 1, {}};
-  const Strands whole = groom->grow(1, skin), part = groom->grow(1, skin, 100);
-  ASSERT_EQ(part.strand_count(), 100u);
-  for (size_t s = 0; s < 100; ++s) EXPECT_EQ(part.id(s), whole.id(s));
-  EXPECT_TRUE(std::equal(part.points().begin(), part.points().end(), whole.points().begin()));
+  std::vector<uint32_t> some;
+  std::vector<float> width;
+  for (uint32_t s = 3; s < 290; s += 7) {
+    some.push_back(s);
+    width.push_back(0.5f + static_cast<float>(s));
+  }
+  const KeptStrands kept{some, width, {}};
+  const Strands whole = groom->grow(1, skin), part = groom->grow(1, skin, &kept);
+  expect_strands_of(whole, kept, part);
+  const KeptStrands none;
+  EXPECT_EQ(groom->grow(1, skin, &none).strand_count(), 0u);
   for (size_t s = 1; s < whole.strand_count(); ++s) EXPECT_LT(whole.id(s - 1), whole.id(s));
+}
+
+TEST_F(GroomTest, ContrastPullsVariationToItsMean) {
+  const auto groom = grow_coat(
+      "- color: {value: [0.9, 0.9, 0.9], variation: 0.9}\n"
+      "- color: {value: [0.8, 0.4, 0.2], variation: 0.5}\n");
+  const PosedSkin skin{{rest_.get(), 1}, {}, 1, {}};
+  const Strands whole = groom->grow(0, skin);
+  std::vector<uint32_t> all(whole.strand_count());
+  std::iota(all.begin(), all.end(), 0u);
+  const std::vector<float> width(all.size(), 1.0f), contrast(all.size(), 0.25f);
+  const KeptStrands kept{all, width, contrast};
+  const Strands pulled = groom->grow(0, skin, &kept);
+  for (size_t i = 0; i < whole.strand_count(); ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      const float mean = 0.75f * std::array{0.8f, 0.4f, 0.2f}[c];  // of what the last operator gives
+      const float before = whole.find_attribute("color")->values[3 * i + c];
+      EXPECT_NEAR(pulled.find_attribute("color")->values[3 * i + c], mean + 0.25f * (before - mean), 1e-5f);
+    }
+  }
 }
 
 TEST_F(GroomTest, FrozenOperatorsGiveTheSameOffsetsInAnyPose) {

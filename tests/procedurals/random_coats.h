@@ -34,7 +34,7 @@ class RandomCoat {
       return low + (high - low) * unit_float(hash64(seed, draw++, random_use("random coat")));
     };
     const ControlMesh cage = shapes::ball_cage(2);
-    const auto rest = shapes::surface_of(cage);
+    rest = shapes::surface_of(cage);
     GroomParams params;
     params.skin.name = "ball";
     params.strands = options.strands;
@@ -84,6 +84,7 @@ class RandomCoat {
   Workers workers_;
 
  public:
+  std::shared_ptr<const LimitSurface> rest;
   std::shared_ptr<const Groom> groom;
   std::shared_ptr<const PosedCharacterSkin> skin;
   std::vector<std::unique_ptr<Procedural>> leaves;

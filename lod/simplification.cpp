@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lod/simplification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lod/depth_of_field.h"
+#include "lod/motion_blur.h"
+#include "lod/size.h"
+
+namespace pelage {
+namespace {
+
+// Of the size at which half of the strands are kept, relative to that where thinning begins, by area.
+constexpr float kHalf = 0.4f;
+constexpr float kMostFade = 0.1f;
+constexpr float kLeastFade = 1e-3f;  // what is thinner than this part of itself does not exist
+constexpr float kLeastAreaShare = 1e-7f;
+constexpr float kTolerancePixels = 0.1f;
+constexpr float kPi = std::numbers::pi_v<float>;
+
+/// How many times as many strands contribute to a pixel as without blur: ratio of the areas of a strand of
+/// `length` pixels swept by what a pixel collects, a disc of 1 pixel that moves by `motion`, or a disc of
+/// confusion. Strands lie in all directions.
+float blur_ratio(float length, float motion, float confusion) {
+  const float still = kPi / 4 + length;
+  const float moving = still + motion + length * motion * (2 / kPi);
+  const float disc = std::sqrt(1 + confusion * confusion);
+  const float blurred = kPi / 4 * disc * disc + length * disc;
+  return (moving / still) * (blurred / still);
+}
+
+}  // namespace
+
+Simplification::Simplification(const SimplificationParams& params, const LodView& view,
+                               const StrandNature& nature, float budget)
+    : params_(params), view_(view), nature_(nature), budget_(budget) {}
+
+float Simplification::share(float pixels, float motion, float confusion) const {
+  const float width = nature_.width * pixels, length = nature_.length * pixels;
+  if (!(width > 0) || !(length > 0)) return 1;  // nothing is seen of them: nothing is to be gained
+  const float blur = std::max(motion, confusion);
+  float share = 1;
+  if (params_.size && width < 1) share = std::pow(width, 2 * std::log(0.5f) / std::log(kHalf));
+  if (blur > 0) share *= std::pow(blur_ratio(length, motion, confusion), -params_.blur_strength);
+  const float widest = std::min(std::max(1.0f, blur / 2), length / 4);
+  share = std::max({share, width / widest, params_.least_share}) * budget_;
+  return std::min(share, 1.0f);
+}
+
+float Simplification::share(const V3f& root_at_open, const V3f& root_at_close) const {
+  const float pixels = params_.quality * pixels_per_unit(view_, root_at_open);
+  const float motion = params_.motion_blur ? motion_across(view_, root_at_open, root_at_close) : 0.0f;
+  const float confusion = params_.depth_of_field ? confusion_diameter(view_, root_at_open) : 0.0f;
+  return share(pixels, motion * pixels, confusion * pixels);
+}
+
+float Simplification::most_share(float distance) const {
+  // Shares grow with the size and shrink with every blur. Roots may be off by some rounding.
+  const float pixels = params_.quality * pixels_per_unit(view_, distance);
+  return std::min(1.0f, share(pixels, 0, 0) * (1 + 1e-4f));
+}
+
+float Simplification::fade_half_width(float share) { return std::min({kMostFade, share / 4, 1 - share}); }
+
+float Simplification::fade(float share, float priority) {
+  const float t = fade_half_width(share);
+  if (t <= 0) return priority < share ? 1.0f : 0.0f;
+  return std::clamp((share + t - priority) / (2 * t), 0.0f, 1.0f);
+}
+
+float Simplification::gain(float share) const {
+  if (!params_.width_gain || share >= 1) return 1;
+  const double r = std::clamp(nature_.area_share, kLeastAreaShare, 0.5f);
+  return static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
+}
+
+float Simplification::width_factor(float share, float priority) const {
+  if (share >= 1) return 1;
+  const float faded = fade(share, priority);
+  return faded < kLeastFade ? 0.0f : faded * gain(share);
+}
+
+float Simplification::most_width_factor(float distance) const {
+  float least = params_.least_share;
+  const float pixels = params_.quality * pixels_per_unit(view_, distance);
+  const float width = nature_.width * pixels, length = nature_.length * pixels;
+  if (!(width > 0) || !(length > 0)) return 1;
+  // What the share is at least, whatever the blur; without blur, what it is at this distance.
+  least = std::max(least, 4 * width / length) * budget_;
+  if (!params_.motion_blur && !params_.depth_of_field) least = std::max(least, share(pixels, 0, 0));
+  return gain(std::min(least, 1.0f)) * (1 + 1e-4f);
+}
+
+float Simplification::contrast(float share) const {
+  return params_.contrast && share < 1 ? std::sqrt(share) : 1.0f;
+}
+
+float Simplification::tolerance(const V3f& root_at_open) const {
+  return params_.fewer_points ? kTolerancePixels / (params_.quality * pixels_per_unit(view_, root_at_open))
+                              : 0.0f;
+}
+
+ContentHash Simplification::hash() const {
+  ContentHasher hasher;
+  hasher.add("simplification");
+  const auto add = [&](const auto&... values) { (hasher.add(values), ...); };
+  const SimplificationParams& p = params_;
+  add(p.quality, p.size, p.motion_blur, p.depth_of_field, p.width_gain, p.contrast, p.fewer_points,
+      p.blur_strength, p.least_share, budget_, nature_.width, nature_.length, nature_.area_share);
+  for (const LodPose* pose : {&view_.open, &view_.close}) {
+    for (const V3f* v : {&pose->position, &pose->right, &pose->up, &pose->forward}) add(v->x, v->y, v->z);
+    add(pose->focal_pixels);
+  }
+  add(view_.near_distance, view_.lens_diameter, view_.focus_distance);
+  return hasher.digest();
+}
+
+}  // namespace pelage

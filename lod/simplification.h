@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/hash.h"
+#include "lod/lod_view.h"
+#include "lod/simplification_params.h"
+
+namespace pelage {
+
+/// What the strands of a coat are like on average. Scene units of the coat where it stands.
+struct StrandNature {
+  float width = 0;
+  float length = 0;
+  float area_share = 0;  ///< width * length over the area of the skin that they cover; 0 when not known
+};
+
+/// Stochastic simplification of one coat: how many strands are enough at a place, and how wide those must be
+/// that stay [Cook07, Ryu07].
+///
+/// Every strand has a fixed priority x, evenly spread over [0, 1) and independent of everything else. At a
+/// place where the share lambda of the strands is enough, those with x < lambda - t keep their place, those
+/// up to lambda + t fade out by width, and the others do not exist: what stays at one share is among what
+/// stays at every larger one. All is a continuous function of the root's place, so nothing pops and nothing
+/// shows where one chunk ends and the next begins.
+///
+/// A value. Thread safety: const members may be called from any thread.
+class Simplification {
+ public:
+  /// `budget`: factor on the share, of the role of the coat.
+  Simplification(const SimplificationParams& params, const LodView& view, const StrandNature& nature,
+                 float budget);
+
+  const LodView& view() const { return view_; }
+
+  /// The share lambda in (0, 1] of the strands with their root here when the shutter opens and closes.
+  ///
+  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but no less than what keeps a widened strand under a
+  /// pixel or half the blur, and under a quarter of its own length: else widths would grow without bound
+  /// where a coat shrinks. lambda_size = w^(2 ln(1/2) / ln h) for a width of w < 1 pixels, h = 0.4 [Cook07,
+  /// eq. 2]; lambda_blur keeps the number of strands that contribute to a pixel (to the power blur_strength).
+  float share(const V3f& root_at_open, const V3f& root_at_close) const;
+  /// No root at this distance from the camera, or further away, has a larger share.
+  float most_share(float distance) const;
+  /// Half the width of the fade: min(0.1, lambda / 4, 1 - lambda), so that the mean of fade() over all x is
+  /// lambda.
+  static float fade_half_width(float share);
+  /// 1 before the fade, 0 behind it.
+  static float fade(float share, float priority);
+
+  /// What the width of a strand is multiplied by; 0: it does not exist. 1 at share 1. The mean area of a
+  /// coat, as far as it is seen, stays: (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], r the area_share.
+  float width_factor(float share, float priority) const;
+  /// No width_factor() of roots up to this distance is larger.
+  float most_width_factor(float distance) const;
+  /// What the deviation of a strand's colour from the mean is multiplied by [Cook07, eq. 22].
+  float contrast(float share) const;
+  /// How far fewer control points may move a strand, in scene units; 0: not at all.
+  float tolerance(const V3f& root_at_open) const;
+
+  /// Of all that decides.
+  ContentHash hash() const;
+
+ private:
+  float share(float pixels, float motion, float confusion) const;
+  float gain(float share) const;
+
+  SimplificationParams params_;
+  LodView view_;
+  StrandNature nature_;
+  float budget_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geom/strand_scale.h"
+#include "groom/groom.h"
+#include "lod/simplification.h"
+#include "procedurals/posed_character_skin.h"
+
+namespace pelage {
+
+/// Which strands of one coat on one character are worth growing, each decided from where its own root stands
+/// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
+///
+/// Immutable. Thread safety: const members may be called from any thread.
+class CoatDetail {
+ public:
+  CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
+             const Simplification& simplification);
+
+  const Groom& groom() const { return *groom_; }
+  const Simplification& simplification() const { return simplification_; }
+
+  /// How many strands of a leaf, the first ones, are looked at: no other may be kept.
+  size_t candidates(size_t leaf) const;
+
+  /// What is kept of a leaf.
+  struct Choice {
+    std::vector<uint32_t> strands;  ///< by number in the leaf
+    std::vector<float> width;
+    std::vector<float> contrast;
+    std::vector<float> tolerance;  ///< for fewer control points
+    KeptStrands kept() const { return {strands, width, contrast}; }
+  };
+  /// `pose` must hold the faces of the candidates.
+  Choice choose(size_t leaf, const SkinPose& pose) const;
+
+  /// No strand is widened by more; none by less that does not fade.
+  float most_width_factor() const { return most_width_factor_; }
+  float least_width_factor() const { return least_width_factor_; }
+
+ private:
+  std::shared_ptr<const Groom> groom_;
+  Simplification simplification_;
+  float first_out_ = 1;  // no strand of this priority or behind it is kept
+  float most_width_factor_ = 1, least_width_factor_ = 1;
+};
+
+/// Of a whole coat; `detail` is null where every strand is grown.
+StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail);
+
+}  // namespace pelage

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "procedurals/strand_nature.h"
+
+#include <cmath>
+
+#include "base/parallel.h"
+#include "geom/closest_point.h"
+#include "geom/tessellation.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint64_t kSample = 256;
+
+struct Sums {
+  double strands = 0, length = 0, area = 0;
+};
+
+/// Along the control polygon.
+void add_strand(const Strands& strands, size_t strand, Sums& sums) {
+  const uint32_t first = strands.first_point(strand), count = strands.strand_points(strand);
+  sums.strands += 1;
+  for (uint32_t p = first + 1; p < first + count; ++p) {
+    const double step = (strands.point(p) - strands.point(p - 1)).length();
+    sums.length += step;
+    sums.area += step * (strands.radius(p) + strands.radius(p - 1));
+  }
+}
+
+/// By 2 x 2 points per face.
+double area(const LimitSurface& surface) {
+  const SurfaceTopology& topology = surface.topology();
+  const float low = 0.5f - 0.5f / std::sqrt(3.0f), high = 1 - low;
+  const bool triangles = topology.is_triangular();
+  double sum = 0;
+  const auto add = [&](uint32_t face, float u, float v, double weight) {
+    const SurfacePoint point = surface.evaluate(face, u, v);
+    sum += weight * point.du.cross(point.dv).length();
+  };
+  for (uint32_t face = 0; face < topology.face_count(); ++face) {
+    if (topology.is_hole(face)) continue;
+    if (triangles) {
+      add(face, 1 / 6.0f, 1 / 6.0f, 1 / 6.0);
+      add(face, 2 / 3.0f, 1 / 6.0f, 1 / 6.0);
+      add(face, 1 / 6.0f, 2 / 3.0f, 1 / 6.0);
+    } else {
+      for (const float u : {low, high}) {
+        for (const float v : {low, high}) add(face, u, v, 0.25);
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
+  PosedSkin pose;
+  if (rest) pose.keys = {rest, 1};
+  SkinMesh mesh;
+  std::vector<ClosestPointTree> trees;
+  if (groom.needs_closest_point()) {
+    const View view;  // from which no face is large
+    mesh = tessellate(pose.keys, view, {}, workers);
+    trees.emplace_back(mesh, 0);
+    pose.trees = trees;
+  }
+  const FollicleTree& follicles = groom.follicles();
+  Sums sums;
+  for (size_t leaf = 0; leaf < follicles.leaves().size(); ++leaf) {
+    std::vector<uint32_t> sample;
+    const FollicleTree::Leaf& range = follicles.leaves()[leaf];
+    for (uint32_t f = range.begin; f < range.end && follicles.id(f) < kSample; ++f)
+      sample.push_back(f - range.begin);
+    if (sample.empty()) continue;
+    const std::vector<float> width(sample.size(), 1.0f);
+    const KeptStrands kept{sample, width, {}};
+    const Strands strands = groom.grow(leaf, pose, &kept);
+    for (size_t s = 0; s < strands.strand_count(); ++s) add_strand(strands, s, sums);
+  }
+  StrandNature nature;
+  if (!(sums.length > 0)) return nature;
+  nature.width = static_cast<float>(sums.area / sums.length);
+  nature.length = static_cast<float>(sums.length / sums.strands);
+  if (rest) nature.area_share = static_cast<float>(sums.area / sums.strands / area(*rest));
+  return nature;
+}
+
+}  // namespace pelage

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "procedurals/coat_detail.h"
+#include "procedurals/procedural.h"
+
+namespace pelage {
+
+/// A coat with reduced detail in chunks: what is kept of one leaf, or of many that stand beside each other,
+/// up to all of them where the character is far away. What is not kept is never grown.
+class ThinnedFurProcedural final : public Procedural {
+ public:
+  /// All leaves of the coat in chunks of about as many strands as its largest leaf has.
+  static std::vector<std::unique_ptr<Procedural>> divide(std::shared_ptr<const CoatDetail> detail,
+                                                         std::shared_ptr<const PosedCharacterSkin> skin);
+
+  /// Leaves [first, end) as chunk `index` of `count`.
+  ThinnedFurProcedural(std::shared_ptr<const CoatDetail> detail,
+                       std::shared_ptr<const PosedCharacterSkin> skin, size_t first, size_t end, size_t index,
+                       size_t count);
+
+  Box3f bound(BoundSpan span) const override;
+  Strands generate() const override;
+  StrandCounts counts() const override;
+  StrandScale scale() const override;
+  size_t making_bytes() const override;
+  ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
+  std::optional<BoundsRecord> bounds_record() const override;
+
+ private:
+  template <class Use>
+  auto in_pose(BoundSpan span, const Use& use) const;
+  Strands grow(const SkinPose& pose) const;
+
+  std::shared_ptr<const CoatDetail> detail_;
+  std::shared_ptr<const PosedCharacterSkin> skin_;
+  size_t first_, end_;
+  size_t index_, count_;
+};
+
+}  // namespace pelage

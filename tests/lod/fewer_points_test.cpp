@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lod/fewer_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "geom/curve.h"
+
+namespace pelage {
+namespace {
+
+/// Bent strands with some wave, two motion keys, a colour per point and one number per strand.
+Strands some_strands(size_t count, uint32_t points, float wave) {
+  StrandArrays a;
+  a.motion_keys = 2;
+  a.first_point = {0};
+  a.attributes = {{"color", AttributeClass::kPerPoint, 3, {}}, {"clump", AttributeClass::kPerStrand, 1, {}}};
+  for (size_t s = 0; s < count; ++s) {
+    a.ids.push_back(s);
+    a.roots.push_back({static_cast<uint32_t>(s), 0.5f, 0.25f});
+    a.root_uv.emplace_back(0.1f, 0.2f);
+    a.attributes[1].values.push_back(static_cast<float>(s));
+    a.first_point.push_back(a.first_point.back() + points);
+    for (uint32_t p = 0; p < points; ++p) {
+      const float v = static_cast<float>(p) / static_cast<float>(points - 1);
+      for (const float c : {0.2f, 0.5f, 0.9f})
+        a.attributes[0].values.push_back(c * (0.6f + 0.4f * std::sin(6 * v + static_cast<float>(s))));
+    }
+  }
+  for (int key = 0; key < 2; ++key) {
+    for (size_t s = 0; s < count; ++s) {
+      const float bend = signed_float(hash64(s, random_use("bend"))) + 0.2f * static_cast<float>(key);
+      for (uint32_t p = 0; p < points; ++p) {
+        const float v = static_cast<float>(p) / static_cast<float>(points - 1);
+        const V3f at(bend * v * v + wave * std::sin(9 * v + static_cast<float>(s)), 2 * v, 0.3f * v * v * v);
+        a.points.insert(a.points.end(), {at.x, at.y, at.z, 0.02f * (1.1f - v)});
+      }
+    }
+  }
+  return Strands(std::move(a));
+}
+
+V3f at(const Strands& strands, size_t strand, float v, float time) {
+  float t = 0;
+  const CubicSegment segment = segment_at(strands, strand, v, time, t);
+  return curve_position(segment, t);
+}
+
+float farthest_apart(const Strands& a, const Strands& b, size_t strand) {
+  float most = 0;
+  for (const float time : {0.0f, 1.0f}) {
+    for (int i = 0; i <= 50; ++i) {
+      const float v = static_cast<float>(i) / 50;
+      most = std::max(most, (at(a, strand, v, time) - at(b, strand, v, time)).length());
+    }
+  }
+  return most;
+}
+
+TEST(FewerPoints, CurvesStayWithinTheTolerance) {
+  const Strands full = some_strands(300, 8, 0.01f);
+  for (const float tolerance : {0.001f, 0.01f, 0.03f, 0.2f}) {
+    const std::vector<float> each(300, tolerance);
+    const Strands fewer = with_fewer_points(Strands(full), each);
+    ASSERT_EQ(fewer.strand_count(), 300u);
+    for (size_t s = 0; s < 300; ++s) EXPECT_LE(farthest_apart(full, fewer, s), tolerance * 1.02f);
+    if (tolerance > 0.1f) {
+      EXPECT_EQ(fewer.point_count(), 300u * 4);
+    } else if (tolerance < 0.002f) {
+      EXPECT_GT(fewer.point_count(), 300u * 7);
+    }
+  }
+}
+
+TEST(FewerPoints, EndsAndEverythingPerStrandStay) {
+  const Strands full = some_strands(20, 8, 0);
+  const Strands fewer = with_fewer_points(Strands(full), std::vector<float>(20, 0.1f));
+  ASSERT_LT(fewer.point_count(), full.point_count());
+  for (size_t s = 0; s < 20; ++s) {
+    for (int key = 0; key < 2; ++key) {
+      EXPECT_EQ(fewer.point(fewer.first_point(s), key), full.point(full.first_point(s), key));
+      EXPECT_EQ(fewer.point(fewer.first_point(s + 1) - 1, key), full.point(full.first_point(s + 1) - 1, key));
+    }
+    EXPECT_EQ(fewer.id(s), full.id(s));
+    EXPECT_EQ(fewer.root(s).face, full.root(s).face);
+  }
+  EXPECT_EQ(fewer.find_attribute("clump")->values, full.find_attribute("clump")->values);
+}
+
+TEST(FewerPoints, MeansOfRadiiAndColorsStay) {
+  const Strands full = some_strands(50, 8, 0);
+  const Strands fewer = with_fewer_points(Strands(full), std::vector<float>(50, 1.0f));
+  const auto mean_color = [](const Strands& strands, size_t s) {
+    const StrandAttribute& color = *strands.find_attribute("color");
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const float v =
+          (static_cast<float>(i) + 0.5f) / 1000 * static_cast<float>(strands.strand_points(s) - 1);
+      float value[3];
+      interpolate_attribute(strands, color, s, static_cast<uint32_t>(v), v - std::floor(v), value);
+      sum += value[1];
+    }
+    return sum / 1000;
+  };
+  const auto mean_radius = [](const Strands& strands, size_t s) {
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+      float t = 0;
+      const CubicSegment segment = segment_at(strands, s, (static_cast<float>(i) + 0.5f) / 1000, 0, t);
+      sum += curve_radius(segment, t);
+    }
+    return sum / 1000;
+  };
+  for (size_t s = 0; s < 50; ++s) {
+    EXPECT_NEAR(mean_color(fewer, s), mean_color(full, s), 0.003);
+    EXPECT_NEAR(mean_radius(fewer, s), mean_radius(full, s), 1e-5);
+  }
+}
+
+TEST(FewerPoints, EachStrandByItself) {
+  const Strands full = some_strands(10, 8, 0.02f);
+  std::vector<float> tolerance(10, 0.0f);
+  tolerance[4] = 1;
+  const Strands fewer = with_fewer_points(Strands(full), tolerance);
+  const Strands all = with_fewer_points(Strands(full), std::vector<float>(10, 1.0f));
+  for (size_t s = 0; s < 10; ++s) EXPECT_EQ(fewer.strand_points(s), s == 4 ? 4u : 8u);
+  for (uint32_t p = 0; p < 4; ++p)
+    EXPECT_EQ(fewer.point(fewer.first_point(4) + p, 1), all.point(all.first_point(4) + p, 1));
+  for (uint32_t p = 0; p < 8; ++p)
+    EXPECT_EQ(fewer.point(fewer.first_point(9) + p, 1), full.point(full.first_point(9) + p, 1));
+}
+
+TEST(FewerPoints, ShortStrandsAndOtherBasesStay) {
+  const Strands four = some_strands(3, 4, 0.1f);
+  EXPECT_EQ(with_fewer_points(Strands(four), std::vector<float>(3, 9.0f)).point_count(), 12u);
+  StrandArrays linear = some_strands(3, 8, 0).arrays();
+  linear.basis = CurveBasis::kLinear;
+  EXPECT_EQ(with_fewer_points(Strands(linear), std::vector<float>(3, 9.0f)).point_count(), 24u);
+}
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lod/simplification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "lod/size.h"
+
+namespace pelage {
+namespace {
+
+LodView view_from(const V3f& position, float focal_pixels = 1000) {
+  LodView view;
+  view.open.position = view.close.position = position;
+  view.open.focal_pixels = view.close.focal_pixels = focal_pixels;
+  return view;
+}
+
+constexpr StrandNature kHair{0.01f, 1.0f, 1e-5f};
+
+Simplification sized(const StrandNature& nature = kHair, float budget = 1) {
+  return {SimplificationParams{}, view_from(V3f(0)), nature, budget};
+}
+
+float share_at(const Simplification& s, float distance) {
+  return s.share({0, 0, -distance}, {0, 0, -distance});
+}
+
+TEST(Simplification, KeepsEverythingUpClose) {
+  const Simplification s = sized();
+  EXPECT_EQ(share_at(s, 9), 1);  // 1.1 pixels wide
+  EXPECT_EQ(s.width_factor(1, 0.999f), 1);
+  EXPECT_EQ(s.contrast(1), 1);
+}
+
+TEST(Simplification, SharesFallSmoothlyWithTheDistance) {
+  const Simplification s = sized();
+  float before = 1;
+  for (float distance = 5; distance < 5000; distance *= 1.001f) {
+    const float share = share_at(s, distance);
+    EXPECT_LE(share, before * (1 + 1e-6f));  // equal shares are off by rounding
+    EXPECT_GT(share, before * 0.997f);
+    EXPECT_LE(share, s.most_share(distance));
+    before = share;
+  }
+}
+
+TEST(Simplification, NoStrandGrowsBeyondThePixelOrAQuarterOfItself) {
+  for (const float length : {0.1f, 1.0f, 5.0f}) {
+    const StrandNature nature{0.01f, length, 1e-6f};
+    const Simplification s = sized(nature);
+    for (float distance = 5; distance < 1e4f; distance *= 1.1f) {
+      const float share = share_at(s, distance), pixels = 1000 / distance;
+      if (share >= 1) continue;
+      const float widened = 0.01f * pixels * s.width_factor(share, 0);
+      EXPECT_LE(widened, 1.0001f) << distance;
+      EXPECT_LE(widened, 0.2501f * length * pixels) << distance;
+      EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+    }
+  }
+}
+
+TEST(Simplification, BlurThinsFurtherAndLetsStrandsBeAsWideAsHalfOfIt) {
+  SimplificationParams params;
+  const float distance = 30;
+  const V3f here(0, 0, -distance);
+  LodView view = view_from(V3f(0));
+  const Simplification still(params, view, kHair, 1);
+  float before = still.share(here, here);
+  for (float pixels = 0.1f; pixels < 100; pixels *= 1.3f) {
+    const V3f there = here + V3f(pixels * distance / 1000, 0, 0);
+    const float share = still.share(here, there);
+    EXPECT_LE(share, before * (1 + 1e-6f));  // equal shares are off by rounding
+    const float width = 0.01f * 1000 / distance * still.width_factor(share, 0);
+    EXPECT_LE(width, std::max(1.0f, 0.5f * pixels) * 1.0001f);
+    EXPECT_LE(still.width_factor(share, 0), still.most_width_factor(distance));
+    before = share;
+  }
+  EXPECT_LT(before, 0.3f * still.share(here, here));
+  view.lens_diameter = 2;
+  view.focus_distance = 10;
+  EXPECT_LT(Simplification(params, view, kHair, 1).share(here, here), 0.5f * still.share(here, here));
+  // Each has its switch.
+  params.depth_of_field = false;
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here), still.share(here, here));
+  params.motion_blur = false;
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here + V3f(3, 0, 0)), still.share(here, here));
+  params.size = false;
+  params.least_share = 1;
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here), 1);
+}
+
+TEST(Simplification, TheMeanOfTheFadeIsTheShare) {
+  for (const float share : {0.003f, 0.02f, 0.05f, 0.2f, 0.39f, 0.5f, 0.9f, 0.95f, 0.999f}) {
+    const int n = 200000;
+    double sum = 0;
+    int kept = 0;
+    for (int i = 0; i < n; ++i) {
+      const float f = Simplification::fade(share, (static_cast<float>(i) + 0.5f) / n);
+      sum += f;
+      kept += f > 0;
+    }
+    EXPECT_NEAR(sum / n, share, 2e-5) << share;
+    EXPECT_LE(kept, n * share * 1.2501 + 1) << share;
+  }
+}
+
+TEST(Simplification, TheVisibleAreaStays) {
+  // 1 - (1 - r)^N of the full coat and 1 - (1 - r s)^(lambda N) of what is left.
+  for (const float r : {1e-6f, 1e-4f, 0.01f}) {
+    const Simplification s = sized({0.01f, 1, r});
+    for (const float share : {0.03f, 0.1f, 0.5f, 0.9f}) {
+      const double gain = s.width_factor(share, 0);
+      for (const double depth : {0.1, 1.0, 3.0}) {
+        const double n = depth / r;
+        EXPECT_NEAR(std::exp(share * n * std::log1p(-r * gain)), std::exp(n * std::log1p(-r)), 1e-4);
+      }
+    }
+  }
+  EXPECT_NEAR(sized({0.01f, 1, 0.01f}).width_factor(0.1f, 0), 9.56, 0.01);
+}
+
+TEST(Simplification, IsNestedAndContinuous) {
+  const Simplification s = sized();
+  for (float x = 0.0005f; x < 1; x += 0.00731f) {
+    float before = s.width_factor(1, x);
+    EXPECT_EQ(before, 1);
+    for (float share = 1; share > 0.002f; share *= 0.9999f) {
+      const float width = s.width_factor(share, x);
+      // Who has gone does not come back.
+      if (before == 0) {
+        ASSERT_EQ(width, 0) << x << " " << share;
+      }
+      // From full width to none in no fewer than some hundred steps of 1e-4 of the share; those that come
+      // last do so while the fade is still short.
+      const float t = std::max(Simplification::fade_half_width(share), 1e-4f);
+      ASSERT_LT(std::abs(width - before), (1e-4f * share / t + 2e-3f) / share) << x << " " << share;
+      before = width;
+    }
+  }
+}
+
+TEST(Simplification, BudgetsAndQualityKeepMore) {
+  const float plain = share_at(sized(), 100);
+  EXPECT_NEAR(share_at(sized(kHair, 3), 100), 3 * plain, 1e-5);
+  SimplificationParams params;
+  params.quality = 2;
+  EXPECT_NEAR(share_at({params, view_from(V3f(0)), kHair, 1}, 100), 2 * plain, 1e-5);
+}
+
+TEST(Simplification, WithoutWidthStrandsAreOnlyThinned) {
+  SimplificationParams params;
+  params.width_gain = false;
+  const Simplification s(params, view_from(V3f(0)), kHair, 1);
+  EXPECT_EQ(s.width_factor(0.1f, 0), 1);
+  EXPECT_EQ(s.width_factor(0.1f, 0.9f), 0);
+}
+
+TEST(Simplification, CoatsOfNothingAreLeftAlone) {
+  EXPECT_EQ(share_at(sized({}), 1e5f), 1);
+  EXPECT_EQ(share_at(sized({0, 1, 0}), 1e5f), 1);
+}
+
+TEST(Simplification, TheHashTellsWhatDecides) {
+  SimplificationParams params;
+  const ContentHash plain = Simplification(params, view_from(V3f(0)), kHair, 1).hash();
+  EXPECT_EQ(plain, Simplification(params, view_from(V3f(0)), kHair, 1).hash());
+  EXPECT_FALSE(plain == Simplification(params, view_from(V3f(0, 0, 1e-6f)), kHair, 1).hash());
+  EXPECT_FALSE(plain == Simplification(params, view_from(V3f(0)), kHair, 2).hash());
+  params.contrast = false;
+  EXPECT_FALSE(plain == Simplification(params, view_from(V3f(0)), kHair, 1).hash());
+}
+
+}  // namespace
+}  // namespace pelage
