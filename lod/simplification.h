@@ -50,6 +50,8 @@ class Simplification {
   /// What the width of a strand is multiplied by; 0: it does not exist. 1 at share 1. The mean area of a
   /// coat, as far as it is seen, stays: (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], r the area_share.
   float width_factor(float share, float priority) const;
+  /// The same of strands that do not fade.
+  float gain(float share) const;
   /// No width_factor() of roots up to this distance is larger.
   float most_width_factor(float distance) const;
   /// What the deviation of a strand's colour from the mean is multiplied by [Cook07, eq. 22].
@@ -62,7 +64,6 @@ class Simplification {
 
  private:
   float share(float pixels, float motion, float confusion) const;
-  float gain(float share) const;
 
   SimplificationParams params_;
   LodView view_;

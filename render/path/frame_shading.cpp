@@ -42,7 +42,10 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 }  // namespace
 
 FrameShading::FrameShading(const RenderScene& scene)
-    : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+    : scene_(scene),
+      leaves_own_strand_(scene.render.accel == AccelKind::kFur && scene.render.curves == CurveShape::kFlat),
+      fibres_(scene.materials.size()),
+      skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -68,6 +71,12 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
                       scene_.fur[hit.part].rest.get(), {0, hit.segment, hit.u, v});
 }
 
+float FrameShading::width_gain(const Hit& hit, const Strands& strand) const {
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
+  if (!lod) return 1;
+  return lod->gain(lod->share(strand.point(0), strand.point(0, strand.motion_keys() - 1)));
+}
+
 ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const {
   const Fibre& fibre = *fibres_[scene_.fur[hit.part].material];
   const StrandPoint point = strand_point(strand, 0, hit.segment, hit.u, ray.time);
@@ -84,7 +93,11 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.wo = -ray.direction;
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
-  return {point.position, point.tangent,        point.radius, ray.origin + hit.distance * ray.direction,
+  // Light that leaves a strand that stands for many begins its way where it would leave one of them: were it
+  // to begin outside the wide one, what lies within would shadow nothing. Needs rays that do not meet the
+  // strand that they start on.
+  const float radius = leaves_own_strand_ ? point.radius / width_gain(hit, strand) : point.radius;
+  return {point.position, point.tangent,        radius, ray.origin + hit.distance * ray.direction,
           at.h,           fibre.material.at(at)};
 }
 

@@ -37,6 +37,8 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // none: Lambert
   };
 
+  /// How much wider the strand is than it was before others were left out.
+  float width_gain(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;
   Rgb fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const;
@@ -44,6 +46,7 @@ class FrameShading {
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
   const RenderScene& scene_;
+  const bool leaves_own_strand_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material
 };
