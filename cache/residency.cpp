@@ -44,9 +44,12 @@ Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudg
       hazards_(static_cast<size_t>(threads)),
       keeps_all_(budget.limit == 0),
       clock_(slots) {
-  const size_t index = slots * sizeof(Slot) + hazards_.size() * sizeof(Hazard) + clock_.bytes();
-  index_charge_ = MemoryCharge(ledger, tag, static_cast<int64_t>(index));
+  index_charge_ = MemoryCharge(ledger, tag, static_cast<int64_t>(index_bytes(slots, threads)));
   refuse_small_budget();
+}
+
+size_t Residency::index_bytes(size_t slots, int threads) {
+  return slots * sizeof(Slot) + static_cast<size_t>(threads) * sizeof(Hazard) + ClockRing(slots).bytes();
 }
 
 /// Threads that lack room wait and hold nothing, so whoever pins or grows gets done, and in the end there is

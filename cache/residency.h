@@ -85,6 +85,8 @@ class Residency {
             MemoryTag tag);
   /// Drops everything. No visit is under way.
   ~Residency();
+  /// What a Residency holds beside its units.
+  static size_t index_bytes(size_t slots, int threads);
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
 

@@ -11,6 +11,7 @@ namespace pelage {
 int run_render(const Options& options);
 int run_grow(const Options& options);
 int run_measure(const Options& options);
+int run_trace(const Options& options);
 int run_compare(const Options& options);
 int run_info(const Options& options);
 int run_convert(const Options& options);

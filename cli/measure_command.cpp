@@ -19,7 +19,8 @@ namespace pelage {
 namespace {
 
 const char* experiment_name(Experiment experiment) {
-  return experiment == Experiment::kBounds     ? "bounds"
+  return experiment == Experiment::kAccel      ? "accel"
+         : experiment == Experiment::kBounds   ? "bounds"
          : experiment == Experiment::kGrowth   ? "growth"
          : experiment == Experiment::kSamplers ? "samplers"
                                                : "residency";
@@ -73,6 +74,8 @@ std::string picture_text(const SceneDescription& scene) {
 Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,
                         ProgressDisplay& display) {
   switch (options.experiment) {
+    case Experiment::kAccel:
+      return measure_accel(scene, setup, display);
     case Experiment::kBounds:
       return measure_bounds(scene, setup, display);
     case Experiment::kGrowth:
@@ -125,10 +128,11 @@ int run_measure(const Options& options) {
   if (interrupted) return kInterruptedExitCode;
   // A refused budget, or one so small that it takes too long, is an answer where budgets are the question;
   // everything else that did not end well is not.
+  const bool budgets =
+      options.experiment == Experiment::kResidency || options.experiment == Experiment::kAccel;
   const bool answered =
       std::all_of(measured.outcomes.begin(), measured.outcomes.end(), [&](const Outcome& outcome) {
-        return outcome.succeeded() ||
-               (options.experiment == Experiment::kResidency && (outcome.refused() || outcome.timed_out()));
+        return outcome.succeeded() || (budgets && (outcome.refused() || outcome.timed_out()));
       });
   return answered ? 0 : exit_code(ErrorKind::kFailed);
 }

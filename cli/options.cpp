@@ -97,7 +97,8 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
   CLI::App* measure = app.add_subcommand(
       "measure", "Run the program once per variant of an experiment and report: JSON, CSV, HTML");
-  measure->add_option("EXPERIMENT", texts.experiment, "bounds, growth or residency")->required();
+  measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, residency or samplers")
+      ->required();
   add_scene_flags(*measure, options, texts);
   measure
       ->add_option("-o,--output", options.output,
@@ -112,6 +113,20 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
+
+  CLI::App* trace = app.add_subcommand(
+      "trace", "One variant of 'measure accel': trace rays through the fur of a scene and time them");
+  trace->group("");  // run by measure
+  add_scene_flags(*trace, options, texts);
+  trace->add_option("--variant", options.trace_variant, "prepare, or what to trace with")->type_name("NAME");
+  trace->add_option("--share", options.trace_share, "Memory of paged fur over the size of its tree")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SHARE");
+  trace->add_option("-o,--output", options.output, "Folder that 'prepare' fills and the others read")
+      ->required()
+      ->type_name("DIR");
+  trace->add_option("--frames", texts.frames, "Frame to pose the scene at")->type_name("FRAME");
+  add_run_flags(*trace, options, texts);
 
   CLI::App* compare = app.add_subcommand(
       "compare", "Render a scene under every fibre model and report: contact sheet, cost, noise, energy");
@@ -157,9 +172,11 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
 const std::map<std::string, Command>& command_names() {
   static const std::map<std::string, Command> names{
-      {"render", Command::kRender},         {"grow", Command::kGrow},     {"measure", Command::kMeasure},
-      {"compare", Command::kCompare},       {"info", Command::kInfo},     {"convert", Command::kConvert},
-      {"motionblur", Command::kMotionBlur}, {"stereo", Command::kStereo}, {"manual", Command::kManual}};
+      {"render", Command::kRender},   {"grow", Command::kGrow},
+      {"measure", Command::kMeasure}, {"trace", Command::kTrace},
+      {"compare", Command::kCompare}, {"info", Command::kInfo},
+      {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo},   {"manual", Command::kManual}};
   return names;
 }
 
@@ -218,17 +235,18 @@ CurveBasis parse_basis(const std::string& text) {
 }
 
 Experiment parse_experiment(const std::string& text) {
-  static const std::map<std::string, Experiment> built{{"bounds", Experiment::kBounds},
+  static const std::map<std::string, Experiment> built{{"accel", Experiment::kAccel},
+                                                       {"bounds", Experiment::kBounds},
                                                        {"growth", Experiment::kGrowth},
                                                        {"residency", Experiment::kResidency},
                                                        {"samplers", Experiment::kSamplers}};
-  static const std::vector<std::string> promised{"lod", "accel", "shading", "scaling"};
+  static const std::vector<std::string> promised{"lod", "shading", "scaling"};
   if (const auto found = built.find(text); found != built.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
     fail("the experiment " + quote(text) +
-         " is not built yet; there are bounds, growth, residency and samplers");
+         " is not built yet; there are accel, bounds, growth, residency and samplers");
   fail("there is no experiment " + quote(text) + suggest(text, names));
 }
 

@@ -14,9 +14,20 @@
 
 namespace pelage {
 
-enum class Command { kRender, kGrow, kMeasure, kCompare, kInfo, kConvert, kMotionBlur, kStereo, kManual };
+enum class Command {
+  kRender,
+  kGrow,
+  kMeasure,
+  kTrace,
+  kCompare,
+  kInfo,
+  kConvert,
+  kMotionBlur,
+  kStereo,
+  kManual
+};
 
-enum class Experiment { kBounds, kGrowth, kResidency, kSamplers };
+enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers };
 
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
@@ -41,6 +52,9 @@ struct Options {
   Experiment experiment = Experiment::kBounds;  ///< measure
   int repeat = 3;                               ///< measure: runs of each variant
   double time_limit_s = 600;                    ///< measure: a run that takes longer is ended
+
+  std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()
+  double trace_share = 1;                ///< trace: memory of `paged` over the size of its tree
 
   std::vector<std::string> models;  ///< compare: --models; empty: all
 

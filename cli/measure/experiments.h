@@ -19,6 +19,9 @@ struct Measured {
 // wants to stop, and reports on those that were run. Throws Error (kFailed) when the folder cannot be
 // written.
 
+/// What fur is traced with: memory, time to build, speed for several kinds of rays, tests, page faults.
+Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
 /// Every bounding strategy: time, memory, growth, box tests, lost pixels.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
 

@@ -31,6 +31,17 @@ struct FurHit {
   }
 };
 
+/// What rays cost.
+struct FurTests {
+  int64_t boxes = 0;     ///< four per node
+  int64_t segments = 0;  ///< four per block of a leaf, empty lanes included
+
+  FurTests& operator+=(const FurTests& o) {
+    boxes += o.boxes, segments += o.segments;
+    return *this;
+  }
+};
+
 /// Is told of hits, in any order and possibly several times of the same; decides whether they count.
 class FurFilter {
  public:

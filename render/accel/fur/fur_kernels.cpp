@@ -340,6 +340,7 @@ template <bool kMoving, class Query>
 HWY_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurRay& ray, Query& query) {
   const std::byte* block = tree.leaves + leaf.leaf_offset();
   const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
+  if constexpr (Query::kCounts) query.tests.segments += 4 * leaf.blocks();
   for (uint32_t i = 0; i < leaf.blocks(); ++i, block += size) {
     if (HWY_UNLIKELY(leaf.is_wide())) {
       if (test_wide_block<kMoving>(block, ray, query)) return true;
@@ -501,6 +502,7 @@ HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
       }
       if (Query::kOrdered && next_enter > query.far()) continue;
       const std::byte* node = tree.nodes + FurReference::from_bits(next).node_offset();
+      if constexpr (Query::kCounts) query.tests.boxes += 4;
       V enter = all(ray.near);
       const auto met = slabs.meet(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));
@@ -544,16 +546,25 @@ HWY_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) 
   }
 }
 
-FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
-  NearestFur query(ray, filter, tree.step);
+template <class Query>
+Query answer(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
+  Query query(ray, filter, tree.step);
   trace(tree, ray, query);
-  return query.hit;
+  return query;
 }
 
-bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter) {
-  AnyFur query(ray, filter, tree.step);
-  trace(tree, ray, query);
-  return query.hit;
+FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
+  if (HWY_LIKELY(!tests)) return answer<NearestFur>(tree, ray, filter).hit;
+  const auto counted = answer<Counting<NearestFur>>(tree, ray, filter);
+  *tests += counted.tests;
+  return counted.hit;
+}
+
+bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
+  if (HWY_LIKELY(!tests)) return answer<AnyFur>(tree, ray, filter).hit;
+  const auto counted = answer<Counting<AnyFur>>(tree, ray, filter);
+  *tests += counted.tests;
+  return counted.hit;
 }
 
 }  // namespace
@@ -568,19 +579,21 @@ HWY_EXPORT(closest);
 HWY_EXPORT(occluded);
 }  // namespace
 
-FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter) {
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                   FurTests* tests) {
   FurRay prepared;
   if (!tree.nodes || !prepared.prepare(tree, ray, start)) return {};
-  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, prepared, filter);
+  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, prepared, filter, tests);
   if (!hit) return {};
   hit.distance *= tree.step;
   return hit;
 }
 
-bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter) {
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                  FurTests* tests) {
   FurRay prepared;
   if (!tree.nodes || !prepared.prepare(tree, ray, start)) return false;
-  return HWY_DYNAMIC_DISPATCH(occluded)(tree, prepared, filter);
+  return HWY_DYNAMIC_DISPATCH(occluded)(tree, prepared, filter, tests);
 }
 
 }  // namespace pelage

@@ -44,7 +44,7 @@ class NearestFur {
     hit.distance = ray.far;
   }
   float far() const { return hit.distance; }
-  static constexpr bool kOrdered = true;
+  static constexpr bool kOrdered = true, kCounts = false;
 
   /// Whether a hit at this distance may stand before what there is.
   bool wants(float distance, uint32_t number) const {
@@ -72,7 +72,7 @@ class AnyFur {
   AnyFur(const FurRay& ray, FurFilter* filter, float step)
       : near_(ray.near), far_(ray.far), step_(step), filter_(filter) {}
   float far() const { return far_; }
-  static constexpr bool kOrdered = false;
+  static constexpr bool kOrdered = false, kCounts = false;
   bool wants(float distance, uint32_t) const { return distance > near_ && distance < far_; }
   bool take(FurHit found) {
     found.distance *= step_;
@@ -84,6 +84,15 @@ class AnyFur {
  private:
   float near_, far_, step_;
   FurFilter* filter_;
+};
+
+/// A query that counts what it costs.
+template <class Query>
+class Counting : public Query {
+ public:
+  using Query::Query;
+  static constexpr bool kCounts = true;
+  FurTests tests;
 };
 
 inline bool is_on_start(const FurRay& ray, uint32_t number) {

@@ -68,8 +68,10 @@ class FurTree {
   FurBox box_;
 };
 
-/// The queries of FurTree on any view.
-FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
-bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter);
+/// The queries of FurTree on any view. What they cost is added to `tests`, unless it is null.
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                   FurTests* tests = nullptr);
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                  FurTests* tests = nullptr);
 
 }  // namespace pelage

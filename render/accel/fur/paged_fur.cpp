@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/page_block.h"
+#include "base/parallel.h"
 #include "procedurals/chunk_bounds.h"
 #include "render/accel/fur/paged_fur_query.h"
 
@@ -54,7 +55,8 @@ class PagedFur::Pages final : public Grower {
     PageBlock frame_;
   };
 
-  size_t reserve_bytes(uint32_t) const override { return PageBlock::held_bytes(frame_bytes_) + sizeof(Page); }
+  static size_t held_bytes(size_t page_bytes) { return PageBlock::held_bytes(page_bytes) + sizeof(Page); }
+  size_t reserve_bytes(uint32_t) const override { return held_bytes(frame_bytes_); }
   Grown grow(uint32_t page) override {
     PageBlock frame = take();
     const uint32_t bytes = file_.table().page_bytes[page];
@@ -103,14 +105,24 @@ PagedFur::PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedge
 
 PagedFur::~PagedFur() = default;
 
+uint64_t PagedFur::bytes_for(const FurPageFile& file, double share, const Workers& workers) {
+  const size_t pages = file.table().page_bytes.size();
+  const size_t index = Residency::index_bytes(pages, workers.thread_count());
+  const auto frames = static_cast<size_t>(std::ceil(share * static_cast<double>(pages)));
+  return file.bytes() + ChunkTree(treelet_bounds(file.table()), workers).bytes() + index +
+         frames * Pages::held_bytes(file.table().largest_page());
+}
+
 uint64_t PagedFur::bytes_read() const { return pages_->bytes_read(); }
 
 template <class Query>
-bool PagedFur::visit(uint32_t treelet, Query& query, int thread) const {
+bool PagedFur::visit(uint32_t treelet, Query& query, int thread, PagedFurCounts& counts) const {
+  ++counts.treelet_visits;
+  FurTests* tests = counts.count_tests ? &counts.tests : nullptr;
   const FurTreelet& t = table().treelets[treelet];
   return residency_->visit(t.page, thread, [&](Resident& unit) {
     const auto* page = static_cast<const Pages::Page&>(unit).data();
-    return query.test(treelet_view(table().trees[t.tree], t, page), t.tree);
+    return query.test(treelet_view(table().trees[t.tree], t, page), t.tree, tests);
   });
 }
 
@@ -122,8 +134,7 @@ PagedFurHit PagedFur::closest(const Ray& ray, const PagedFurStart& start, int th
   uint32_t treelet = 0;
   float entry = 0;
   while (walk.next(query.far(), treelet, entry)) {
-    ++counts.treelet_visits;
-    visit(treelet, query, thread);
+    visit(treelet, query, thread, counts);
   }
   counts.box_tests += walk.box_tests();
   return query.best;
@@ -143,13 +154,9 @@ bool PagedFur::occluded(const Ray& ray, const PagedFurStart& start, int thread,
       waiting[waits++] = treelet;
       continue;
     }
-    ++counts.treelet_visits;
-    visit(treelet, query, thread);
+    visit(treelet, query, thread, counts);
   }
-  for (size_t i = 0; i < waits && !query.hit; ++i) {
-    ++counts.treelet_visits;
-    visit(waiting[i], query, thread);
-  }
+  for (size_t i = 0; i < waits && !query.hit; ++i) visit(waiting[i], query, thread, counts);
   counts.box_tests += walk.box_tests();
   return query.hit;
 }
@@ -225,8 +232,7 @@ class PagedFur::Batch {
       plan.next = plan.end;
       return;
     }
-    ++counts_.treelet_visits;
-    if (!fur_.visit(step.treelet, query, thread_)) plan.next = plan.end;
+    if (!fur_.visit(step.treelet, query, thread_, counts_)) plan.next = plan.end;
   }
 
   /// Through all that is resident; then the ray waits.

@@ -35,6 +35,8 @@ struct PagedFurStart {
 struct PagedFurCounts {
   int64_t box_tests = 0;  ///< rays against boxes above the treelets
   int64_t treelet_visits = 0;
+  FurTests tests;  ///< within treelets, where `count_tests` is set
+  bool count_tests = false;
 };
 
 struct PagedFurOptions {
@@ -55,6 +57,8 @@ class PagedFur {
   /// Throws Error (kMemory) when the limit does not hold the tables and one page per thread.
   PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger, const Workers& workers);
   ~PagedFur();
+  /// The memory limit that holds `share` of all pages, and what is held beside them.
+  static uint64_t bytes_for(const FurPageFile& file, double share, const Workers& workers);
 
   /// The hit in (near, far) that stands first.
   PagedFurHit closest(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
@@ -86,7 +90,7 @@ class PagedFur {
 
   /// What asks for one ray: the treelet is visited, its page is pinned meanwhile. False ends the ray.
   template <class Query>
-  bool visit(uint32_t treelet, Query& query, int thread) const;
+  bool visit(uint32_t treelet, Query& query, int thread, PagedFurCounts& counts) const;
   bool is_resident(uint32_t treelet) const { return residency_->is_resident(table().treelets[treelet].page); }
 
   const FurPageFile file_;

@@ -20,11 +20,11 @@ struct PagedFur::Nearest {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     return best ? std::min(ray.far, std::nextafter(best.hit.distance, kInfinity)) : ray.far;
   }
-  bool test(const FurTreeView& view, uint32_t tree) {
+  bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
     Ray shorter = ray;
     shorter.far = far();
     const PagedFurHit found{
-        closest_fur(view, shorter, tree == start.tree ? start.start : FurStart(), nullptr), tree};
+        closest_fur(view, shorter, tree == start.tree ? start.start : FurStart(), nullptr, tests), tree};
     if (found && (!best || found.stands_before(best))) best = found;
     return true;
   }
@@ -40,8 +40,8 @@ struct PagedFur::Any {
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kLongestFirst;
   static constexpr bool kNearestFirst = false;
   float far() const { return ray.far; }
-  bool test(const FurTreeView& view, uint32_t tree) {
-    hit = fur_occludes(view, ray, tree == start.tree ? start.start : FurStart(), nullptr);
+  bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
+    hit = fur_occludes(view, ray, tree == start.tree ? start.start : FurStart(), nullptr, tests);
     return !hit;
   }
 

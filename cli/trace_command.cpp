@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/compose.h"
+#include "cli/lab/lab_tracer.h"
+#include "cli/run.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kMostRays = size_t(1) << 17;  // of each kind
+
+nlohmann::ordered_json json_of(const LabCost& cost) {
+  return {{"wall_s", cost.wall_s},
+          {"cpu_s", cost.cpu_s},
+          {"rays", cost.rays},
+          {"hits", cost.hits},
+          {"answers", cost.answers},
+          {"box_tests", cost.box_tests},
+          {"segment_tests", cost.segment_tests},
+          {"page_faults", cost.page_faults},
+          {"bytes_read", cost.bytes_read}};
+}
+
+void write_result(const std::string& path, const LabResult& result, const Run& run) {
+  nlohmann::ordered_json json{{"wall_s", run.seconds()},
+                              {"cpu_s", cpu_seconds()},
+                              {"peak_rss_bytes", peak_rss_bytes()},
+                              {"segments", result.segments},
+                              {"bytes", result.bytes},
+                              {"resident_bytes", result.resident_bytes},
+                              {"limit_bytes", result.limit_bytes},
+                              {"build_cpu_s", result.build_cpu_s}};
+  for (const auto& [kind, cost] : result.rays) json["kinds"][kind] = json_of(cost);
+  AtomicFile file(path);
+  file.write(json.dump(2) + "\n");
+  file.commit();
+}
+
+}  // namespace
+
+int run_trace(const Options& options) {
+  Run run(options);
+  const LabVariant variant{LabVariant::parse(options.trace_variant), options.trace_share};
+  const ContentStore store(options.output);
+  LabResult result;
+  if (variant.kind == LabVariant::Kind::kPrepare) {
+    const SceneDescription scene = load_scene(options.input, options.overrides);
+    const auto assets =
+        run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+    const World world = compose(scene, *assets, scene.frames.frames.front(), run.workers(), run.ledger());
+    result = prepare_lab(world.scene, store, kMostRays, run.workers(), run.display());
+  } else {
+    result = trace_lab_rays(variant, store, run.workers(), run.display());
+  }
+  if (run.display().cancelled()) return kInterruptedExitCode;
+  if (options.stats) write_result(*options.stats, result, run);
+  return 0;
+}
+
+}  // namespace pelage
