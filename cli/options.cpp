@@ -81,8 +81,8 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_run_flags(*render, options, texts);
 
-  CLI::App* grow =
-      app.add_subcommand("grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
+  CLI::App* grow = app.add_subcommand(
+      "grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
   add_scene_flags(*grow, options, texts);
   grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx)")->type_name("FILE");
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
@@ -92,7 +92,8 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       "--prune", options.prune,
       "Remove what no groom of the scene needs, and nothing has used for an hour, from the folders of "
       "their caches");
-  grow->add_option("--frames", texts.frames, "Frames whose boxes to grow; strands grow on the first")->type_name("FRAMES");
+  grow->add_option("--frames", texts.frames, "Frames whose boxes to grow; strands grow on the first")
+      ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
 
   CLI::App* measure = app.add_subcommand(
@@ -187,7 +188,9 @@ void check_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) fail("expected a command; see 'pelage --help'");
   if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
   std::vector<std::string> names;
-  for (const auto& [name, command] : command_names()) names.push_back(name);
+  for (const auto& [name, command] : command_names()) {
+    if (command != Command::kTrace) names.push_back(name);  // not for people
+  }
   fail("there is no command " + quote(arguments[0]) + suggest(arguments[0], names));
 }
 

@@ -20,8 +20,8 @@
 namespace pelage {
 namespace {
 
-constexpr int kPasses = 2;
-constexpr size_t kGrain = 1024, kBatch = 65536;  // rays
+constexpr int kPasses = 2, kPagedPasses = 1;     // that are timed, after one that is not
+constexpr size_t kGrain = 1024, kBatch = 32768;  // rays
 constexpr int kTessellationRate = 8;             // that the renderer asks of Embree
 
 /// Sums of one range.
@@ -61,10 +61,10 @@ Sums trace_all(const Workers& workers, size_t count, size_t grain, const Trace& 
 
 template <class Trace, class Meter>
 LabCost cost_of(const LabRays& set, const Workers& workers, size_t grain, const Trace& trace,
-                const Meter& meter) {
+                const Meter& meter, int passes) {
   LabCost best;
   best.wall_s = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass <= passes; ++pass) {
     const auto before = meter();
     const double cpu = cpu_seconds();
     const Stopwatch watch;
@@ -78,7 +78,7 @@ LabCost cost_of(const LabRays& set, const Workers& workers, size_t grain, const 
     const auto after = meter();
     cost.page_faults = static_cast<double>(after.first - before.first);
     cost.bytes_read = static_cast<double>(after.second - before.second);
-    if (cost.wall_s < best.wall_s) best = cost;
+    if (pass > 0 && cost.wall_s < best.wall_s) best = cost;
   }
   return best;
 }
@@ -103,7 +103,7 @@ LabResult trace_embree(const LabFur& fur, const std::vector<LabRays>& sets, bool
             sums.hits += set.shadow ? tree.occluded(ray) : std::isfinite(tree.closest(ray));
           }
         },
-        nothing_read);
+        nothing_read, kPasses);
     result.rays[set.name].answers = 0;
   }
   return result;
@@ -131,7 +131,7 @@ LabResult trace_fur(const LabFur& fur, const std::vector<LabRays>& sets, FurNode
             }
           }
         },
-        nothing_read);
+        nothing_read, kPasses);
     const Sums counted = trace_all(workers, set.size(), kGrain, [&](const WorkRange& range, Sums& sums) {
       for (size_t i = range.begin; i < range.end; ++i) {
         if (set.shadow) {
@@ -199,7 +199,8 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
   for (const LabRays& set : sets) {
     LabCost& alone = result.rays[set.name] = cost_of(
         set, workers, kGrain,
-        [&](const WorkRange& range, Sums& sums) { trace_alone(fur, set, range, false, sums); }, meter);
+        [&](const WorkRange& range, Sums& sums) { trace_alone(fur, set, range, false, sums); }, meter,
+        kPagedPasses);
     if (share >= 1) {
       const FurTests tests = trace_all(workers, set.size(), kGrain, [&](const WorkRange& range, Sums& sums) {
                                trace_alone(fur, set, range, true, sums);
@@ -209,7 +210,8 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
     }
     result.rays[set.name + "_together"] = cost_of(
         set, workers, kBatch,
-        [&](const WorkRange& range, Sums& sums) { trace_together(fur, set, range, sums); }, meter);
+        [&](const WorkRange& range, Sums& sums) { trace_together(fur, set, range, sums); }, meter,
+        kPagedPasses);
   }
   result.resident_bytes = static_cast<double>(ledger.peak(MemoryTag::kChunks));
   return result;

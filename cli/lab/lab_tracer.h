@@ -31,7 +31,7 @@ struct LabVariant {
 
 /// What rays of one kind cost; sums over all of them.
 struct LabCost {
-  double wall_s = 0, cpu_s = 0;  ///< of the faster of two passes
+  double wall_s = 0, cpu_s = 0;  ///< of the fastest pass that was timed
   double rays = 0, hits = 0;
   double answers = 0;    ///< a sum that any other answer would change; 0 for Embree
   double box_tests = 0;  ///< 0 where it is not known

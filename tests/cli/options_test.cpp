@@ -123,14 +123,26 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(options.output, "out");
   EXPECT_EQ(options.repeat, 5);
   EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
+  EXPECT_EQ(parsed({"measure", "accel", "s"}).experiment, Experiment::kAccel);
   EXPECT_EQ(problem({"measure", "growht", "s"}), "there is no experiment 'growht'; did you mean 'growth'?");
-  for (const std::string promised : {"lod", "accel", "shading", "scaling"}) {
+  for (const std::string promised : {"lod", "shading", "scaling"}) {
     EXPECT_EQ(problem({"measure", promised, "s"}),
               "the experiment '" + promised +
-                  "' is not built yet; there are bounds, growth, residency and samplers");
+                  "' is not built yet; there are accel, bounds, growth, residency and samplers");
   }
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
+}
+
+TEST(Options, OfTrace) {
+  const Options options =
+      parsed({"trace", "s.yaml", "--variant", "paged", "--share", "0.25", "-o", "work", "--threads", "2"});
+  EXPECT_EQ(options.command, Command::kTrace);
+  EXPECT_EQ(options.trace_variant, "paged");
+  EXPECT_EQ(options.trace_share, 0.25);
+  EXPECT_EQ(options.output, "work");
+  EXPECT_NE(problem({"trace", "s.yaml", "-o", "work", "--share", "0"}), "");
+  EXPECT_NE(problem({"trace", "s.yaml"}), "");
 }
 
 TEST(Options, OfCompare) {

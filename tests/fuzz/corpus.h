@@ -24,5 +24,7 @@ std::vector<std::string> post_corpus();
 std::vector<std::string> scene_corpus();
 std::vector<std::string> cache_corpus();
 std::vector<std::string> leaf_corpus();
+std::vector<std::string> fur_corpus();
+std::vector<std::string> treelet_corpus();
 
 }  // namespace pelage

@@ -34,7 +34,9 @@ INSTANTIATE_TEST_SUITE_P(Readers, Fuzz,
                                          Replay{"post", fuzz_post, post_corpus, 60, 192 << 20},
                                          Replay{"scene", fuzz_scene, scene_corpus, 400, 16 << 20},
                                          Replay{"cache", fuzz_cache, cache_corpus, 400, 4 << 20},
-                                         Replay{"leaf", fuzz_leaf, leaf_corpus, 400, 16 << 20}),
+                                         Replay{"leaf", fuzz_leaf, leaf_corpus, 400, 16 << 20},
+                                         Replay{"fur", fuzz_fur, fur_corpus, 400, 4 << 20},
+                                         Replay{"treelet", fuzz_treelet, treelet_corpus, 4000, 1 << 20}),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST_P(Fuzz, SurvivesItsCorpus) {
