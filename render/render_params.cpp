@@ -36,13 +36,15 @@ const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "How the picture is computed.");
     s.key("integrator", &RenderParams::integrator, {.help = "Method"});
-    s.key(
-        "accel", &RenderParams::accel,
-        {.help =
-             "What strands are traced with: Embree's curves, or our own tree over fur, which is smaller and "
-             "faster. Skins and `curves: round` are Embree's either way"});
+    s.key("accel", &RenderParams::accel,
+          {.help =
+               "What strands are traced with. `fur`: our own tree over them, two thirds as large; `embree`: "
+               "Embree's curves. The two differ only where a ray passes an edge or starts within a strand's "
+               "width "
+               "of another strand. Skins, and strands with `curves: round`, are Embree's either way"});
     s.key("curves", &RenderParams::curves,
-          {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups)"});
+          {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups; always "
+                   "by Embree)"});
     s.key("samples", &RenderParams::samples,
           {.help = "Paths per pixel; with `adaptive`, the most that a pixel gets", .min = 1, .max = 1 << 20});
     s.key("adaptive", &RenderParams::adaptive, {.help = "Samples where the noise is"});

@@ -50,7 +50,7 @@ struct LodParams : SimplificationParams {
 /// `render:` of a scene.
 struct RenderParams {
   Integrator integrator = Integrator::kPath;
-  AccelKind accel = AccelKind::kEmbree;
+  AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;
   int samples = 64;  ///< with adaptive sampling, the most that a pixel gets
   std::optional<AdaptiveParams> adaptive;

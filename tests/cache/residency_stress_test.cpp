@@ -10,6 +10,7 @@
 
 #include "base/hash.h"
 #include "tests/cache/test_grower.h"
+#include "tests/soak.h"
 
 namespace pelage {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 constexpr int kThreads = 4;
 constexpr size_t kSlots = 300;
 constexpr size_t kMostWords = 512;
-
-/// PELAGE_SOAK = 100 is the full soak: more than 10^8 visits and 10^6 evictions. See CONTRIBUTING.md.
-uint64_t soak_scale() {
-  const char* text = std::getenv("PELAGE_SOAK");
-  return text ? std::max<uint64_t>(1, std::strtoull(text, nullptr, 10)) : 1;
-}
 
 /// Percent of all units; 0 is just the largest of them, so that threads grow one after the other.
 class ResidencyStress : public testing::TestWithParam<int> {

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur_chunk.h"
 
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "geom/strand_merge.h"
 #include "geom/strand_point.h"
 #include "tests/render/chunk_accel_fixture.h"
+#include "tests/soak.h"
 
 namespace pelage {
 namespace {
@@ -53,13 +56,14 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   ChunkAccelOptions eager = fur_options();
   eager.eager = true;
   const auto whole = make(merged, std::vector<ChunkBounds>(merged.contents.size()), eager);
-  expect_same(*whole, *make(chunks, chunks.bounds(8), fur_options()), 1, 2500);        // boxes of parts
-  expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2, 2500);  // loose ones
+  const uint64_t more = soak_scale();
+  expect_same(*whole, *make(chunks, chunks.bounds(8), fur_options()), 1, 2500 * more);  // boxes of parts
+  expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2, 2500 * more);  // loose ones
   for (int keys : {1, 2})
-    expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500);
+    expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500 * more);
   eager.fur.tree.layout = FurNodeLayout::kFloat;
   eager.fur.tree.build.cuts = 0.3f;
-  expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500);
+  expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500 * more);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FurChunkScenes, testing::Range(0, kSceneKinds));

@@ -4,12 +4,12 @@
 #include "render/accel/flush_denormals.h"
 #include "tests/render/fur_grooms.h"
 #include "tests/render/fur_truth.h"
+#include "tests/soak.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kStrands = 30;
-constexpr uint64_t kRays = 1500;
 
 class FurIntersection : public testing::TestWithParam<GroomShape> {};
 
@@ -35,10 +35,11 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
   const SnappedStrands snapped(strands, FurGrid(shape.width, shape.centre));
   const FurTree tree(snapped, {});
   TestRandom random(2);
+  const uint64_t rays = 1500 * soak_scale();
   uint64_t hits = 0, edges = 0;
   const float step_of_float = 4 * 0x1p-23f;  // at coordinates that count from the anchor
   const double margin = std::max(1e-3f * shape.width, step_of_float);
-  for (uint64_t i = 0; i < kRays; ++i) {
+  for (uint64_t i = 0; i < rays; ++i) {
     const Ray ray = ray_at_groom(shape, strands, random, i);
     const FurTruth truth(snapped, ray);
     const FurTruth::Found expected = truth.closest();
@@ -52,7 +53,7 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
         << "ray " << i << ": " << hit.number << " at " << hit.distance << ", truth " << expected.number
         << " at " << expected.distance;
   }
-  EXPECT_GT(hits, kRays / 100);
+  EXPECT_GT(hits, rays / 100);
   EXPECT_LT(edges, hits / 10 + 3);
 }
 
