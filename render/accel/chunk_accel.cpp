@@ -40,7 +40,9 @@ float widest_radius(const ChunkBounds& bounds) {
 /// was given, or the boxes that it learned when it was first grown.
 class ChunkAccel::Growth final : public Grower {
  public:
-  /// Takes the fine boxes out of `bounds`, and widens what is left by what snapping to a grid may add.
+  /// Takes the fine boxes out of `bounds`. Of chunks that will stand in fur trees it widens what is left by
+  /// what snapping to a grid may add, and leaves one part: what a ray meets of a chunk that is resident, its
+  /// tree tells at less cost than boxes above it.
   Growth(const ChunkGrower& grower, std::span<ChunkBounds> bounds, const ChunkAccelOptions& options,
          const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
       : grower_(grower),
@@ -56,6 +58,8 @@ class ChunkAccel::Growth final : public Grower {
       if (stands_in_fur_tree(counts)) {
         known_[chunk].margin = grid(chunk).margin(widest_radius(bounds[chunk]));
         widen(bounds[chunk], known_[chunk].margin);
+        known_[chunk].in_fur_tree = true;
+        bounds[chunk] = in_one_part(bounds[chunk]);
       } else if (counts.strands > 0 && counts.segments % counts.strands == 0)
         patterns.expect(counts.segments / counts.strands, counts.strands);
       Known& known = known_[chunk];
@@ -92,7 +96,7 @@ class ChunkAccel::Growth final : public Grower {
     ChunkBounds bounds;
     if (stands_in_fur_tree(grower_.counts(slot))) {
       auto fur = std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), options_.fur);
-      if (learns) bounds = fur->part_bounds(part_count(fur->segment_count()));
+      if (learns) bounds = fur->part_bounds(options_.eager ? 1 : part_count(fur->segment_count()));
       unit = std::move(fur);
     } else {
       if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
@@ -111,6 +115,7 @@ class ChunkAccel::Growth final : public Grower {
   const FineBoxes& fine(uint32_t slot) const { return known_[slot].fine; }
   /// By how much fine boxes have to be larger.
   float margin(uint32_t slot) const { return known_[slot].margin; }
+  bool in_fur_tree(uint32_t slot) const { return known_[slot].in_fur_tree; }
   bool knows(uint32_t slot) const { return fine(slot).count() > 0; }
 
  private:
@@ -118,6 +123,7 @@ class ChunkAccel::Growth final : public Grower {
     FineBoxes fine;
     float margin = 0;
     bool learns = true;
+    bool in_fur_tree = false;
   };
 
   bool stands_in_fur_tree(const ChunkCounts& counts) const {
@@ -188,7 +194,10 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
   }
   residency_->grow_all(workers, progress);
   if (progress.cancelled()) return;
-  for (uint32_t chunk = 0; chunk < chunks; ++chunk) bounds[chunk] = growth_->learned(chunk)->bounds();
+  for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
+    bounds[chunk] = growth_->learned(chunk)->bounds();
+    if (growth_->in_fur_tree(chunk)) bounds[chunk] = in_one_part(bounds[chunk]);
+  }
   build_tree(bounds, ledger, workers);
 }
 
@@ -216,7 +225,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   // number of fine ones that a ray meets which looks for anything in its way.
   const auto enter = [&](uint32_t chunk, float entry, bool resident, uint32_t& boxes) {
     const PartBoxes* learned = growth_->learned(chunk);
-    if (learned && (!resident || learned->count() >= kFiner * given_parts_[chunk])) {
+    if (learned &&
+        (!resident || (!growth_->in_fur_tree(chunk) && learned->count() >= kFiner * given_parts_[chunk]))) {
       thread.counts.box_tests += static_cast<int64_t>(learned->count());
       entry = learned->enter(walk.slabs(), far());
     }
