@@ -32,6 +32,8 @@ struct Statistics {
   int64_t reexpansions = 0;         ///< those after an eviction
   int64_t false_expansions = 0;     ///< chunks grown that were the answer to no ray
   int64_t evictions = 0;
+  int64_t chunks_read = 0;       ///< expansions that were read from render.bvh.file
+  int64_t chunk_bytes_read = 0;  ///< by these
   double residency_wait_s = 0;   ///< thread seconds spent waiting for a chunk or for memory
   double bounds_area = 0;        ///< sum of the surface areas of the boxes of all leaves of coats
   double part_bounds_area = 0;   ///< the same of the boxes of their parts, which rays are tested against

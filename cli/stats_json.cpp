@@ -50,6 +50,8 @@ std::string statistics_json(const Statistics& s) {
       {"reexpansions", s.reexpansions},
       {"false_expansions", s.false_expansions},
       {"evictions", s.evictions},
+      {"chunks_read", s.chunks_read},
+      {"chunk_bytes_read", s.chunk_bytes_read},
       {"residency_wait_s", s.residency_wait_s},
       {"bounds_area", s.bounds_area},
       {"part_bounds_area", s.part_bounds_area},

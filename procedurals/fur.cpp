@@ -117,6 +117,16 @@ ChunkBounds FurLeafProcedural::exact_bounds(BoundSpan span, int keys) const {
                  [&](const PosedSkin& pose) { return exact_leaf_bounds(*groom_, leaf_, pose, keys); });
 }
 
+std::optional<ContentHash> FurLeafProcedural::content() const {
+  return ContentHasher()
+      .add(program_identity())
+      .add(groom_->content_hash())
+      .add(skin_->hash())
+      .add(skin_->length())
+      .add(static_cast<uint64_t>(leaf_))
+      .digest();
+}
+
 std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;

@@ -41,6 +41,7 @@ class FurLeafProcedural final : public Procedural {
   StrandCounts counts() const override;
   StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
+  std::optional<ContentHash> content() const override;
   /// Beside the cache of the groom, for all leaves of the coat in one file.
   std::optional<BoundsRecord> bounds_record() const override;
 

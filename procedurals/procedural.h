@@ -53,6 +53,9 @@ class Procedural {
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
   /// drops it. `keys` is 1, or 2 for boxes linear in time over the shutter.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;
+  /// Names what generate() gives: equal names, equal strands, in any run of this program. Nothing where
+  /// nobody knows one.
+  virtual std::optional<ContentHash> content() const { return {}; }
   /// Nothing where they are not remembered.
   virtual std::optional<BoundsRecord> bounds_record() const { return {}; }
 };

@@ -32,6 +32,20 @@ const Schema<LodParams>& LodParams::schema() {
   return table;
 }
 
+const Schema<BvhParams>& BvhParams::schema() {
+  static const Schema<BvhParams> table = [] {
+    Schema<BvhParams> s("bvh", "Trees over fur that are built once and read by later runs.");
+    s.key(
+        "file", &BvhParams::file,
+        {.help = "Folder that keeps the fur of each frame with its trees, in a file named by everything that "
+                 "made it. Later runs read chunks from it when rays need them, under `memory`, instead of "
+                 "growing them. With `accel: fur`, flat strands and opaque coats",
+         .default_text = "none"});
+    return s;
+  }();
+  return table;
+}
+
 const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "How the picture is computed.");
@@ -67,6 +81,7 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,
           {.help = "Limit for strands, trees, skins, caches and film; running into it is an error"});
+    s.key("bvh", &RenderParams::bvh, {.help = "Trees that are kept between runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "
                    "false holds them as they were computed"});

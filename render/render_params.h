@@ -47,6 +47,12 @@ struct LodParams : SimplificationParams {
   static const Schema<LodParams>& schema();
 };
 
+/// `bvh:` of `render:`.
+struct BvhParams {
+  AssetPath file;  ///< folder; empty: nothing is kept
+  static const Schema<BvhParams>& schema();
+};
+
 /// `render:` of a scene.
 struct RenderParams {
   Integrator integrator = Integrator::kPath;
@@ -59,6 +65,7 @@ struct RenderParams {
   int bounces = 4;  ///< 0 = direct light only
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
+  BvhParams bvh;
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
   float bounds_factor = 1;  ///< of BoundingStrategy::kUser

@@ -78,6 +78,7 @@ class ChunkAccel::Growth final : public Grower {
   }
 
   size_t reserve_bytes(uint32_t slot) const override {
+    if (is_stored(slot)) return options_.file->bytes_bound(slot);
     ChunkCounts counts = grower_.counts(slot);
     const size_t build_peak = kPage * size_t(build_pages_[slot].load(std::memory_order_relaxed));
     const bool fur = stands_in_fur_tree(counts);
@@ -89,9 +90,15 @@ class ChunkAccel::Growth final : public Grower {
   }
 
   Grown grow(uint32_t slot) override {
-    ChunkContents contents = grower_.grow(slot);
     // One thread at a time grows a slot, so nobody else stores what is learned.
     const bool learns = known_[slot].learns && !learned(slot);
+    if (is_stored(slot)) {
+      std::unique_ptr<FurChunk> fur = options_.file->read(slot);
+      if (learns) learn(slot, fur->part_bounds(part_count(fur->segment_count())));
+      const size_t bytes = fur->bytes();
+      return {std::move(fur), bytes};
+    }
+    ChunkContents contents = grower_.grow(slot);
     std::unique_ptr<ChunkGeometry> unit;
     ChunkBounds bounds;
     if (stands_in_fur_tree(grower_.counts(slot))) {
@@ -102,8 +109,7 @@ class ChunkAccel::Growth final : public Grower {
       if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
       unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
     }
-    if (learns)
-      learned_[slot].store(std::make_unique<const PartBoxes>(bounds).release(), std::memory_order_release);
+    if (learns) learn(slot, bounds);
     const size_t bytes = unit->bytes();
     build_pages_[slot].store(static_cast<uint32_t>(unit->build_peak_bytes() / kPage + 1),
                              std::memory_order_relaxed);
@@ -126,6 +132,10 @@ class ChunkAccel::Growth final : public Grower {
     bool in_fur_tree = false;
   };
 
+  void learn(uint32_t slot, const ChunkBounds& bounds) {
+    learned_[slot].store(std::make_unique<const PartBoxes>(bounds).release(), std::memory_order_release);
+  }
+  bool is_stored(uint32_t slot) const { return options_.file && !options_.eager && options_.file->has(slot); }
   bool stands_in_fur_tree(const ChunkCounts& counts) const {
     return options_.kind == AccelKind::kFur && options_.chunk.shape == CurveShape::kFlat &&
            counts.vertices == 0;

@@ -13,6 +13,7 @@
 #include "render/accel/chunk_tree.h"
 #include "render/accel/embree_chunk.h"
 #include "render/accel/fur_chunk.h"
+#include "render/accel/fur_chunk_file.h"
 
 namespace pelage {
 
@@ -27,6 +28,8 @@ struct ChunkAccelOptions {
   bool opaque = false;        ///< every strand is known to be opaque
   uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
   int threads = 1;            ///< TraceThread::worker is below it
+  /// Where chunks of fur are read instead of being grown, unless all are grown before the first ray; or null.
+  std::shared_ptr<const FurChunkFile> file = {};
 };
 
 /// Accel over geometry that exists only while something needs it. Three parts: a ChunkTree says which chunks

@@ -74,6 +74,16 @@ FurChunk::FurChunk(const FurContents& grown, uint32_t part, uint32_t number, con
                 std::max(tree_.build_bytes(), tree_.bytes() + places_.bytes());
 }
 
+FurChunk::FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree)
+    : part_(part),
+      number_(number),
+      strands_(std::move(strands)),
+      tree_(std::move(tree)),
+      places_(tree_.view(), static_cast<uint32_t>(strands_.segment_count())) {
+  bytes_ = sizeof(*this) + strands_.bytes() - sizeof(strands_) + tree_.bytes() + places_.bytes();
+  build_peak_ = bytes_;
+}
+
 FurStart FurChunk::start_of(const Ray& ray) const {
   if (ray.start.chunk != number_) return {};
   return {ray.start.first_segment, ray.start.segment_count, ray.start.place};

@@ -24,10 +24,15 @@ class FurChunk final : public ChunkGeometry {
   /// calling thread alone.
   FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid, const FurChunkOptions& options);
 
+  /// A chunk that was kept in a file.
+  FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
+
   bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const override;
   bool collect(const Ray& ray, Crossings& crossings) const override;
 
+  uint32_t part() const { return part_; }
   const FurTree& tree() const { return tree_; }
+  const PackedStrands& strands() const { return strands_; }
   size_t segment_count() const { return strands_.segment_count(); }
   /// Boxes of about so many parts that hold every hit.
   ChunkBounds part_bounds(size_t parts) const { return subtree_bounds(tree_.view(), parts); }

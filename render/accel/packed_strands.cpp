@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "base/check.h"
@@ -52,6 +53,7 @@ class PackedStrands::Packer {
     plan_roots();
     plan_values(opacity);
     out_.block_ = PageBlock(size_);
+    std::memset(out_.block_.data(), 0, out_.block_.bytes());  // gaps too: it may go into a file
     if (patterns_) write_points();
     write_segments();
     write_ids();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -77,6 +78,12 @@ class PackedStrands {
   }
   /// A strand as Bezier curves, all of it but the points, for which there is room; `memory` is reused.
   StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
+  /// What a file keeps of strands whose points are elsewhere: all but the block, and the block.
+  std::vector<std::byte> stored_head() const;
+  std::span<const std::byte> stored_block() const { return {block_.data(), block_.bytes()}; }
+  /// The same strands; nothing where the two do not fit together.
+  static std::optional<PackedStrands> from_stored(std::span<const std::byte> head, PageBlock block);
+
   /// Asks the processor to fetch what copy_strand() will read first.
   void fetch_ahead(uint32_t primitive) const;
 
@@ -99,6 +106,12 @@ class PackedStrands {
     Values values;
   };
   class Packer;
+
+  PackedStrands() = default;
+  template <class Packed, class Use>
+  static void for_each_number(Packed& packed, const Use& use);
+  /// Whether all that is read lies within the block.
+  bool is_possible() const;
 
   template <class T>
   const T* at(size_t offset) const {

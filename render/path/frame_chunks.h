@@ -26,6 +26,8 @@ class FrameChunks final : public ChunkGrower {
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
 
+  /// Which coat a leaf is of.
+  uint32_t part(uint32_t leaf) const { return parts_[leaf]; }
   size_t size() const { return leaves_.size() + skin_sizes_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }

@@ -7,13 +7,18 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "procedurals/bounding.h"
+#include "render/path/stored_fur.h"
 
 namespace pelage {
 
 FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
                              const ChunkAccelOptions& options, const Workers& workers, Progress& progress,
                              MemoryLedger& ledger)
-    : chunks_(std::move(chunks)), accel_(std::move(bounds), *chunks_, options, ledger, workers, progress) {}
+    : chunks_(std::move(chunks)),
+      stored_(options.file),
+      stored_charge_(ledger, MemoryTag::kChunks,
+                     options.file ? static_cast<int64_t>(options.file->bytes()) : 0),
+      accel_(std::move(bounds), *chunks_, options, ledger, workers, progress) {}
 
 std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Workers& workers,
                                                          Progress& progress, MemoryLedger& ledger,
@@ -38,18 +43,31 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   options.memory_limit = scene.render.memory.bytes;
   options.threads = workers.thread_count();
   options.opaque = chunks->opaque();
+  const Stopwatch storing;
+  const bool stores = !scene.render.bvh.file.empty() && !options.eager && options.kind == AccelKind::kFur &&
+                      options.chunk.shape == CurveShape::kFlat;
+  if (stores) {
+    options.file = stored_fur(scene.render, *chunks, options, workers, progress, ledger);
+    if (progress.cancelled()) return nullptr;
+  }
+  const double store_s = storing.seconds();
+  if (stores) statistics.stages_s["store"] += store_s;
   const Stopwatch growing;
   std::unique_ptr<const FrameGeometry> geometry(
       new FrameGeometry(std::move(chunks), std::move(bounds), options, workers, progress, ledger));
   const double grow_s = options.eager ? growing.seconds() : 0;
   if (options.eager) statistics.stages_s["grow"] += grow_s;
-  statistics.stages_s["prepare"] += preparing.seconds() - bound_s - grow_s;
+  statistics.stages_s["prepare"] += preparing.seconds() - bound_s - store_s - grow_s;
   return progress.cancelled() ? nullptr : std::move(geometry);
 }
 
 void FrameGeometry::add_to(Statistics& statistics) const {
   const ResidencyCounts counts = accel_.counts();
   statistics.strands_generated += chunks_->strands_grown();
+  if (stored_) {
+    statistics.chunks_read += stored_->chunks_read();
+    statistics.chunk_bytes_read += stored_->bytes_read();
+  }
   statistics.chunks_touched += counts.touched;
   statistics.expansions += counts.expansions;
   statistics.reexpansions += counts.reexpansions;

@@ -33,6 +33,8 @@ class FrameGeometry {
                 MemoryLedger& ledger);
 
   std::unique_ptr<const FrameChunks> chunks_;
+  std::shared_ptr<const FurChunkFile> stored_;
+  MemoryCharge stored_charge_;
   ChunkAccel accel_;
 };
 

@@ -40,7 +40,7 @@ class FurTree::Writer {
         wide_(topology.nodes.size() * 4) {}
 
   /// Where leaves begin.
-  size_t leaves() const { return (node_bytes_ + kNodeAlignment - 1) / kNodeAlignment * kNodeAlignment; }
+  size_t leaves() const { return leaves_offset(node_bytes_); }
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
   /// What is held while it writes, for so many nodes.
@@ -213,6 +213,17 @@ size_t FurTree::build_bytes_bound(size_t segments, int motion_keys, const FurTre
                                             kNodeAlignment + size.blocks * kWideBlock.block(motion_keys));
   return topology + std::max(pieces * sizeof(FurPiece),
                              tree + Writer::scratch_bytes(size.nodes, static_cast<size_t>(motion_keys)));
+}
+
+FurTree::FurTree(const FurTreeView& like, const FurBox& box, PageBlock block, size_t node_bytes,
+                 size_t leaf_bytes)
+    : block_(std::move(block)), node_bytes_(node_bytes), leaf_bytes_(leaf_bytes), view_(like), box_(box) {
+  view_.nodes = node_bytes > 0 ? block_.data() : nullptr;
+  view_.leaves = node_bytes > 0 ? block_.data() + leaves_offset(node_bytes) : nullptr;
+}
+
+size_t FurTree::leaves_offset(size_t node_bytes) {
+  return (node_bytes + kNodeAlignment - 1) / kNodeAlignment * kNodeAlignment;
 }
 
 FurHit FurTree::closest(const Ray& ray, const FurStart& start, FurFilter* filter) const {

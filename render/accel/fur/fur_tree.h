@@ -43,6 +43,11 @@ class FurTree {
   /// Built by the calling thread alone. The strands are not needed afterwards.
   FurTree(const SnappedStrands& strands, const FurTreeOptions& options);
 
+  /// The tree that was kept in a file: nodes at the beginning of the block, leaves from leaves_offset() on.
+  /// `like` says the rest of its view. They have been found possible.
+  FurTree(const FurTreeView& like, const FurBox& box, PageBlock block, size_t node_bytes, size_t leaf_bytes);
+  static size_t leaves_offset(size_t node_bytes);
+
   /// The hit in (near, far) that stands first; `filter` may be null.
   FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
   /// Whether there is any hit in (near, far) that `filter`, if any, accepts.

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur_chunk_file.h"
+
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "render/accel/fur/fur_leaf.h"
+#include "render/accel/fur/fur_pages.h"
+
+namespace pelage {
+namespace {
+
+const std::string kKind = "fur-chunks";
+constexpr size_t kOverhead = size_t(16) << 10;  // small pieces of a chunk, generously
+constexpr size_t kUnmet = 4096;                 // segments of a chunk beyond those in full blocks
+constexpr size_t kMostHead = size_t(1) << 20;
+
+enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
+
+/// What is known of a chunk, in front of what is known of its packed strands.
+struct Head {
+  uint32_t version, part, layout;
+  int32_t motion_keys;
+  float step, anchor[3], reach;
+  float low[3], high[3];
+};
+
+ContentHash entry_key(const ContentHash& key) {
+  return ContentHasher().add("fur chunks").add(FurChunkFile::kVersion).add(key).digest();
+}
+
+/// Whether every segment in the leaves of a possible tree is one of `count`.
+bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count) {
+  const size_t size = node_size(view.layout, view.motion_keys);
+  for (size_t n = 0; n < node_bytes; n += size) {
+    for (size_t i = 0; i < 4; ++i) {
+      const FurReference r = child_reference(view.layout, view.motion_keys, view.nodes + n, i);
+      if (!r.is_leaf()) continue;
+      const size_t block = (r.is_wide() ? kWideBlock : kNarrowBlock).block(view.motion_keys);
+      for (uint32_t b = 0; b < r.blocks(); ++b) {
+        FurBlockHeader header;
+        std::memcpy(&header, view.leaves + r.leaf_offset() + b * block, sizeof(header));
+        for (const uint32_t number : header.number) {
+          if (number != FurBlockHeader::kNone && number >= count) return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Segments that nothing can meet are in no leaf. A chunk that has hardly any others is not kept, so that no
+/// file makes a reader take memory out of all proportion to its size.
+bool is_in_proportion(size_t segments, size_t leaf_bytes, int motion_keys) {
+  return segments <= FurBlockHeader::kLanes * (leaf_bytes / kNarrowBlock.block(motion_keys)) + kUnmet;
+}
+
+[[noreturn]] void refuse(const StoredSections& file) {
+  throw Error(ErrorKind::kInput, {file.path().string(), 0, 0}, "these chunks of fur cannot be right");
+}
+
+}  // namespace
+
+FurChunkFile::Writer::Writer(const ContentStore& store, const ContentHash& key)
+    : entry_(store.writer(kKind, entry_key(key))) {}
+
+void FurChunkFile::Writer::add(const FurChunk* chunk) {
+  if (!chunk || !is_in_proportion(chunk->segment_count(), chunk->tree().leaf_bytes(),
+                                  chunk->tree().view().motion_keys)) {
+    for (size_t i = 0; i < kSections; ++i) entry_.add(std::span<const std::byte>());
+    return;
+  }
+  const FurTree& tree = chunk->tree();
+  const FurTreeView& view = tree.view();
+  Head head{};
+  head.version = kVersion;
+  head.part = chunk->part();
+  head.layout = static_cast<uint32_t>(view.layout);
+  head.motion_keys = view.motion_keys;
+  head.step = view.step;
+  head.reach = view.reach;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    head.anchor[axis] = view.anchor[static_cast<int>(axis)];
+    head.low[axis] = tree.box().low[axis];
+    head.high[axis] = tree.box().high[axis];
+  }
+  std::vector<std::byte> known(sizeof(Head));
+  std::memcpy(known.data(), &head, sizeof(Head));
+  const std::vector<std::byte> packed = chunk->strands().stored_head();
+  known.insert(known.end(), packed.begin(), packed.end());
+  entry_.add(std::span<const std::byte>(known));
+  entry_.add(chunk->strands().stored_block());
+  entry_.add(std::span<const std::byte>(view.nodes, tree.node_bytes()));
+  entry_.add(std::span<const std::byte>(view.leaves, tree.leaf_bytes()));
+}
+
+bool FurChunkFile::Writer::commit(const WarningSink& warn) { return entry_.commit(warn); }
+
+std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store, const ContentHash& key,
+                                                       size_t chunk_count, const WarningSink& warn) {
+  std::optional<StoredSections> file = store.open_sections(kKind, entry_key(key), warn);
+  if (!file) return nullptr;
+  if (file->section_count() != kSections * chunk_count) {
+    warn(file->path().string() + ": these chunks of fur cannot be right; made again");
+    return nullptr;
+  }
+  return std::make_unique<const FurChunkFile>(std::move(*file));
+}
+
+FurChunkFile::FurChunkFile(StoredSections file) : file_(std::move(file)) {}
+
+size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
+  const size_t first = kSections * size_t(chunk);
+  const uint64_t nodes = file_.section_bytes(first + kNodes), leaves = file_.section_bytes(first + kLeaves);
+  const size_t places =
+      FurPlaces::bytes_bound(leaves / kNarrowBlock.block(1) * FurBlockHeader::kLanes + kUnmet);
+  return kOverhead + 2 * file_.section_bytes(first + kHead) +
+         PageBlock::held_bytes(file_.section_bytes(first + kPacked)) +
+         PageBlock::held_bytes(FurTree::leaves_offset(nodes) + leaves) + places;
+}
+
+std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk) const {
+  std::unique_ptr<FurChunk> result = parse(chunk);
+  chunks_read_.fetch_add(1, std::memory_order_relaxed);
+  uint64_t bytes = 0;
+  for (size_t i = 0; i < kSections; ++i) bytes += file_.section_bytes(kSections * size_t(chunk) + i);
+  bytes_read_.fetch_add(static_cast<int64_t>(bytes), std::memory_order_relaxed);
+  return result;
+}
+
+std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk) const {
+  const size_t first = kSections * size_t(chunk);
+  const uint64_t known_bytes = file_.section_bytes(first + kHead);
+  if (known_bytes < sizeof(Head) || known_bytes > kMostHead) refuse(file_);
+  std::vector<std::byte> known(known_bytes);
+  file_.read(first + kHead, known);
+  Head head;
+  std::memcpy(&head, known.data(), sizeof(head));
+  FurPageTable table;
+  if (head.version != kVersion || head.layout > static_cast<uint32_t>(FurNodeLayout::kQuantised))
+    refuse(file_);
+  table.trees.push_back({static_cast<FurNodeLayout>(head.layout), head.motion_keys, head.step,
+                         V3f(head.anchor[0], head.anchor[1], head.anchor[2]), head.reach});
+  if (!table.is_possible()) refuse(file_);
+
+  PageBlock block(file_.section_bytes(first + kPacked));
+  file_.read(first + kPacked, {block.data(), file_.section_bytes(first + kPacked)});
+  std::optional<PackedStrands> strands =
+      PackedStrands::from_stored(std::span(known).subspan(sizeof(Head)), std::move(block));
+  if (!strands || strands->motion_keys() != head.motion_keys) refuse(file_);
+
+  const size_t nodes = file_.section_bytes(first + kNodes), leaves = file_.section_bytes(first + kLeaves);
+  if (!is_in_proportion(strands->segment_count(), leaves, head.motion_keys)) refuse(file_);
+  const size_t begin = FurTree::leaves_offset(nodes);
+  if (begin + leaves > UINT32_MAX) refuse(file_);
+  PageBlock tree(begin + leaves);
+  file_.read(first + kNodes, {tree.data(), nodes});
+  file_.read(first + kLeaves, {tree.data() + begin, leaves});
+  const FurTreelet whole{0, 0, 0, static_cast<uint32_t>(nodes), static_cast<uint32_t>(nodes + leaves)};
+  FurTreeView view = treelet_view(table.trees[0], whole, tree.data());
+  view.leaves = tree.data() + begin;
+  if (nodes > 0 &&
+      (!is_possible_treelet(view, whole) || !numbers_are_below(view, nodes, strands->segment_count()))) {
+    refuse(file_);
+  }
+  FurBox box;
+  for (size_t axis = 0; axis < 3; ++axis) box.low[axis] = head.low[axis], box.high[axis] = head.high[axis];
+  return std::make_unique<FurChunk>(head.part, chunk, std::move(*strands),
+                                    FurTree(view, box, std::move(tree), nodes, leaves));
+}
+
+bool FurChunkFile::check_all(const Workers& workers, const WarningSink& warn) const {
+  std::mutex mutex;
+  std::string wrong;
+  workers.for_each(chunk_count(), 1, [&](WorkRange range) {
+    try {
+      for (size_t chunk = range.begin; chunk < range.end; ++chunk) {
+        if (has(static_cast<uint32_t>(chunk))) parse(static_cast<uint32_t>(chunk));
+      }
+    } catch (const Error& e) {
+      const std::lock_guard lock(mutex);
+      if (wrong.empty()) wrong = e.what();
+    }
+  });
+  if (!wrong.empty()) warn(wrong + "; made again");
+  return wrong.empty();
+}
+
+}  // namespace pelage

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Trees of a frame that are kept between runs (render.bvh.file) change no pixel.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "cli/commands.h"
+#include "cli/measure/picture_difference.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+class BvhFileTest : public testing::Test {
+ protected:
+  std::string render(const std::string& name, std::vector<Override> overrides) {
+    Options options;
+    options.command = Command::kRender;
+    options.input = (std::filesystem::path(PELAGE_SOURCE_DIR) / "examples" / "colony_small.yaml").string();
+    options.progress = ProgressStyle::kQuiet;
+    options.overrides = {{"image.width", "160"},          {"image.height", "90"},
+                         {"render.samples", "1"},         {"render.accel", "fur"},
+                         {"grooms.under.strands", "900"}, {"grooms.guard.strands", "400"}};
+    options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
+    options.output = (folder_.path() / (name + ".exr")).string();
+    options.stats = (folder_.path() / "stats.json").string();
+    EXPECT_EQ(run_render(options), 0);
+    statistics_ = nlohmann::json::parse(read_file(*options.stats));
+    return options.output;
+  }
+  std::string stored(const std::string& name, std::vector<Override> overrides = {}) {
+    overrides.push_back({"render.bvh.file", (folder_.path() / "trees").string()});
+    return render(name, std::move(overrides));
+  }
+  std::filesystem::path file() const {
+    return std::filesystem::directory_iterator(folder_.path() / "trees")->path();
+  }
+  static void expect_equal(const std::string& a, const std::string& b) {
+    const auto difference = compare_picture_files(a, b);
+    ASSERT_TRUE(difference);
+    EXPECT_EQ(difference->differing, 0) << b;
+  }
+
+  TemporaryFolder folder_;
+  nlohmann::json statistics_;
+};
+
+TEST_F(BvhFileTest, ChangesNoPixel) {
+  const std::string lazy = render("lazy", {});
+  const int64_t grown = statistics_["strands_generated"];
+  EXPECT_EQ(statistics_["chunks_read"], 0);
+  expect_equal(lazy, render("eager", {{"render.bounds", "none"}}));
+  expect_equal(lazy, stored("first"));
+  EXPECT_GT(statistics_["chunks_read"], 0);
+  expect_equal(lazy, stored("second"));
+  EXPECT_GT(statistics_["chunk_bytes_read"], 0);
+  EXPECT_EQ(statistics_["strands_generated"], 0);
+  EXPECT_GT(grown, 0);
+  const int64_t chunks = statistics_["memory_bytes"]["chunks"], film = statistics_["memory_bytes"]["film"],
+                skins = statistics_["memory_bytes"]["skins"], read = statistics_["chunks_read"];
+  // Under a budget pages come and go.
+  expect_equal(lazy, stored("small", {{"render.memory", std::to_string(film + skins + chunks / 2)}}));
+  EXPECT_GT(statistics_["chunks_read"], read);
+  EXPECT_LE(statistics_["memory_bytes"]["chunks"], chunks);
+  // Another frame, and another coat, are other files.
+  stored("other", {{"grooms.under.strands", "901"}});
+  EXPECT_GT(statistics_["strands_generated"], 0);
+}
+
+TEST_F(BvhFileTest, IsMadeAgainWhenItIsDamaged) {
+  const std::string first = stored("first");
+  const std::string whole = read_file(file());
+  for (const size_t at : {whole.size() / 3, whole.size() - 20}) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    std::ofstream(file(), std::ios::binary) << damaged;
+    expect_equal(first, stored("again"));
+    EXPECT_GT(statistics_["strands_generated"], 0);
+    EXPECT_EQ(read_file(file()), whole);
+  }
+}
+
+TEST_F(BvhFileTest, IsNotUsedForWhatItCannotKeep) {
+  const std::string plain = render("plain", {{"materials.fur.opacity", "0.5"}});
+  expect_equal(plain, stored("stored", {{"materials.fur.opacity", "0.5"}}));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trees"));
+}
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/fur_chunk_file.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "tests/render/chunk_accel_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+constexpr ContentHash kKey{3, 4};
+
+class FurChunkFileTest : public ChunkAccelTest {
+ protected:
+  FurChunkFileTest() : store_(folder_.path()) {}
+
+  static ChunkAccelOptions fur_options() {
+    ChunkAccelOptions options;
+    options.kind = AccelKind::kFur;
+    return options;
+  }
+  void write(const TestChunks& chunks) {
+    FurChunkFile::Writer writer(store_, kKey);
+    for (uint32_t c = 0; c < chunks.contents.size(); ++c) {
+      std::unique_ptr<FurChunk> chunk;
+      if (std::holds_alternative<FurContents>(chunks.contents[c].geometry)) {
+        const StrandScale scale = chunks.scale(c);
+        chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale.width, scale.anchor),
+                                           FurChunkOptions());
+      }
+      writer.add(chunk.get());
+    }
+    ASSERT_TRUE(writer.commit(sink()));
+  }
+  std::unique_ptr<const FurChunkFile> open(size_t chunks) {
+    return FurChunkFile::open(store_, kKey, chunks, sink());
+  }
+  std::filesystem::path path() const { return std::filesystem::directory_iterator(folder_.path())->path(); }
+  WarningSink sink() {
+    return [this](const std::string&) { ++warnings_; };
+  }
+
+  TemporaryFolder folder_;
+  ContentStore store_;
+  int warnings_ = 0;
+};
+
+class FurChunkFileScenes : public FurChunkFileTest, public testing::WithParamInterface<int> {};
+
+TEST_P(FurChunkFileScenes, answer_as_chunks_that_are_grown) {
+  const TestChunks chunks = random_chunks(7, scene_of_kind(GetParam()));
+  write(chunks);
+  ChunkAccelOptions options = fur_options();
+  const auto grown = make(chunks, chunks.bounds(8), options);
+  options.file = open(chunks.contents.size());
+  ASSERT_TRUE(options.file);
+  EXPECT_TRUE(options.file->check_all(Workers(2), sink()));
+  const auto read = make(chunks, chunks.bounds(8), options);
+  expect_same(*grown, *read, 1, 1500);
+  EXPECT_GT(options.file->chunks_read(), 0);
+  EXPECT_EQ(read->counts().overruns, 0);
+  const auto boxed = make(chunks, chunks.measured_bounds(1), options);
+  expect_same(*grown, *boxed, 2, 1000);
+  EXPECT_EQ(warnings_, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FurChunkFileScenes, testing::Range(0, kSceneKinds));
+
+TEST_F(FurChunkFileTest, is_read_again_under_a_budget) {
+  RandomChunkOptions o;
+  o.chunks = 40;
+  o.strands = 40;
+  const TestChunks chunks = random_chunks(17, o);
+  write(chunks);
+  ChunkAccelOptions options = fur_options();
+  const auto grown = make(chunks, chunks.bounds(8), options);
+  options.file = open(chunks.contents.size());
+  expect_same(*grown, *make(chunks, chunks.bounds(8), options), 5, 300);  // these rays make it grow no more
+  size_t largest = 0;
+  for (uint32_t c = 0; c < chunks.contents.size(); ++c) {
+    largest = std::max(largest, options.file->has(c) ? options.file->bytes_bound(c)
+                                                     : EmbreeChunk::bytes_bound(chunks.counts(c)) +
+                                                           part_bounds_scratch(chunks.counts(c)));
+  }
+  const int64_t before = ledger_.budgeted();
+  const int64_t fixed = [&] {
+    const auto idle = make(chunks, chunks.bounds(8), options);
+    return ledger_.budgeted() - before;
+  }();
+  options.memory_limit = static_cast<uint64_t>(before + fixed + 16384 + 3 * static_cast<int64_t>(largest));
+  const auto read = make(chunks, chunks.bounds(8), options);
+  expect_same(*grown, *read, 5, 300);
+  EXPECT_GT(read->counts().evictions, 0);
+  EXPECT_GT(options.file->chunks_read(), static_cast<int64_t>(chunks.contents.size()) / 2);
+  EXPECT_EQ(read->counts().overruns, 0);
+}
+
+TEST_F(FurChunkFileTest, notices_damage) {
+  const TestChunks chunks = random_chunks(7, scene_of_kind(2));
+  write(chunks);
+  const std::string whole = read_file(path());
+  const auto rewrite = [&](const std::string& bytes) {
+    AtomicFile file(path());
+    file.write(bytes);
+    file.commit();
+    warnings_ = 0;
+  };
+  int noticed = 0;
+  for (uint64_t i = 0; i < 40; ++i) {
+    std::string damaged = whole;
+    const size_t at = hash64(i, 1) % damaged.size();
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << hash64(i, 2) % 8));
+    rewrite(damaged);
+    const auto file = open(chunks.contents.size());
+    if (file && file->check_all(Workers::alone(), sink())) continue;  // a gap between sections
+    EXPECT_EQ(warnings_, 1) << at;
+    ++noticed;
+  }
+  EXPECT_GT(noticed, 35);
+  for (const size_t bytes : {size_t(0), size_t(100), whole.size() / 2, whole.size() - 1}) {
+    rewrite(whole.substr(0, bytes));
+    EXPECT_FALSE(open(chunks.contents.size()));
+    EXPECT_EQ(warnings_, 1);
+  }
+  rewrite(whole);
+  EXPECT_FALSE(open(chunks.contents.size() + 1));  // of another frame
+  EXPECT_EQ(warnings_, 1);
+}
+
+// As if checksums were right: what is known of a chunk is changed, number by number.
+TEST_F(FurChunkFileTest, refuses_packed_strands_that_reach_beyond_their_block) {
+  const TestChunks chunks = random_chunks(7, scene_of_kind(0));
+  const Strands& strands = std::get<FurContents>(chunks.contents[0].geometry).strands;
+  const PackedStrands packed(strands, {}, true);
+  const std::vector<std::byte> head = packed.stored_head();
+  const auto block = [&] {
+    PageBlock copy(packed.stored_block().size());
+    std::copy(packed.stored_block().begin(), packed.stored_block().end(), copy.data());
+    return copy;
+  };
+  ASSERT_TRUE(PackedStrands::from_stored(head, block()));
+  for (uint64_t i = 0; i < 4000; ++i) {
+    std::vector<std::byte> damaged = head;
+    for (uint64_t k = 0; k <= i % 3; ++k) {
+      const size_t at = hash64(i, k, 1) % damaged.size();
+      damaged[at] = static_cast<std::byte>(hash64(i, k, 2));
+    }
+    const auto read = PackedStrands::from_stored(damaged, block());
+    if (!read || read->segment_count() > 10 * packed.segment_count()) continue;
+    // What was accepted can be read.
+    for (uint32_t s = 0; s < std::min<size_t>(read->strand_count(), 50); ++s) {
+      const StrandArrays a = read->bezier_strand(s, {});
+      EXPECT_EQ(a.ids.size(), 1u);
+      read->opacity({s, 0}, 0.5f);
+    }
+  }
+  for (size_t bytes = 0; bytes < head.size(); ++bytes) {
+    EXPECT_FALSE(PackedStrands::from_stored(std::span(head).first(bytes), block()));
+  }
+}
+
+}  // namespace
+}  // namespace pelage
