@@ -23,6 +23,7 @@ const char* experiment_name(Experiment experiment) {
          : experiment == Experiment::kBounds   ? "bounds"
          : experiment == Experiment::kGrowth   ? "growth"
          : experiment == Experiment::kSamplers ? "samplers"
+         : experiment == Experiment::kLod      ? "lod"
                                                : "residency";
 }
 
@@ -84,6 +85,8 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
       return measure_residency(scene, setup, display);
     case Experiment::kSamplers:
       return measure_samplers(scene, setup, display);
+    case Experiment::kLod:
+      return measure_lod(scene, setup, display);
   }
   return {};
 }

@@ -98,7 +98,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
   CLI::App* measure = app.add_subcommand(
       "measure", "Run the program once per variant of an experiment and report: JSON, CSV, HTML");
-  measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, residency or samplers")
+  measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, lod, residency or samplers")
       ->required();
   add_scene_flags(*measure, options, texts);
   measure
@@ -238,18 +238,17 @@ CurveBasis parse_basis(const std::string& text) {
 }
 
 Experiment parse_experiment(const std::string& text) {
-  static const std::map<std::string, Experiment> built{{"accel", Experiment::kAccel},
-                                                       {"bounds", Experiment::kBounds},
-                                                       {"growth", Experiment::kGrowth},
-                                                       {"residency", Experiment::kResidency},
-                                                       {"samplers", Experiment::kSamplers}};
-  static const std::vector<std::string> promised{"lod", "shading", "scaling"};
+  static const std::map<std::string, Experiment> built{
+      {"accel", Experiment::kAccel},       {"bounds", Experiment::kBounds},
+      {"growth", Experiment::kGrowth},     {"residency", Experiment::kResidency},
+      {"samplers", Experiment::kSamplers}, {"lod", Experiment::kLod}};
+  static const std::vector<std::string> promised{"shading", "scaling"};
   if (const auto found = built.find(text); found != built.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
     fail("the experiment " + quote(text) +
-         " is not built yet; there are accel, bounds, growth, residency and samplers");
+         " is not built yet; there are accel, bounds, growth, lod, residency and samplers");
   fail("there is no experiment " + quote(text) + suggest(text, names));
 }
 

@@ -27,7 +27,7 @@ enum class Command {
   kManual
 };
 
-enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers };
+enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod };
 
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere

@@ -35,4 +35,8 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
 /// Plain and adaptive sampling: samples at equal error, and bias.
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
 
+/// Level of detail against full detail: hairs, working set, time and error, by idea, distance, blur and
+/// focus; what changes in the picture while the camera of the detail moves.
+Measured measure_lod(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display);
+
 }  // namespace pelage

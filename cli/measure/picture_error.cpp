@@ -24,9 +24,14 @@ std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
 }  // namespace
 
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b) {
-  const auto cx = channels_of(x), ca = channels_of(a), cb = channels_of(b);
+  return picture_error(x, x, a, b);
+}
+
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
+                                          const ExrImage& b) {
+  const auto cx = channels_of(x), cy = channels_of(y), ca = channels_of(a), cb = channels_of(b);
   const auto fits = [&](const ExrImage& i) { return i.width == a.width && i.height == a.height; };
-  if (cx.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(b)) return {};
+  if (cx.empty() || cy.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(y) || !fits(b)) return {};
   const ExrChannel* counts = x.find("samples");
 
   constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
@@ -43,15 +48,16 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, 
     if (counts) result.surface_samples += counts->ids[p];
     for (size_t c = 0; c < 3; ++c) {
       mean[c] += truth(c, p);
-      luminance_x += kWeights[c] * (*cx[c])[p];
+      luminance_x += kWeights[c] * 0.5 * (double{(*cx[c])[p]} + double{(*cy[c])[p]});
       luminance_t += kWeights[c] * truth(c, p);
     }
   }
   for (size_t p = 0; p < pixels; ++p) {
     if (!((*ca[3])[p] > 0)) continue;
     for (size_t c = 0; c < 3; ++c) {
-      const double t = truth(c, p), m = mean[c] / surface, v = (*cx[c])[p];
-      const double error = (v - (*ca[c])[p]) * (v - (*cb[c])[p]);
+      const double t = truth(c, p), m = mean[c] / surface, v = (*cx[c])[p], w = (*cy[c])[p];
+      const double of_a = (*ca[c])[p], of_b = (*cb[c])[p];
+      const double error = 0.5 * ((v - of_a) * (w - of_b) + (v - of_b) * (w - of_a));
       if (error != 0) result.rel_mse += error / (t * t + 0.01 * m * m) / 3;
     }
   }
@@ -69,8 +75,15 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, 
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
                                                    const std::filesystem::path& a,
                                                    const std::filesystem::path& b) {
+  return picture_error_of_files(x, x, a, b);
+}
+
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& y,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b) {
   try {
-    return picture_error(read_exr(x), read_exr(a), read_exr(b));
+    return picture_error(read_exr(x), read_exr(y), read_exr(a), read_exr(b));
   } catch (const Error&) {
     return {};
   }

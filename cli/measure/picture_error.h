@@ -23,8 +23,17 @@ struct PictureError {
 /// Nothing when the pictures differ in size or lack R, G, B or A.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
 
+/// The same where there are two pictures of independent seeds of what is tested too: then their noise is not
+/// counted either, only what is wrong in both.
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
+                                          const ExrImage& b);
+
 /// The same for files; nothing also when one of them cannot be read.
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b);
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& y,
                                                    const std::filesystem::path& a,
                                                    const std::filesystem::path& b);
 

@@ -112,6 +112,7 @@ ExrImage Film::to_exr(std::map<std::string, ExrAttribute> attributes) const {
   ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
   for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[p].sample.id;
   image.channels.push_back(std::move(id));
+  if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {
     add_channel("noise", ChannelType::kFloat,
                 [&](size_t p) { return static_cast<float>(moments_[p].error()); });

@@ -24,6 +24,7 @@ struct VisibleSurface {
   V2f forward{0};                                        ///< pixels to the next frame, x right, y down
   V2f root_uv{0};           ///< texture coordinates of the strand's root or of the skin
   uint32_t id = kNoStrand;  ///< lower half of the strand's id
+  float left_out = 0;       ///< part of the strands that level of detail left out here
 };
 
 /// What one path brought back.
@@ -66,7 +67,7 @@ class Film {
 
   /// All channels under the names of docs and notes: R G B A and light layers as half, Z, N, tangent, forward
   /// and root as float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of
-  /// the luminance, as float. Attributes are copied into the header.
+  /// the luminance, as float; with layers().lod, `lod` as float. Attributes are copied into the header.
   ExrImage to_exr(std::map<std::string, ExrAttribute> attributes) const;
 
  private:

@@ -16,6 +16,9 @@ const Schema<ImageParams>& ImageParams::schema() {
         "noise_layers", &ImageParams::noise_layers,
         {.help = "Layers `samples`, how many a pixel got, and `noise`, the standard error of its luminance; "
                  "adaptive sampling has them always"});
+    s.key("lod_layer", &ImageParams::lod_layer,
+          {.help = "Layer `lod`: the part of the strands that `render.lod` left out where the front-most one "
+                   "stands, 0 on skins; `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});
     return s;
   }();
   return table;

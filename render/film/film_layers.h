@@ -25,6 +25,7 @@ struct ImageParams {
   PixelFilter filter = PixelFilter::kBlackmanHarris;
   bool light_layers = true;  ///< one layer per light x lobe group
   bool noise_layers = false;
+  bool lod_layer = false;
   static const Schema<ImageParams>& schema();
 };
 
@@ -41,6 +42,7 @@ struct FilmLayers {
   std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are switched off
   int groups = 0;
   bool noise = false;  ///< whether the film keeps how much the samples of each pixel vary
+  bool lod = false;    ///< whether it shows how much detail was left out
 
   bool empty() const { return names.empty(); }
   size_t size() const { return names.size(); }

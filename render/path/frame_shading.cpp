@@ -71,10 +71,9 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
                       scene_.fur[hit.part].rest.get(), {0, hit.segment, hit.u, v});
 }
 
-float FrameShading::width_gain(const Hit& hit, const Strands& strand) const {
+float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
-  if (!lod) return 1;
-  return lod->gain(lod->share(strand.point(0), strand.point(0, strand.motion_keys() - 1)));
+  return lod ? lod->share(strand.point(0), strand.point(0, strand.motion_keys() - 1)) : 1.0f;
 }
 
 ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const {
@@ -96,7 +95,9 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   // Light that leaves a strand that stands for many begins its way where it would leave one of them: were it
   // to begin outside the wide one, what lies within would shadow nothing. Needs rays that do not meet the
   // strand that they start on.
-  const float radius = leaves_own_strand_ ? point.radius / width_gain(hit, strand) : point.radius;
+  float radius = point.radius;
+  if (const std::optional<Simplification>& lod = scene_.fur[hit.part].lod; lod && leaves_own_strand_)
+    radius /= lod->gain(kept_share(hit, strand));
   return {point.position, point.tangent,        radius, ray.origin + hit.distance * ray.direction,
           at.h,           fibre.material.at(at)};
 }
@@ -180,6 +181,7 @@ VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit, con
   surface.forward = motion_in_image(position, motion, ray.time);
   surface.root_uv = strand.root_uv(0);
   surface.id = static_cast<uint32_t>(hit.strand_id);
+  surface.left_out = 1 - kept_share(hit, strand);
   return surface;
 }
 

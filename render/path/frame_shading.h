@@ -37,8 +37,8 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // none: Lambert
   };
 
-  /// How much wider the strand is than it was before others were left out.
-  float width_gain(const Hit& hit, const Strands& strand) const;
+  /// The share of the strands that were kept where this one stands.
+  float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;
   Rgb fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const;

@@ -32,6 +32,7 @@ FilmLayers light_layers(const RenderScene& scene) {
 
 FilmLayers film_layers(const RenderScene& scene) {
   FilmLayers layers = light_layers(scene);
+  layers.lod = scene.image.lod_layer;
   layers.noise = scene.image.noise_layers || scene.render.adaptive;
   return layers;
 }

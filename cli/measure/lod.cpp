@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "cli/measure/experiments.h"
+#include "cli/measure/lod_cases.h"
+#include "cli/measure/lod_pictures.h"
+#include "cli/measure/outcome_table.h"
+#include "cli/measure/picture_error.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kDollySteps = 6;
+constexpr float kDollyStep = 1.01f;  // of the distance, as in a dolly over 230 frames to ten times as far
+constexpr int kSheetWidth = 320;
+constexpr size_t kSheetRows = 3;
+
+/// What one variant is held against, by index of its outcomes; -1: it is full detail itself.
+struct Row {
+  std::string place, setting;
+  int full = -1;
+  PictureError error;
+  bool known = false;
+};
+
+Variant variant_of(const std::string& id, const std::string& title, const Settings& settings, bool enabled,
+                   size_t seed) {
+  Variant variant{id, title, "render", {}};
+  const auto set = [&](const std::string& key, const std::string& value) {
+    variant.arguments.insert(variant.arguments.end(), {"--set", key + "=" + value});
+  };
+  for (const auto& [key, value] : settings) set(key, value);
+  set("render.lod.enabled", enabled ? "true" : "false");
+  set("render.seed", std::to_string(2000 + seed));
+  set("image.light_layers", "false");
+  set("image.lod_layer", "true");
+  return variant;
+}
+
+Settings both(Settings a, const Settings& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+class LodSweep {
+ public:
+  LodSweep(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display)
+      : scene_(scene),
+        places_(lod_places(scene)),
+        display_(display),
+        runner_(setup, display,
+                4 * places_.size() + 2 * lod_ideas().size() + 3 * lod_qualities().size() + kDollySteps) {}
+
+  void run() {
+    for (const LodPlace& place : places_) {
+      const int full = add_pair(place, {"full", "full detail", {}}, -1);
+      if (full < 0) return;
+      const bool first = &place == &places_.front();
+      for (const LodSetting& idea : lod_ideas()) {
+        if (!first && idea.id != "all") break;
+        if (add_pair(place, idea, full) < 0) return;
+      }
+    }
+    for (size_t place = 0; place < kSheetRows; ++place) {
+      for (const LodSetting& quality : lod_qualities()) {
+        if (!add_single(places_[place], quality)) return;
+      }
+    }
+    for (int step = 0; step < kDollySteps; ++step) {
+      // One seed: what does not change in the scene does not change in the picture.
+      const float factor = static_cast<float>(std::pow(kDollyStep, step));
+      const Variant variant = variant_of(fmt::format("dolly-{}", step), fmt::format("dolly, step {}", step),
+                                         detail_camera(scene_, factor), true, 0);
+      if (!run_one(variant, {"dolly", variant.id, -1, {}, false})) return;
+    }
+  }
+
+  std::vector<Outcome> outcomes;
+  std::vector<Row> rows;
+
+  const std::vector<LodPlace>& places() const { return places_; }
+  const Outcome* find(const std::string& id) const {
+    const auto at = std::find_if(outcomes.begin(), outcomes.end(),
+                                 [&](const Outcome& o) { return o.variant.id == id && o.succeeded(); });
+    return at == outcomes.end() ? nullptr : &*at;
+  }
+  std::filesystem::path picture(const Outcome& outcome) const { return runner_.picture(outcome.variant); }
+
+ private:
+  bool run_one(const Variant& variant, const Row& row) {
+    outcomes.push_back(runner_.run(variant));
+    rows.push_back(row);
+    return outcomes.back().succeeded() && !display_.cancelled();
+  }
+
+  /// Two pictures of seeds of their own, so that noise does not count. The index of the first, or -1.
+  int add_pair(const LodPlace& place, const LodSetting& setting, int full) {
+    const auto first = static_cast<int>(outcomes.size());
+    for (const char* which : {"a", "b"}) {
+      const Variant variant =
+          variant_of(fmt::format("{}-{}-{}", place.id, setting.id, which),
+                     fmt::format("{}, {} ({})", place.title, setting.title, which),
+                     both(place.view, setting.lod), setting.id != "full", outcomes.size());
+      if (!run_one(variant, {place.id, setting.id, full, {}, false})) return -1;
+    }
+    if (full >= 0) {
+      const auto at = [&](int i) { return runner_.picture(outcomes[static_cast<size_t>(i)].variant); };
+      const auto error = picture_error_of_files(at(first), at(first + 1), at(full), at(full + 1));
+      for (size_t i = static_cast<size_t>(first); i < outcomes.size(); ++i) {
+        rows[i].known = error.has_value();
+        rows[i].error = error.value_or(PictureError{});
+      }
+    }
+    return first;
+  }
+
+  bool add_single(const LodPlace& place, const LodSetting& setting) {
+    const Variant variant = variant_of(fmt::format("sheet-{}-{}", place.id, setting.id),
+                                       fmt::format("{}, {}", place.title, setting.title),
+                                       both(place.view, setting.lod), true, outcomes.size());
+    return run_one(variant, {"sheet", place.id, -1, {}, false});
+  }
+
+  const SceneDescription& scene_;
+  const std::vector<LodPlace> places_;
+  ProgressDisplay& display_;
+  VariantRunner runner_;
+};
+
+/// Distances by qualities.
+std::optional<Picture> sheet_of(const LodSweep& sweep) {
+  std::vector<std::filesystem::path> tiles;
+  const auto qualities = lod_qualities();
+  for (size_t row = 0; row < kSheetRows; ++row) {
+    for (const LodSetting& quality : qualities) {
+      const Outcome* outcome = sweep.find(fmt::format("sheet-{}-{}", sweep.places()[row].id, quality.id));
+      if (!outcome) return {};
+      tiles.push_back(sweep.picture(*outcome));
+    }
+  }
+  return picture_sheet(tiles, qualities.size(), kSheetWidth,
+                       "Distance (1, 2, 4 times that of the scene, from top to bottom) by `quality` (0.5, 1, "
+                       "2, 4).");
+}
+
+Table dolly_table(const LodSweep& sweep) {
+  Table table;
+  table.caption = fmt::format(
+      "What changes in the picture of a camera that stands still while that of the detail moves away by {:g} "
+      "%: largest and root of the mean squared difference of the luminance, over its mean. Noise is what two "
+      "seeds differ by.",
+      100 * (kDollyStep - 1));
+  table.columns = {{"step", "step", Quantity::kRatio},
+                   {"largest", "largest", Quantity::kPercent},
+                   {"rms", "rms", Quantity::kPercent}};
+  const auto add = [&](const std::string& name, const Outcome* from, const Outcome* to) {
+    if (!from || !to) return;
+    const PictureChange change = change_between(sweep.picture(*from), sweep.picture(*to));
+    table.rows.push_back({Text{name}, change.largest, change.rms});
+  };
+  for (int step = 1; step < kDollySteps; ++step)
+    add(fmt::format("{} to {}", step - 1, step), sweep.find(fmt::format("dolly-{}", step - 1)),
+        sweep.find(fmt::format("dolly-{}", step)));
+  add("noise, for comparison", sweep.find("here-all-a"), sweep.find("here-all-b"));
+  return table;
+}
+
+}  // namespace
+
+Measured measure_lod(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display) {
+  LodSweep sweep(scene, setup, display);
+  sweep.run();
+  Measured measured;
+  measured.outcomes = std::move(sweep.outcomes);
+  sweep.outcomes = measured.outcomes;
+  const std::vector<Outcome>& outcomes = measured.outcomes;
+  Report& report = measured.report;
+  report.title = "Level of detail";
+  report.data = outcome_table(outcomes);
+  const auto add = [&](const char* key, const char* title, Quantity quantity, const auto& value) {
+    add_column(report.data, {key, title, quantity}, outcomes, [&](const Outcome& o) -> Cell {
+      const auto i = static_cast<size_t>(&o - outcomes.data());
+      return value(o, sweep.rows[i]);
+    });
+  };
+  add("hairs", "hairs grown", Quantity::kRatio,
+      [](const Outcome& o, const Row&) { return o.number("strands_generated"); });
+  const auto share = [&](const char* number) {
+    return [&, number](const Outcome& o, const Row& row) {
+      return row.full < 0 ? NAN : o.number(number) / outcomes[static_cast<size_t>(row.full)].number(number);
+    };
+  };
+  add("hairs_share", "of full", Quantity::kPercent, share("strands_generated"));
+  add("set_share", "working set", Quantity::kPercent, share("working_set_bytes"));
+  add("cpu_share", "CPU time", Quantity::kPercent, share("cpu_s"));
+  add("rel_mse", "relMSE", Quantity::kRatio,
+      [](const Outcome&, const Row& row) { return row.known ? row.error.rel_mse : NAN; });
+  add("bias", "bias", Quantity::kPercent,
+      [](const Outcome&, const Row& row) { return row.known ? row.error.bias : NAN; });
+
+  report.sections.push_back(
+      {"Method",
+       {Paragraph{
+           "Every way to see the scene is rendered twice with full detail and twice with reduced detail, all "
+           "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
+           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b and m the mean of t: what is wrong in "
+           "both pictures, without noise. Bias is that of the mean luminance over these pixels. Shares are "
+           "of "
+           "what full detail takes from the same place. Naive thinning leaves out the same hairs and lets "
+           "the "
+           "others be as thin as they are."}}});
+  report.sections.push_back({"Detail",
+                             {select(report.data,
+                                     {"variant", "wall_s", "cpu_s", "hairs", "hairs_share",
+                                      "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},
+                                     "By place and idea; each place twice.")}});
+  if (const Outcome* outcome = sweep.find("here-all-a")) {
+    if (auto colours = detail_picture(sweep.picture(*outcome)))
+      report.sections.push_back({"Where", {std::move(*colours)}});
+  }
+  if (auto sheet = sheet_of(sweep)) report.sections.push_back({"Wedge", {std::move(*sheet)}});
+  report.sections.push_back({"Dolly", {dolly_table(sweep)}});
+  return measured;
+}
+
+}  // namespace pelage
