@@ -106,18 +106,31 @@ size_t ThinnedFurProcedural::making_bytes() const {
          n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + sizeof(V2f) + 8 * sizeof(float));
 }
 
+/// Of all that is kept of the coat, however it is divided.
+ContentHash ThinnedFurProcedural::coat() const {
+  return ContentHasher()
+      .add(program_identity())
+      .add(detail_->groom().content_hash())
+      .add(skin_->hash())
+      .add(skin_->length())
+      .add(detail_->simplification().hash())
+      .digest();
+}
+
+std::optional<ContentHash> ThinnedFurProcedural::content() const {
+  return ContentHasher()
+      .add(coat())
+      .add(static_cast<uint64_t>(first_))
+      .add(static_cast<uint64_t>(end_))
+      .digest();
+}
+
 std::optional<BoundsRecord> ThinnedFurProcedural::bounds_record() const {
   const Groom& groom = detail_->groom();
   if (!groom.store()) return {};
   BoundsRecord record;
   record.store = {detail_, groom.store()};
-  record.key = ContentHasher()
-                   .add(program_identity())
-                   .add(groom.content_hash())
-                   .add(skin_->hash())
-                   .add(skin_->length())
-                   .add(detail_->simplification().hash())
-                   .digest();
+  record.key = coat();
   record.index = index_;
   record.count = count_;
   return record;

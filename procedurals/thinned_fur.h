@@ -28,12 +28,14 @@ class ThinnedFurProcedural final : public Procedural {
   StrandScale scale() const override;
   size_t making_bytes() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
+  std::optional<ContentHash> content() const override;
   std::optional<BoundsRecord> bounds_record() const override;
 
  private:
   template <class Use>
   auto in_pose(BoundSpan span, const Use& use) const;
   Strands grow(const SkinPose& pose) const;
+  ContentHash coat() const;
 
   std::shared_ptr<const CoatDetail> detail_;
   std::shared_ptr<const PosedCharacterSkin> skin_;

@@ -71,8 +71,7 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
   const std::optional<ContentHash> key = content_of(chunks, options.fur);
   if (!key || !chunks.opaque()) {
     warn(std::string("render.bvh.file: ") +
-         (key ? "fur that is not opaque is not kept"
-              : "fur whose detail is reduced, or that was made elsewhere, is not kept") +
+         (key ? "fur that is not opaque is not kept" : "fur that was made elsewhere is not kept") +
          "; going on without");
     return nullptr;
   }

@@ -182,6 +182,11 @@ TEST(ThinnedFur, BoxesAreRememberedForTheirViewOnly) {
   s.distance *= 1.001f;
   EXPECT_FALSE(first == key());
   EXPECT_FALSE(first == FurProcedural(coat.groom, coat.skin).split()[0]->bounds_record()->key);
+  const auto far = FurProcedural(coat.groom, coat.skin, seen(coat, s)).split();
+  s.distance *= 2;
+  const auto farther = FurProcedural(coat.groom, coat.skin, seen(coat, s)).split();
+  EXPECT_TRUE(*far[0]->content() == *far[0]->content());
+  EXPECT_FALSE(*far[0]->content() == *farther[0]->content());
 }
 
 }  // namespace
