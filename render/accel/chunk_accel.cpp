@@ -298,13 +298,14 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
 
 Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   NearestSoFar nearest;
+  FurRays rays;
   std::optional<uint32_t> nearest_chunk;
   if (!is_finite(ray)) return nearest.hit;
   visit_chunks(
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
       [&](uint32_t chunk) {
         const bool found = residency_->visit(chunk, thread.worker, [&](Resident& unit) {
-          return static_cast<const ChunkGeometry&>(unit).closest(ray, nearest, thread.met);
+          return static_cast<const ChunkGeometry&>(unit).closest(ray, rays, nearest, thread.met);
         });
         if (found) nearest_chunk = chunk;
         return true;
@@ -316,6 +317,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
 
 float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
   if (!is_finite(ray)) return 1;
+  FurRays rays;
   Crossings crossings;
   bool blocked = false;
   visit_chunks(
@@ -323,7 +325,7 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
       [&](uint32_t chunk) {
         const size_t before = crossings.reports();
         blocked = !residency_->visit(chunk, thread.worker, [&](Resident& unit) {
-          return static_cast<const ChunkGeometry&>(unit).collect(ray, crossings);
+          return static_cast<const ChunkGeometry&>(unit).collect(ray, rays, crossings);
         });
         if (blocked || crossings.reports() != before) residency_->mark_hit(chunk);
         return !blocked;

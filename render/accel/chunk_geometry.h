@@ -8,6 +8,7 @@
 #include "cache/residency.h"
 #include "render/accel/accel.h"
 #include "render/accel/crossings.h"
+#include "render/accel/fur/fur_ray.h"
 
 namespace pelage {
 
@@ -32,10 +33,10 @@ struct NearestSoFar {
 class ChunkGeometry : public Resident {
  public:
   /// Whether the ray meets something here between near and far that stands before `nearest`, which then
-  /// becomes that; `met` its geometry.
-  virtual bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const = 0;
+  /// becomes that; `met` its geometry. `rays` is kept from chunk to chunk.
+  virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
   /// Adds the semi-transparent crossings of a ray; false when something opaque blocks it.
-  virtual bool collect(const Ray& ray, Crossings& crossings) const = 0;
+  virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
   /// What is held, this object included.
   virtual size_t bytes() const = 0;
   /// Most that was held while it was made.

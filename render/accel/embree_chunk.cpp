@@ -238,7 +238,7 @@ void EmbreeChunk::add_skin() {
   rtcReleaseGeometry(geometry);
 }
 
-bool EmbreeChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const {
+bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& met) const {
   RTCRayHit r;
   r.ray = embree_ray(ray);
   r.ray.tfar = std::min(ray.far, far_behind(nearest.hit.distance, longest_));
@@ -265,7 +265,7 @@ bool EmbreeChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& me
   return true;
 }
 
-bool EmbreeChunk::collect(const Ray& ray, Crossings& crossings) const {
+bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const {
   RTCRay r = embree_ray(ray);
   LightQuery query(opaque() ? nullptr : Filters::collect_crossings, *this, crossings);
   embree_occluded(scene_, query, r);

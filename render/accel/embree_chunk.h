@@ -29,8 +29,8 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunk(const EmbreeChunk&) = delete;
   EmbreeChunk& operator=(const EmbreeChunk&) = delete;
 
-  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const override;
-  bool collect(const Ray& ray, Crossings& crossings) const override;
+  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
 
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }

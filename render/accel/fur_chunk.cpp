@@ -89,14 +89,17 @@ FurStart FurChunk::start_of(const Ray& ray) const {
   return {ray.start.first_segment, ray.start.segment_count, ray.start.place};
 }
 
-bool FurChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const {
+bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const {
   Ray here = ray;
   // What is as near as the nearest so far may stand before it.
   if (nearest.hit)
     here.far =
         std::min(ray.far, std::nextafter(nearest.hit.distance, std::numeric_limits<float>::infinity()));
+  const FurTreeView& tree = tree_.view();
+  const FurRay* prepared = tree.nodes ? rays.prepare(tree, here, start_of(ray)) : nullptr;
+  if (!prepared) return false;
   StoppingFilter filter(*this, ray.random);
-  const FurHit found = tree_.closest(here, start_of(ray), strands_.opaque() ? nullptr : &filter);
+  const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
   if (!found) return false;
   const PackedStrands::Place place = strands_.locate(found.number);
   const uint32_t first = strands_.first_segment(place.strand);
@@ -117,9 +120,11 @@ bool FurChunk::closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) 
   return true;
 }
 
-bool FurChunk::collect(const Ray& ray, Crossings& crossings) const {
+bool FurChunk::collect(const Ray& ray, FurRays& rays, Crossings& crossings) const {
+  const FurTreeView& tree = tree_.view();
+  const FurRay* prepared = tree.nodes ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
   CollectingFilter filter(*this, crossings);
-  return !tree_.occluded(ray, start_of(ray), strands_.opaque() ? nullptr : &filter);
+  return !prepared || !fur_occludes(tree, *prepared, strands_.opaque() ? nullptr : &filter);
 }
 
 CrossingPlace FurChunk::crossing(PackedStrands::Place place, float u) const {

@@ -27,8 +27,8 @@ class FurChunk final : public ChunkGeometry {
   /// A chunk that was kept in a file.
   FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
 
-  bool closest(const Ray& ray, NearestSoFar& nearest, HitGeometry& met) const override;
-  bool collect(const Ray& ray, Crossings& crossings) const override;
+  bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
 
   uint32_t part() const { return part_; }
   const FurTree& tree() const { return tree_; }

@@ -579,21 +579,15 @@ HWY_EXPORT(closest);
 HWY_EXPORT(occluded);
 }  // namespace
 
-FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                   FurTests* tests) {
-  FurRay prepared;
-  if (!tree.nodes || !prepared.prepare(tree, ray, start)) return {};
-  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, prepared, filter, tests);
+FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
+  FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, ray, filter, tests);
   if (!hit) return {};
   hit.distance *= tree.step;
   return hit;
 }
 
-bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
-                  FurTests* tests) {
-  FurRay prepared;
-  if (!tree.nodes || !prepared.prepare(tree, ray, start)) return false;
-  return HWY_DYNAMIC_DISPATCH(occluded)(tree, prepared, filter, tests);
+bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
+  return HWY_DYNAMIC_DISPATCH(occluded)(tree, ray, filter, tests);
 }
 
 }  // namespace pelage

@@ -27,24 +27,16 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   const double grid_origin[3] = {(double(ray.origin.x) - tree.anchor.x) * grid,
                                  (double(ray.origin.y) - tree.anchor.y) * grid,
                                  (double(ray.origin.z) - tree.anchor.z) * grid};
-  const float origin[3] = {static_cast<float>(grid_origin[0]), static_cast<float>(grid_origin[1]),
-                           static_cast<float>(grid_origin[2])};
-  const float size = std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
-  if (!(size <= FurGrid::kReach)) return false;
-  near = ray.near * grid;
-  far = ray.far * grid;
-  start = from;
-
-  const float doubt = kDoubt * (size + tree.reach);
+  for (int i = 0; i < 3; ++i) origin[i] = static_cast<float>(grid_origin[i]);
+  origin_reach = std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
+  if (!(origin_reach <= FurGrid::kReach)) return false;
   for (int i = 0; i < 3; ++i) {
     const float along = std::abs(d[i]) < kSmallest ? std::copysign(kSmallest, d[i]) : d[i];
-    const bool backward = along < 0;
     inverse[i] = 1 / along;
-    near_side[i] = backward ? 1 : 0;
-    near_origin[i] = origin[i] + (backward ? -doubt : doubt);
-    far_origin[i] = origin[i] + (backward ? doubt : -doubt);
+    near_side[i] = along < 0 ? 1 : 0;
   }
   inverse[3] = near_origin[3] = far_origin[3] = 0;
+  begin(tree, ray, from);
 
   const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
   const uint32_t k =
@@ -83,6 +75,19 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
     fraction = scaled - static_cast<float>(key);
   }
   return true;
+}
+
+void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
+  const float grid = 1 / tree.step;
+  near = ray.near * grid;
+  far = ray.far * grid;
+  start = from;
+  const float doubt = kDoubt * (origin_reach + tree.reach);
+  for (int i = 0; i < 3; ++i) {
+    const float outward = near_side[i] == 1 ? doubt : -doubt;
+    near_origin[i] = origin[i] - outward;
+    far_origin[i] = origin[i] + outward;
+  }
 }
 
 }  // namespace pelage

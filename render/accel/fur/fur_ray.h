@@ -29,12 +29,47 @@ struct FurRay {
   float depth[3], origin_depth;     ///< z = depth . P - origin_depth
 
   float near, far;
-  int key = 0;  ///< motion: between this key and the next
+  float origin[3], origin_reach;  ///< the largest coordinate
+  int key = 0;                    ///< motion: between this key and the next
   float fraction = 0;
   FurStart start;
 
   /// False for rays that meet nothing because they are not finite.
   bool prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from);
+
+ private:
+  friend class FurRays;
+  void begin(const FurTreeView& tree, const Ray& ray, const FurStart& from);
 };
+
+/// One ray on its way through many trees. What it looks like in grid units is found once as long as their
+/// grids are the same, as those of the chunks of a coat are.
+class FurRays {
+ public:
+  /// As FurRay::prepare(); null where that is false. All calls are of one ray, whose far end may come nearer.
+  const FurRay* prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
+    if (!known_ || step_ != tree.step || anchor_ != tree.anchor || motion_keys_ != tree.motion_keys) {
+      known_ = true;
+      step_ = tree.step;
+      anchor_ = tree.anchor;
+      motion_keys_ = tree.motion_keys;
+      finite_ = ray_.prepare(tree, ray, from);
+    } else if (finite_) {
+      ray_.begin(tree, ray, from);
+    }
+    return finite_ ? &ray_ : nullptr;
+  }
+
+ private:
+  FurRay ray_;
+  V3f anchor_{0};
+  float step_ = 0;
+  int motion_keys_ = 0;
+  bool known_ = false, finite_ = false;
+};
+
+/// The queries of FurTree for a ray that was prepared for the view, which has nodes.
+FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
+bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 
 }  // namespace pelage

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "render/accel/fur/fur_leaf.h"
+#include "render/accel/fur/fur_ray.h"
 
 namespace pelage {
 namespace {
@@ -232,6 +233,20 @@ FurHit FurTree::closest(const Ray& ray, const FurStart& start, FurFilter* filter
 
 bool FurTree::occluded(const Ray& ray, const FurStart& start, FurFilter* filter) const {
   return fur_occludes(view_, ray, start, filter);
+}
+
+FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                   FurTests* tests) {
+  FurRay prepared;
+  if (!tree.nodes || !prepared.prepare(tree, ray, start)) return {};
+  return closest_fur(tree, prepared, filter, tests);
+}
+
+bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
+                  FurTests* tests) {
+  FurRay prepared;
+  if (!tree.nodes || !prepared.prepare(tree, ray, start)) return false;
+  return fur_occludes(tree, prepared, filter, tests);
 }
 
 }  // namespace pelage
