@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -95,7 +94,7 @@ size_t LabFur::segment_count() const {
 
 LabFur grow_lab_fur(const RenderScene& scene, const Workers& workers, Progress& progress) {
   LabFur fur;
-  fur.root_width = std::numeric_limits<float>::infinity();
+  std::vector<float> widths;
   Gatherer gatherer;
   for (const FurPart& part : scene.fur) {
     std::vector<std::unique_ptr<Procedural>> made;
@@ -109,19 +108,20 @@ LabFur grow_lab_fur(const RenderScene& scene, const Workers& workers, Progress& 
       }
     });
     progress.end();
-    double width = 0, count = 0;
     for (Strands& strands : grown) {
       for (size_t s = 0; s < strands.strand_count(); ++s) {
-        width += 2.0 * strands.points()[size_t(strands.first_point(s)) * 4 + 3];
-        ++count;
+        widths.push_back(2 * strands.points()[size_t(strands.first_point(s)) * 4 + 3]);
       }
       gatherer.add(strands);
       strands = {};
     }
-    if (width > 0) fur.root_width = std::min(fur.root_width, static_cast<float>(width / count));
   }
   if (gatherer.empty())
     throw Error(ErrorKind::kArguments, "there is no fur in this scene to trace rays through");
+  // One tree has one grid: wide enough that most strands fit narrow leaves.
+  const auto most = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
+  std::nth_element(widths.begin(), most, widths.end());
+  fur.root_width = *most;
   fur.strands = gatherer.finish();
   fur.centre = centre_of(fur.strands);
   return fur;

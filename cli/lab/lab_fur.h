@@ -14,7 +14,7 @@ class Workers;
 /// All fur of a frame as one batch of strands without attributes, for measuring what traces rays through it.
 struct LabFur {
   Strands strands;
-  float root_width = 0;  ///< mean of the coat with the thinnest strands
+  float root_width = 0;  ///< nine of ten strands are no wider at their roots
   V3f centre{0};         ///< of all points
 
   FurGrid grid() const { return FurGrid(root_width, centre); }
