@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Level of detail in pictures: what it must not depend on, and what it must leave alone.
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -9,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/measure/lod_pictures.h"
 #include "cli/measure/picture_difference.h"
+#include "cli/measure/run_statistics.h"
 #include "image/exr.h"
 #include "tests/support/temporary_folder.h"
 
@@ -27,7 +31,8 @@ class LodPictures : public testing::Test {
     options.output = (folder_.path() / (name + ".exr")).string();
     options.overrides = {{"image.width", "160"},          {"image.height", "90"},
                          {"image.lod_layer", "true"},     {"render.samples", "2"},
-                         {"grooms.under.strands", "900"}, {"grooms.guard.strands", "400"}};
+                         {"grooms.under.strands", "900"}, {"grooms.guard.strands", "400"},
+                         {"crowds.front.count", "2"},     {"crowds.colony.count", "4"}};
     for (const char* groom : {"under", "guard", "whiskers"}) {
       options.overrides.push_back(
           {std::string("grooms.") + groom + ".cache.directory", (folder_.path() / "cache").string()});
@@ -91,6 +96,59 @@ TEST_F(LodPictures, FalseColoursShowWhatWasLeftOut) {
   ASSERT_TRUE(sheet);
   EXPECT_EQ(sheet->width, 160);
   EXPECT_EQ(sheet->height, 45);
+}
+
+/// A ball of combed fur on a skin, seen from one place; the camera of the detail stands `distance` away.
+class LodBall : public testing::Test {
+ protected:
+  double coverage(double distance) {
+    std::ofstream(folder_.path() / "ball.yaml") << R"(pelage: 1
+camera: {position: [0, 0, 12], look_at: [0, 0, 0], fov: 24}
+image: {width: 100, height: 100, light_layers: false}
+skins: {ball: {mesh: )" << PELAGE_SOURCE_DIR << R"(/examples/pebble.obj}}
+grooms:
+  coat:
+    skin: ball
+    strands: 60000
+    operators:
+      - length: {value: 0.5, variation: 0.3}
+      - comb: {direction: [0, -1, 0.3], lift: 0.4}
+      - frizz: {amplitude: 0.02, frequency: 3}
+      - width: {root: 0.004, tip: 0.001}
+materials: {hide: {model: lambert}, fur: {model: cone-shell}}
+characters: {one: {parts: [{skin: ball, material: hide, grooms: {coat: fur}}]}}
+lights: {sky: {type: environment, radiance: 0.5}}
+render: {samples: 16, bounces: 0}
+)";
+    Options options;
+    options.command = Command::kRender;
+    options.input = (folder_.path() / "ball.yaml").string();
+    options.output = (folder_.path() / "ball.exr").string();
+    options.stats = (folder_.path() / "ball.json").string();
+    options.progress = ProgressStyle::kQuiet;
+    options.overrides = {{"render.lod.enabled", distance > 0 ? "true" : "false"},
+                         {"render.lod.camera", "{position: [0, 0, " + std::to_string(distance) +
+                                                   "], look_at: [0, 0, -1], fov: 24}"}};
+    EXPECT_EQ(run_render(options), 0);
+    strands_ = RunStatistics::read(*options.stats)->number("strands_generated");
+    const ExrImage image = read_exr(options.output);
+    const std::vector<float>& alpha = image.find("A")->pixels;
+    return std::accumulate(alpha.begin(), alpha.end(), 0.0) / static_cast<double>(alpha.size());
+  }
+
+  TemporaryFolder folder_;
+  double strands_ = 0;
+};
+
+// Silhouettes of hair are where coverage is neither full nor none.
+TEST_F(LodBall, CoversAsMuchAsBefore) {
+  const double full = coverage(0);
+  EXPECT_EQ(strands_, 60000);
+  EXPECT_NEAR(coverage(6), full, 0.01 * full);
+  EXPECT_LT(strands_, 0.15 * 60000);
+  EXPECT_GT(strands_, 0.08 * 60000);
+  EXPECT_NEAR(coverage(25), full, 0.02 * full);
+  EXPECT_LT(strands_, 0.04 * 60000);
 }
 
 }  // namespace
