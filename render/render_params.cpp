@@ -71,8 +71,8 @@ const Schema<RenderParams>& RenderParams::schema() {
          .max = 1e7});
     s.key("light_samples", &RenderParams::light_samples,
           {.help =
-               "Points on lights that each scattering looks at: more is slower and less noisy, about as much "
-               "as more samples are",
+               "Shadow rays of each scattering: more is slower and less noisy, about as much as more samples "
+               "are",
            .min = 1,
            .max = 64});
     s.key(

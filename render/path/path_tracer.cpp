@@ -2,6 +2,7 @@
 #include "render/path/path_tracer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/light/mis.h"
 
@@ -10,9 +11,10 @@ namespace {
 
 /// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
 enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
-enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kVertexDraws = 4 };
-/// Light samples beyond the first take draws that no vertex of any path gets to.
-constexpr uint32_t kMoreLights = 1u << 20;
+enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
+/// Points on lights among which one shadow ray chooses.
+constexpr uint32_t kCandidates = 4;
+constexpr float kGolden = 0.6180339887f;
 
 /// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
 constexpr float kJustBefore = 1 - 1e-4f;
@@ -103,40 +105,74 @@ void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch
   }
 }
 
-/// Direct light by points on lights.
+/// Direct light by points on lights: of several points the ones that shadow rays go to are drawn in
+/// proportion to what would arrive if nothing stood in between [Talbot05].
 void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
-  const auto count = static_cast<uint32_t>(scene_.render.light_samples);
-  for (uint32_t i = 0; i < count; ++i) {
-    path.seek(kLight);
-    if (i > 0) path.stream.seek(kMoreLights + path.vertex * count + i);
-    V2f u = path.stream.next2d();
-    u.x = std::min((u.x + static_cast<float>(i)) / static_cast<float>(count), kBelowOne);  // lights in turn
-    sample_light(point, u, path);
+  const auto rays = static_cast<uint32_t>(scene_.render.light_samples);
+  const uint32_t count = rays * kCandidates;
+  path.seek(kLight);
+  const V2f u = path.stream.next2d();
+  std::vector<LightPoint>& points = path.scratch.light_points;
+  points.clear();
+  double total = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    // Every point alone is anywhere with equal chance; together they are a lattice, the lights in turn.
+    const float turn = u.y + static_cast<float>(k) * kGolden;
+    const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
+                 std::min(turn - std::floor(turn), kBelowOne));
+    if (const auto sample = light_point(point, at, path)) {
+      points.push_back(*sample);
+      total += sample->luminance;
+    }
+  }
+  if (points.empty()) return;
+  path.seek(kLightChoice);
+  const double step = total / rays;
+  double next = path.stream.next1d() * step, sum = 0;
+  for (const LightPoint& at : points) {
+    sum += at.luminance;
+    int chosen = 0;
+    for (; next < sum; next += step) ++chosen;
+    if (chosen > 0) shadow_ray(point, at, static_cast<float>(chosen * step / at.luminance), path);
   }
 }
 
-/// One pair for the choice and the point on the light: what the choice leaves of x keeps points stratified.
-void PathTracer::sample_light(const ScatterPoint& point, const V2f& u, Path& path) const {
-  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
-  if (!(choice.probability > 0)) return;
-  const Light& light = scene_.lights.light(choice.light);
-  const auto sample = light.sample(point.position(), {choice.remapped, u.y});
-  if (!sample || !(sample->pdf > 0)) return;
-  const FibreValue value = point.eval(sample->direction);
-  const float pdf = choice.probability * sample->pdf * static_cast<float>(scene_.render.light_samples);
-  const float weight = options_.direct == DirectLight::kBoth ? power_weight(pdf, value.pdf) : 1.0f;
-  const Rgb light_in = sample->radiance * (weight / pdf);
-  if (!(largest(value.total() * light_in) > 0)) return;
+/// How many points on lights a vertex looks at. They count in full against directions drawn from the lobes,
+/// although few are asked for their visibility: what a lobe finds by chance, a small light that is bright, is
+/// the noise of paths that are long.
+float PathTracer::light_point_count() const {
+  return static_cast<float>(kCandidates) * static_cast<float>(scene_.render.light_samples);
+}
 
+std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, const V2f& u,
+                                                  const Path& path) const {
+  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
+  if (!(choice.probability > 0)) return std::nullopt;
+  const auto sample = scene_.lights.light(choice.light).sample(point.position(), {choice.remapped, u.y});
+  if (!sample || !(sample->pdf > 0)) return std::nullopt;
+  LightPoint result;
+  result.light = choice.light;
+  result.direction = sample->direction;
+  result.distance = sample->distance;
+  result.value = point.eval(sample->direction);
+  const float pdf = light_point_count() * choice.probability * sample->pdf;
+  const float weight = options_.direct == DirectLight::kBoth ? power_weight(pdf, result.value.pdf) : 1.0f;
+  result.arriving = sample->radiance * (weight / pdf);
+  result.luminance = luminance(result.value.total() * result.arriving);
+  if (!(result.luminance > 0)) return std::nullopt;
+  return result;
+}
+
+void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const {
   Ray ray;
-  ray.origin = point.start(sample->direction);
-  ray.direction = sample->direction;
-  ray.far = sample->distance * kJustBefore;
+  ray.origin = point.start(to.direction);
+  ray.direction = to.direction;
+  ray.far = to.distance * kJustBefore;
   ray.time = path.time;
   ray.start = path.hit.start;
   ++path.scratch.rays.shadow;
   const float through = accel_.transmittance(ray, path.scratch.thread);
-  if (through > 0) path.add_scattered(choice.light, value, light_in * through);
+  if (through > 0) path.add_scattered(to.light, to.value, to.arriving * (through * factor));
 }
 
 /// Lights along a ray drawn from the lobes of the current vertex, seen from `from` as light sampling sees
@@ -149,8 +185,8 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
     if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
     float weight = 1;
     if (options_.direct == DirectLight::kBoth) {
-      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction) *
-                        static_cast<float>(scene_.render.light_samples);
+      const float pdf =
+          light_point_count() * path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
       weight = power_weight(lobe_pdf, pdf);
     }
     if (shadowed) {
