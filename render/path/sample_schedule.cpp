@@ -12,18 +12,21 @@ namespace pelage {
 namespace {
 
 /// `count`, a real number of any size, as a number of samples.
-uint32_t whole_count(double count, uint32_t least, uint32_t most) {
-  return std::max(least, static_cast<uint32_t>(std::clamp(std::ceil(count), 0.0, static_cast<double>(most))));
+uint32_t limited(double count, uint32_t least, uint32_t most) {
+  return std::max(least, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(most))));
 }
 
-Pilot pilot_of(const Film& film, uint32_t samples) {
-  Pilot pilot{film.width(), film.height(), samples, {}};
+/// Of the pilot, what is spent on finding out where something varies at all.
+constexpr uint32_t kProbeShare = 4;
+
+Pilot pilot_of(const Film& film) {
+  Pilot pilot{film.width(), film.height(), {}};
   pilot.pixels.reserve(film.moments().size());
   for (int y = 0; y < film.height(); ++y) {
     for (int x = 0; x < film.width(); ++x) {
       const PixelMoments& moments = film.moments()[pilot.pixels.size()];
-      pilot.pixels.push_back(
-          {static_cast<float>(moments.mean), static_cast<float>(moments.variance()), film.alpha(x, y) > 0});
+      pilot.pixels.push_back({static_cast<float>(moments.mean), static_cast<float>(moments.variance()),
+                              film.alpha(x, y) > 0, moments.count});
     }
   }
   return pilot;
@@ -80,21 +83,36 @@ SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
   return end;
 }
 
-SampleSchedule::End SampleSchedule::two_stage() {
+SampleSchedule::End SampleSchedule::pilot() {
   const uint32_t pilot = std::min(most(), static_cast<uint32_t>(params_.adaptive->pilot));
+  const uint32_t probe = (pilot + kProbeShare - 1) / kProbeShare;
   progress_.begin("pilot", static_cast<double>(loop_.pixel_count()) * pilot);
-  End end = uniform(pilot);
+  End end = uniform(probe);
+  if (end == End::kDone) {
+    const std::vector<uint8_t> worth = worth_a_pilot(pilot_of(loop_.film()));
+    const auto goal = [&](size_t pixel, uint32_t) { return worth[pixel] ? pilot : probe; };
+    double expected = 0;
+    for (size_t i = 0; i < worth.size(); ++i) expected += goal(i, 0);
+    progress_.expect(expected);
+    end = loop_.pass(goal, false, deadline());
+  }
   progress_.end();
-  const std::vector<uint32_t> counts =
-      end == End::kDone ? second_stage_counts() : std::vector<uint32_t>(loop_.pixel_count());
+  return end;
+}
+
+SampleSchedule::End SampleSchedule::two_stage() {
+  End end = pilot();
+  std::vector<uint32_t> before(loop_.pixel_count());
+  for (size_t i = 0; i < before.size(); ++i) before[i] = loop_.given(i);
+  const std::vector<uint32_t> counts = end == End::kDone ? second_stage_counts() : before;
   double missing = 0;
-  for (uint32_t count : counts) missing += count > pilot ? count - pilot : 0;
+  for (size_t i = 0; i < before.size(); ++i) missing += counts[i] - before[i];
   progress_.begin("render", missing);
   for (uint32_t share : {8u, 4u, 2u, 1u}) {
     if (share > 1 && !in_passes_) continue;
     if (end != End::kDone) break;
     const auto goal = [&](size_t pixel, uint32_t) {
-      return counts[pixel] > pilot ? pilot + (counts[pixel] - pilot + share - 1) / share : pilot;
+      return before[pixel] + (counts[pixel] - before[pixel] + share - 1) / share;
     };
     end = loop_.pass(goal, false, deadline());
   }
@@ -102,18 +120,17 @@ SampleSchedule::End SampleSchedule::two_stage() {
 }
 
 std::vector<uint32_t> SampleSchedule::second_stage_counts() {
-  const uint32_t pilot = loop_.given(0);
-  const std::vector<float> wanted =
-      two_stage_counts(pilot_of(loop_.film(), pilot), *params_.adaptive, most());
+  const std::vector<float> wanted = two_stage_counts(pilot_of(loop_.film()), *params_.adaptive, most());
   const auto count = [&](size_t pixel, double factor) {
-    return whole_count(factor * wanted[pixel], pilot, most());
+    return limited(whole_blocks(std::min<double>(factor * wanted[pixel], most())), loop_.given(pixel),
+                   most());
   };
   double factor = 1;
   if (params_.time_limit > 0) {
     const double left = (params_.time_limit - clock_.seconds()) * workers_.thread_count();
     const auto cost = [&](double tried) {
       double sum = 0;
-      for (size_t i = 0; i < wanted.size(); ++i) sum += loop_.cost(i) * (count(i, tried) - pilot);
+      for (size_t i = 0; i < wanted.size(); ++i) sum += loop_.cost(i) * (count(i, tried) - loop_.given(i));
       return sum;
     };
     if (cost(1) > left) {
@@ -154,7 +171,7 @@ SampleSchedule::End SampleSchedule::seed() {
       }
       done = false;
       const double needed = m.variance() * std::pow(kConfidence / (noise * m.mean), 2);
-      expected += whole_count(needed, given, most());
+      expected += limited(needed, given, most());
     }
     progress_.expect(expected);
     if (done) break;

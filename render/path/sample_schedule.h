@@ -15,11 +15,12 @@ struct ScheduleEnd {
 /// Decides which pixel gets how many samples, and in which order, so that a frame that is cancelled, or out
 /// of time, is a valid one of fewer samples.
 ///
-/// All pixels alike: passes of 1, 1, 2, 4, 8 ... samples. Adaptive, two-stage: such passes until each has its
-/// pilot, then an eighth, a quarter, half and all of what two_stage_counts() says is missing. Adaptive by the
-/// seed's rule: passes of one batch, two, four ... for the pixels that have not converged. Where the memory
-/// limit does not hold all chunks (`stays` is false) and no time limit is set, stages are one pass each, so
-/// that a tile is finished while what it needs is there.
+/// All pixels alike: passes of 1, 1, 2, 4, 8 ... samples. Adaptive, two-stage: such passes until each has a
+/// quarter of the pilot, the rest of it where anything varies, then an eighth, a quarter, half and all of
+/// what two_stage_counts() says is missing. Adaptive by the seed's rule: passes of one batch, two, four ...
+/// for the pixels that have not converged. Where the memory limit does not hold all chunks (`stays` is false)
+/// and no time limit is set, stages are one pass each, so that a tile is finished while what it needs is
+/// there.
 ///
 /// Every count is a function of the samples of the frame, not of threads or of the clock, unless the time
 /// limit is met. The limit counts from the start of `clock`; every pixel gets one sample at least. Under the
@@ -34,6 +35,8 @@ class SampleSchedule {
   using End = FrameLoop::End;
   /// All pixels to `samples`.
   End uniform(uint32_t samples);
+  /// A quarter of the pilot for every pixel, and the rest where worth_a_pilot() says so.
+  End pilot();
   End two_stage();
   End seed();
   /// What two_stage_counts() asks for, as counts that fit the time limit.

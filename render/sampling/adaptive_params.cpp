@@ -23,7 +23,9 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
           {.help = "Two-stage: whether the root mean square over the noisy pixels of the frame keeps the "
                    "budget, by the least number of samples, or each pixel"});
     s.key("pilot", &AdaptiveParams::pilot,
-          {.help = "Two-stage: samples that every pixel gets before counts are decided",
+          {.help = "Two-stage: samples that a pixel gets before counts are decided; a quarter of them where "
+                   "nothing is "
+                   "met and nothing varies",
            .min = 4,
            .max = 65536});
     s.key("batch", &AdaptiveParams::batch,

@@ -19,6 +19,10 @@ struct Offset {
 constexpr Offset kOtherColor[] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1}, {-1, -2}, {1, -2},
                                   {-2, -1}, {2, -1}, {-2, 1}, {2, 1}, {-1, 2},  {1, 2}};
 
+/// The others of the same colour.
+constexpr Offset kOwnColor[] = {{-2, 0}, {-1, -1}, {-1, 1},  {0, -2}, {0, 2},  {1, -1},
+                                {1, 1},  {2, 0},   {-2, -2}, {2, -2}, {-2, 2}, {2, 2}};
+
 double squared(double x) { return x * x; }
 
 /// Counts of the pixels of one colour.
@@ -32,11 +36,13 @@ class ColorCounts {
         floor2_(squared(kDark * mean_of_other())) {}
 
   void fill(std::vector<float>& counts) const {
-    std::vector<double> variances;
-    for_each_pixel([&](int x, int y) { variances.push_back(relative_variance(x, y)); });
+    std::vector<Variance> variances;
+    for_each_pixel([&](int x, int y) {
+      variances.push_back({relative_variance(x, y), pilot_.pixels[index(x, y)].samples});
+    });
     double sum = 0, roots = 0;
     size_t known = 0;
-    for (double v : variances) {
+    for (const auto& [v, given] : variances) {
       if (!(v > 0)) continue;
       sum += v;
       roots += std::sqrt(v);
@@ -49,7 +55,7 @@ class ColorCounts {
         known == 0 ? static_cast<double>(most_) : factor * (frame ? roots : sum) / static_cast<double>(known);
     size_t i = 0;
     for_each_pixel([&](int x, int y) {
-      const double v = variances[i++];
+      const double v = variances[i++].value;
       double count = 0;
       if (v > 0) {
         count = factor * (frame ? std::sqrt(v) : v);
@@ -64,6 +70,10 @@ class ColorCounts {
   /// Something was met, yet nothing varied: dark for the pilot, but who knows.
   static constexpr double kUnknown = -1;
 
+  struct Variance {
+    double value;    // relative; 0 where nothing varies
+    uint32_t given;  // samples that the pixel has
+  };
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(pilot_.width) + static_cast<size_t>(x);
   }
@@ -111,13 +121,12 @@ class ColorCounts {
 
   /// The smallest k for which counts k sqrt(v), within what a pixel may get, bring the mean of v / count over
   /// the `known` pixels that vary down to `budget`.
-  double frame_factor(const std::vector<double>& variances, size_t known, double budget) const {
+  double frame_factor(const std::vector<Variance>& variances, size_t known, double budget) const {
     const auto excess = [&](double k) {
       double sum = 0;
-      for (double v : variances) {
+      for (const auto& [v, given] : variances) {
         if (v > 0)
-          sum += v / std::clamp(k * std::sqrt(v), static_cast<double>(pilot_.samples),
-                                static_cast<double>(most_));
+          sum += v / std::clamp(k * std::sqrt(v), static_cast<double>(given), static_cast<double>(most_));
       }
       return sum - budget * static_cast<double>(known);
     };
@@ -137,6 +146,31 @@ class ColorCounts {
 };
 
 }  // namespace
+
+std::vector<uint8_t> worth_a_pilot(const Pilot& probe) {
+  std::vector<uint8_t> worth(probe.pixels.size());
+  for (int y = 0; y < probe.height; ++y) {
+    for (int x = 0; x < probe.width; ++x) {
+      const PilotPixel* first = nullptr;
+      bool differs = false;
+      for (const Offset& offset : kOwnColor) {
+        const int px = x + offset.x, py = y + offset.y;
+        if (px < 0 || py < 0 || px >= probe.width || py >= probe.height) continue;
+        const PilotPixel& pixel = probe.pixels[static_cast<size_t>(py * probe.width + px)];
+        if (!first) first = &pixel;
+        differs |= pixel.hit || pixel.variance > 0 || pixel.mean != first->mean;
+      }
+      worth[static_cast<size_t>(y * probe.width + x)] = differs || !first;
+    }
+  }
+  return worth;
+}
+
+uint32_t whole_blocks(double count) {
+  if (!(count > 4)) return static_cast<uint32_t>(std::ceil(std::max(0.0, count)));
+  const double block = std::exp2(std::floor(std::log2(count)) - 2);
+  return static_cast<uint32_t>(std::round(count / block) * block);
+}
 
 std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t most) {
   std::vector<float> counts(pilot.pixels.size());
