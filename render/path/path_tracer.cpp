@@ -133,15 +133,17 @@ void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
     sum += at.luminance;
     int chosen = 0;
     for (; next < sum; next += step) ++chosen;
-    if (chosen > 0) shadow_ray(point, at, static_cast<float>(chosen * step / at.luminance), path);
+    if (chosen > 0) shadow_ray(point, at, static_cast<float>(chosen * step / (at.luminance * count)), path);
   }
 }
 
-/// How many points on lights a vertex looks at. They count in full against directions drawn from the lobes,
-/// although few are asked for their visibility: what a lobe finds by chance, a small light that is bright, is
-/// the noise of paths that are long.
-float PathTracer::light_point_count() const {
-  return static_cast<float>(kCandidates) * static_cast<float>(scene_.render.light_samples);
+/// The density that points on a light count with against directions drawn from the lobes, by that of one of
+/// them. All points count where a lobe would find the light by rare chance, although few of them are asked
+/// for their visibility: small lights that are bright are the noise of long paths. An environment is found by
+/// every ray that gets out, so there only the shadow rays count.
+float PathTracer::competing_pdf(float pdf, float distance) const {
+  const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
+  return pdf * points * static_cast<float>(scene_.render.light_samples);
 }
 
 std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, const V2f& u,
@@ -155,8 +157,10 @@ std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, con
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
-  const float pdf = light_point_count() * choice.probability * sample->pdf;
-  const float weight = options_.direct == DirectLight::kBoth ? power_weight(pdf, result.value.pdf) : 1.0f;
+  const float pdf = choice.probability * sample->pdf;
+  const float weight = options_.direct == DirectLight::kBoth
+                           ? power_weight(competing_pdf(pdf, sample->distance), result.value.pdf)
+                           : 1.0f;
   result.arriving = sample->radiance * (weight / pdf);
   result.luminance = luminance(result.value.total() * result.arriving);
   if (!(result.luminance > 0)) return std::nullopt;
@@ -185,9 +189,8 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
     if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
     float weight = 1;
     if (options_.direct == DirectLight::kBoth) {
-      const float pdf =
-          light_point_count() * path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
-      weight = power_weight(lobe_pdf, pdf);
+      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
+      weight = power_weight(lobe_pdf, competing_pdf(pdf, hit->distance));
     }
     if (shadowed) {
       Ray shadow = ray;

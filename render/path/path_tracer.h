@@ -33,7 +33,7 @@ struct LightPoint {
   V3f direction{0};
   float distance = 0;
   FibreValue value;     ///< of the scattering towards it
-  Rgb arriving{0};      ///< radiance, weighted, over the density of the point
+  Rgb arriving{0};      ///< radiance, weighted, over the density of one point
   float luminance = 0;  ///< of what that scatters
 };
 
@@ -69,7 +69,7 @@ class PathTracer {
   Ray camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const;
   void see_lights(const Ray& ray, float distance, PathScratch& scratch) const;
   void sample_lights(const ScatterPoint& point, Path& path) const;
-  float light_point_count() const;
+  float competing_pdf(float pdf, float distance) const;
   std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const Path& path) const;
   void shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const;
   bool sample_lobes(const ScatterPoint& point, Path& path) const;
