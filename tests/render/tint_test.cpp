@@ -34,7 +34,8 @@ TEST(Tint, OfASkinMultipliesItsColour) {
   const ExrImage tinted = render(scene);
   ASSERT_GT(sum(plain, "R"), 0);
   EXPECT_NEAR(sum(tinted, "R") / sum(plain, "R"), 0.5, 2e-3);  // films are half floats
-  EXPECT_EQ(sum(tinted, "G"), sum(plain, "G"));
+  // Lights are chosen by what they give in all colours, which rounds in other places.
+  EXPECT_NEAR(sum(tinted, "G") / sum(plain, "G"), 1, 1e-3);
   EXPECT_EQ(sum(tinted, "B"), 0);
 }
 
@@ -54,7 +55,7 @@ TEST(Tint, OfFurMultipliesItsColourUpToWhite) {
   };
   ASSERT_GT(of_fibre(plain, "R"), 0);
   EXPECT_NEAR(of_fibre(tinted, "R") / of_fibre(plain, "R"), 0.5, 0.02);
-  EXPECT_EQ(of_fibre(tinted, "G"), of_fibre(plain, "G"));
+  EXPECT_NEAR(of_fibre(tinted, "G") / of_fibre(plain, "G"), 1, 1e-3);
   EXPECT_NEAR(of_fibre(tinted, "B") / of_fibre(plain, "B"), 1 / 0.8, 0.02);  // not 3: fibres give no light
 }
 
