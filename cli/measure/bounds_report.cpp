@@ -151,7 +151,9 @@ std::vector<Outcome> plotted(const std::vector<Outcome>& outcomes) {
   return result;
 }
 
-Section memory_section(const Table& data, const std::vector<Outcome>& outcomes) {
+// `all` and `results`: with the rows whose savings are switched off, which the ledger must explain too.
+Section memory_section(const Table& data, const std::vector<Outcome>& outcomes, const Table& all,
+                       const BoundsResults& results) {
   std::vector<std::string> memory = keys_with(data, "memory_");
   memory.insert(memory.begin(), {"variant", "peak_rss_bytes", "working_set_bytes", "bytes_per_strand"});
   const std::vector<Outcome> few = plotted(outcomes);
@@ -161,8 +163,8 @@ Section memory_section(const Table& data, const std::vector<Outcome>& outcomes) 
               "Peak of the process, bytes of all chunks touched, and the peak of each tag of the ledger."),
        resident_plot(few, "Resident memory over time (anonymous and file-backed).")}};
   for (LinePlot& plot : tag_plots(few)) section.blocks.push_back(std::move(plot));
-  section.blocks.push_back(Paragraph{ledger_text(outcomes)});
-  section.blocks.push_back(ledger_table(data));
+  section.blocks.push_back(Paragraph{ledger_text(results.outcomes)});
+  section.blocks.push_back(ledger_table(all));
   return section;
 }
 
@@ -171,7 +173,7 @@ Section switch_section(const Table& data, const BoundsResults& results) {
       select(data,
              {"variant", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s", "working_set_bytes",
               "bytes_per_strand", "memory_chunks_bytes", "memory_skins_bytes", "peak_rss_bytes",
-              "relative_bounds_area", "box_tests_per_ray", "lost_pixels"},
+              "relative_bounds_area", "box_tests_per_ray", "lost_pixels", "largest_difference"},
              "What each saving is worth: everything on (exact), then with one of them switched off or "
              "on. All rows read warm caches.");
   for (Column& column : table.columns) {
@@ -183,13 +185,15 @@ Section switch_section(const Table& data, const BoundsResults& results) {
     if (id == kExactId || id == kExactShutterId || i >= results.strategies) rows.push_back(table.rows[i]);
   }
   table.rows = std::move(rows);
-  return {"Small tricks, each with its switch",
-          {Paragraph{"render.compact_attributes keeps every attribute of a chunk in the most compact class "
-                     "(constant, uniform, varying, vertex) and precision that loses nothing that the picture "
-                     "shows; render.shared_topology keeps one refiner and one set of patch tables for all "
-                     "characters of one topology; render.bounds: exact-shutter bounds what the shutter sees "
-                     "instead of the whole frame interval."},
-           std::move(table)}};
+  return {
+      "Small tricks, each with its switch",
+      {Paragraph{
+           "render.compact_attributes keeps every attribute of a chunk in the most compact class "
+           "(constant, uniform, varying, vertex) and in a precision that changes no more than last "
+           "bits of a picture; render.shared_topology keeps one refiner and one set of patch tables for all "
+           "characters of one topology; render.bounds: exact-shutter bounds what the shutter sees "
+           "instead of the whole frame interval."},
+       std::move(table)}};
 }
 
 Section picture_section(const BoundsResults& results) {
@@ -239,7 +243,7 @@ Report bounds_report(const BoundsResults& results) {
             "RSS), file-backed pages included."}}});
   report.sections.push_back(time_section(data, strategies));
   report.sections.push_back(work_section(data, strategies));
-  report.sections.push_back(memory_section(data, strategies));
+  report.sections.push_back(memory_section(data, strategies, report.data, results));
   report.sections.push_back(switch_section(report.data, results));
   report.sections.push_back(picture_section(results));
   return report;
