@@ -40,6 +40,8 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   }
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
+  if (options.experiment == Experiment::kAccel)
+    setup.arguments.insert(setup.arguments.end(), {"--rays", std::to_string(options.rays)});
   // One frame is what pictures, timelines and counts are compared of.
   setup.arguments.insert(setup.arguments.end(), {"--frames", fmt::format("{}", scene.frames.frames.front())});
   if (options.threads > 0)

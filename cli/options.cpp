@@ -113,6 +113,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   measure->add_option("--time-limit", options.time_limit_s, "Seconds after which a run is ended (600)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
+  measure->add_option("--rays", options.rays, "accel: rays of each kind, at most (131072)")
+      ->check(CLI::Range(1, 1 << 30))
+      ->type_name("N");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
 
   CLI::App* trace = app.add_subcommand(
@@ -123,6 +126,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   trace->add_option("--share", options.trace_share, "Memory of paged fur over the size of its tree")
       ->check(CLI::PositiveNumber)
       ->type_name("SHARE");
+  trace->add_option("--rays", options.rays, "Rays of each kind that 'prepare' makes, at most")
+      ->check(CLI::Range(1, 1 << 30))
+      ->type_name("N");
   trace->add_option("-o,--output", options.output, "Folder that 'prepare' fills and the others read")
       ->required()
       ->type_name("DIR");

@@ -53,6 +53,7 @@ struct Options {
   int repeat = 3;                               ///< measure: runs of each variant
   double time_limit_s = 600;                    ///< measure: a run that takes longer is ended
 
+  int rays = 1 << 17;                    ///< measure accel, trace: of each kind, at most
   std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()
   double trace_share = 1;                ///< trace: memory of `paged` over the size of its tree
 

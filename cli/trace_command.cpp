@@ -10,8 +10,6 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostRays = size_t(1) << 17;  // of each kind
-
 nlohmann::ordered_json json_of(const LabCost& cost) {
   return {{"wall_s", cost.wall_s},
           {"cpu_s", cost.cpu_s},
@@ -51,7 +49,7 @@ int run_trace(const Options& options) {
     const auto assets =
         run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
     const World world = compose(scene, *assets, scene.frames.frames.front(), run.workers(), run.ledger());
-    result = prepare_lab(world.scene, store, kMostRays, run.workers(), run.display());
+    result = prepare_lab(world.scene, store, static_cast<size_t>(options.rays), run.workers(), run.display());
   } else {
     result = trace_lab_rays(variant, store, run.workers(), run.display());
   }

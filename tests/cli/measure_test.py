@@ -108,7 +108,7 @@ class Measure(unittest.TestCase):
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
 
     def test_accel(self):
-        self.measure("accel", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet")
+        self.measure("accel", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--rays", "5000")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         self.assertEqual(len(rows), 9)
         self.assertEqual({rows[name]["status"] for name in ("Embree fast", "Embree compact", "fur 128", "fur 64")}, {"done"})
