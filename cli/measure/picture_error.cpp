@@ -10,6 +10,8 @@
 namespace pelage {
 namespace {
 
+constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};  // luminance
+
 /// R, G, B, A of a picture; empty when one is missing.
 std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
   std::vector<const std::vector<float>*> channels;
@@ -34,7 +36,6 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, 
   if (cx.empty() || cy.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(y) || !fits(b)) return {};
   const ExrChannel* counts = x.find("samples");
 
-  constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};
   const size_t pixels = ca[3]->size();
   const auto truth = [&](size_t c, size_t p) { return 0.5 * (double{(*ca[c])[p]} + double{(*cb[c])[p]}); };
   PictureError result;
@@ -87,6 +88,34 @@ std::optional<PictureError> picture_error_of_files(const std::filesystem::path& 
   } catch (const Error&) {
     return {};
   }
+}
+
+BestGain best_gain(const ExrImage& picture) {
+  const auto channels = channels_of(picture);
+  const ExrChannel *counts = picture.find("samples"), *noise = picture.find("noise");
+  if (channels.empty() || !counts || !noise) return {NAN, NAN};
+  const size_t pixels = channels[3]->size();
+  const auto seen = [&](size_t p) { return (*channels[3])[p] > 0; };
+  const auto light = [&](size_t p) {
+    return kWeights[0] * (*channels[0])[p] + kWeights[1] * (*channels[1])[p] +
+           kWeights[2] * (*channels[2])[p];
+  };
+  double surface = 0, mean = 0, sum = 0, roots = 0;
+  for (size_t p = 0; p < pixels; ++p) {
+    if (!seen(p)) continue;
+    ++surface;
+    mean += light(p);
+  }
+  mean /= surface;
+  for (size_t p = 0; p < pixels; ++p) {
+    if (!seen(p)) continue;
+    const double v = counts->ids[p] * double{noise->pixels[p]} * noise->pixels[p] /
+                     (light(p) * light(p) + 0.01 * mean * mean);
+    sum += v;
+    roots += std::sqrt(v);
+  }
+  const double gain = sum * surface / (roots * roots);
+  return {gain, gain * static_cast<double>(pixels) / surface};
 }
 
 }  // namespace pelage
