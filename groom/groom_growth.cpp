@@ -142,7 +142,8 @@ StrandWriter::Chosen Groom::Impl::chosen(const KeptStrands& kept, size_t begin) 
   if (kept.contrast.empty()) return chosen;
   chosen.color.reserve(kept.strands.size());
   for (size_t i = 0; i < kept.strands.size(); ++i) {
-    const auto [value, mean] = stack->brightness(operator_seed, source.follicles().id(begin + kept.strands[i]));
+    const auto [value, mean] =
+        stack->brightness(operator_seed, source.follicles().id(begin + kept.strands[i]));
     const bool changes = kept.contrast[i] != 1 && value > kDarkest;
     chosen.color.push_back(changes ? (mean + kept.contrast[i] * (value - mean)) / value : 1.0f);
   }

@@ -25,7 +25,7 @@ struct FurPart {
   /// The skin that the strands grow on, in rest pose, for material fields that depend on the rest position;
   /// may be null, then strands rest at their roots.
   std::shared_ptr<const LimitSurface> rest;
-  Rgb tint{1};  ///< multiplies the colour of the strands
+  Rgb tint{1};                             ///< multiplies the colour of the strands
   std::optional<Simplification> lod = {};  ///< by which detail was reduced
 };
 
