@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstring>
 #include <mutex>
+#include <tuple>
 
 #include "base/page_block.h"
 #include "base/parallel.h"
@@ -177,16 +178,17 @@ class PagedFur::Batch {
     }
     // In rounds: all pages for which rays wait, those first that are resident meanwhile, then the ones that
     // most rays wait for. Rays that go on join the queues of pages to come.
-    std::vector<uint32_t> round;
+    std::vector<Turn> round;
     while (!pages_.empty()) {
-      round.swap(pages_);
+      round.clear();
+      // Looked at once each: other threads read and drop pages meanwhile, and an order must not change while
+      // it is sorted by.
+      for (const uint32_t page : pages_) {
+        round.emplace_back(!fur_.residency_->is_resident(page), ~waiting_[page].size(), page);
+      }
       pages_.clear();
-      std::sort(round.begin(), round.end(), [&](uint32_t a, uint32_t b) {
-        const bool here = fur_.residency_->is_resident(a), there = fur_.residency_->is_resident(b);
-        if (here != there) return here;
-        return waiting_[a].size() != waiting_[b].size() ? waiting_[a].size() > waiting_[b].size() : a < b;
-      });
-      for (const uint32_t page : round) {
+      std::sort(round.begin(), round.end());
+      for (const auto& [absent, fewness, page] : round) {
         std::vector<uint32_t> rays;
         rays.swap(waiting_[page]);
         for (const uint32_t ray : rays) {
@@ -198,6 +200,7 @@ class PagedFur::Batch {
   }
 
  private:
+  using Turn = std::tuple<bool, size_t, uint32_t>;  // not resident, the less the more wait, page
   struct Step {
     float entry;
     uint32_t treelet;
