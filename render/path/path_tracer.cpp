@@ -21,6 +21,9 @@ constexpr float kJustBefore = 1 - 1e-4f;
 
 float largest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
 
+/// How likely roulette lets a path go on that has this weight.
+float survival(const Rgb& weight) { return std::min(1.0f, largest(weight)); }
+
 }  // namespace
 
 /// The state of a path at its current vertex.
@@ -59,6 +62,7 @@ struct PathTracer::Path {
   Hit hit;
   Rgb first[kLobeGroups];  // rho / pdf of the first vertex, by lobe group
   Rgb throughput{1};       // of the vertices after the first
+  Rgb weight{1};           // of all vertices before this one
 };
 
 PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
@@ -146,6 +150,18 @@ float PathTracer::competing_pdf(float pdf, float distance) const {
   return pdf * points * static_cast<float>(scene_.render.light_samples);
 }
 
+bool PathTracer::is_last(const Path& path) const {
+  return path.vertex == static_cast<uint32_t>(scene_.render.bounces);
+}
+
+/// The density with which sample_lobes() arrives at a light in a direction: that of the lobes, and what
+/// roulette leaves of it. Without the latter, what a dark surface scatters of a light would be left to a few
+/// rays of great weight.
+float PathTracer::arriving_pdf(const FibreValue& value, const Path& path) const {
+  if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
+  return value.pdf * survival(path.weight * (value.total() / value.pdf));
+}
+
 std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, const V2f& u,
                                                   const Path& path) const {
   const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
@@ -158,9 +174,10 @@ std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, con
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
   const float pdf = choice.probability * sample->pdf;
-  const float weight = options_.direct == DirectLight::kBoth
-                           ? power_weight(competing_pdf(pdf, sample->distance), result.value.pdf)
-                           : 1.0f;
+  const float weight =
+      options_.direct == DirectLight::kBoth
+          ? power_weight(competing_pdf(pdf, sample->distance), arriving_pdf(result.value, path))
+          : 1.0f;
   result.arriving = sample->radiance * (weight / pdf);
   result.luminance = luminance(result.value.total() * result.arriving);
   if (!(result.luminance > 0)) return std::nullopt;
@@ -204,7 +221,7 @@ void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, 
 
 /// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
 bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
-  const bool last = path.vertex == static_cast<uint32_t>(scene_.render.bounces);
+  const bool last = is_last(path);
   if (last && options_.direct == DirectLight::kLightsOnly) return false;
   path.seek(kLobe);
   const auto sample = point.sample(path.stream.next3d());
@@ -215,8 +232,8 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   } else {
     path.throughput *= value.total() / value.pdf;
   }
-  const Rgb weight = (path.first[0] + path.first[1] + path.first[2]) * path.throughput;
-  if (!(largest(weight) > 0)) return false;
+  path.weight *= value.total() / value.pdf;
+  if (!(largest(path.weight) > 0)) return false;
 
   Ray ray;
   ray.origin = point.start(sample->wi);
@@ -227,17 +244,19 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
     gather_lights(point.position(), ray, ray.far, value.pdf, true, path);
     return false;
   }
+  float survived = 1;
   if (options_.roulette) {
-    const float survival = std::min(1.0f, largest(weight));
+    survived = survival(path.weight);
     path.seek(kRoulette);
-    if (path.stream.next1d() >= survival) return false;
-    path.throughput /= survival;
+    if (path.stream.next1d() >= survived) return false;
+    path.throughput /= survived;
+    path.weight /= survived;
   }
   ray.random = ++path.random;
   ++path.scratch.rays.indirect;
   const Hit hit = accel_.closest(ray, path.scratch.thread);
   if (options_.direct != DirectLight::kLightsOnly) {
-    gather_lights(point.position(), ray, hit.distance, value.pdf, false, path);
+    gather_lights(point.position(), ray, hit.distance, value.pdf * survived, false, path);
   }
   path.ray = ray;
   path.hit = hit;

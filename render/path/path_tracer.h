@@ -53,9 +53,9 @@ struct PathScratch {
 /// At each vertex `light_samples` shadow rays go to lights, and the lobes are sampled. Where a shadow ray
 /// goes is drawn from several points on lights, which are chosen by importance, by what they would scatter if
 /// they were not occluded: evaluating a fibre costs a small part of tracing a ray [Talbot05]. The two
-/// estimates of direct light are weighted by the power heuristic, the choice of the light being part of the
-/// density. Lights are transparent to rays and to each other. `bounces` scatterings follow the first at most;
-/// paths end early, with the probability of losing their weight, by roulette.
+/// estimates of direct light are weighted by the power heuristic, the choice of the light and roulette
+/// being part of the densities. Lights are transparent to rays and to each other. `bounces` scatterings
+/// follow the first at most; paths end early, with the probability of losing their weight, by roulette.
 class PathTracer {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
@@ -69,6 +69,8 @@ class PathTracer {
   Ray camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const;
   void see_lights(const Ray& ray, float distance, PathScratch& scratch) const;
   void sample_lights(const ScatterPoint& point, Path& path) const;
+  bool is_last(const Path& path) const;
+  float arriving_pdf(const FibreValue& value, const Path& path) const;
   float competing_pdf(float pdf, float distance) const;
   std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const Path& path) const;
   void shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const;
