@@ -106,6 +106,30 @@ TEST(PathEstimators, RouletteChangesNoMean) {
   EXPECT_LT(with_rays, scene.statistics.rays["indirect"] - with_rays);
 }
 
+/// A light that is seldom chosen, on a surface so dark that few paths go on: were roulette not counted in the
+/// weights, what these few bring back would be nearly all there is of it.
+TEST(PathEstimators, DarkSurfacesAreNotLeftToRareRays) {
+  PathScene scene(16, 16);
+  LambertParams dark;
+  dark.color = Field(Rgb(0.02f));
+  scene.add_skin(sphere_mesh(0.8f), dark);
+  RectangleLightParams strong;
+  strong.position = V3f(0, 3, 1);
+  strong.look_at = V3f(0);
+  strong.size = V2f(4, 4);
+  strong.radiance = Rgb(20);
+  scene.add_light("strong", strong);
+  scene.add_sky(Rgb(1));
+  scene.camera.fov = 8.0f;
+  scene.render.samples = 32;
+  scene.render.bounces = 1;
+  PathOptions without;
+  without.roulette = false;
+  const Estimate a = estimate(scene, {}, 700), b = estimate(scene, without, 800);
+  expect_same(a, b);
+  EXPECT_LT(a.standard_error, 2 * b.standard_error);
+}
+
 /// Opaque fur of half the density would not do: half-transparent strands in front of a lamp dim it by 1 -
 /// opacity to the camera and to shadow rays alike.
 TEST(PathEstimators, SemiTransparentStrandsDimWhatIsBehind) {
