@@ -38,6 +38,7 @@ struct FurryScene : PathScene {
     o.wander = 0.2f;
     ConeShellParams fibre;
     fibre.color = Field(Rgb(0.9f, 0.8f, 0.6f));
+    fibre.diffuse = 0.65f;
     fibre.primary = Rgb(0.3f);
     add_fur(random_strands(9, o), fibre);
     LambertParams skin;
