@@ -72,6 +72,40 @@ TEST(Longitudinal, SamplesAsTheFormulaSays) {
   EXPECT_NEAR(LongitudinalLobe(.00651572f).sample({0.4f, 0.1f}, s, c), -.20942672, 1e-6);
 }
 
+/// Smooth fibres: what is drawn is what the density says, cell by cell about the peak.
+TEST(Longitudinal, NarrowLobesPassChiSquare) {
+  const double level = sidak_level(1e-4, 9);
+  uint64_t seed = 40;
+  for (float v : {1e-5f, 2e-4f, 6e-3f}) {
+    const LongitudinalLobe lobe(v);
+    for (double theta_o : {0.0, 0.6, -1.2}) {
+      constexpr int kCells = 40, kSamples = 50000, kSteps = 16;
+      const double s = std::sin(theta_o), c = std::cos(theta_o), reach = 4 * std::sqrt(double(v));
+      const auto at = [&](double cell) { return -theta_o + reach * (2 * cell / kCells - 1); };
+      std::vector<double> expected(kCells + 1), observed(kCells + 1);
+      double inside = 0;
+      for (int i = 0; i < kCells; ++i) {
+        for (int k = 0; k < kSteps; ++k) {
+          const double t = at(i + (k + 0.5) / kSteps);
+          if (std::abs(t) > kPiD / 2) continue;
+          expected[i] += lobe.density(std::sin(t), std::cos(t), s, c) * std::cos(t) * kSamples *
+                         (2 * reach / kCells / kSteps);
+        }
+        inside += expected[i];
+      }
+      expected[kCells] = std::max(0.0, kSamples - inside);
+      TestRandom random(++seed);
+      for (int i = 0; i < kSamples; ++i) {
+        const double t = std::asin(double(lobe.sample(random.unit2(), s, c)));
+        const double cell = std::floor(((t + theta_o) / reach + 1) / 2 * kCells);
+        observed[cell >= 0 && cell < kCells ? static_cast<size_t>(cell) : kCells] += 1;
+      }
+      const ChiSquare test = chi_square(observed, expected);
+      EXPECT_GT(test.p, level) << v << ' ' << theta_o << ": " << test.statistic << " / " << test.dof;
+    }
+  }
+}
+
 TEST(Azimuthal, TrimmedLogistic) {
   const TrimmedLogistic lobe(.11715981f);
   EXPECT_NEAR(lobe.sample(0.1f), -.25742641, 1e-6);

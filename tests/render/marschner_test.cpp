@@ -95,6 +95,26 @@ TEST(Marschner, IsReciprocalWithoutTilt) {
   }
 }
 
+/// TRT turns around at h_c = sqrt((4 - eta^2) / 3), where the paper's far field is infinite [Marschner03,
+/// section 5.2.2]: azimuths from the way back, in degrees.
+TEST(Marschner, TrtTurnsAroundAtTheCaustic) {
+  struct Row {
+    float eta;
+    double degrees;
+  };
+  for (const Row& row : {Row{1.55f, 18.6158}, Row{1.7f, 8.933}, Row{1.9f, 1.488}}) {
+    const auto azimuth = [&](double h) {
+      return FibreCrossing(row.eta, 0, 0, 1, static_cast<float>(h)).exit_azimuth(2) * 180 / kPi;
+    };
+    const double h = std::sqrt((4 - double(row.eta) * row.eta) / 3);
+    EXPECT_NEAR(std::abs(azimuth(h)), row.degrees, 2e-3) << row.eta;
+    EXPECT_NEAR((azimuth(h + 0.01) - azimuth(h - 0.01)) / 0.02, 0, 0.1) << row.eta;
+    EXPECT_LT(std::abs(azimuth(h + 0.05)), std::abs(azimuth(h))) << row.eta;
+    EXPECT_LT(std::abs(azimuth(h - 0.05)), std::abs(azimuth(h))) << row.eta;
+  }
+  EXPECT_NEAR(std::sqrt((4 - 1.55 * 1.55) / 3), .729726, 1e-6);
+}
+
 /// Where the far field has roots, they are what a narrow blur tends to: N_p = A(p, h) / |2 d Phi / d h|
 /// [Marschner03, equation 8], here for R and TT, which have one root each.
 TEST(Marschner, ANarrowBlurTendsToTheRootsOfThePaper) {
