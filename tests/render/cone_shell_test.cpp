@@ -54,6 +54,19 @@ TEST(ConeShell, LiteralIsReciprocalUntilCut) {
   EXPECT_GT(compared, 300);
 }
 
+/// The price of a sampler that is exact: weights across a shell are those of sin(theta_i), not of theta_i.
+TEST(ConeShell, WignerIsReciprocalOnlyWhereItIsNarrow) {
+  const auto off = [](float width) {
+    const auto f = [&](float theta_o, float theta_i) {
+      const ConeShell shell(ShellShape(width * kDegrees, 0), ShellVariant::kWigner, std::sin(theta_o));
+      return shell.density(std::sin(theta_i)) / std::cos(theta_i);
+    };
+    return std::abs(f(0.8f, -0.8f + 0.5f * width) / f(-0.8f + 0.5f * width, 0.8f) - 1);
+  };
+  EXPECT_GT(off(0.4f), 0.1f);
+  EXPECT_NEAR(off(0.02f) / 0.02f, 0.5f * std::tan(0.8f), 0.02f);
+}
+
 TEST(ConeShell, LiteralDrawsTheReferenceNumbers) {
   const ConeShell shell = shell_at(1.1f, 0.4f, ShellVariant::kLiteral);
   const struct {
