@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-CODE = {".h", ".cpp", ".py", ".cmake", ".sh"}
+CODE = {".h", ".cpp", ".inl", ".py", ".cmake", ".sh"}
 MOST_LINES = 600
 
 

@@ -88,7 +88,7 @@ def violations(root, text):
 
     for room in rooms.values():
         for path in sorted((root / room.name).rglob("*")):
-            if path.suffix not in (".h", ".cpp"):
+            if path.suffix not in (".h", ".cpp", ".inl"):
                 continue
             inside = path.relative_to(root).as_posix()
             for number, line in enumerate(path.read_text().splitlines(), 1):

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of fur_kernels.cpp: four numbers side by side, or as many as the instruction set has up to a
+// block's 16.
+
+using Floats = hn::Full128<float>;
+using Ints = hn::Full128<int32_t>;
+using V = hn::Vec<Floats>;
+constexpr Floats kFloats;
+using Words = hn::Full128<uint32_t>;
+constexpr Ints kInts;
+constexpr Words kWords;
+using Many = hn::CappedTag<float, 16>;
+constexpr Many kMany;
+
+HWY_INLINE V all(float x) { return hn::Set(kFloats, x); }
+
+template <class T>
+HWY_INLINE uint32_t bits_of(hn::Mask<hn::Full128<T>> mask) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(hn::Full128<T>(), mask, bytes);
+  return bytes[0];
+}
+
+HWY_INLINE uint32_t sign_bits(V v) {
+  return bits_of<int32_t>(hn::Lt(hn::BitCast(kInts, v), hn::Zero(kInts)));
+}
+
+HWY_INLINE V bytes_at(const std::byte* place) {
+  const hn::Simd<uint8_t, 4, 0> bytes;
+  return hn::ConvertTo(kFloats,
+                       hn::PromoteTo(kInts, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(place))));
+}
+
+HWY_INLINE V cross(V ax, V ay, V bx, V by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
+HWY_INLINE V dot(V ax, V ay, V bx, V by) { return hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)); }

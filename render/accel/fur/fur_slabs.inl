@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of fur_kernels.cpp: the boxes of nodes against a ray.
+
+/// A ray against the four boxes of a node of floats.
+template <bool kMoving>
+class FloatSlabs {
+ public:
+  HWY_INLINE FloatSlabs(const FurTreeView& tree, const FurRay& ray)
+      : references_(FurFloatNode::references(tree.motion_keys)),
+        key_(static_cast<size_t>(ray.key) * FurFloatNode::kKey),
+        before_(all(1 - ray.fraction)),
+        after_(all(ray.fraction)) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      inverse_[axis] = all(ray.inverse[axis]);
+      near_origin_[axis] = all(ray.near_origin[axis]);
+      far_origin_[axis] = all(ray.far_origin[axis]);
+      near_side_[axis] = axis * FurFloatNode::kAxis + ray.near_side[axis] * FurFloatNode::kSide;
+    }
+  }
+  HWY_INLINE const uint32_t* references(const std::byte* node) const {
+    return reinterpret_cast<const uint32_t*>(node + references_);
+  }
+  HWY_INLINE hn::Mask<Floats> meet(const std::byte* node, V& enter, V leave) const {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const V near_side = side(node + near_side_[axis]),
+              far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
+      enter = hn::Max(hn::Mul(hn::Sub(near_side, near_origin_[axis]), inverse_[axis]), enter);
+      leave = hn::Min(hn::Mul(hn::Sub(far_side, far_origin_[axis]), inverse_[axis]), leave);
+    }
+    return hn::Le(enter, leave);
+  }
+
+ private:
+  HWY_INLINE V side(const std::byte* place) const {
+    const V a = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_));
+    if constexpr (!kMoving) return a;
+    const V b = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_ + FurFloatNode::kKey));
+    return hn::Add(hn::Mul(a, before_), hn::Mul(b, after_));
+  }
+  size_t references_, key_;
+  V before_, after_, inverse_[3], near_origin_[3], far_origin_[3];
+  size_t near_side_[3];
+};
+
+/// The same of a quantised node.
+template <bool kMoving>
+class QuantisedSlabs {
+ public:
+  HWY_INLINE QuantisedSlabs(const FurTreeView&, const FurRay& ray)
+      : key_(FurQuantisedNode::kPlanes + static_cast<size_t>(ray.key) * FurQuantisedNode::kKey),
+        before_(all(1 - ray.fraction)),
+        after_(all(ray.fraction)),
+        inverse_(hn::Load(kFloats, ray.inverse)),
+        near_origin_(hn::Load(kFloats, ray.near_origin)),
+        far_origin_(hn::Load(kFloats, ray.far_origin)) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      near_side_[axis] = axis * FurQuantisedNode::kAxis + ray.near_side[axis] * FurQuantisedNode::kSide;
+    }
+  }
+  HWY_INLINE const uint32_t* references(const std::byte* node) const {
+    return reinterpret_cast<const uint32_t*>(node + FurQuantisedNode::kReferences);
+  }
+  HWY_INLINE hn::Mask<Floats> meet(const std::byte* node, V& enter, V leave) const {
+    const V origin = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kOrigin));
+    const V scale = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kScale));
+    const V step = hn::Mul(scale, inverse_);
+    const V first = hn::Mul(hn::Sub(origin, near_origin_), inverse_);
+    const V last = hn::Mul(hn::Sub(origin, far_origin_), inverse_);
+    node += key_;
+    meet_axis<0>(node, step, first, last, enter, leave);
+    meet_axis<1>(node, step, first, last, enter, leave);
+    meet_axis<2>(node, step, first, last, enter, leave);
+    return hn::Le(enter, leave);
+  }
+
+ private:
+  template <int kAxis>
+  HWY_INLINE void meet_axis(const std::byte* planes, V step, V first, V last, V& enter, V& leave) const {
+    const V steps = hn::Broadcast<kAxis>(step);
+    const V near_side = side(planes + near_side_[kAxis]);
+    const V far_side = side(planes + (near_side_[kAxis] ^ FurQuantisedNode::kSide));
+    enter = hn::Max(hn::Add(hn::Mul(near_side, steps), hn::Broadcast<kAxis>(first)), enter);
+    leave = hn::Min(hn::Add(hn::Mul(far_side, steps), hn::Broadcast<kAxis>(last)), leave);
+  }
+  HWY_INLINE V side(const std::byte* place) const {
+    const V a = bytes_at(place);
+    if constexpr (!kMoving) return a;
+    return hn::Add(hn::Mul(a, before_), hn::Mul(bytes_at(place + FurQuantisedNode::kKey), after_));
+  }
+  size_t key_;
+  V before_, after_, inverse_, near_origin_, far_origin_;
+  size_t near_side_[3];
+};
