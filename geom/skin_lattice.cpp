@@ -2,7 +2,7 @@
 #include "geom/skin_lattice.h"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -10,8 +10,13 @@ namespace pelage {
 
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 constexpr uint64_t kMostElements = std::numeric_limits<int32_t>::max();
+
+std::vector<uint32_t> all_faces(const SurfaceTopology::Impl& topology) {
+  std::vector<uint32_t> faces(topology.cage_face.size());
+  std::iota(faces.begin(), faces.end(), 0u);
+  return faces;
+}
 
 }  // namespace
 
@@ -21,65 +26,118 @@ uint32_t SkinLattice::Rail::vertex(uint32_t k) const {
   return position == line->rate ? line->end : line->inner + position - 1;
 }
 
-SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology) : topology_(topology) {
-  const CageConnectivity& cage = topology_.cage;
-  const auto face_count = static_cast<uint32_t>(topology_.cage_face.size());
-  lines_.resize(cage.edge_count());
-  spoke_.assign(face_count, kNone);
-  for (uint32_t face = 0; face < face_count; ++face) {
-    const uint32_t whole = topology_.cage_face[face];
-    if (cage.first_ptex[whole + 1] - cage.first_ptex[whole] == 1) continue;
-    spoke_[face] = static_cast<uint32_t>(lines_.size());
-    lines_.emplace_back();
-  }
-  for (uint32_t face = 0; face < face_count; ++face) {
+SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology)
+    : SkinLattice(topology, all_faces(topology), all_faces(topology)) {}
+
+SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
+                         std::span<const uint32_t> around)
+    : topology_(topology) {
+  find_lines(faces);
+  faces_.reserve(around.size());
+  inside_.reserve(faces.size());
+  size_t next = 0;
+  for (const uint32_t id : around) {
+    Face face{id, {kNone, kNone, kNone, kNone}};
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
-      const uint32_t index = line_of(face, side);
-      Line& line = lines_[index];
-      const bool is_half = is_edge(index) && spoke_[face] != kNone;
-      line.halved = line.halved || is_half;
-      if (line.used || topology_.hole[face]) continue;
-      line.used = true;
-      line.face = face;
-      line.side = side;
-      line.is_half = is_half;
+      const uint32_t wanted = line_id(id, side);
+      const auto found = std::lower_bound(lines_.begin(), lines_.end(), wanted,
+                                          [](const Line& line, uint32_t value) { return line.id < value; });
+      if (found == lines_.end() || found->id != wanted) continue;
+      face.line[side] = static_cast<uint32_t>(found - lines_.begin());
+      const bool is_half = is_edge(wanted) && is_part(id);
+      found->halved = found->halved || is_half;
+      if (found->face != kNone || topology_.hole[id]) continue;
+      found->face = id;
+      found->side = side;
+      found->is_half = is_half;
     }
+    if (next < faces.size() && faces[next] == id) {
+      inside_.push_back(static_cast<uint32_t>(faces_.size()));
+      ++next;
+    }
+    faces_.push_back(face);
   }
 }
 
-uint32_t SkinLattice::line_of(uint32_t face, uint32_t side) const {
+/// The lines of those of `faces` that are no holes, and the vertices of the cage that they end at.
+void SkinLattice::find_lines(std::span<const uint32_t> faces) {
+  std::vector<uint32_t> ids;
+  ids.reserve(faces.size() * topology_.corners_per_face());
+  for (const uint32_t face : faces) {
+    if (topology_.hole[face]) continue;
+    for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) ids.push_back(line_id(face, side));
+  }
+  const auto sort = [](std::vector<uint32_t>& values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  sort(ids);
+  lines_.resize(ids.size());
+  for (size_t i = 0; i < ids.size(); ++i) {
+    lines_[i].id = ids[i];
+    if (!is_edge(ids[i])) continue;
+    const uint32_t* ends = &topology_.cage.edge_vertices[size_t(ids[i]) * 2];
+    cage_vertices_.insert(cage_vertices_.end(), ends, ends + 2);
+  }
+  sort(cage_vertices_);
+}
+
+void SkinLattice::take_rates(const SkinLattice& whole) {
+  auto from = whole.lines_.begin();
+  for (Line& line : lines_) {
+    while (from->id < line.id) ++from;
+    line.rate = from->rate;
+  }
+}
+
+uint32_t SkinLattice::line_id(uint32_t face, uint32_t side) const {
   const CageConnectivity& cage = topology_.cage;
   const uint32_t whole = topology_.cage_face[face];
   const uint32_t* edges = &cage.corner_edge[cage.first_corner[whole]];
-  if (spoke_[face] == kNone) return edges[side];
+  if (!is_part(face)) return edges[side];
   const uint32_t first = cage.first_ptex[whole], n = cage.face_size(whole);
   const uint32_t corner = face - first, before = (corner + n - 1) % n;
   switch (side) {
     case 0:
       return edges[corner];
     case 1:
-      return spoke_[face];
+      return cage.edge_count() + face;
     case 2:
-      return spoke_[first + before];
+      return cage.edge_count() + first + before;
     default:
       return edges[before];
   }
 }
 
-SkinLattice::Rail SkinLattice::rail(uint32_t face, uint32_t side) const {
+/// The vertex of the cage where a side of a ptex face begins; kNone where it begins at the middle of an edge
+/// or of a face.
+uint32_t SkinLattice::corner_vertex(uint32_t face, uint32_t side) const {
   const CageConnectivity& cage = topology_.cage;
-  const uint32_t index = line_of(face, side);
-  const Line& line = lines_[index];
-  if (!is_edge(index)) {
+  const uint32_t whole = topology_.cage_face[face];
+  if (!is_part(face)) return cage.corner_vertex[cage.first_corner[whole] + side];
+  return side == 0 ? cage.corner_vertex[cage.first_corner[whole] + face - cage.first_ptex[whole]] : kNone;
+}
+
+/// Where a vertex of the cage stands in cage_vertices_, or kNone.
+uint32_t SkinLattice::place_of(uint32_t cage_vertex) const {
+  const auto found = std::lower_bound(cage_vertices_.begin(), cage_vertices_.end(), cage_vertex);
+  if (found == cage_vertices_.end() || *found != cage_vertex) return kNone;
+  return static_cast<uint32_t>(found - cage_vertices_.begin());
+}
+
+SkinLattice::Rail SkinLattice::rail(const Face& f, uint32_t side) const {
+  const CageConnectivity& cage = topology_.cage;
+  const Line& line = lines_[f.line[side]];
+  if (!is_edge(line.id)) {
     return side == 1 ? Rail{&line, 0, 1, line.rate} : Rail{&line, line.rate, -1, line.rate};
   }
   // Edges run one way, the faces around them both ways.
-  const uint32_t whole = topology_.cage_face[face], n = cage.face_size(whole);
-  const bool split = spoke_[face] != kNone;
-  const uint32_t corner = split ? face - cage.first_ptex[whole] : side;
+  const uint32_t whole = topology_.cage_face[f.id], n = cage.face_size(whole);
+  const bool split = is_part(f.id);
+  const uint32_t corner = split ? f.id - cage.first_ptex[whole] : side;
   const uint32_t from = split && side == 3 ? (corner + n - 1) % n : corner;
   const bool forward =
-      cage.corner_vertex[cage.first_corner[whole] + from] == cage.edge_vertices[size_t(index) * 2];
+      cage.corner_vertex[cage.first_corner[whole] + from] == cage.edge_vertices[size_t(line.id) * 2];
   const int step = forward ? 1 : -1;
   if (!split) return {&line, forward ? 0 : line.rate, step, line.rate};
   const uint32_t half = line.rate / 2;
@@ -114,26 +172,26 @@ void SkinLattice::number_line(uint32_t index) {
   Line& line = lines_[index];
   if (line.inner != kNone) return;
   line.inner = new_points(line.rate - 1);
-  if (is_edge(index)) {
-    for (int end = 0; end < 2; ++end) {
-      uint32_t& vertex =
-          cage_vertices_[topology_.cage.edge_vertices[size_t(index) * 2 + static_cast<size_t>(end)]];
+  if (is_edge(line.id)) {
+    for (size_t end = 0; end < 2; ++end) {
+      uint32_t& vertex = numbers_[place_of(topology_.cage.edge_vertices[size_t(line.id) * 2 + end])];
       if (vertex == kNone) vertex = new_points(1);
       (end == 0 ? line.start : line.end) = vertex;
     }
     return;
   }
-  // The centre belongs to the n-gon's first spoke, which is numbered before the others.
-  const uint32_t first = spoke_[topology_.cage.first_ptex[topology_.cage_face[line.face]]];
+  // The centre belongs to the n-gon's first spoke, which is numbered before the others. All spokes of an
+  // n-gon follow each other.
+  const uint32_t owner = line.id - topology_.cage.edge_count();
+  const uint32_t first = index - (owner - topology_.cage.first_ptex[topology_.cage_face[owner]]);
   if (lines_[first].end == kNone) lines_[first].end = new_points(1);
   line.end = lines_[first].end;
 }
 
-void SkinLattice::divide(uint32_t face) {
-  Face& f = faces_[face];
+void SkinLattice::divide(Face& f) {
   uint64_t rates[4] = {0, 0, 0, 0}, sum = 0;
   for (uint32_t side = 0; side < topology_.corners_per_face(); ++side)
-    sum += rates[side] = rail(face, side).rate;
+    sum += rates[side] = rail(f, side).rate;
   uint64_t inner = 0, triangles = 0;
   if (topology_.triangular) {
     uint64_t n = std::max({rates[0], rates[1], rates[2]});
@@ -158,77 +216,89 @@ void SkinLattice::divide(uint32_t face) {
   }
 }
 
-void SkinLattice::place_rails(uint32_t face) {
+/// Places what no face before has placed. Of a face without triangles here, what it shares with those.
+void SkinLattice::place_rails(const Face& f) {
+  const auto place = [&](uint32_t vertex, V2f uv) {
+    if (points_[vertex].face == kNone) points_[vertex] = {f.id, uv};
+  };
   for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
-    const Rail r = rail(face, side);
-    for (uint32_t k = 0; k <= r.rate; ++k) {
-      LatticePoint& point = points_[r.vertex(k)];
-      if (point.face == kNone)
-        point = {face, side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate))};
+    if (f.line[side] == kNone) {
+      const uint32_t corner = corner_vertex(f.id, side);
+      const uint32_t at = corner == kNone ? kNone : place_of(corner);
+      if (at != kNone) place(numbers_[at], side_uv(side, 0));
+      continue;
     }
+    const Rail r = rail(f, side);
+    for (uint32_t k = 0; k <= r.rate; ++k)
+      place(r.vertex(k), side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate)));
   }
 }
 
-void SkinLattice::place_inner(uint32_t face) {
-  const Face& f = faces_[face];
+void SkinLattice::place_inner(const Face& f) {
   const float du = 1.0f / static_cast<float>(f.nu), dv = 1.0f / static_cast<float>(f.nv);
   uint32_t vertex = f.inner;
   for (uint32_t j = 1; j < f.nv; ++j) {
     const uint32_t end = topology_.triangular ? f.nu - j : f.nu;
     for (uint32_t i = 1; i < end; ++i) {
-      points_[vertex++] = {face, V2f(static_cast<float>(i) * du, static_cast<float>(j) * dv)};
+      points_[vertex++] = {f.id, V2f(static_cast<float>(i) * du, static_cast<float>(j) * dv)};
     }
   }
 }
 
 void SkinLattice::number() {
-  cage_vertices_.assign(topology_.control_count, kNone);
-  faces_.assign(topology_.cage_face.size(), {});
+  numbers_.assign(cage_vertices_.size(), kNone);
   points_.clear();
   triangle_count_ = 0;
   for (Line& line : lines_) line.start = line.end = line.inner = kNone;
-  for (uint32_t face = 0; face < faces_.size(); ++face) {
-    faces_[face].triangle = static_cast<uint32_t>(triangle_count_);
-    if (topology_.hole[face]) continue;
-    for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) number_line(line_of(face, side));
+  for (const uint32_t inside : inside_) {
+    Face& face = faces_[inside];
+    face.triangle = static_cast<uint32_t>(triangle_count_);
+    if (is_hole(face)) continue;
+    for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) number_line(face.line[side]);
     divide(face);
   }
   for (LatticePoint& point : points_) point.face = kNone;
   // Spokes start in the middle of an edge, which has its vertices by now.
-  for (uint32_t face = 0; face < faces_.size(); ++face) {
-    if (topology_.hole[face] || spoke_[face] == kNone) continue;
+  for (const uint32_t inside : inside_) {
+    const Face& face = faces_[inside];
+    if (is_hole(face) || !is_part(face.id)) continue;
     const Rail half = rail(face, 0);
-    lines_[spoke_[face]].start = half.vertex(half.rate);
+    lines_[face.line[1]].start = half.vertex(half.rate);
   }
-  for (uint32_t face = 0; face < faces_.size(); ++face) {
-    if (topology_.hole[face]) continue;
-    place_rails(face);
-    place_inner(face);
+  for (const Face& face : faces_) {
+    if (!is_hole(face)) place_rails(face);
+  }
+  for (const uint32_t inside : inside_) {
+    if (!is_hole(faces_[inside])) place_inner(faces_[inside]);
   }
 }
 
 void SkinLattice::visit_split(const std::function<void(uint32_t, const LatticePoint&)>& visit) const {
   const CageConnectivity& cage = topology_.cage;
-  const auto end_is_split = [&](uint32_t edge, bool start) {
-    return cage.vertex_split[cage.edge_vertices[size_t(edge) * 2 + (start ? 0 : 1)]] != 0;
-  };
-  for (uint32_t face = 0; face < faces_.size(); ++face) {
-    if (topology_.hole[face]) continue;
+  for (const Face& face : faces_) {
+    if (is_hole(face)) continue;
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
-      const uint32_t index = line_of(face, side);
-      if (!is_edge(index)) continue;
-      const Line& line = lines_[index];
-      if (!cage.edge_split[index] && !end_is_split(index, true) && !end_is_split(index, false)) continue;
+      // A side's last node is the first of another: each face counts once at each vertex.
+      const uint32_t corner = corner_vertex(face.id, side);
+      if (corner != kNone && cage.vertex_split[corner]) {
+        const uint32_t at = place_of(corner);
+        if (at != kNone) visit(numbers_[at], {face.id, side_uv(side, 0)});
+      }
+      const uint32_t line = face.line[side];
+      if (line == kNone || !is_edge(lines_[line].id) || !cage.edge_split[lines_[line].id]) continue;
       const Rail r = rail(face, side);
-      // The last node is the first of another side: each face counts once at each vertex.
-      for (uint32_t k = 0; k < r.rate; ++k) {
-        const uint32_t vertex = r.vertex(k);
-        const bool at_start = vertex == line.start, at_end = vertex == line.end;
-        const bool split = at_start || at_end ? end_is_split(index, at_start) : cage.edge_split[index] != 0;
-        if (split) visit(vertex, {face, side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate))});
+      for (uint32_t k = corner == kNone ? 0 : 1; k < r.rate; ++k) {
+        visit(r.vertex(k),
+              {face.id, side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate))});
       }
     }
   }
+}
+
+size_t SkinLattice::bytes_bound(size_t around, size_t vertices) {
+  // Every face has at most four lines and corners of its own; vectors may have grown by doubling.
+  constexpr size_t kPerFace = sizeof(Face) + 4 * (sizeof(Line) + 7 * sizeof(uint32_t));
+  return sizeof(SkinLattice) + around * kPerFace + 2 * vertices * sizeof(LatticePoint);
 }
 
 /// Writes triangles one after the other.
@@ -239,17 +309,16 @@ class SkinLattice::Writer {
     V2f uv;
   };
 
-  Writer(const SkinLattice& lattice, uint32_t face, uint32_t* triangles, uint32_t* faces, V2f* uv)
+  Writer(const SkinLattice& lattice, const Face& face, uint32_t* triangles, uint32_t* faces, V2f* uv)
       : lattice_(lattice),
-        face_(face),
-        f_(lattice.faces_[face]),
+        f_(face),
         at_(f_.triangle),
         triangles_(triangles),
         faces_(faces),
         uv_(uv) {}
 
   void triangle(const Node& a, const Node& b, const Node& c) {
-    faces_[at_] = face_;
+    faces_[at_] = f_.id;
     const Node* nodes[3] = {&a, &b, &c};
     for (size_t i = 0; i < 3; ++i) {
       triangles_[at_ * 3 + i] = nodes[i]->vertex;
@@ -279,7 +348,7 @@ class SkinLattice::Writer {
   }
 
   std::vector<Node> side(uint32_t s) const {
-    const Rail r = lattice_.rail(face_, s);
+    const Rail r = lattice_.rail(f_, s);
     std::vector<Node> nodes;
     nodes.reserve(r.rate + 1);
     for (uint32_t k = 0; k <= r.rate; ++k) {
@@ -339,7 +408,6 @@ class SkinLattice::Writer {
 
  private:
   const SkinLattice& lattice_;
-  uint32_t face_;
   const Face& f_;
   size_t at_;
   uint32_t* triangles_;
@@ -347,8 +415,9 @@ class SkinLattice::Writer {
   V2f* uv_;
 };
 
-void SkinLattice::write_triangles(uint32_t face, uint32_t* triangles, uint32_t* faces, V2f* uv) const {
-  if (topology_.hole[face]) return;
+void SkinLattice::write_triangles(size_t i, uint32_t* triangles, uint32_t* faces, V2f* uv) const {
+  const Face& face = faces_[inside_[i]];
+  if (is_hole(face)) return;
   Writer writer(*this, face, triangles, faces, uv);
   topology_.triangular ? writer.triangle_face() : writer.quad_face();
 }

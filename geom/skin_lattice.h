@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "base/vector.h"
 #include "geom/surface_topology_impl.h"
 
 // Which vertices and triangles a tessellated skin has, before any of them has a position. For
-// tessellation.cpp.
+// tessellation.cpp and skin_pieces.cpp.
 
 namespace pelage {
 
@@ -22,13 +25,18 @@ struct LatticePoint {
 /// Divides the edges of a cage, each by a rate of its own, and fills the faces between them with triangles
 /// that use the vertices of their edges: neighbours share them, so no crack can open. Edges of a face that is
 /// split into several ptex faces are divided evenly, because two of these share each edge.
+///
+/// Of a whole skin, or of some of its faces: these get the triangles, and their vertices the places, that
+/// they have in the whole.
 class SkinLattice {
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
  public:
   /// What is divided: a cage edge, or the spoke from the middle of an n-gon's edge to the n-gon's centre.
   struct Line {
-    uint32_t face = 0;  ///< a ptex face that has the line, or half of it, as its side `side`
+    uint32_t id = 0;        ///< the cage edge, or edge_count + the ptex face whose side 1 is the spoke
+    uint32_t face = kNone;  ///< the first that is no hole and has the line, or half of it, as its side `side`
     uint32_t side = 0;
-    bool used = false;     ///< by a face that is no hole
     bool halved = false;   ///< by a face of several ptex faces: its rate must be even
     bool is_half = false;  ///< `side` of `face` is one half of it
     uint32_t rate = 1;
@@ -36,10 +44,17 @@ class SkinLattice {
     uint32_t inner = 0;           ///< first of the rate - 1 vertices between them
   };
 
+  /// Of all faces.
   explicit SkinLattice(const SurfaceTopology::Impl& topology);
+  /// Of `faces`, all ptex faces of some cage faces; `around` are these and all that touch them (faces_around).
+  /// Both ascending.
+  SkinLattice(const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
+              std::span<const uint32_t> around);
 
-  /// Set the rate of every line that is used before number().
+  /// Those of all faces with triangles. Set their rates before number().
   std::vector<Line>& lines() { return lines_; }
+  /// The rates of a lattice of all faces.
+  void take_rates(const SkinLattice& whole);
   /// The piece of a line that its `side` of its `face` is, as parameters of the face at fraction t.
   V2f side_uv(uint32_t side, float t) const;
   /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than 31 bits can number.
@@ -49,11 +64,23 @@ class SkinLattice {
   size_t triangle_count() const { return triangle_count_; }
   /// A place of every vertex.
   const std::vector<LatticePoint>& points() const { return points_; }
-  /// Writes the triangles of a ptex face where they belong in a skin's arrays.
-  void write_triangles(uint32_t face, uint32_t* triangles, uint32_t* faces, V2f* uv) const;
+
+  /// Faces with triangles here, holes among them.
+  size_t face_count() const { return inside_.size(); }
+  /// Ptex face number `i`.
+  uint32_t face(size_t i) const { return faces_[inside_[i]].id; }
+  size_t face_triangles(size_t i) const {
+    return (i + 1 < inside_.size() ? faces_[inside_[i + 1]].triangle : triangle_count_) -
+           faces_[inside_[i]].triangle;
+  }
+  /// Writes the triangles of ptex face number `i` where they belong in a skin's arrays.
+  void write_triangles(size_t i, uint32_t* triangles, uint32_t* faces, V2f* uv) const;
   /// Calls `visit` for every vertex and face around it where the normals of its faces differ, in order of
   /// faces.
   void visit_split(const std::function<void(uint32_t vertex, const LatticePoint& place)>& visit) const;
+
+  /// What a lattice holds at most, of so many faces around and vertices.
+  static size_t bytes_bound(size_t around, size_t vertices);
 
  private:
   /// A side of a ptex face, counterclockwise: positions base, base + step, ... of a line.
@@ -65,27 +92,35 @@ class SkinLattice {
     uint32_t vertex(uint32_t k) const;
   };
   struct Face {
-    uint32_t inner = 0;     ///< first inner vertex
-    uint32_t triangle = 0;  ///< first triangle
-    uint32_t nu = 0;        ///< divisions of the inner lattice; triangular faces have one number
+    uint32_t id = 0;               ///< ptex face
+    std::array<uint32_t, 4> line;  ///< of each side: which of lines_; kNone: of no face with triangles
+    uint32_t inner = 0;            ///< first inner vertex
+    uint32_t triangle = 0;         ///< first triangle
+    uint32_t nu = 0;               ///< divisions of the inner lattice; triangular faces have one number
     uint32_t nv = 0;
   };
   class Writer;
 
-  uint32_t line_of(uint32_t face, uint32_t side) const;
-  bool is_edge(uint32_t line) const { return line < topology_.cage.edge_count(); }
-  Rail rail(uint32_t face, uint32_t side) const;
+  uint32_t line_id(uint32_t face, uint32_t side) const;
+  bool is_edge(uint32_t line_id) const { return line_id < topology_.cage.edge_count(); }
+  bool is_part(uint32_t face) const { return topology_.part[face] != 0; }
+  bool is_hole(const Face& face) const { return topology_.hole[face.id] != 0; }
+  uint32_t corner_vertex(uint32_t face, uint32_t side) const;
+  uint32_t place_of(uint32_t cage_vertex) const;
+  Rail rail(const Face& face, uint32_t side) const;
+  void find_lines(std::span<const uint32_t> faces);
   void number_line(uint32_t line);
-  void divide(uint32_t face);
-  void place_rails(uint32_t face);
-  void place_inner(uint32_t face);
+  void divide(Face& face);
+  void place_rails(const Face& face);
+  void place_inner(const Face& face);
   uint32_t new_points(uint64_t count);
 
   const SurfaceTopology::Impl& topology_;
-  std::vector<Line> lines_;
-  std::vector<uint32_t> spoke_;          // line of each ptex face of an n-gon, from the middle of its side 0
-  std::vector<uint32_t> cage_vertices_;  // vertex at each vertex of the cage
-  std::vector<Face> faces_;
+  std::vector<Line> lines_;              // ascending by id
+  std::vector<uint32_t> cage_vertices_;  // those that lines_ end at, ascending
+  std::vector<uint32_t> numbers_;        // what vertex each of these became
+  std::vector<Face> faces_;              // those around
+  std::vector<uint32_t> inside_;         // those of faces_ with triangles
   std::vector<LatticePoint> points_;
   uint64_t triangle_count_ = 0;
 };

@@ -7,36 +7,15 @@
 #include "base/check.h"
 #include "base/parallel.h"
 #include "geom/skin_lattice.h"
+#include "geom/skin_pieces.h"
+#include "geom/skin_rates.h"
 
 namespace pelage {
 
 namespace {
 
-constexpr size_t kLinesAtOnce = 256;
 constexpr size_t kFacesAtOnce = 64;
 constexpr size_t kPointsAtOnce = 1024;
-
-/// Pieces that a line must be cut into so that none looks longer than asked for, in any of the poses.
-uint32_t line_rate(const SkinLattice::Line& line, const SkinLattice& lattice,
-                   std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options) {
-  float pixels = 0;
-  for (const LimitSurface& surface : keys) {
-    V3f p[3];
-    float scale = 0;
-    for (int i = 0; i < 3; ++i) {
-      const V2f uv = lattice.side_uv(line.side, 0.5f * static_cast<float>(i));
-      p[i] = surface.evaluate(line.face, uv.x, uv.y).position;
-      scale = std::max(scale, view.pixels_per_unit(p[i]));
-    }
-    pixels = std::max(pixels, ((p[1] - p[0]).length() + (p[2] - p[1]).length()) * scale);
-  }
-  if (line.is_half) pixels *= 2;
-  const auto most = static_cast<float>(std::max(options.max_rate, line.halved ? 2 : 1));
-  const float wanted = std::ceil(pixels / options.edge_pixels);
-  auto rate = static_cast<uint32_t>(wanted < most ? std::max(wanted, 1.0f) : most);
-  if (line.halved && rate % 2 != 0) rate += static_cast<float>(rate + 1) <= most ? 1 : -1;
-  return rate;
-}
 
 /// Unit sums of the normals of all faces around each vertex at which they differ.
 void average_split_normals(const SkinLattice& lattice, const LimitSurface& surface, float* normals) {
@@ -55,25 +34,36 @@ void average_split_normals(const SkinLattice& lattice, const LimitSurface& surfa
   }
 }
 
-/// How the skin will be cut, every vertex numbered.
-SkinLattice numbered_lattice(std::span<const LimitSurface> keys, const View& view,
-                             const TessellationOptions& options, const Workers& workers) {
-  PELAGE_CHECK(!keys.empty());
-  const SurfaceTopology& topology = keys[0].topology();
-  for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &topology);
-  const size_t end = std::min(options.end_rated_key, keys.size());
-  PELAGE_CHECK(options.first_rated_key < end);
-  const auto rated = keys.subspan(options.first_rated_key, end - options.first_rated_key);
-
-  SkinLattice lattice(topology.impl());
-  std::vector<SkinLattice::Line>& lines = lattice.lines();
-  workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      if (lines[i].used) lines[i].rate = line_rate(lines[i], lattice, rated, view, options);
-    }
+SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, const Workers& workers) {
+  SkinMesh mesh;
+  mesh.motion_keys = static_cast<int>(keys.size());
+  const size_t triangles = lattice.triangle_count();
+  mesh.triangles.resize(triangles * 3);
+  mesh.faces.resize(triangles);
+  mesh.vertex_uv.resize(triangles * 3);
+  workers.for_each(lattice.face_count(), kFacesAtOnce, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i)
+      lattice.write_triangles(i, mesh.triangles.data(), mesh.faces.data(), mesh.vertex_uv.data());
   });
-  lattice.number();
-  return lattice;
+
+  const std::vector<LatticePoint>& points = lattice.points();
+  mesh.positions.resize(points.size() * 3 * keys.size());
+  mesh.normals.resize(mesh.positions.size());
+  for (size_t key = 0; key < keys.size(); ++key) {
+    float* positions = mesh.positions.data() + key * points.size() * 3;
+    float* normals = mesh.normals.data() + key * points.size() * 3;
+    workers.for_each(points.size(), kPointsAtOnce, [&](WorkRange range) {
+      for (size_t i = range.begin; i < range.end; ++i) {
+        const auto& [face, uv] = points[i];
+        const SurfacePoint p = keys[key].evaluate(face, uv.x, uv.y);
+        std::copy_n(&p.position.x, 3, positions + i * 3);
+        const V3f normal = keys[key].frame(p, face, uv.x, uv.y).normal;
+        std::copy_n(&normal.x, 3, normals + i * 3);
+      }
+    });
+    average_split_normals(lattice, keys[key], normals);
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -101,47 +91,29 @@ void SkinMesh::assign_triangle(const SkinMesh& source, size_t triangle) {
   vertex_uv.assign(uv, uv + 3);
 }
 
-TessellationSize tessellation_size(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, const Workers& workers) {
-  const SkinLattice lattice = numbered_lattice(keys, view, options, workers);
-  return {lattice.points().size(), lattice.triangle_count()};
-}
-
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers) {
-  const SkinLattice lattice = numbered_lattice(keys, view, options, workers);
+  PELAGE_CHECK(!keys.empty());
+  SkinLattice lattice(keys[0].topology().impl());
+  set_rates(lattice, keys, view, options, workers);
+  lattice.number();
+  return fill(lattice, keys, workers);
+}
 
-  SkinMesh mesh;
-  mesh.motion_keys = static_cast<int>(keys.size());
-  const size_t triangles = lattice.triangle_count();
-  mesh.triangles.resize(triangles * 3);
-  mesh.faces.resize(triangles);
-  mesh.vertex_uv.resize(triangles * 3);
-  workers.for_each(keys[0].topology().face_count(), kFacesAtOnce, [&](WorkRange range) {
-    for (size_t face = range.begin; face < range.end; ++face) {
-      lattice.write_triangles(static_cast<uint32_t>(face), mesh.triangles.data(), mesh.faces.data(),
-                              mesh.vertex_uv.data());
-    }
-  });
+SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces, const View& view,
+                          const TessellationOptions& options) {
+  PELAGE_CHECK(!keys.empty());
+  const SurfaceTopology& topology = keys[0].topology();
+  SkinLattice lattice(topology.impl(), faces, faces_around(topology, faces));
+  set_rates(lattice, keys, view, options, Workers::alone());
+  lattice.number();
+  return fill(lattice, keys, Workers::alone());
+}
 
-  const std::vector<LatticePoint>& points = lattice.points();
-  mesh.positions.resize(points.size() * 3 * keys.size());
-  mesh.normals.resize(mesh.positions.size());
-  for (size_t key = 0; key < keys.size(); ++key) {
-    float* positions = mesh.positions.data() + key * points.size() * 3;
-    float* normals = mesh.normals.data() + key * points.size() * 3;
-    workers.for_each(points.size(), kPointsAtOnce, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i) {
-        const auto& [face, uv] = points[i];
-        const SurfacePoint p = keys[key].evaluate(face, uv.x, uv.y);
-        std::copy_n(&p.position.x, 3, positions + i * 3);
-        const V3f normal = keys[key].frame(p, face, uv.x, uv.y).normal;
-        std::copy_n(&normal.x, 3, normals + i * 3);
-      }
-    });
-    average_split_normals(lattice, keys[key], normals);
-  }
-  return mesh;
+size_t tessellating_bytes(size_t faces, size_t vertices) {
+  // Beside the lattice, the faces themselves, and the normals of what is split.
+  return SkinLattice::bytes_bound(faces, vertices) + faces * 2 * sizeof(uint32_t) +
+         vertices * 4 * sizeof(std::pair<uint32_t, V3f>);
 }
 
 }  // namespace pelage

@@ -48,19 +48,19 @@ struct TessellationOptions {
   size_t first_rated_key = 0, end_rated_key = SIZE_MAX;
 };
 
-/// How much tessellate() will make.
-struct TessellationSize {
-  size_t vertices = 0;
-  size_t triangles = 0;
-};
-TessellationSize tessellation_size(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, const Workers& workers);
-
 /// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`. Every
 /// edge of the cage is divided by its own length on screen, so that a skin costs what is seen of it; faces
 /// that share an edge share its vertices. Holes are left out. The same for any number of threads. Throws
 /// Error (kMemory) when there would be more than 2^31 vertices or triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
+/// The triangles of `faces` alone: all ptex faces of some cage faces, ascending. Bit by bit those of the whole,
+/// in the same order; their vertices are numbered anew. The surfaces need only be there on
+/// faces_around(faces). By the calling thread.
+SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces, const View& view,
+                          const TessellationOptions& options);
+/// What either holds at most beside what it gives, of so many ptex faces, those around them included, and
+/// vertices.
+size_t tessellating_bytes(size_t faces, size_t vertices);
 
 }  // namespace pelage

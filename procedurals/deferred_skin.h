@@ -2,28 +2,31 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "base/vector.h"
-#include "geom/tessellation.h"
+#include "geom/skin_pieces.h"
+#include "geom/view.h"
 #include "procedurals/procedural.h"
 
 namespace pelage {
 
-/// A skin whose triangles exist only while something needs them. World space.
+/// A skin whose triangles exist only while something needs them, piece by piece. World space.
 ///
 /// Thread safety: all members may be called from many threads at once. Same skin, same view, same bytes.
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// Holds every triangle over the span.
-  virtual Box3f bound(BoundSpan span) const = 0;
+  /// What it divides into, of at most `most_triangles` each where its faces allow it.
+  virtual std::vector<SkinPiece> divide(const View& view, size_t most_triangles) const = 0;
+  /// Holds every triangle of a piece over the span.
+  virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
   /// Poses of tessellate(), at even times over the shutter.
   virtual int motion_keys() const = 0;
-  /// Exactly how much tessellate() will give.
-  virtual TessellationSize size(const View& view) const = 0;
-  virtual SkinMesh tessellate(const View& view) const = 0;
-  /// What tessellate() holds beside what it gives, but for what is charged already.
-  virtual size_t making_bytes() const = 0;
+  /// The triangles of a piece, the same wherever the skin is divided.
+  virtual SkinMesh tessellate(const SkinPiece& piece, const View& view) const = 0;
+  /// What tessellate() holds at most beside what it gives, but for what is charged already.
+  virtual size_t making_bytes(const SkinPiece& piece) const = 0;
 };
 
 }  // namespace pelage

@@ -44,7 +44,10 @@ class FixedStrands final : public Procedural {
 class FixedSkin final : public DeferredSkin {
  public:
   explicit FixedSkin(SkinMesh mesh) : mesh_(std::move(mesh)) {}
-  Box3f bound(BoundSpan) const override {
+  std::vector<SkinPiece> divide(const View&, size_t) const override {
+    return {{{}, mesh_.vertex_count(), mesh_.triangle_count()}};
+  }
+  Box3f bound(const SkinPiece&, BoundSpan) const override {
     Box3f box;
     for (int key = 0; key < mesh_.motion_keys; ++key) {
       for (size_t i = 0; i < mesh_.vertex_count(); ++i) box.extendBy(mesh_.position(i, key));
@@ -52,9 +55,8 @@ class FixedSkin final : public DeferredSkin {
     return box;
   }
   int motion_keys() const override { return mesh_.motion_keys; }
-  TessellationSize size(const View&) const override { return {mesh_.vertex_count(), mesh_.triangle_count()}; }
-  SkinMesh tessellate(const View&) const override { return mesh_; }
-  size_t making_bytes() const override { return 0; }
+  SkinMesh tessellate(const SkinPiece&, const View&) const override { return mesh_; }
+  size_t making_bytes(const SkinPiece&) const override { return 0; }
 
  private:
   SkinMesh mesh_;

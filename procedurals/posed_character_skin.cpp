@@ -37,6 +37,13 @@ size_t bytes_of(const PosedCages& cages) {
   return sum;
 }
 
+/// Limit points are averages of control points, but patches near extraordinary vertices are off by up to 1e-3
+/// of a face (geom/limit_surface.h).
+Box3f widened(const Box3f& box) {
+  const V3f out(1e-3f * box.size().length());
+  return {box.min - out, box.max + out};
+}
+
 }  // namespace
 
 PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseCache> poses)
@@ -118,33 +125,52 @@ std::shared_ptr<const SkinPose> PosedCharacterSkin::passing_pose() const {
   return pose_.push_out_view ? pose(BoundSpan::kShutter) : make(BoundSpan::kShutter);
 }
 
+template <class Visit>
+void PosedCharacterSkin::visit_cages(BoundSpan span, const Visit& visit) const {
+  for (const std::vector<V3f>& cage : pose_.shutter.cages) visit(cage);
+  if (span != BoundSpan::kFrame) return;
+  for (const std::vector<V3f>& cage : pose_.frame_ends.cages) visit(cage);
+}
+
 Box3f PosedCharacterSkin::bound(BoundSpan span) const {
   Box3f box;
-  const auto extend = [&](const PosedCages& cages) {
-    for (const std::vector<V3f>& cage : cages.cages) {
-      for (const V3f& point : cage) box.extendBy(point);
-    }
-  };
-  extend(pose_.shutter);
-  if (span == BoundSpan::kFrame) extend(pose_.frame_ends);
-  // Limit points are averages of control points, but patches near extraordinary vertices are off by up to
-  // 1e-3 of a face (geom/limit_surface.h).
-  const V3f out(1e-3f * box.size().length());
-  return {box.min - out, box.max + out};
+  visit_cages(span, [&](const std::vector<V3f>& cage) {
+    for (const V3f& point : cage) box.extendBy(point);
+  });
+  return widened(box);
 }
 
-TessellationSize PosedCharacterSkin::size(const View& view) const {
-  return tessellation_size(passing_pose()->keys, view, {}, Workers::alone());
+Box3f PosedCharacterSkin::bound(const SkinPiece& piece, BoundSpan span) const {
+  if (piece.is_whole()) return bound(span);
+  const std::vector<uint32_t> vertices =
+      vertices_of(*pose_.topology, faces_around(*pose_.topology, piece.faces));
+  Box3f box;
+  visit_cages(span, [&](const std::vector<V3f>& cage) {
+    for (const uint32_t vertex : vertices) box.extendBy(cage[vertex]);
+  });
+  return widened(box);
 }
 
-SkinMesh PosedCharacterSkin::tessellate(const View& view) const {
-  return pelage::tessellate(passing_pose()->keys, view, {}, Workers::alone());
+std::vector<SkinPiece> PosedCharacterSkin::divide(const View& view, size_t most_triangles) const {
+  return divide_skin(passing_pose()->keys, view, {}, most_triangles, Workers::alone());
 }
 
-size_t PosedCharacterSkin::making_bytes() const {
-  if (pose_.push_out_view) return 0;
-  const auto [held, making] = pose_.topology->pose_bytes();
-  return sizeof(SkinPose) + pose_.shutter.cages.size() * (held + sizeof(M44f)) + making;
+SkinMesh PosedCharacterSkin::tessellate(const SkinPiece& piece, const View& view) const {
+  if (piece.is_whole()) return pelage::tessellate(passing_pose()->keys, view, {}, Workers::alone());
+  if (pose_.push_out_view) return tessellate_faces(passing_pose()->keys, piece.faces, view, {});
+  const std::vector<uint32_t> around = faces_around(*pose_.topology, piece.faces);
+  return tessellate_faces(pose(BoundSpan::kShutter, around).keys, piece.faces, view, {});
+}
+
+size_t PosedCharacterSkin::making_bytes(const SkinPiece& piece) const {
+  const SurfaceTopology& topology = *pose_.topology;
+  std::vector<uint32_t> around;
+  if (!piece.is_whole()) around = faces_around(topology, piece.faces);
+  const size_t faces = piece.is_whole() ? topology.face_count() : around.size();
+  const size_t lattice = tessellating_bytes(faces, piece.vertices);
+  if (pose_.push_out_view) return lattice;
+  const auto [held, making] = piece.is_whole() ? topology.pose_bytes() : topology.pose_bytes(around);
+  return sizeof(SkinPose) + pose_.shutter.cages.size() * (held + sizeof(M44f)) + making + lattice;
 }
 
 size_t PosedCharacterSkin::bytes() const {

@@ -59,10 +59,12 @@ class PosedCharacterSkin final : public DeferredSkin {
   void expect_leaves(const Groom& groom, bool together = false) const;
 
   /// The hull of the control points, a little widened.
-  Box3f bound(BoundSpan span) const override;
-  TessellationSize size(const View& view) const override;
-  SkinMesh tessellate(const View& view) const override;
-  size_t making_bytes() const override;
+  Box3f bound(BoundSpan span) const;
+  std::vector<SkinPiece> divide(const View& view, size_t most_triangles) const override;
+  /// The hull of the control points that shape the piece, a little widened.
+  Box3f bound(const SkinPiece& piece, BoundSpan span) const override;
+  SkinMesh tessellate(const SkinPiece& piece, const View& view) const override;
+  size_t making_bytes(const SkinPiece& piece) const override;
 
   /// Of all that shapes what grows here, but for its length: topology, control points of all times,
   /// transforms, scale. Equal poses have equal hashes.
@@ -74,6 +76,8 @@ class PosedCharacterSkin final : public DeferredSkin {
   void add_keys(BoundSpan span, SkinPose& pose, const AddSurface& add_surface) const;
   std::shared_ptr<const SkinPose> make(BoundSpan span) const;
   std::shared_ptr<const SkinPose> passing_pose() const;
+  template <class Visit>
+  void visit_cages(BoundSpan span, const Visit& visit) const;
 
   CharacterPose pose_;
   std::shared_ptr<PoseCache> poses_;

@@ -15,11 +15,14 @@ namespace pelage {
 /// The nearest hit that a ray has so far, over all chunks that it visited.
 struct NearestSoFar {
   Hit hit;
-  uint32_t triangle = 0;  ///< of a skin's hit
+  uint32_t face = 0;      ///< ptex face, of a skin's hit
+  uint32_t triangle = 0;  ///< of the chunk, of a skin's hit; in the same order in every chunk with the face
 
-  /// What decides between equal distances: strands before skins, then strand id, part, segment or triangle.
+  /// What decides between equal distances: strands before skins, then strand id, part, segment, or face and
+  /// triangle.
   auto rank() const {
-    return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? triangle : hit.segment);
+    return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? face : hit.segment,
+                      triangle);
   }
   /// Whether `other` comes before it.
   bool gives_way_to(const NearestSoFar& other) const {

@@ -79,6 +79,7 @@ struct EmbreeChunk::Filters {
     found.hit.part = chunk.part_;
     if (!chunk.strands_) {
       found.hit.kind = HitKind::kSkin;
+      found.face = chunk.skin_.faces[primitive];
       found.triangle = primitive;
       return found;
     }

@@ -43,7 +43,10 @@ class FurChunkFile {
   explicit FurChunkFile(StoredSections file);
 
   size_t chunk_count() const { return file_.section_count() / kSections; }
-  bool has(uint32_t chunk) const { return file_.section_bytes(kSections * size_t(chunk)) > 0; }
+  /// Of any chunk of the frame: those behind the last are no fur.
+  bool has(uint32_t chunk) const {
+    return chunk < chunk_count() && file_.section_bytes(kSections * size_t(chunk)) > 0;
+  }
   /// At least what reading a chunk holds at any moment, and what the chunk holds afterwards.
   size_t bytes_bound(uint32_t chunk) const;
   /// Throws Error (kInput) when it cannot be read or is not what was written.

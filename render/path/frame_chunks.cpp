@@ -12,9 +12,11 @@ namespace pelage {
 namespace {
 
 /// What growing holds for a moment: a block of strands on its way through the operators, whose points and
-/// colours are rows of floats, twice where they are posed at several times; the lattice of a skin.
+/// colours are rows of floats, twice where they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
-constexpr size_t kLatticeBytesPerVertex = 32;
+/// A piece of skin takes about as much as a leaf of some thousand strands: more would ask more of the budget than
+/// anything else does, fewer would pose the faces around them too often.
+constexpr size_t kTrianglesPerPiece = 2048;
 
 size_t growth_bytes(const StrandCounts& n) {
   if (n.strands == 0) return kGrowthBytes;
@@ -32,7 +34,7 @@ const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part)
 }  // namespace
 
 FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers)
-    : scene_(scene), skin_sizes_(scene.skins.size()) {
+    : scene_(scene) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
     for (const auto& procedural : scene.fur[part].procedurals) {
@@ -40,10 +42,19 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers)
       scales_.push_back(procedural->scale());
     }
   }
-  workers.for_each(skin_sizes_.size(), 1, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i)
-      skin_sizes_[i] = scene.skins[i].skin->size(scene.camera.view());
+  std::vector<std::vector<PieceOfSkin>> pieces(scene.skins.size());
+  workers.for_each(pieces.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      const DeferredSkin& skin = *scene.skins[i].skin;
+      for (SkinPiece& piece : skin.divide(scene.camera.view(), kTrianglesPerPiece)) {
+        const size_t making = skin.making_bytes(piece);
+        pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
+      }
+    }
   });
+  for (auto& of_skin : pieces) {
+    for (PieceOfSkin& piece : of_skin) pieces_.push_back(std::move(piece));
+  }
 }
 
 void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t coat) {
@@ -61,8 +72,8 @@ void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t 
 
 ChunkContents FrameChunks::grow(uint32_t chunk) const {
   if (chunk >= leaves_.size()) {
-    const auto skin = static_cast<uint32_t>(chunk - leaves_.size());
-    return {scene_.skins[skin].skin->tessellate(scene_.camera.view()), skin};
+    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
   }
   const FurPart& part = scene_.fur[parts_[chunk]];
   const FibreParams& fibre = fibre_material(scene_, part);
@@ -79,11 +90,11 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
 ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   ChunkCounts counts;
   if (chunk >= leaves_.size()) {
-    const size_t skin = chunk - leaves_.size();
-    counts.vertices = skin_sizes_[skin].vertices;
-    counts.triangles = skin_sizes_[skin].triangles;
-    counts.motion_keys = scene_.skins[skin].skin->motion_keys();
-    counts.growth_bytes = scene_.skins[skin].skin->making_bytes() + kLatticeBytesPerVertex * counts.vertices;
+    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    counts.vertices = piece.piece.vertices;
+    counts.triangles = piece.piece.triangles;
+    counts.motion_keys = scene_.skins[piece.skin].skin->motion_keys();
+    counts.growth_bytes = piece.making_bytes;
     return counts;
   }
   const StrandCounts strands = leaves_[chunk]->counts();
@@ -113,10 +124,11 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& p
   std::vector<ChunkBounds> bounds =
       bound_chunks(options, leaves_, workers, progress, ledger,
                    [&progress](const std::string& line) { progress.warn(line); });
-  for (const SkinPart& part : scene_.skins) {
+  for (const PieceOfSkin& piece : pieces_) {
     ChunkBounds box;
     box.keys = bound_keys(options.strategy);
-    box.boxes.assign(static_cast<size_t>(box.keys), part.skin->bound(bound_span(options.strategy)));
+    box.boxes.assign(static_cast<size_t>(box.keys),
+                     scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(options.strategy)));
     bounds.push_back(std::move(box));
   }
   return bounds;

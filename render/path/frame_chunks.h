@@ -14,11 +14,11 @@ namespace pelage {
 
 class Workers;
 
-/// The chunks of a frame: first the leaves of all coats, then one per skin. Knows how to make each of them
+/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Knows how to make each of them
 /// from the scene, which it refers to.
 class FrameChunks final : public ChunkGrower {
  public:
-  /// Splits every coat down to its leaves and finds out how large skins will be. Throws Error (kInput) for a
+  /// Splits every coat down to its leaves and divides skins. Throws Error (kInput) for a
   /// coat whose material is not one for fibres.
   FrameChunks(const RenderScene& scene, const Workers& workers);
 
@@ -28,7 +28,7 @@ class FrameChunks final : public ChunkGrower {
 
   /// Which coat a leaf is of.
   uint32_t part(uint32_t leaf) const { return parts_[leaf]; }
-  size_t size() const { return leaves_.size() + skin_sizes_.size(); }
+  size_t size() const { return leaves_.size() + pieces_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
   /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
@@ -40,6 +40,12 @@ class FrameChunks final : public ChunkGrower {
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
 
  private:
+  struct PieceOfSkin {
+    uint32_t skin = 0;  // of RenderScene::skins
+    SkinPiece piece;
+    size_t making_bytes = 0;
+  };
+
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
   const RenderScene& scene_;
@@ -48,7 +54,7 @@ class FrameChunks final : public ChunkGrower {
   std::vector<uint32_t> parts_;      // of RenderScene::fur, per leaf
   std::vector<StrandScale> scales_;  // of coats: of what stands in the scene, before it is split
   std::vector<uint32_t> coats_;      // per leaf
-  std::vector<TessellationSize> skin_sizes_;
+  std::vector<PieceOfSkin> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0};
 };
 

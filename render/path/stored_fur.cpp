@@ -22,7 +22,7 @@ std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkO
     hasher.add(scale.width).add(scale.anchor.x).add(scale.anchor.y).add(scale.anchor.z);
     hasher.add(static_cast<int>(chunks.counts(leaf).motion_keys));
   }
-  return hasher.add(static_cast<uint64_t>(chunks.size())).digest();
+  return hasher.add(static_cast<uint64_t>(chunks.leaves().size())).digest();
 }
 
 /// Grows all fur once, a few chunks at a time, and writes it in order.
@@ -58,7 +58,6 @@ bool write(const ContentStore& store, const ContentHash& key, const FrameChunks&
   }
   progress.end();
   if (progress.cancelled()) return false;
-  for (size_t chunk = leaves; chunk < chunks.size(); ++chunk) writer.add(nullptr);
   return writer.commit([&](const std::string& line) { progress.warn(line); });
 }
 
@@ -77,20 +76,20 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
   }
   const ContentStore store(params.bvh.file.path);
   const auto open = [&]() -> std::shared_ptr<const FurChunkFile> {
-    auto file = FurChunkFile::open(store, *key, chunks.size(), warn);
+    auto file = FurChunkFile::open(store, *key, chunks.leaves().size(), warn);
     return file && file->check_all(workers, warn) ? std::move(file) : nullptr;
   };
   if (auto file = open()) return file;
   const ContentStore::Lock lock = store.lock("fur-chunks", *key);
   if (lock.held()) {
     // Who had it before may have written them.
-    if (auto file = FurChunkFile::open(store, *key, chunks.size(), [](const std::string&) {});
+    if (auto file = FurChunkFile::open(store, *key, chunks.leaves().size(), [](const std::string&) {});
         file && file->check_all(workers, [](const std::string&) {})) {
       return file;
     }
   }
   if (!write(store, *key, chunks, options, workers, progress, ledger)) return nullptr;
-  return FurChunkFile::open(store, *key, chunks.size(), warn);
+  return FurChunkFile::open(store, *key, chunks.leaves().size(), warn);
 }
 
 }  // namespace pelage

@@ -28,9 +28,9 @@ class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>
 
   /// Height in pixels of what is in the picture of a skin; 0 where it is too far away to matter.
   static float visible_height(const SkinPart& part, const Camera& camera, const ImageParams& image) {
-    const Box3f box = part.skin->bound(BoundSpan::kShutter);
+    const Box3f box = part.skin->bound({}, BoundSpan::kShutter);
     if (camera.view().pixels_per_unit(box.center()) * box.size().length() < 100) return 0;
-    const SkinMesh mesh = part.skin->tessellate(camera.view());
+    const SkinMesh mesh = part.skin->tessellate({}, camera.view());
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (size_t i = 0; i < mesh.vertex_count(); ++i) {
       const auto at = camera.project(mesh.position(i), 0);

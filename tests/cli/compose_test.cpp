@@ -17,7 +17,7 @@ class ComposeTest : public testing::Test {
     return compose(description_, *assets_, frame, workers_, ledger_);
   }
   static SkinMesh mesh_of(const World& world, size_t skin) {
-    return world.scene.skins[skin].skin->tessellate(world.scene.camera.view());
+    return world.scene.skins[skin].skin->tessellate({}, world.scene.camera.view());
   }
   static Box3f box(const SkinMesh& mesh, int key) {
     Box3f result;

@@ -193,9 +193,6 @@ TEST(Tessellation, MotionKeysShareTrianglesAndThreadsChangeNothing) {
   EXPECT_EQ(one.normals, four.normals);
   EXPECT_EQ(one.triangles, four.triangles);
   EXPECT_EQ(one.faces, four.faces);
-  const TessellationSize size = tessellation_size(keys, close_view(), {1, 16}, Workers(2));
-  EXPECT_EQ(size.vertices, one.vertex_count());
-  EXPECT_EQ(size.triangles, one.triangle_count());
   ASSERT_EQ(one.motion_keys, 2);
   ASSERT_EQ(one.positions.size(), one.vertex_count() * 6);
   for (size_t t = 0; t < one.triangle_count(); ++t) {

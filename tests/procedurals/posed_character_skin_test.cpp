@@ -67,16 +67,27 @@ TEST_F(PosedCharacterSkinTest, AClosedShutterIsOneInstant) {
 
 TEST_F(PosedCharacterSkinTest, BoundsHoldAndCountsAreExact) {
   const auto moving = skin(pose());
-  const SkinMesh mesh = moving->tessellate(view_);
+  const SkinMesh mesh = moving->tessellate({}, view_);
   const Box3f shutter = moving->bound(BoundSpan::kShutter), frame = moving->bound(BoundSpan::kFrame);
   for (int key = 0; key < 2; ++key) {
     for (size_t i = 0; i < mesh.vertex_count(); ++i) EXPECT_TRUE(shutter.intersects(mesh.position(i, key)));
   }
   EXPECT_LT(frame.min.x, shutter.min.x - 2);
   EXPECT_GT(frame.max.x, shutter.max.x + 2);
-  const TessellationSize size = moving->size(view_);
-  EXPECT_EQ(size.vertices, mesh.vertex_count());
-  EXPECT_EQ(size.triangles, mesh.triangle_count());
+  for (const size_t most : {size_t(1), SIZE_MAX}) {
+    size_t triangles = 0;
+    for (const SkinPiece& piece : moving->divide(view_, most)) {
+      const SkinMesh part = moving->tessellate(piece, view_);
+      EXPECT_EQ(piece.vertices, part.vertex_count());
+      EXPECT_EQ(piece.triangles, part.triangle_count());
+      triangles += part.triangle_count();
+      const Box3f box = moving->bound(piece, BoundSpan::kShutter);
+      for (int key = 0; key < 2; ++key) {
+        for (size_t i = 0; i < part.vertex_count(); ++i) EXPECT_TRUE(box.intersects(part.position(i, key)));
+      }
+    }
+    EXPECT_EQ(triangles, mesh.triangle_count());
+  }
 }
 
 TEST_F(PosedCharacterSkinTest, HairKeepsClearOfTheSameTrianglesOverEitherSpan) {
@@ -85,7 +96,7 @@ TEST_F(PosedCharacterSkinTest, HairKeepsClearOfTheSameTrianglesOverEitherSpan) {
   ASSERT_EQ(shutter->trees.size(), 2u);
   ASSERT_EQ(frame->trees.size(), 4u);
   EXPECT_EQ(shutter->mesh->triangles, frame->mesh->triangles);
-  EXPECT_EQ(shutter->mesh->triangles, pushed->tessellate(view_).triangles);
+  EXPECT_EQ(shutter->mesh->triangles, pushed->tessellate({}, view_).triangles);
   for (size_t key = 0; key < 2; ++key) {
     ClosestPoint a, b;
     ASSERT_TRUE(shutter->trees[key].closest(V3f(1, 5, 2), 100, a));

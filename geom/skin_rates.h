@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "geom/skin_lattice.h"
+#include "geom/tessellation.h"
+
+namespace pelage {
+
+class Workers;
+
+/// Divides every line of a lattice as finely as its own length on screen asks for, in any of the rated keys.
+void set_rates(SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,
+               const TessellationOptions& options, const Workers& workers);
+
+}  // namespace pelage
