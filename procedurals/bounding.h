@@ -18,6 +18,8 @@ class Workers;
 struct BoundingOptions {
   BoundingStrategy strategy = BoundingStrategy::kExact;
   float factor = 1;  ///< of kUser, about the centre of each box
+  /// Parts are dropped as soon as a chunk is remembered: for who needs none, they are most of what is made.
+  bool in_one_part = false;
 };
 
 /// During which time the boxes of a strategy hold what they hold, for skins too.
@@ -27,16 +29,10 @@ bool measures_strands(BoundingStrategy strategy);
 /// ChunkBounds::keys of all chunks.
 int bound_keys(BoundingStrategy strategy);
 
-/// How tight boxes are: sums of surface areas, of the mean over their keys where they move.
-struct BoundsArea {
-  double chunks = 0;  ///< of the box around all parts of each chunk
-  double parts = 0;   ///< of each part's own
-};
-BoundsArea bounds_area(std::span<const ChunkBounds> bounds);
-
 struct BoundingCounts {
   int64_t measured = 0;    ///< chunks that were grown to be measured: the first of two passes
   int64_t remembered = 0;  ///< chunks whose boxes were found in a side file
+  BoundsArea area;         ///< of all chunks, in all parts that they had
 };
 
 /// The boxes of all chunks, which are leaves, in their order. What is measured is remembered beside the

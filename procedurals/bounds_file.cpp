@@ -88,18 +88,18 @@ std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span,
   return bounds;
 }
 
-void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::span<const ChunkBounds> bounds,
+void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::span<const ChunkBounds* const> bounds,
                   const WarningSink& warn) {
   std::vector<uint32_t> first{0};
   std::vector<float> values;
   std::vector<FineHeader> headers;
   std::vector<FineBoxes::Group> groups;
-  for (const ChunkBounds& chunk : bounds) {
-    for (const Box3f& box : chunk.boxes) {
+  for (const ChunkBounds* chunk : bounds) {
+    for (const Box3f& box : chunk->boxes) {
       values.insert(values.end(), {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z});
     }
     first.push_back(static_cast<uint32_t>(values.size() / 6));
-    const FineBoxes& fine = chunk.fine;
+    const FineBoxes& fine = chunk->fine;
     FineHeader header;
     std::copy_n(&fine.grid().corner[0], 3, header.corner);
     std::copy_n(&fine.grid().motion[0], 3, header.motion);

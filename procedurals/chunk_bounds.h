@@ -37,6 +37,8 @@ struct ChunkBounds {
   const Box3f& box(size_t part, int key) const {
     return boxes[part * static_cast<size_t>(keys) + static_cast<size_t>(key)];
   }
+  /// One part that holds all parts, with the same fine boxes.
+  ChunkBounds in_one_part() &&;
   /// Holds all parts at all times; empty for a chunk of nothing.
   Box3f whole() const {
     Box3f all;
@@ -44,5 +46,18 @@ struct ChunkBounds {
     return all;
   }
 };
+
+/// How tight boxes are: sums of surface areas, of the mean over their keys where they move.
+struct BoundsArea {
+  double chunks = 0;  ///< of the box around all parts of each chunk
+  double parts = 0;   ///< of each part's own
+
+  BoundsArea& operator+=(const BoundsArea& other) {
+    chunks += other.chunks;
+    parts += other.parts;
+    return *this;
+  }
+};
+BoundsArea area_of(const ChunkBounds& chunk);
 
 }  // namespace pelage

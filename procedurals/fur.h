@@ -44,6 +44,7 @@ class FurLeafProcedural final : public Procedural {
   std::optional<ContentHash> content() const override;
   /// Beside the cache of the groom, for all leaves of the coat in one file.
   std::optional<BoundsRecord> bounds_record() const override;
+  size_t bytes() const override { return sizeof(*this); }
 
  private:
   std::shared_ptr<const Groom> groom_;

@@ -58,6 +58,8 @@ class Procedural {
   virtual std::optional<ContentHash> content() const { return {}; }
   /// Nothing where they are not remembered.
   virtual std::optional<BoundsRecord> bounds_record() const { return {}; }
+  /// What it holds itself, on the heap: a frame has hundreds of thousands.
+  virtual size_t bytes() const { return 0; }
 };
 
 }  // namespace pelage

@@ -30,6 +30,7 @@ class ThinnedFurProcedural final : public Procedural {
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
   std::optional<ContentHash> content() const override;
   std::optional<BoundsRecord> bounds_record() const override;
+  size_t bytes() const override { return sizeof(*this); }
 
  private:
   template <class Use>

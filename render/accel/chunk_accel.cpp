@@ -59,7 +59,7 @@ class ChunkAccel::Growth final : public Grower {
         known_[chunk].margin = grid(chunk).margin(widest_radius(bounds[chunk]));
         widen(bounds[chunk], known_[chunk].margin);
         known_[chunk].in_fur_tree = true;
-        bounds[chunk] = in_one_part(bounds[chunk]);
+        bounds[chunk] = std::move(bounds[chunk]).in_one_part();
       } else if (counts.strands > 0 && counts.segments % counts.strands == 0)
         patterns.expect(counts.segments / counts.strands, counts.strands);
       Known& known = known_[chunk];
@@ -206,7 +206,7 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
   if (progress.cancelled()) return;
   for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
     bounds[chunk] = growth_->learned(chunk)->bounds();
-    if (growth_->in_fur_tree(chunk)) bounds[chunk] = in_one_part(bounds[chunk]);
+    if (growth_->in_fur_tree(chunk)) bounds[chunk] = std::move(bounds[chunk]).in_one_part();
   }
   build_tree(bounds, ledger, workers);
 }

@@ -125,17 +125,6 @@ void widen(ChunkBounds& bounds, float margin) {
   }
 }
 
-ChunkBounds in_one_part(const ChunkBounds& bounds) {
-  ChunkBounds one;
-  one.keys = bounds.keys;
-  one.boxes.resize(bounds.boxes.empty() ? 0 : static_cast<size_t>(bounds.keys));
-  for (size_t i = 0; i < bounds.boxes.size(); ++i) {
-    one.boxes[i % static_cast<size_t>(bounds.keys)].extendBy(bounds.boxes[i]);
-  }
-  one.fine = bounds.fine;
-  return one;
-}
-
 size_t part_bounds_scratch(const ChunkCounts& counts) {
   return (counts.segments + counts.triangles) * (sizeof(Item) + 4 * sizeof(uint32_t));
 }

@@ -19,8 +19,6 @@ ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part,
 void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time);
 /// Moves all sides of all boxes outward.
 void widen(ChunkBounds& bounds, float margin);
-/// One part that holds all parts.
-ChunkBounds in_one_part(const ChunkBounds& bounds);
 /// What part_bounds() holds at most while it works.
 size_t part_bounds_scratch(const ChunkCounts& counts);
 

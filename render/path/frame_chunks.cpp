@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "procedurals/bounding.h"
 #include "render/path/strand_fields.h"
 
 namespace pelage {
@@ -116,14 +115,29 @@ bool FrameChunks::opaque() const {
                      [&](const FurPart& part) { return is_opaque(fibre_material(scene_, part).opacity); });
 }
 
-std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& progress,
-                                             MemoryLedger& ledger) const {
+bool FrameChunks::in_fur_trees() const {
+  return scene_.render.accel == AccelKind::kFur && scene_.render.curves == CurveShape::kFlat;
+}
+
+size_t FrameChunks::bytes() const {
+  constexpr size_t kHeap = 16;  // of each block, its share of what the heap keeps and rounds
+  size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
+               (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
+               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]);
+  for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
+  for (const PieceOfSkin& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
+  return sum;
+}
+
+std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger,
+                                             BoundingCounts& counts) const {
   BoundingOptions options;
   options.strategy = scene_.render.bounds;
   options.factor = scene_.render.bounds_factor;
+  options.in_one_part = in_fur_trees();
   std::vector<ChunkBounds> bounds =
       bound_chunks(options, leaves_, workers, progress, ledger,
-                   [&progress](const std::string& line) { progress.warn(line); });
+                   [&progress](const std::string& line) { progress.warn(line); }, &counts);
   for (const PieceOfSkin& piece : pieces_) {
     ChunkBounds box;
     box.keys = bound_keys(options.strategy);

@@ -7,6 +7,7 @@
 
 #include "base/ledger.h"
 #include "base/progress.h"
+#include "procedurals/bounding.h"
 #include "render/accel/chunk_grower.h"
 #include "render/render_scene.h"
 
@@ -32,8 +33,13 @@ class FrameChunks final : public ChunkGrower {
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
   /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
-  /// points. Throws what growing throws. Chunks are without boxes when cancelled.
-  std::vector<ChunkBounds> bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger) const;
+  /// points. `counts` are of leaves. Throws what growing throws. Chunks are without boxes when cancelled.
+  std::vector<ChunkBounds> bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger,
+                                  BoundingCounts& counts) const;
+  /// Whether strands stand in fur trees, which need no boxes of parts above them.
+  bool in_fur_trees() const;
+  /// What describes the chunks, grown or not.
+  size_t bytes() const;
   /// Whether the material of every coat is opaque everywhere.
   bool opaque() const;
   /// Strands that grow() made so far.

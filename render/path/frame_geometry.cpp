@@ -2,11 +2,9 @@
 #include "render/path/frame_geometry.h"
 
 #include <algorithm>
-#include <span>
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "procedurals/bounding.h"
 #include "render/path/stored_fur.h"
 
 namespace pelage {
@@ -15,6 +13,7 @@ FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vec
                              const ChunkAccelOptions& options, const Workers& workers, Progress& progress,
                              MemoryLedger& ledger)
     : chunks_(std::move(chunks)),
+      chunks_charge_(ledger, MemoryTag::kChunks, static_cast<int64_t>(chunks_->bytes())),
       stored_(options.file),
       stored_charge_(ledger, MemoryTag::kChunks,
                      options.file ? static_cast<int64_t>(options.file->bytes()) : 0),
@@ -26,14 +25,14 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const Stopwatch preparing;
   auto chunks = std::make_unique<const FrameChunks>(scene, workers);
   const Stopwatch bounding;
-  std::vector<ChunkBounds> bounds = chunks->bounds(workers, progress, ledger);
+  BoundingCounts found;
+  std::vector<ChunkBounds> bounds = chunks->bounds(workers, progress, ledger, found);
   const double bound_s = bounding.seconds();
   statistics.stages_s["bound"] += bound_s;
   if (progress.cancelled()) return nullptr;
   statistics.chunks += static_cast<int64_t>(chunks->size());
-  const BoundsArea area = bounds_area(std::span(bounds).first(chunks->leaves().size()));
-  statistics.bounds_area += area.chunks;
-  statistics.part_bounds_area += area.parts;
+  statistics.bounds_area += found.area.chunks;
+  statistics.part_bounds_area += found.area.parts;
 
   ChunkAccelOptions options;
   options.kind = scene.render.accel;
@@ -44,8 +43,7 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   options.threads = workers.thread_count();
   options.opaque = chunks->opaque();
   const Stopwatch storing;
-  const bool stores = !scene.render.bvh.file.empty() && !options.eager && options.kind == AccelKind::kFur &&
-                      options.chunk.shape == CurveShape::kFlat;
+  const bool stores = !scene.render.bvh.file.empty() && !options.eager && chunks->in_fur_trees();
   if (stores) {
     options.file = stored_fur(scene.render, *chunks, options, workers, progress, ledger);
     if (progress.cancelled()) return nullptr;

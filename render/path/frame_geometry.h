@@ -33,6 +33,7 @@ class FrameGeometry {
                 MemoryLedger& ledger);
 
   std::unique_ptr<const FrameChunks> chunks_;
+  MemoryCharge chunks_charge_;
   std::shared_ptr<const FurChunkFile> stored_;
   MemoryCharge stored_charge_;
   ChunkAccel accel_;

@@ -328,7 +328,9 @@ TEST_F(RememberedBounds, AreMeasuredAgainWhenImpossible) {
   const BoundsRecord record = *chunks_[0]->bounds_record();
   std::vector<ChunkBounds> wrong(half, ChunkBounds{1, {Box3f(V3f(0), V3f(1))}});
   const auto expect_refused = [&] {
-    write_bounds(record, BoundSpan::kFrame, 1, wrong, expect_no_warning);
+    std::vector<const ChunkBounds*> entries;
+    for (const ChunkBounds& chunk : wrong) entries.push_back(&chunk);
+    write_bounds(record, BoundSpan::kFrame, 1, entries, expect_no_warning);
     expect_bounds(static_cast<int64_t>(half), BoundingStrategy::kExact, 1);
   };
   expect_bounds(static_cast<int64_t>(2 * half), BoundingStrategy::kExact);
@@ -340,6 +342,33 @@ TEST_F(RememberedBounds, AreMeasuredAgainWhenImpossible) {
   expect_refused();
   wrong.assign(half - 1, wrong[0]);
   expect_refused();
+}
+
+// Files have the parts even where who makes them drops them.
+TEST_F(RememberedBounds, CanBeHadInOnePart) {
+  BoundingOptions options{BoundingStrategy::kExact};
+  options.in_one_part = true;
+  BoundingCounts cold_counts, warm_counts, counts;
+  const std::vector<ChunkBounds> cold = bounds_of(chunks_, options, 2, expect_no_warning, &cold_counts);
+  const std::vector<ChunkBounds> warm = bounds_of(chunks_, options, 2, expect_no_warning, &warm_counts);
+  options.in_one_part = false;
+  const std::vector<ChunkBounds> parts = bounds_of(chunks_, options, 2, expect_no_warning, &counts);
+  EXPECT_EQ(cold_counts.measured, static_cast<int64_t>(chunks_.size()));
+  EXPECT_EQ(warm_counts.measured, 0);
+  EXPECT_EQ(counts.measured, 0);
+  EXPECT_EQ(cold_counts.area.parts, counts.area.parts);
+  EXPECT_EQ(warm_counts.area.parts, counts.area.parts);
+  EXPECT_EQ(warm_counts.area.chunks, counts.area.chunks);
+  size_t most = 0;
+  for (size_t i = 0; i < chunks_.size(); ++i) {
+    most = std::max(most, parts[i].part_count());
+    for (const ChunkBounds* one : {&cold[i], &warm[i]}) {
+      ASSERT_EQ(one->part_count(), 1u);
+      EXPECT_EQ(one->boxes[0], parts[i].whole());
+      EXPECT_TRUE(same(one->fine, parts[i].fine));
+    }
+  }
+  EXPECT_GT(most, 1u);
 }
 
 TEST_F(RememberedBounds, OfPartOfACoatAreNotWritten) {

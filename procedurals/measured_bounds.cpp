@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "procedurals/measured_bounds.h"
+
+#include <algorithm>
+
+#include "base/ledger.h"
+#include "base/parallel.h"
+#include "base/progress.h"
+#include "procedurals/bounds_file.h"
+#include "procedurals/segment_parts.h"
+
+namespace pelage {
+namespace {
+
+/// Bytes of the strands of a chunk, and of what divides them, while it is measured.
+int64_t growth_bytes(const Procedural& chunk) {
+  const StrandCounts counts = chunk.counts();
+  return static_cast<int64_t>((counts.points * counts.motion_keys * 4 + counts.attribute_floats) *
+                                  sizeof(float) +
+                              SegmentParts::bytes_bound(counts.segments, counts.motion_keys));
+}
+
+}  // namespace
+
+bool MeasuredBounds::Family::is_complete() const {
+  return std::find(chunks.begin(), chunks.end(), kNone) == chunks.end();
+}
+
+MeasuredBounds::MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
+                               const WarningSink& warn)
+    : options_(options),
+      span_(bound_span(options.strategy)),
+      keys_(bound_keys(options.strategy)),
+      chunks_(chunks),
+      warn_([this, warn](const std::string& line) {
+        const std::lock_guard lock(warning_);
+        warn(line);
+      }),
+      bounds_(chunks.size()),
+      areas_(chunks.size()),
+      family_of_(chunks.size(), kNone),
+      known_(chunks.size()) {
+  for (ChunkBounds& chunk : bounds_) chunk.keys = keys_;
+  find_families();
+}
+
+void MeasuredBounds::find_families() {
+  for (uint32_t i = 0; i < chunks_.size(); ++i) {
+    const std::optional<BoundsRecord> record = chunks_[i]->bounds_record();
+    if (!record) continue;
+    // Leaves of a coat come one after the other.
+    if (families_.empty() || families_.back().record.key != record->key ||
+        families_.back().chunks[record->index] != kNone) {
+      families_.push_back({*record, std::vector<uint32_t>(record->count, kNone)});
+    }
+    families_.back().chunks[record->index] = i;
+  }
+  left_ = std::vector<std::atomic<uint32_t>>(families_.size());
+  for (uint32_t f = 0; f < families_.size(); ++f) {
+    if (!families_[f].is_complete()) continue;
+    left_[f].store(static_cast<uint32_t>(families_[f].chunks.size()), std::memory_order_relaxed);
+    for (const uint32_t chunk : families_[f].chunks) family_of_[chunk] = f;
+  }
+}
+
+void MeasuredBounds::keep(uint32_t chunk, ChunkBounds bounds) {
+  areas_[chunk] = area_of(bounds);
+  bounds_[chunk] = std::move(bounds);
+}
+
+void MeasuredBounds::drop_parts(uint32_t chunk) {
+  if (options_.in_one_part) bounds_[chunk] = std::move(bounds_[chunk]).in_one_part();
+}
+
+void MeasuredBounds::read(const Workers& workers, Progress& progress) {
+  workers.for_each(families_.size(), 1, [&](WorkRange range) {
+    for (size_t f = range.begin; f < range.end && !progress.cancelled(); ++f) {
+      const Family& family = families_[f];
+      std::vector<ChunkBounds> read = read_bounds(family.record, span_, keys_, warn_);
+      for (size_t i = 0; i < read.size(); ++i) {
+        const uint32_t chunk = family.chunks[i];
+        if (chunk == kNone) continue;
+        keep(chunk, std::move(read[i]));
+        drop_parts(chunk);
+        known_[chunk] = true;
+        progress.advance(1);
+      }
+    }
+  });
+}
+
+void MeasuredBounds::measure(const Workers& workers, Progress& progress, MemoryLedger& ledger) {
+  std::vector<uint32_t> unknown;
+  for (uint32_t i = 0; i < chunks_.size(); ++i) {
+    if (!known_[i]) unknown.push_back(i);
+  }
+  workers.for_each(unknown.size(), 1, [&](WorkRange range) {
+    for (size_t u = range.begin; u < range.end && !progress.cancelled(); ++u) {
+      const Procedural& chunk = *chunks_[unknown[u]];
+      {
+        const MemoryCharge passing(ledger, MemoryTag::kChunks, growth_bytes(chunk));
+        keep(unknown[u], chunk.exact_bounds(span_, keys_));
+      }
+      settle(unknown[u]);
+      progress.advance(1);
+    }
+  });
+}
+
+/// A chunk was measured. The last of its family sees what all others have left.
+void MeasuredBounds::settle(uint32_t chunk) {
+  const uint32_t f = family_of_[chunk];
+  if (f == kNone) return drop_parts(chunk);
+  if (left_[f].fetch_sub(1, std::memory_order_acq_rel) > 1) return;
+  write(families_[f]);
+  for (const uint32_t member : families_[f].chunks) drop_parts(member);
+}
+
+void MeasuredBounds::write(const Family& family) {
+  std::vector<const ChunkBounds*> all;
+  for (const uint32_t chunk : family.chunks) all.push_back(&bounds_[chunk]);
+  write_bounds(family.record, span_, keys_, all, warn_);
+}
+
+BoundingCounts MeasuredBounds::counts() const {
+  BoundingCounts counts;
+  counts.remembered = std::count(known_.begin(), known_.end(), char(true));
+  counts.measured = static_cast<int64_t>(chunks_.size()) - counts.remembered;
+  for (const BoundsArea& area : areas_) counts.area += area;
+  return counts;
+}
+
+}  // namespace pelage
