@@ -288,8 +288,7 @@ void SkinLattice::visit_split(const std::function<void(uint32_t, const LatticePo
       if (line == kNone || !is_edge(lines_[line].id) || !cage.edge_split[lines_[line].id]) continue;
       const Rail r = rail(face, side);
       for (uint32_t k = corner == kNone ? 0 : 1; k < r.rate; ++k) {
-        visit(r.vertex(k),
-              {face.id, side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate))});
+        visit(r.vertex(k), {face.id, side_uv(side, static_cast<float>(k) / static_cast<float>(r.rate))});
       }
     }
   }
@@ -310,12 +309,7 @@ class SkinLattice::Writer {
   };
 
   Writer(const SkinLattice& lattice, const Face& face, uint32_t* triangles, uint32_t* faces, V2f* uv)
-      : lattice_(lattice),
-        f_(face),
-        at_(f_.triangle),
-        triangles_(triangles),
-        faces_(faces),
-        uv_(uv) {}
+      : lattice_(lattice), f_(face), at_(f_.triangle), triangles_(triangles), faces_(faces), uv_(uv) {}
 
   void triangle(const Node& a, const Node& b, const Node& c) {
     faces_[at_] = f_.id;

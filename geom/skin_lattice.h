@@ -46,8 +46,8 @@ class SkinLattice {
 
   /// Of all faces.
   explicit SkinLattice(const SurfaceTopology::Impl& topology);
-  /// Of `faces`, all ptex faces of some cage faces; `around` are these and all that touch them (faces_around).
-  /// Both ascending.
+  /// Of `faces`, all ptex faces of some cage faces; `around` are these and all that touch them
+  /// (faces_around). Both ascending.
   SkinLattice(const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
               std::span<const uint32_t> around);
 

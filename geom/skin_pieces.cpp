@@ -31,8 +31,8 @@ std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& s
   return faces;
 }
 
-/// Cuts the faces of `range` across their longest side until no piece costs more than `most`, and calls `emit`
-/// for each.
+/// Cuts the faces of `range` across their longest side until no piece costs more than `most`, and calls
+/// `emit` for each.
 template <class Emit>
 void cut(std::span<CageFace> range, size_t most, const Emit& emit) {
   size_t all = 0;

@@ -14,21 +14,23 @@ class Workers;
 
 /// A part of a skin that is tessellated by itself (tessellate_faces).
 struct SkinPiece {
-  std::vector<uint32_t> faces;  ///< ptex faces, ascending, all of each of some cage faces; empty: all there are
-  size_t vertices = 0;          ///< what tessellating gives, of one motion key
+  std::vector<uint32_t>
+      faces;            ///< ptex faces, ascending, all of each of some cage faces; empty: all there are
+  size_t vertices = 0;  ///< what tessellating gives, of one motion key
   size_t triangles = 0;
 
   bool is_whole() const { return faces.empty(); }
 };
 
-/// Divides a skin into pieces of at most `most_triangles` each, or of one cage face, that are compact and much
-/// alike in size: one where the whole has no more. Every face is in one piece, holes in any. Throws as
+/// Divides a skin into pieces of at most `most_triangles` each, or of one cage face, that are compact and
+/// much alike in size: one where the whole has no more. Every face is in one piece, holes in any. Throws as
 /// tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
                                    const TessellationOptions& options, size_t most_triangles,
                                    const Workers& workers);
 
-/// Ptex faces of the cage faces that have a vertex in common with those of `faces`, these included. Ascending.
+/// Ptex faces of the cage faces that have a vertex in common with those of `faces`, these included.
+/// Ascending.
 std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<const uint32_t> faces);
 /// Vertices of the cage that shape `around`, ascending: the limit surface of the faces in the middle lies
 /// within their hull, as LimitSurface says.

@@ -100,8 +100,8 @@ SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const 
   return fill(lattice, keys, workers);
 }
 
-SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces, const View& view,
-                          const TessellationOptions& options) {
+SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
+                          const View& view, const TessellationOptions& options) {
   PELAGE_CHECK(!keys.empty());
   const SurfaceTopology& topology = keys[0].topology();
   SkinLattice lattice(topology.impl(), faces, faces_around(topology, faces));

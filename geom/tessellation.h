@@ -54,11 +54,11 @@ struct TessellationOptions {
 /// Error (kMemory) when there would be more than 2^31 vertices or triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
-/// The triangles of `faces` alone: all ptex faces of some cage faces, ascending. Bit by bit those of the whole,
-/// in the same order; their vertices are numbered anew. The surfaces need only be there on
+/// The triangles of `faces` alone: all ptex faces of some cage faces, ascending. Bit by bit those of the
+/// whole, in the same order; their vertices are numbered anew. The surfaces need only be there on
 /// faces_around(faces). By the calling thread.
-SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces, const View& view,
-                          const TessellationOptions& options);
+SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
+                          const View& view, const TessellationOptions& options);
 /// What either holds at most beside what it gives, of so many ptex faces, those around them included, and
 /// vertices.
 size_t tessellating_bytes(size_t faces, size_t vertices);

@@ -88,8 +88,8 @@ std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span,
   return bounds;
 }
 
-void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::span<const ChunkBounds* const> bounds,
-                  const WarningSink& warn) {
+void write_bounds(const BoundsRecord& record, BoundSpan span, int keys,
+                  std::span<const ChunkBounds* const> bounds, const WarningSink& warn) {
   std::vector<uint32_t> first{0};
   std::vector<float> values;
   std::vector<FineHeader> headers;

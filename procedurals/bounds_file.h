@@ -21,7 +21,7 @@ std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span,
                                      const WarningSink& warn);
 
 /// Writes an entry; what the file system refuses is told to `warn`.
-void write_bounds(const BoundsRecord& record, BoundSpan span, int keys, std::span<const ChunkBounds* const> bounds,
-                  const WarningSink& warn);
+void write_bounds(const BoundsRecord& record, BoundSpan span, int keys,
+                  std::span<const ChunkBounds* const> bounds, const WarningSink& warn);
 
 }  // namespace pelage

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// The first of two passes (bound_chunks): boxes of chunks that were grown once, by whoever did it first. First
-/// read(), then measure(), then the rest.
+/// The first of two passes (bound_chunks): boxes of chunks that were grown once, by whoever did it first.
+/// First read(), then measure(), then the rest.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,

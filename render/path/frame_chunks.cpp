@@ -13,8 +13,8 @@ namespace {
 /// What growing holds for a moment: a block of strands on its way through the operators, whose points and
 /// colours are rows of floats, twice where they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
-/// A piece of skin takes about as much as a leaf of some thousand strands: more would ask more of the budget than
-/// anything else does, fewer would pose the faces around them too often.
+/// A piece of skin takes about as much as a leaf of some thousand strands: more would ask more of the budget
+/// than anything else does, fewer would pose the faces around them too often.
 constexpr size_t kTrianglesPerPiece = 2048;
 
 size_t growth_bytes(const StrandCounts& n) {
@@ -32,8 +32,7 @@ const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part)
 
 }  // namespace
 
-FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers)
-    : scene_(scene) {
+FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers) : scene_(scene) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
     for (const auto& procedural : scene.fur[part].procedurals) {
@@ -135,9 +134,9 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& p
   options.strategy = scene_.render.bounds;
   options.factor = scene_.render.bounds_factor;
   options.in_one_part = in_fur_trees();
-  std::vector<ChunkBounds> bounds =
-      bound_chunks(options, leaves_, workers, progress, ledger,
-                   [&progress](const std::string& line) { progress.warn(line); }, &counts);
+  std::vector<ChunkBounds> bounds = bound_chunks(
+      options, leaves_, workers, progress, ledger,
+      [&progress](const std::string& line) { progress.warn(line); }, &counts);
   for (const PieceOfSkin& piece : pieces_) {
     ChunkBounds box;
     box.keys = bound_keys(options.strategy);

@@ -15,8 +15,8 @@ namespace pelage {
 
 class Workers;
 
-/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Knows how to make each of them
-/// from the scene, which it refers to.
+/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Knows how to make each
+/// of them from the scene, which it refers to.
 class FrameChunks final : public ChunkGrower {
  public:
   /// Splits every coat down to its leaves and divides skins. Throws Error (kInput) for a

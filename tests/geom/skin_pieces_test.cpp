@@ -27,8 +27,8 @@ std::map<uint32_t, size_t> first_triangles(const SkinMesh& mesh) {
   return first;
 }
 
-/// Every triangle of the whole skin stands in one piece, bit by bit as in the whole, and pieces are posed on the
-/// faces around them alone.
+/// Every triangle of the whole skin stands in one piece, bit by bit as in the whole, and pieces are posed on
+/// the faces around them alone.
 void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme scheme, size_t most) {
   const auto topology = SurfaceTopology::create(cage, scheme, BoundaryRule::kEdgeAndCorner, "test");
   std::vector<V3f> moved = cage.positions;
@@ -79,7 +79,8 @@ void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme schem
 
 void crease(ControlMesh& cage, size_t face) {
   for (size_t i = 0; i < 4; ++i)
-    cage.creases.push_back({cage.face_vertices[face * 4 + i], cage.face_vertices[face * 4 + (i + 1) % 4], 10});
+    cage.creases.push_back(
+        {cage.face_vertices[face * 4 + i], cage.face_vertices[face * 4 + (i + 1) % 4], 10});
 }
 
 TEST(SkinPieces, TogetherAreTheWholeBitByBit) {
@@ -150,7 +151,8 @@ TEST(SkinPieces, OfRealCages) {
   PELAGE_REQUIRE_DATA();
   for (const char* name : {"spot_control_mesh.obj", "penguin_control_mesh.obj", "sintel_bust.obj"}) {
     SCOPED_TRACE(name);
-    expect_pieces_of_the_whole(read_obj(data_folder() / "mesh" / name), SubdivisionScheme::kCatmullClark, 2048);
+    expect_pieces_of_the_whole(read_obj(data_folder() / "mesh" / name), SubdivisionScheme::kCatmullClark,
+                               2048);
   }
 }
 
