@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "bench/ball_chunks.h"
 #include "bench/yardstick.h"
+#include "procedurals/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/embree_accel.h"
 #include "render/accel/flush_denormals.h"
@@ -100,24 +101,12 @@ void compare(benchmark::State& state, const std::string& kind, const Accel& chun
   eager_sum += eager_best;
 }
 
-/// Boxes as the strategies make them: one per 256 neighbouring strands, and one for a skin.
-std::vector<ChunkBounds> strand_group_bounds(const BallChunks& chunks) {
+/// Boxes as the first of two passes measures them.
+std::vector<ChunkBounds> measured_bounds(const BallChunks& chunks) {
   std::vector<ChunkBounds> bounds;
   for (const ChunkContents& chunk : chunks.contents()) {
-    ChunkBounds parts;
-    if (const auto* fur = std::get_if<FurContents>(&chunk.geometry)) {
-      std::vector<size_t> ends;
-      const std::vector<uint32_t> order = neighbours(fur->strands, 256, ends);
-      size_t begin = 0;
-      for (size_t end : ends) {
-        const ChunkContents group{FurContents{pick(fur->strands, order, begin, end), {}}, 0};
-        parts.boxes.push_back(part_bounds(group, 1, 1).boxes[0]);
-        begin = end;
-      }
-    } else {
-      parts = part_bounds(chunk, 1, 1);
-    }
-    bounds.push_back(std::move(parts));
+    const auto* fur = std::get_if<FurContents>(&chunk.geometry);
+    bounds.push_back(fur ? SegmentParts(fur->strands).exact_bounds(1) : part_bounds(chunk, 1, 1));
   }
   return bounds;
 }
@@ -142,10 +131,11 @@ void chunks_over_one_scene(benchmark::State& state) {
 
   ChunkAccelOptions options;
   options.eager = state.range(2) == 0;
+  options.kind = state.range(3) == 0 ? AccelKind::kEmbree : AccelKind::kFur;
   options.opaque = true;
   options.memory_limit = uint64_t(16) << 30;
   const ChunkAccel accel(
-      options.eager ? std::vector<ChunkBounds>(chunks.contents().size()) : strand_group_bounds(chunks),
+      options.eager ? std::vector<ChunkBounds>(chunks.contents().size()) : measured_bounds(chunks),
       chunks, options, ledger, workers, progress);
   TraceThread warm;
   seconds(accel, rays.camera, false, warm);
@@ -162,10 +152,11 @@ void chunks_over_one_scene(benchmark::State& state) {
 }
 BENCHMARK(chunks_over_one_scene)
     ->Name("chunks over one eager compact scene")
-    ->ArgNames({"strands", "chunk", "deferred"})
-    ->Args({1000000, 2000, 1})
-    ->Args({1000000, 8000, 1})
-    ->Args({1000000, 8000, 0})
+    ->ArgNames({"strands", "chunk", "deferred", "fur"})
+    ->Args({1000000, 2000, 1, 1})
+    ->Args({1000000, 8000, 1, 1})
+    ->Args({1000000, 8000, 0, 1})
+    ->Args({1000000, 2000, 1, 0})
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
 
