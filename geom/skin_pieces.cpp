@@ -14,7 +14,7 @@ namespace {
 /// A face of the cage where it stands, and what it will cost.
 struct CageFace {
   uint32_t face = 0;
-  size_t triangles = 0;
+  size_t cost = 0;
   V3f middle{0};
 };
 
@@ -22,7 +22,7 @@ std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& s
   const SurfaceTopology::Impl& topology = surface.topology().impl();
   std::vector<CageFace> faces(topology.cage.face_count());
   for (size_t i = 0; i < whole.face_count(); ++i)
-    faces[topology.cage_face[whole.face(i)]].triangles += whole.face_triangles(i);
+    faces[topology.cage_face[whole.face(i)]].cost += whole.face_triangles(i) + kTrianglesPerPose;
   const float third = topology.triangular ? 1.0f / 3 : 0.5f;
   for (uint32_t face = 0; face < faces.size(); ++face) {
     faces[face].face = face;
@@ -38,7 +38,7 @@ void cut(std::span<CageFace> range, size_t most, const Emit& emit) {
   size_t all = 0;
   Box3f box;
   for (const CageFace& face : range) {
-    all += face.triangles;
+    all += face.cost;
     box.extendBy(face.middle);
   }
   if (all <= most || range.size() == 1) {
@@ -53,8 +53,8 @@ void cut(std::span<CageFace> range, size_t most, const Emit& emit) {
   const size_t pieces = (all + most - 1) / most;
   const size_t wanted = all / pieces * (pieces / 2);
   size_t left = 0, count = 0;
-  while (count + 1 < range.size() && (count == 0 || left + range[count].triangles / 2 < wanted))
-    left += range[count++].triangles;
+  while (count + 1 < range.size() && (count == 0 || left + range[count].cost / 2 < wanted))
+    left += range[count++].cost;
   cut(range.first(count), most, emit);
   cut(range.subspan(count), most, emit);
 }
@@ -62,20 +62,20 @@ void cut(std::span<CageFace> range, size_t most, const Emit& emit) {
 }  // namespace
 
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, size_t most_triangles,
+                                   const TessellationOptions& options, size_t most_cost,
                                    const Workers& workers) {
   const SurfaceTopology& topology = keys[0].topology();
   SkinLattice whole(topology.impl());
   set_rates(whole, keys, view, options, workers);
   whole.number();
   std::vector<SkinPiece> pieces;
-  if (whole.triangle_count() <= most_triangles) {
+  if (whole.triangle_count() + kTrianglesPerPose * whole.face_count() <= most_cost) {
     pieces.push_back({{}, whole.vertex_count(), whole.triangle_count()});
     return pieces;
   }
   std::vector<CageFace> faces = cage_faces(whole, keys[0]);
   const CageConnectivity& cage = topology.impl().cage;
-  cut(std::span(faces), most_triangles, [&](std::span<const CageFace> part) {
+  cut(std::span(faces), most_cost, [&](std::span<const CageFace> part) {
     SkinPiece piece;
     for (const CageFace& face : part) {
       for (uint32_t f = cage.first_ptex[face.face]; f < cage.first_ptex[face.face + 1]; ++f)

@@ -22,11 +22,14 @@ struct SkinPiece {
   bool is_whole() const { return faces.empty(); }
 };
 
-/// Divides a skin into pieces of at most `most_triangles` each, or of one cage face, that are compact and
-/// much alike in size: one where the whole has no more. Every face is in one piece, holes in any. Throws as
-/// tessellate().
+/// What tessellating some faces takes, in triangles: posing a ptex face takes as much memory as this many.
+constexpr size_t kTrianglesPerPose = 16;
+
+/// Divides a skin into pieces that are compact and much alike in cost: at most `most_cost` each, in triangles
+/// and kTrianglesPerPose for each face, or one cage face. One piece where the whole costs no more. Every face
+/// is in one piece, holes in any. Throws as tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, size_t most_triangles,
+                                   const TessellationOptions& options, size_t most_cost,
                                    const Workers& workers);
 
 /// Ptex faces of the cage faces that have a vertex in common with those of `faces`, these included.

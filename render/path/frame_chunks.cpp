@@ -13,9 +13,9 @@ namespace {
 /// What growing holds for a moment: a block of strands on its way through the operators, whose points and
 /// colours are rows of floats, twice where they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
-/// A piece of skin takes about as much as a leaf of some thousand strands: more would ask more of the budget
-/// than anything else does, fewer would pose the faces around them too often.
-constexpr size_t kTrianglesPerPiece = 2048;
+/// In triangles. A piece of skin then takes about as much as a leaf of some hundred strands: more would ask
+/// more of the budget than anything else does, fewer would pose the faces around them too often.
+constexpr size_t kMostPieceCost = 4096;
 
 size_t growth_bytes(const StrandCounts& n) {
   if (n.strands == 0) return kGrowthBytes;
@@ -44,7 +44,7 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers) : sce
   workers.for_each(pieces.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) {
       const DeferredSkin& skin = *scene.skins[i].skin;
-      for (SkinPiece& piece : skin.divide(scene.camera.view(), kTrianglesPerPiece)) {
+      for (SkinPiece& piece : skin.divide(scene.camera.view(), kMostPieceCost)) {
         const size_t making = skin.making_bytes(piece);
         pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
       }
