@@ -6,6 +6,8 @@
 
 #include <sys/mman.h>
 
+#include "base/page_pool.h"
+
 namespace pelage {
 namespace {
 
@@ -47,7 +49,9 @@ void PageBlock::prefer_large_pages() {
 
 PageBlock::~PageBlock() {
   if (!data_) return;
-  if (bytes_ < kOwnPages) {
+  if (pool_) {
+    pool_->give_back(data_, bytes_);
+  } else if (bytes_ < kOwnPages) {
     ::operator delete(data_, std::align_val_t(kAlignment));
   } else {
     ::munmap(data_, bytes_);

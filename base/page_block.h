@@ -6,6 +6,8 @@
 
 namespace pelage {
 
+class PagePool;
+
 /// One piece of memory of a fixed size, aligned to 64 bytes and not initialised. Large pieces are pages of
 /// their own: the system has them back the moment the block dies, whatever else the heap holds beside them.
 class PageBlock {
@@ -14,10 +16,13 @@ class PageBlock {
   /// Throws std::bad_alloc.
   explicit PageBlock(size_t bytes);
   PageBlock(PageBlock&& other) noexcept
-      : data_(std::exchange(other.data_, nullptr)), bytes_(std::exchange(other.bytes_, 0)) {}
+      : data_(std::exchange(other.data_, nullptr)),
+        bytes_(std::exchange(other.bytes_, 0)),
+        pool_(std::exchange(other.pool_, nullptr)) {}
   PageBlock& operator=(PageBlock&& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(bytes_, other.bytes_);
+    std::swap(pool_, other.pool_);
     return *this;
   }
   ~PageBlock();
@@ -34,8 +39,12 @@ class PageBlock {
   static size_t held_bytes(size_t bytes);
 
  private:
+  friend class PagePool;
+  PageBlock(PagePool& pool, std::byte* data, size_t bytes) : data_(data), bytes_(bytes), pool_(&pool) {}
+
   std::byte* data_ = nullptr;
   size_t bytes_ = 0;
+  PagePool* pool_ = nullptr;  // which has it back
 };
 
 }  // namespace pelage

@@ -47,6 +47,7 @@ class ChunkAccel::Growth final : public Grower {
          const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
       : grower_(grower),
         options_(options),
+        fur_(with_pool(options.fur)),
         device_(device),
         patterns_(patterns),
         known_(bounds.size()),
@@ -84,7 +85,7 @@ class ChunkAccel::Growth final : public Grower {
     const bool fur = stands_in_fur_tree(counts);
     if (build_peak > 0)
       return fur ? FurChunk::bytes_bound(counts, build_peak) : EmbreeChunk::bytes_bound(counts, build_peak);
-    if (fur) return FurChunk::bytes_bound(counts, options_.fur);
+    if (fur) return FurChunk::bytes_bound(counts, fur_);
     if (known_[slot].learns) counts.growth_bytes = std::max(counts.growth_bytes, part_bounds_scratch(counts));
     return EmbreeChunk::bytes_bound(counts);
   }
@@ -93,7 +94,7 @@ class ChunkAccel::Growth final : public Grower {
     // One thread at a time grows a slot, so nobody else stores what is learned.
     const bool learns = known_[slot].learns && !learned(slot);
     if (is_stored(slot)) {
-      std::unique_ptr<FurChunk> fur = options_.file->read(slot);
+      std::unique_ptr<FurChunk> fur = options_.file->read(slot, &pool_);
       if (learns) learn(slot, fur->part_bounds(part_count(fur->segment_count())));
       const size_t bytes = fur->bytes();
       return {std::move(fur), bytes};
@@ -102,7 +103,7 @@ class ChunkAccel::Growth final : public Grower {
     std::unique_ptr<ChunkGeometry> unit;
     ChunkBounds bounds;
     if (stands_in_fur_tree(grower_.counts(slot))) {
-      auto fur = std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), options_.fur);
+      auto fur = std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), fur_);
       if (learns) bounds = fur->part_bounds(options_.eager ? 1 : part_count(fur->segment_count()));
       unit = std::move(fur);
     } else {
@@ -144,8 +145,15 @@ class ChunkAccel::Growth final : public Grower {
     const StrandScale scale = grower_.scale(slot);
     return FurGrid(scale.width, scale.anchor);
   }
+  FurChunkOptions with_pool(FurChunkOptions options) {
+    options.tree.pool = &pool_;
+    return options;
+  }
+
+  PagePool pool_;  // of all trees
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
+  const FurChunkOptions fur_;
   const EmbreeDevice& device_;
   SegmentPatterns& patterns_;
   std::vector<Known> known_;

@@ -29,15 +29,28 @@ void ChunkWalk::open(uint32_t index, float far) {
   Four enter, leave;
   const auto met = slabs_.meet(node.boxes, motion, far, enter, leave);
   const Four rank = order_ == Order::kFrontToBack ? enter : enter - leave;
-  std::array<size_t, 4> lanes;  // of the boxes met, those that come first at the end
+  // All four are written and those that are met counted: no branch that nothing foretells.
+  Entry* entries = &stack_[count_];
+  std::array<float, 5> ranks;
   size_t count = 0;
   for (size_t lane = 0; lane < 4; ++lane) {
-    if (!met[lane]) continue;
-    size_t at = count++;
-    for (; at > 0 && rank[lanes[at - 1]] < rank[lane]; --at) lanes[at] = lanes[at - 1];
-    lanes[at] = lane;
+    entries[count] = {enter[lane], node.children[lane]};
+    ranks[count] = rank[lane];
+    count += met[lane] & 1;
   }
-  for (size_t i = 0; i < count; ++i) stack_[count_++] = {enter[lanes[i]], node.children[lanes[i]]};
+  count_ += count;
+  // Those that come first at the end.
+  for (size_t i = 1; i < count; ++i) {
+    const Entry entry = entries[i];
+    const float of_entry = ranks[i];
+    size_t at = i;
+    for (; at > 0 && ranks[at - 1] < of_entry; --at) {
+      entries[at] = entries[at - 1];
+      ranks[at] = ranks[at - 1];
+    }
+    entries[at] = entry;
+    ranks[at] = of_entry;
+  }
 }
 
 }  // namespace pelage

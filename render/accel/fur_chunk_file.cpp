@@ -123,8 +123,8 @@ size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
          PageBlock::held_bytes(FurTree::leaves_offset(nodes) + leaves) + places;
 }
 
-std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk) const {
-  std::unique_ptr<FurChunk> result = parse(chunk);
+std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, PagePool* pool) const {
+  std::unique_ptr<FurChunk> result = parse(chunk, pool);
   chunks_read_.fetch_add(1, std::memory_order_relaxed);
   uint64_t bytes = 0;
   for (size_t i = 0; i < kSections; ++i) bytes += file_.section_bytes(kSections * size_t(chunk) + i);
@@ -132,7 +132,7 @@ std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk) const {
   return result;
 }
 
-std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk) const {
+std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) const {
   const size_t first = kSections * size_t(chunk);
   const uint64_t known_bytes = file_.section_bytes(first + kHead);
   if (known_bytes < sizeof(Head) || known_bytes > kMostHead) refuse(file_);
@@ -157,7 +157,7 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk) const {
   if (!is_in_proportion(strands->segment_count(), leaves, head.motion_keys)) refuse(file_);
   const size_t begin = FurTree::leaves_offset(nodes);
   if (begin + leaves > UINT32_MAX) refuse(file_);
-  PageBlock tree(begin + leaves);
+  PageBlock tree = FurTree::make_block(pool, begin + leaves);
   file_.read(first + kNodes, {tree.data(), nodes});
   file_.read(first + kLeaves, {tree.data() + begin, leaves});
   const FurTreelet whole{0, 0, 0, static_cast<uint32_t>(nodes), static_cast<uint32_t>(nodes + leaves)};
@@ -179,7 +179,7 @@ bool FurChunkFile::check_all(const Workers& workers, const WarningSink& warn) co
   workers.for_each(chunk_count(), 1, [&](WorkRange range) {
     try {
       for (size_t chunk = range.begin; chunk < range.end; ++chunk) {
-        if (has(static_cast<uint32_t>(chunk))) parse(static_cast<uint32_t>(chunk));
+        if (has(static_cast<uint32_t>(chunk))) parse(static_cast<uint32_t>(chunk), nullptr);
       }
     } catch (const Error& e) {
       const std::lock_guard lock(mutex);

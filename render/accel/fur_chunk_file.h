@@ -49,8 +49,8 @@ class FurChunkFile {
   }
   /// At least what reading a chunk holds at any moment, and what the chunk holds afterwards.
   size_t bytes_bound(uint32_t chunk) const;
-  /// Throws Error (kInput) when it cannot be read or is not what was written.
-  std::unique_ptr<FurChunk> read(uint32_t chunk) const;
+  /// `pool` as FurTreeOptions. Throws Error (kInput) when it cannot be read or is not what was written.
+  std::unique_ptr<FurChunk> read(uint32_t chunk, PagePool* pool = nullptr) const;
   /// Reads all chunks once. Whether they are what was written; otherwise `warn` has been told.
   bool check_all(const Workers& workers, const WarningSink& warn) const;
 
@@ -62,7 +62,7 @@ class FurChunkFile {
  private:
   static constexpr size_t kSections = 4;
 
-  std::unique_ptr<FurChunk> parse(uint32_t chunk) const;
+  std::unique_ptr<FurChunk> parse(uint32_t chunk, PagePool* pool) const;
 
   StoredSections file_;
   mutable std::atomic<int64_t> chunks_read_{0}, bytes_read_{0};

@@ -13,19 +13,32 @@ constexpr size_t kStrands = 30;
 
 class FurIntersection : public testing::TestWithParam<GroomShape> {};
 
-/// Whether what the tree found is what the truth finds within `margin` sideways of the ray: then the ray
-/// passes an edge that near.
+/// Whether the truth finds the same segment first, or nothing as well, somewhere within `margin` sideways of
+/// the ray: then the ray passes an edge that near. What was hit must be a hit of a ray that near, too. (Of
+/// one that runs along a strand, how deep it meets it depends on the square root of how far it passes from
+/// where it would not meet it: depths cannot be compared there, but places can.)
 bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
-  double nearest = 1e300, farthest = -1e300;
-  for (int i = 0; i < 17; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 16, r = i == 16 ? 0 : margin;
-    const FurTruth::Found found = truth.closest(r * std::cos(angle), r * std::sin(angle));
-    if (found.number != hit.number) continue;
-    if (!hit) return true;
-    nearest = std::min(nearest, found.distance);
-    farthest = std::max(farthest, found.distance);
+  constexpr int kAngles = 16, kRadii = 4;
+  bool same = false;
+  for (int i = 0; i <= kRadii * kAngles && !same; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % kAngles) / kAngles;
+    const double r = i == kRadii * kAngles ? 0 : std::ldexp(margin, -(i / kAngles));
+    same = truth.closest(r * std::cos(angle), r * std::sin(angle)).number == hit.number;
   }
-  return hit && hit.distance >= nearest - 10 * margin && hit.distance <= farthest + 10 * margin;
+  if (!same || !hit) return same;
+  const FurTruth::Place place = truth.place_at(hit.number, hit.u);
+  return place.moved <= margin && place.beside <= margin && std::abs(place.distance - hit.distance) <= margin;
+}
+
+/// The distance of neighbouring floats at the largest coordinate of where the ray begins and where it meets
+/// something. Trees count coordinates from the anchor of their grid.
+float float_step(const Ray& ray, double distance, const V3f& anchor) {
+  const V3d from = V3d(ray.origin) - V3d(anchor);
+  const V3d to = from + (std::isfinite(distance) ? distance : 0) * V3d(ray.direction);
+  double most = 0;
+  for (int i = 0; i < 3; ++i) most = std::max({most, std::abs(from[i]), std::abs(to[i])});
+  const auto coordinate = static_cast<float>(most);
+  return std::nextafter(coordinate, std::numeric_limits<float>::infinity()) - coordinate;
 }
 
 TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
@@ -37,8 +50,6 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
   TestRandom random(2);
   const uint64_t rays = 1500 * soak_scale();
   uint64_t hits = 0, edges = 0;
-  const float step_of_float = 4 * 0x1p-23f;  // at coordinates that count from the anchor
-  const double margin = std::max(1e-3f * shape.width, step_of_float);
   for (uint64_t i = 0; i < rays; ++i) {
     const Ray ray = ray_at_groom(shape, strands, random, i);
     const FurTruth truth(snapped, ray);
@@ -46,6 +57,8 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
     const FurHit hit = tree.closest(ray, {});
     ASSERT_EQ(bool(hit), tree.occluded(ray, {})) << i;
     hits += bool(hit);
+    const float step = float_step(ray, hit ? hit.distance : expected.distance, shape.centre);
+    const double margin = std::max(1e-3f * shape.width, step);
     if (hit.number == expected.number && (!hit || std::abs(hit.distance - expected.distance) < 4 * margin))
       continue;
     ++edges;

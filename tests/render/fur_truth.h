@@ -42,6 +42,22 @@ class FurTruth {
     return best;
   }
 
+  /// A place on a segment, seen from the ray.
+  struct Place {
+    double distance = 0;  ///< along the ray
+    double beside = 0;    ///< of the ray's line from the axis, less the radius
+    double moved = 0;     ///< how far the line has to move at least to be as near as nowhere else around
+  };
+  Place place_at(uint32_t number, double u) const {
+    const Curve curve = seen_from_ray(strands_.locate(number), 0, 0);
+    Place place;
+    place.distance = value(curve.z, u);
+    place.beside = std::hypot(value(curve.x, u), value(curve.y, u)) - value(curve.r, u);
+    const double speed = std::hypot(first(curve.x, u), first(curve.y, u));
+    place.moved = speed > 0 ? std::abs(slope(curve, u)) / speed : 0;
+    return place;
+  }
+
  private:
   static constexpr int kSteps = 128;
 

@@ -52,11 +52,10 @@ class FurTree::Writer {
 
   /// Nodes, and leaves behind them. At first all leaves are taken to be narrow; which are not is known once
   /// they were written, and where there are any, all is written again.
-  PageBlock write() {
+  PageBlock write(PagePool* pool) {
     while (true) {
       place_leaves();
-      PageBlock block(leaves() + leaf_bytes_);
-      block.prefer_large_pages();
+      PageBlock block = make_block(pool, leaves() + leaf_bytes_);
       if (write_leaves(block.data() + leaves())) {
         write_nodes(block.data());
         return block;
@@ -179,6 +178,13 @@ class FurTree::Writer {
   std::vector<SnappedSegment> segments_;
 };
 
+PageBlock FurTree::make_block(PagePool* pool, size_t bytes) {
+  if (pool) return pool->take(bytes);
+  PageBlock block(bytes);
+  block.prefer_large_pages();
+  return block;
+}
+
 FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.layout = options.layout;
   view_.motion_keys = strands.motion_keys();
@@ -191,7 +197,7 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   build_bytes_ += topology_bytes;
   if (topology.nodes.empty()) return;
   Writer writer(strands, topology, options.layout);
-  block_ = writer.write();
+  block_ = writer.write(options.pool);
   node_bytes_ = writer.node_bytes();
   leaf_bytes_ = writer.leaf_bytes();
   for (const FurBox& box : writer.boxes()) box_.extend(box);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/page_block.h"
+#include "base/page_pool.h"
 #include "render/accel/fur/fur_hit.h"
 #include "render/accel/fur/fur_node.h"
 #include "render/accel/fur/fur_topology.h"
@@ -15,6 +16,7 @@ namespace pelage {
 struct FurTreeOptions {
   FurNodeLayout layout = FurNodeLayout::kQuantised;
   FurBuildOptions build;
+  PagePool* pool = nullptr;  ///< where the tree's memory comes from, if not from the system
 };
 
 /// What tracing needs of a tree: nodes and leaves wherever they stand. References are relative to the two
@@ -47,6 +49,8 @@ class FurTree {
   /// `like` says the rest of its view. They have been found possible.
   FurTree(const FurTreeView& like, const FurBox& box, PageBlock block, size_t node_bytes, size_t leaf_bytes);
   static size_t leaves_offset(size_t node_bytes);
+  /// The memory for a tree; `pool` as FurTreeOptions.
+  static PageBlock make_block(PagePool* pool, size_t bytes);
 
   /// The hit in (near, far) that stands first; `filter` may be null.
   FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
