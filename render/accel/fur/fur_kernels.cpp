@@ -3,7 +3,12 @@
 // approximated, so that every set gives the same bits.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// The narrowest and AVX2 are enough to look for wrong accesses: each set takes minutes to compile then.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
+#else
 #define HWY_DISABLED_TARGETS HWY_SSSE3
+#endif
 // The plain fallback is four lanes too. What g++ before 12.3 gets wrong there (high halves of 16-bit
 // products) is not used here.
 #define HWY_BROKEN_EMU128 0
