@@ -30,7 +30,7 @@ class CrowdCompositionTest : public testing::Test {
     return count;
   }
   static V3f size_of(const World& world, size_t skin) {
-    return world.scene.skins[skin].skin->bound(BoundSpan::kShutter).size();
+    return world.scene.skins[skin].skin->bound({}, BoundSpan::kShutter).size();
   }
 
   SmallScene scene_;
@@ -77,7 +77,7 @@ TEST_F(CrowdCompositionTest, APartMayHavePosesOfItsOwn) {
   const Override own = {"characters.walker.parts.0.poses", "{files: \"" + scene_.path("cube.%04d.obj") +
                                                                "\", first: 2, count: 2, frames_per_pose: 4}"};
   const auto place_of = [](const World& world) {
-    return world.scene.skins[0].skin->bound(BoundSpan::kShutter).center().x /
+    return world.scene.skins[0].skin->bound({}, BoundSpan::kShutter).center().x /
            2;  // the walker is twice as large
   };
   EXPECT_NEAR(place_of(compose_frame(3)), 3, 1e-4f);
