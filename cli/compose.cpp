@@ -86,6 +86,7 @@ class Composer {
     nature.width *= skin.scale();
     nature.length *= skin.scale() * skin.length();
     nature.area_share *= skin.length();
+    nature.density /= skin.scale() * skin.scale();
     const LodParams& lod = scene_.render.lod;
     const float budget = groom.role() == StrandRole::kGuard     ? lod.guard
                          : groom.role() == StrandRole::kWhisker ? lod.whisker

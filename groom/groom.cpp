@@ -26,15 +26,17 @@ const ContentHash& Groom::content_hash() const { return impl_->hash; }
 const ContentStore* Groom::store() const { return impl_->store ? &*impl_->store : nullptr; }
 const GroomCacheReport* Groom::cache_report() const { return impl_->report ? &*impl_->report : nullptr; }
 
-V3f Groom::root(size_t follicle, const PosedSkin& pose, size_t key) const {
+SurfacePoint Groom::root(size_t follicle, const PosedSkin& pose, size_t key) const {
   const CoatSource& source = impl_->source;
   if (source.rest) {
     const RootAddress& root = source.follicles().root(follicle);
-    return pose.keys[key].evaluate(root.face, root.u, root.v).position;
+    return pose.keys[key].evaluate(root.face, root.u, root.v);
   }
   V3f at = source.imported->first_point(follicle);
   if (!pose.free_transforms.empty()) pose.free_transforms[key].multVecMatrix(V3f(at), at);
-  return at;
+  SurfacePoint point;
+  point.position = at;
+  return point;
 }
 
 bool Groom::has_priority_order() const { return !impl_->source.imported; }

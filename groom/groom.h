@@ -93,8 +93,8 @@ class Groom {
   StrandCounts counts(size_t leaf, size_t count = SIZE_MAX) const;
 
   bool grows_on_skin() const;
-  /// Where a strand stands at a motion key.
-  V3f root(size_t follicle, const PosedSkin& pose, size_t key) const;
+  /// Where a strand stands at a motion key; on no skin, without derivatives.
+  SurfacePoint root(size_t follicle, const PosedSkin& pose, size_t key) const;
   /// Evenly spread over [0, 1), from the strand's id alone: who comes first stays longest when detail is
   /// reduced. Ascends within a leaf where has_priority_order().
   float priority(size_t follicle) const;

@@ -18,6 +18,13 @@ constexpr float kMostFade = 0.1f;
 constexpr float kLeastFade = 1e-3f;  // what is thinner than this part of itself does not exist
 constexpr float kLeastAreaShare = 1e-7f;
 constexpr float kTolerancePixels = 0.1f;
+// Least distance of roots from each other on a line through them, times the root of their density: of the
+// progressive order of follicles.
+constexpr double kRoom = 0.6;
+// How far light starts from the strand that was hit, relative to the disc of skin that the strand stands for:
+// far enough that what the line of sight found clear does not count for the light too. And in widths.
+constexpr float kSpread = 1.5f;
+constexpr float kMostSpread = 4;
 constexpr float kPi = std::numbers::pi_v<float>;
 
 /// How many times as many strands contribute to a pixel as without blur: ratio of the areas of a strand of
@@ -31,11 +38,39 @@ float blur_ratio(float length, float motion, float confusion) {
   return (moving / still) * (blurred / still);
 }
 
+/// Minus the logarithm of what is bare, of a coat of which `depth` strands stand over a point on average and
+/// keep a distance, of the part `room` of the line along which they do.
+double covering_depth(double depth, double room) {
+  room = std::min(room, 0.98);
+  if (depth <= room) return -std::log1p(-depth);  // never two
+  return (depth - room) / (1 - room) - std::log1p(-room);
+}
+
 }  // namespace
 
 Simplification::Simplification(const SimplificationParams& params, const LodView& view,
                                const StrandNature& nature, float budget)
-    : params_(params), view_(view), nature_(nature), budget_(budget) {}
+    : params_(params), view_(view), nature_(nature), budget_(budget) {
+  tabulate_area();
+}
+
+void Simplification::tabulate_area() {
+  area_.fill(1);
+  if (!nature_.even || !(nature_.density > 0)) return;
+  const double depth = double(nature_.density) * nature_.width * nature_.length;
+  const double room = kRoom * nature_.width * std::sqrt(double(nature_.density));
+  const double covered = covering_depth(depth, room);
+  for (size_t i = 1; i < kAreaSteps; ++i) {
+    const double root = static_cast<double>(i) / kAreaSteps;
+    double low = 0, high = 1;
+    for (int step = 0; step < 24; ++step) {
+      const double area = 0.5 * (low + high);
+      (covering_depth(depth * area, room * area / root) < covered ? low : high) = area;
+    }
+    area_[i] = static_cast<float>(high);
+  }
+  area_[0] = area_[1];
+}
 
 float Simplification::share(float pixels, float motion, float confusion) const {
   const float width = nature_.width * pixels, length = nature_.length * pixels;
@@ -73,7 +108,26 @@ float Simplification::fade(float share, float priority) {
 float Simplification::gain(float share) const {
   if (!params_.width_gain || share >= 1) return 1;
   const double r = std::clamp(nature_.area_share, kLeastAreaShare, 0.5f);
-  return static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
+  const float at = std::sqrt(share) * kAreaSteps;
+  const auto before = std::min(static_cast<size_t>(at), kAreaSteps - 1);
+  const float t = at - static_cast<float>(before);
+  const float area = area_[before] * (1 - t) + area_[before + 1] * t;
+  return area * static_cast<float>(-std::expm1(std::log1p(-r) / share) / r);
+}
+
+float Simplification::spread(float share) const {
+  if (share >= 1 || !(nature_.density > 0)) return 0;
+  const float disc = std::sqrt((1 / share - 1) / (kPi * nature_.density));
+  return std::min(kSpread * disc, kMostSpread * nature_.width * gain(share));
+}
+
+float Simplification::own_shadow(float share) const {
+  const float most = spread(share);
+  if (!nature_.even || !params_.width_gain || !(most > 0)) return 0;
+  // In a disc of skin of which the strand is the only one, light that starts anywhere meets it with
+  // probability width / (pi radius); those strands have such a disc too that full detail leaves in place.
+  const float disc = std::sqrt((1 / share - 1) / (kPi * nature_.density));
+  return std::max(0.0f, 1 - kSpread * std::sqrt(share)) * std::sqrt(1 - share) * (most / (kSpread * disc));
 }
 
 float Simplification::width_factor(float share, float priority) const {
@@ -108,7 +162,8 @@ ContentHash Simplification::hash() const {
   const auto add = [&](const auto&... values) { (hasher.add(values), ...); };
   const SimplificationParams& p = params_;
   add(p.quality, p.size, p.motion_blur, p.depth_of_field, p.width_gain, p.contrast, p.fewer_points,
-      p.blur_strength, p.least_share, budget_, nature_.width, nature_.length, nature_.area_share);
+      p.blur_strength, p.least_share, budget_, nature_.width, nature_.length, nature_.area_share,
+      nature_.density, static_cast<uint32_t>(nature_.even));
   for (const LodPose* pose : {&view_.open, &view_.close}) {
     for (const V3f* v : {&pose->position, &pose->right, &pose->up, &pose->forward}) add(v->x, v->y, v->z);
     add(pose->focal_pixels);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "base/hash.h"
 #include "lod/lod_view.h"
 #include "lod/simplification_params.h"
@@ -12,6 +15,8 @@ struct StrandNature {
   float width = 0;
   float length = 0;
   float area_share = 0;  ///< width * length over the area of the skin that they cover; 0 when not known
+  float density = 0;     ///< strands per unit of skin, where they stand; 0 when not known
+  bool even = true;      ///< whether every prefix of their order is blue noise
 };
 
 /// Stochastic simplification of one coat: how many strands are enough at a place, and how wide those must be
@@ -47,13 +52,27 @@ class Simplification {
   /// 1 before the fade, 0 behind it.
   static float fade(float share, float priority);
 
-  /// What the width of a strand is multiplied by; 0: it does not exist. 1 at share 1. The mean area of a
-  /// coat, as far as it is seen, stays: (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], r the area_share.
+  /// What the width of a strand is multiplied by; 0: it does not exist. 1 at share 1. The part of the skin
+  /// that a coat covers stays.
+  ///
+  /// For strands anywhere that is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], r the area_share. Where
+  /// they stand evenly, wide ones overlap less than thin ones. What stands over a point of the skin are roots
+  /// in a strip of one strand's width and length, and for strips narrower than the distance between roots
+  /// these are intervals on a line that keep some distance: with mu of them on average and a part x of the
+  /// line taken up by the distances, none is there with probability (1 - x) exp(-(mu - x) / (1 - x)). As x
+  /// grows with the width, mu must shrink.
   float width_factor(float share, float priority) const;
   /// The same of strands that do not fade.
   float gain(float share) const;
   /// No width_factor() of roots up to this distance is larger.
   float most_width_factor(float distance) const;
+  /// A strand that is kept stands for others beside it. Light leaves one of them: it is as far along its
+  /// length, and its root is up to this distance away on the skin. 0 at share 1.
+  float spread(float share) const;
+  /// With which probability the strand itself counts among what light meets that leaves one of those that it
+  /// stands for. Strands that stand evenly have room around them, the more the fewer there are; that light
+  /// does not cross it unhindered is due to the others that are not there. 0 at share 1.
+  float own_shadow(float share) const;
   /// What the deviation of a strand's colour from the mean is multiplied by [Cook07, eq. 22].
   float contrast(float share) const;
   /// How far fewer control points may move a strand, in scene units; 0: not at all.
@@ -64,11 +83,14 @@ class Simplification {
 
  private:
   float share(float pixels, float motion, float confusion) const;
+  void tabulate_area();
 
+  static constexpr size_t kAreaSteps = 32;
   SimplificationParams params_;
   LodView view_;
   StrandNature nature_;
   float budget_;
+  std::array<float, kAreaSteps + 1> area_;  // that is left of the strands' area, by the root of the share
 };
 
 }  // namespace pelage

@@ -6,6 +6,8 @@
 
 #include <Imath/ImathBoxAlgo.h>
 
+#include "geom/packed_direction.h"
+
 namespace pelage {
 namespace {
 
@@ -60,14 +62,17 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
   for (uint32_t s = 0; s < count; ++s) {
     const float priority = groom_->priority(begin + s);
     if (priority >= first_out_) continue;
-    const V3f open = groom_->root(begin + s, skin, pose.open_key);
-    const V3f close = pose.close_key == pose.open_key ? open : groom_->root(begin + s, skin, pose.close_key);
+    const SurfacePoint root = groom_->root(begin + s, skin, pose.open_key);
+    const V3f open = root.position;
+    const V3f close =
+        pose.close_key == pose.open_key ? open : groom_->root(begin + s, skin, pose.close_key).position;
     const float share = simplification_.share(open, close);
     const float width = simplification_.width_factor(share, priority);
     if (width <= 0) continue;
     choice.strands.push_back(s);
     choice.width.push_back(width);
     choice.contrast.push_back(simplification_.contrast(share));
+    choice.normal.push_back(packed_line(root.du.cross(root.dv).normalized()));
     choice.tolerance.push_back(share < 1 ? simplification_.tolerance(open) : 0.0f);
   }
   return choice;

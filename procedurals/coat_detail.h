@@ -11,6 +11,10 @@
 
 namespace pelage {
 
+/// Attribute of strands with reduced detail: packed_line() of the normal of the skin at their roots when the
+/// shutter opens.
+inline constexpr const char* kRootNormal = "root normal";
+
 /// Which strands of one coat on one character are worth growing, each decided from where its own root stands
 /// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
 ///
@@ -31,6 +35,7 @@ class CoatDetail {
     std::vector<uint32_t> strands;  ///< by number in the leaf
     std::vector<float> width;
     std::vector<float> contrast;
+    std::vector<V2f> normal;       ///< of the skin at the root: packed_line()
     std::vector<float> tolerance;  ///< for fewer control points
     KeptStrands kept() const { return {strands, width, contrast}; }
   };

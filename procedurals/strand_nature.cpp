@@ -2,6 +2,8 @@
 #include "procedurals/strand_nature.h"
 
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "base/parallel.h"
 #include "geom/closest_point.h"
@@ -28,14 +30,14 @@ void add_strand(const Strands& strands, size_t strand, Sums& sums) {
 }
 
 /// By 2 x 2 points per face.
-double area(const LimitSurface& surface) {
+std::vector<double> face_areas(const LimitSurface& surface) {
   const SurfaceTopology& topology = surface.topology();
   const float low = 0.5f - 0.5f / std::sqrt(3.0f), high = 1 - low;
   const bool triangles = topology.is_triangular();
-  double sum = 0;
+  std::vector<double> areas(topology.face_count(), 0.0);
   const auto add = [&](uint32_t face, float u, float v, double weight) {
     const SurfacePoint point = surface.evaluate(face, u, v);
-    sum += weight * point.du.cross(point.dv).length();
+    areas[face] += weight * point.du.cross(point.dv).length();
   };
   for (uint32_t face = 0; face < topology.face_count(); ++face) {
     if (topology.is_hole(face)) continue;
@@ -49,7 +51,18 @@ double area(const LimitSurface& surface) {
       }
     }
   }
-  return sum;
+  return areas;
+}
+
+/// Strands per unit of skin, the mean over the strands.
+double density(const FollicleTree& follicles, const std::vector<double>& areas) {
+  std::vector<double> strands(areas.size(), 0.0);
+  for (const RootAddress& root : follicles.roots()) ++strands[root.face];
+  double sum = 0;
+  for (size_t face = 0; face < areas.size(); ++face) {
+    if (areas[face] > 0) sum += strands[face] * (strands[face] - 1) / areas[face];
+  }
+  return follicles.size() > 0 ? sum / static_cast<double>(follicles.size()) : 0;
 }
 
 }  // namespace
@@ -82,7 +95,13 @@ StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const W
   if (!(sums.length > 0)) return nature;
   nature.width = static_cast<float>(sums.area / sums.length);
   nature.length = static_cast<float>(sums.length / sums.strands);
-  if (rest) nature.area_share = static_cast<float>(sums.area / sums.strands / area(*rest));
+  nature.even = groom.has_priority_order();
+  if (rest) {
+    const std::vector<double> areas = face_areas(*rest);
+    nature.area_share =
+        static_cast<float>(sums.area / sums.strands / std::accumulate(areas.begin(), areas.end(), 0.0));
+    nature.density = static_cast<float>(density(follicles, areas));
+  }
   return nature;
 }
 

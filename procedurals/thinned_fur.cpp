@@ -9,6 +9,19 @@
 #include "procedurals/segment_parts.h"
 
 namespace pelage {
+namespace {
+
+/// Strands with the attribute kRootNormal.
+Strands with_normals(Strands strands, std::span<const V2f> normals) {
+  StrandAttribute attribute{kRootNormal, AttributeClass::kPerStrand, 2, {}};
+  attribute.values.reserve(2 * normals.size());
+  for (const V2f& n : normals) attribute.values.insert(attribute.values.end(), {n.x, n.y});
+  StrandArrays arrays = std::move(strands).release();
+  arrays.attributes.push_back(std::move(attribute));
+  return Strands(std::move(arrays));
+}
+
+}  // namespace
 
 std::vector<std::unique_ptr<Procedural>> ThinnedFurProcedural::divide(
     std::shared_ptr<const CoatDetail> detail, std::shared_ptr<const PosedCharacterSkin> skin) {
@@ -61,7 +74,9 @@ Strands ThinnedFurProcedural::grow(const SkinPose& pose) const {
     const CoatDetail::Choice choice = detail_->choose(leaf, pose);
     if (choice.strands.empty()) continue;
     const KeptStrands kept = choice.kept();
-    leaves.push_back(with_fewer_points(detail_->groom().grow(leaf, pose.skin(), &kept), choice.tolerance));
+    Strands strands = detail_->groom().grow(leaf, pose.skin(), &kept);
+    if (detail_->groom().grows_on_skin()) strands = with_normals(std::move(strands), choice.normal);
+    leaves.push_back(with_fewer_points(std::move(strands), choice.tolerance));
   }
   if (leaves.size() == 1) return std::move(leaves.front());
   return merge(leaves);
@@ -92,6 +107,7 @@ StrandCounts ThinnedFurProcedural::counts() const {
   for (size_t leaf = first_; leaf < end_; ++leaf)
     sum += detail_->groom().counts(leaf, detail_->candidates(leaf));
   sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
+  if (detail_->groom().grows_on_skin()) sum.attribute_floats += 2 * sum.strands;
   return sum;
 }
 

@@ -5,11 +5,14 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "base/check.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "geom/packed_direction.h"
 #include "geom/strand_point.h"
+#include "procedurals/coat_detail.h"
 #include "render/path/skin_point.h"
 #include "render/path/strand_fields.h"
 
@@ -30,6 +33,35 @@ float random_offset(const Hit& hit) {
 
 std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
+}
+
+/// One of the strands that a strand with reduced detail stands for, from which light goes on: were it to go
+/// on from the wide strand, it would find its way as clear as the line of sight, and the room empty where the
+/// others would be.
+struct Deputy {
+  V3f away{0};
+  bool meets_own = false;
+};
+
+/// Chosen by the strand and the line of sight, not by the place on the strand: what changes a little from
+/// frame to frame must not draw anew.
+Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
+                 const Strands& strand) {
+  const auto bits = [&](int i) { return uint64_t{std::bit_cast<uint32_t>(ray.direction[i])}; };
+  const auto number = [&](uint64_t use) {
+    return unit_float(hash64(use, hit.strand_id, bits(0), bits(1) << 32 | bits(2)));
+  };
+  Deputy deputy;
+  const StrandAttribute* packed = strand.find_attribute(kRootNormal);
+  const float spread = lod.spread(share);
+  if (!packed || packed->components != 2 || !(spread > 0)) return deputy;
+  const V3f normal = unpacked_line({packed->values[0], packed->values[1]});
+  const V3f side = normal.cross(std::abs(normal.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized();
+  const float angle = 2 * std::numbers::pi_v<float> * number(random_use("deputy: angle"));
+  const float distance = spread * std::sqrt(number(random_use("deputy: distance")));
+  deputy.away = distance * (std::cos(angle) * side + std::sin(angle) * normal.cross(side));
+  deputy.meets_own = number(random_use("deputy: own")) < lod.own_shadow(share);
+  return deputy;
 }
 
 /// Never lighter than white, unless the colour itself is.
@@ -92,14 +124,15 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   at.wo = -ray.direction;
   at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
   at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
-  // Light that leaves a strand that stands for many begins its way where it would leave one of them: were it
-  // to begin outside the wide one, what lies within would shadow nothing. Needs rays that do not meet the
-  // strand that they start on.
-  float radius = point.radius;
-  if (const std::optional<Simplification>& lod = scene_.fur[hit.part].lod; lod && leaves_own_strand_)
-    radius /= lod->gain(kept_share(hit, strand));
-  return {point.position, point.tangent,        radius, ray.origin + hit.distance * ray.direction,
-          at.h,           fibre.material.at(at)};
+  const FibreBsdf bsdf = fibre.material.at(at);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
+  const float share = lod ? kept_share(hit, strand) : 1.0f;
+  if (share < 1 && leaves_own_strand_) {
+    const Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
+    return {point.position, point.tangent, point.radius / lod->gain(share), deputy.away, deputy.meets_own,
+            at.h,           bsdf};
+  }
+  return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction, at.h, bsdf};
 }
 
 Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,

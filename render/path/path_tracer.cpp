@@ -195,7 +195,7 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
   ray.direction = to.direction;
   ray.far = to.distance * kJustBefore;
   ray.time = path.time;
-  ray.start = path.hit.start;
+  if (!point.meets_own()) ray.start = path.hit.start;
   ++path.scratch.rays.shadow;
   const float through = accel_.transmittance(ray, path.scratch.thread);
   if (through > 0) path.add_scattered(to.light, to.value, to.arriving * (through * factor));
@@ -244,7 +244,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ray.origin = point.start(sample->wi);
   ray.direction = sample->wi;
   ray.time = path.time;
-  ray.start = path.hit.start;
+  if (!point.meets_own()) ray.start = path.hit.start;
   if (last) {
     gather_lights(point.position(), ray, ray.far, value.pdf, true, path);
     return false;

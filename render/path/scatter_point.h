@@ -21,6 +21,13 @@ class ScatterPoint {
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
                const FibreBsdf& bsdf)
       : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), h_(h), bsdf_(bsdf) {}
+  /// The same of a strand that stands for many: light leaves one of them, which is `away` from it; the strand
+  /// itself may be in its way (`meets_own`).
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool meets_own, float h,
+               const FibreBsdf& bsdf)
+      : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
+    meets_own_ = meets_own;
+  }
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
       : position_(position), surface_(start), bsdf_(bsdf) {}
@@ -31,6 +38,9 @@ class ScatterPoint {
   const V3f& position() const { return position_; }
   /// Unit tangent of a fibre, the null vector on a skin.
   const V3f& tangent() const { return tangent_; }
+
+  /// Whether rays that start here may meet the strand that was hit, near this place too.
+  bool meets_own() const { return meets_own_; }
 
   FibreValue eval(const V3f& wi) const {
     if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
@@ -81,6 +91,7 @@ class ScatterPoint {
   V3f surface_;
   float radius_ = 0;
   float h_ = 0;
+  bool meets_own_ = false;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

@@ -29,6 +29,7 @@ class LodPictures : public testing::Test {
     options.input = (std::filesystem::path(PELAGE_SOURCE_DIR) / "examples" / "colony_small.yaml").string();
     options.progress = ProgressStyle::kQuiet;
     options.output = (folder_.path() / (name + ".exr")).string();
+    options.stats = (folder_.path() / (name + ".json")).string();
     options.overrides = {{"image.width", "160"},          {"image.height", "90"},
                          {"image.lod_layer", "true"},     {"render.samples", "2"},
                          {"grooms.under.strands", "900"}, {"grooms.guard.strands", "400"},
@@ -86,6 +87,37 @@ TEST_F(LodPictures, ACameraOfItsOwnDecidesAlone) {
   EXPECT_GT(change.largest, 0.01);
 }
 
+// Two cameras beside each other grow the same hairs, all of them: `bounds: none` grows what no ray meets too.
+TEST_F(LodPictures, BothEyesSeeTheSameHairs) {
+  const Override eager{"render.bounds", "none"};
+  const Override left{"camera.position", "[-30, 40, 0]"}, right{"camera.position", "[30, 40, 0]"};
+  const Override own{"render.lod.camera",
+                     "{position: [0, 40, 0], look_at: [0, 0, -101], fov: 25, shutter: [-0.25, 0.25]}"};
+  const auto hairs = [&](const std::string& name, const Settings& settings) {
+    render(name, settings);
+    return RunStatistics::read(folder_.path() / (name + ".json"))->number("strands_generated");
+  };
+  EXPECT_EQ(hairs("left", {kOn, eager, own, left}), hairs("right", {kOn, eager, own, right}));
+  EXPECT_NE(hairs("left", {kOn, eager, left}), hairs("right", {kOn, eager, right}));
+}
+
+// What fades changes less where the camera of the detail moves less; what pops does not. As many samples flip
+// between two strands as the camera moves, so that the mean square of what changes shrinks like the step.
+TEST_F(LodPictures, NothingPops) {
+  const auto seen_from = [&](double distance) {
+    return render("at" + std::to_string(distance),
+                  {kOn,
+                   {"render.samples", "8"},
+                   {"render.lod.camera", "{position: [0, " + std::to_string(40 * distance) +
+                                             ", 0], look_at: [0, 0, -101], fov: 25}"}});
+  };
+  const auto from = seen_from(1);
+  const double far = change_between(from, seen_from(1.16)).rms;
+  const double near = change_between(from, seen_from(1.01)).rms;
+  EXPECT_GT(near, 0);
+  EXPECT_LT(near, 0.5 * far);  // a sixteenth of the step
+}
+
 TEST_F(LodPictures, FalseColoursShowWhatWasLeftOut) {
   const auto picture = detail_picture(render("colours", {kOn}));
   ASSERT_TRUE(picture);
@@ -101,7 +133,10 @@ TEST_F(LodPictures, FalseColoursShowWhatWasLeftOut) {
 /// A ball of combed fur on a skin, seen from one place; the camera of the detail stands `distance` away.
 class LodBall : public testing::Test {
  protected:
-  double coverage(double distance) {
+  struct Seen {
+    double coverage = 0, luminance = 0;
+  };
+  Seen seen(double distance, const std::vector<Override>& settings = {}) {
     std::ofstream(folder_.path() / "ball.yaml") << R"(pelage: 1
 camera: {position: [0, 0, 12], look_at: [0, 0, 0], fov: 24}
 image: {width: 100, height: 100, light_layers: false}
@@ -117,7 +152,9 @@ grooms:
       - width: {root: 0.004, tip: 0.001}
 materials: {hide: {model: lambert}, fur: {model: cone-shell}}
 characters: {one: {parts: [{skin: ball, material: hide, grooms: {coat: fur}}]}}
-lights: {sky: {type: environment, radiance: 0.5}}
+lights:
+  sky: {type: environment, radiance: 0.1}
+  key: {type: rectangle, position: [60, 60, 60], look_at: [0, 0, 0], size: [8, 8], radiance: 200}
 render: {samples: 16, bounces: 0}
 )";
     Options options;
@@ -129,11 +166,15 @@ render: {samples: 16, bounces: 0}
     options.overrides = {{"render.lod.enabled", distance > 0 ? "true" : "false"},
                          {"render.lod.camera", "{position: [0, 0, " + std::to_string(distance) +
                                                    "], look_at: [0, 0, -1], fov: 24}"}};
+    options.overrides.insert(options.overrides.end(), settings.begin(), settings.end());
     EXPECT_EQ(run_render(options), 0);
     strands_ = RunStatistics::read(*options.stats)->number("strands_generated");
     const ExrImage image = read_exr(options.output);
-    const std::vector<float>& alpha = image.find("A")->pixels;
-    return std::accumulate(alpha.begin(), alpha.end(), 0.0) / static_cast<double>(alpha.size());
+    const auto mean = [&](const char* channel) {
+      const std::vector<float>& pixels = image.find(channel)->pixels;
+      return std::accumulate(pixels.begin(), pixels.end(), 0.0) / static_cast<double>(pixels.size());
+    };
+    return {mean("A"), (0.2126 * mean("R") + 0.7152 * mean("G") + 0.0722 * mean("B")) / mean("A")};
   }
 
   TemporaryFolder folder_;
@@ -142,13 +183,20 @@ render: {samples: 16, bounces: 0}
 
 // Silhouettes of hair are where coverage is neither full nor none.
 TEST_F(LodBall, CoversAsMuchAsBefore) {
-  const double full = coverage(0);
+  const double full = seen(0).coverage;
   EXPECT_EQ(strands_, 60000);
-  EXPECT_NEAR(coverage(6), full, 0.01 * full);
+  EXPECT_NEAR(seen(6).coverage, full, 0.01 * full);
   EXPECT_LT(strands_, 0.15 * 60000);
   EXPECT_GT(strands_, 0.08 * 60000);
-  EXPECT_NEAR(coverage(25), full, 0.02 * full);
+  EXPECT_NEAR(seen(25).coverage, full, 0.02 * full);
   EXPECT_LT(strands_, 0.04 * 60000);
+}
+
+TEST_F(LodBall, IsAsBrightAsBefore) {
+  const std::vector<Override> clean{{"render.samples", "48"}, {"render.bounces", "2"}};
+  const double full = seen(0, clean).luminance;
+  EXPECT_NEAR(seen(6, clean).luminance, full, 0.01 * full);
+  EXPECT_NEAR(seen(25, clean).luminance, full, 0.02 * full);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
 #include "lod/size.h"
 
 namespace pelage {
@@ -121,6 +122,56 @@ TEST(Simplification, TheVisibleAreaStays) {
     }
   }
   EXPECT_NEAR(sized({0.01f, 1, 0.01f}).width_factor(0.1f, 0), 9.56, 0.01);
+}
+
+// Intervals of length mu / n at n places of a line of length 1 that keep a distance of room / n: brute force.
+TEST(Simplification, WhatIsCoveredStaysWhereStrandsStandEvenly) {
+  const StrandNature nature{0.002f, 0.5f, 1e-6f, 1200.0f, true};
+  const Simplification s = sized(nature);
+  const auto bare = [&](float share) {
+    const double width = nature.width * s.gain(share), density = nature.density * share;
+    const double on_line = density * width, room = 0.6 * std::sqrt(density) * width / on_line;
+    // Gaps behind the room that each takes up are exponential.
+    const double mean_gap = 1 / on_line - room;
+    double at = 0, clear = 0;
+    for (uint64_t i = 0; i < 400000; ++i) {
+      const double gap = room - mean_gap * std::log(1 - unit_float(hash64(i, 7)));
+      clear += std::max(0.0, gap - nature.length);
+      at += gap;
+    }
+    return clear / at;
+  };
+  const double full = bare(1);
+  EXPECT_GT(full, 0.2);
+  for (const float share : {0.9f, 0.5f, 0.1f, 0.03f}) EXPECT_NEAR(bare(share), full, 0.004) << share;
+  EXPECT_LT(s.gain(0.03f), 0.9f / 0.03f);
+  StrandNature anywhere = nature;
+  anywhere.even = false;
+  EXPECT_NEAR(sized(anywhere).gain(0.03f), 1 / 0.03f, 0.01f);
+}
+
+TEST(Simplification, LightStartsFartherAwayTheMoreAStrandStandsFor) {
+  StrandNature nature{0.002f, 0.5f, 1e-6f, 1200.0f, true};
+  const Simplification s = sized(nature);
+  EXPECT_EQ(s.spread(1), 0);
+  EXPECT_EQ(s.own_shadow(1), 0);
+  float spread = 0, shadow = 0;
+  for (float share = 0.999f; share > 0.01f; share *= 0.98f) {
+    EXPECT_GE(s.spread(share), spread);
+    EXPECT_GE(s.own_shadow(share), shadow);
+    EXPECT_LT(s.spread(share), 4.001f * nature.width * s.gain(share));
+    EXPECT_NEAR(s.spread(share), spread, 0.02f / std::sqrt(share));  // continuous
+    EXPECT_NEAR(s.own_shadow(share), shadow, 0.05f);
+    spread = s.spread(share);
+    shadow = s.own_shadow(share);
+  }
+  EXPECT_GT(shadow, 0.5f);
+  EXPECT_LT(shadow, 1.0f);
+  nature.density = 0;  // not known
+  EXPECT_EQ(sized(nature).spread(0.1f), 0);
+  nature.density = 1200;
+  nature.even = false;  // as in a strands file: no room
+  EXPECT_EQ(sized(nature).own_shadow(0.1f), 0);
 }
 
 TEST(Simplification, IsNestedAndContinuous) {

@@ -96,8 +96,8 @@ TEST(ThinnedFur, EachStrandIsKeptForWhereItsRootStands) {
     const auto pose = coat.skin->pose(BoundSpan::kShutter);
     std::set<uint64_t> expected;
     for (size_t f = 0; f < coat.groom->follicles().size(); ++f) {
-      const V3f open = coat.groom->root(f, pose->skin(), 0);
-      const V3f close = coat.groom->root(f, pose->skin(), pose->keys.size() - 1);
+      const V3f open = coat.groom->root(f, pose->skin(), 0).position;
+      const V3f close = coat.groom->root(f, pose->skin(), pose->keys.size() - 1).position;
       if (lod.width_factor(lod.share(open, close), coat.groom->priority(f)) > 0)
         expected.insert(coat.groom->follicles().id(f));
     }

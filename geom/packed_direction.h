@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// A line through the origin as two multiples of 1/255 in [0, 1], off by up to a degree: its unit direction
+/// on the octahedron |x| + |y| + |z| = 1, turned so that z >= 0, seen from its tip. Opposite directions are
+/// one.
+inline V2f packed_line(const V3f& direction) {
+  const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
+  if (!(sum > 0)) return V2f(1);
+  const V3f p = direction / (direction.z < 0 ? -sum : sum);
+  const auto rounded = [](float x) { return std::round(255 * (0.5f + 0.5f * x)) / 255; };
+  return {rounded(p.x + p.y), rounded(p.x - p.y)};  // the diamond fills the square
+}
+
+inline V3f unpacked_line(const V2f& packed) {
+  const float a = 2 * packed.x - 1, b = 2 * packed.y - 1;
+  const float x = 0.5f * (a + b), y = 0.5f * (a - b);
+  return V3f(x, y, 1 - std::abs(x) - std::abs(y)).normalized();
+}
+
+}  // namespace pelage
