@@ -53,14 +53,16 @@ class LodSweep {
       : scene_(scene),
         places_(lod_places(scene)),
         display_(display),
-        runner_(setup, display,
-                4 * places_.size() + 2 * lod_ideas().size() + 3 * lod_qualities().size() + kDollySteps) {}
+        runner_(
+            setup, display,
+            4 * places_.size() + 2 * (lod_ideas().size() + 1) + 3 * lod_qualities().size() + kDollySteps) {}
 
   void run() {
     for (const LodPlace& place : places_) {
-      const int full = add_pair(place, {"full", "full detail", {}}, -1);
+      const int full = add_pair(place, {"full", "full detail", {}, false}, -1);
       if (full < 0) return;
       const bool first = &place == &places_.front();
+      if (first && add_pair(place, other_hairs(scene_), full) < 0) return;
       for (const LodSetting& idea : lod_ideas()) {
         if (!first && idea.id != "all") break;
         if (add_pair(place, idea, full) < 0) return;
@@ -102,10 +104,9 @@ class LodSweep {
   int add_pair(const LodPlace& place, const LodSetting& setting, int full) {
     const auto first = static_cast<int>(outcomes.size());
     for (const char* which : {"a", "b"}) {
-      const Variant variant =
-          variant_of(fmt::format("{}-{}-{}", place.id, setting.id, which),
-                     fmt::format("{}, {} ({})", place.title, setting.title, which),
-                     both(place.view, setting.lod), setting.id != "full", outcomes.size());
+      const Variant variant = variant_of(fmt::format("{}-{}-{}", place.id, setting.id, which),
+                                         fmt::format("{}, {} ({})", place.title, setting.title, which),
+                                         both(place.view, setting.lod), setting.reduced, outcomes.size());
       if (!run_one(variant, {place.id, setting.id, full, {}, false})) return -1;
     }
     if (full >= 0) {
@@ -213,7 +214,7 @@ Measured measure_lod(const SceneDescription& scene, const MeasureSetup& setup, P
            "of "
            "what full detail takes from the same place. Naive thinning leaves out the same hairs and lets "
            "the "
-           "others be as thin as they are."}}});
+           "others be as thin as they are. Other hairs: the same coats, of another seed, in full."}}});
   report.sections.push_back({"Detail",
                              {select(report.data,
                                      {"variant", "wall_s", "cpu_s", "hairs", "hairs_share",

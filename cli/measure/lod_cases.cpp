@@ -7,6 +7,7 @@ namespace pelage {
 namespace {
 
 constexpr float kDistances[] = {2, 4};
+constexpr int64_t kOtherSeed = 7001;
 
 double frame_of(const SceneDescription& scene) { return scene.frames.frames.front(); }
 
@@ -67,6 +68,13 @@ std::vector<LodSetting> lod_ideas() {
           {"focus", "+ focus", ideas(true, true, false, false)},
           {"contrast", "+ contrast", ideas(true, true, true, false)},
           {"naive", "naive: no width gain", naive}};
+}
+
+LodSetting other_hairs(const SceneDescription& scene) {
+  LodSetting setting{"other", "full detail, other hairs", {}, false};
+  for (const auto& groom : scene.grooms.items)
+    setting.lod.emplace_back("grooms." + groom.name + ".seed", std::to_string(groom.value.seed + kOtherSeed));
+  return setting;
 }
 
 std::vector<LodSetting> lod_qualities() {

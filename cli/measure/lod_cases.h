@@ -20,13 +20,16 @@ struct LodPlace {
 /// A way to reduce its detail.
 struct LodSetting {
   std::string id, title;
-  Settings lod;  ///< `render.lod`
+  Settings lod;         ///< `render.lod`
+  bool reduced = true;  ///< false: full detail
 };
 
 /// The scene as it is, and from further away, with more blur, with a wider lens; the first is the scene.
 std::vector<LodPlace> lod_places(const SceneDescription& scene);
 /// Everything, then idea by idea.
 std::vector<LodSetting> lod_ideas();
+/// Full detail of coats that differ in their seeds alone: what it costs that other hairs are seen.
+LodSetting other_hairs(const SceneDescription& scene);
 /// From coarse to fine: `quality`.
 std::vector<LodSetting> lod_qualities();
 /// The camera of the detail moves away by `factor` while the camera of the picture stays.
