@@ -38,6 +38,9 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
     setup.folder =
         std::filesystem::path(options.input).stem().string() + "_" + experiment_name(options.experiment);
   }
+  // Other experiments are about every hair, unless they are asked to be about fewer.
+  if (options.experiment != Experiment::kLod)
+    setup.arguments.insert(setup.arguments.end(), {"--set", "render.lod.enabled=false"});
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
   if (options.experiment == Experiment::kAccel)

@@ -96,7 +96,7 @@ const Schema<RenderParams>& RenderParams::schema() {
                    "lost",
            .min = 0.01,
            .max = 100});
-    s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "off"});
+    s.key("lod", &RenderParams::lod, {.help = "Level of detail", .default_text = "on"});
     s.key("shared_topology", &RenderParams::shared_topology,
           {.help =
                "Animals of one cage share its refinement and patches; false only to measure what it saves"});

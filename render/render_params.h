@@ -42,7 +42,7 @@ struct ValueReader<LodCamera> {
 
 /// `lod:` of `render:`.
 struct LodParams : SimplificationParams {
-  bool enabled = false;
+  bool enabled = true;
   LodCamera camera;
   static const Schema<LodParams>& schema();
 };

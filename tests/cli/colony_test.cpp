@@ -85,6 +85,7 @@ TEST_P(ColonyTest, NoRatStandsInAnother) {
 // time.
 TEST_P(ColonyTest, ARatIsItsPosedCages) {
   const int64_t before = ledger_.current(MemoryTag::kSkins);
+  scene_.render.lod.enabled = false;  // far coats have a pose of the whole skin in hand
   const World world = compose(scene_, *assets_, 1, workers_, ledger_);
   const int64_t bytes = ledger_.current(MemoryTag::kSkins) - before, rats = GetParam().second;
   size_t points = 0;

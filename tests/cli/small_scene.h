@@ -38,7 +38,7 @@ characters:
 lights:
   key: {type: sphere, position: [5, 8, 5], radius: 1, intensity: 30}
   sky: {type: environment, radiance: 0.3}
-render: {samples: 4, bounces: 2}
+render: {samples: 4, bounces: 2, lod: {enabled: false}}
 )");
   }
 
