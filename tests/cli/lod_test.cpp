@@ -193,7 +193,7 @@ TEST_F(LodBall, CoversAsMuchAsBefore) {
 }
 
 TEST_F(LodBall, IsAsBrightAsBefore) {
-  const std::vector<Override> clean{{"render.samples", "48"}, {"render.bounces", "2"}};
+  const std::vector<Override> clean{{"render.samples", "24"}, {"render.bounces", "1"}};
   const double full = seen(0, clean).luminance;
   EXPECT_NEAR(seen(6, clean).luminance, full, 0.01 * full);
   EXPECT_NEAR(seen(25, clean).luminance, full, 0.02 * full);
