@@ -18,7 +18,7 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
     const double began = run.seconds();
     const World world =
         run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
-    const FrameChunks chunks(world.scene, run.workers());
+    const FrameChunks chunks(world.scene, run.workers(), run.ledger());
     std::vector<const Procedural*> remembering;
     for (const Procedural* leaf : chunks.leaves()) {
       if (leaf->bounds_record()) remembering.push_back(leaf);

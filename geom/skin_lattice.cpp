@@ -160,11 +160,11 @@ V2f SkinLattice::side_uv(uint32_t side, float t) const {
 }
 
 uint32_t SkinLattice::new_points(uint64_t count) {
-  const size_t first = points_.size();
-  if (first + count > kMostElements) {
+  const uint64_t first = vertex_count_;
+  vertex_count_ += count;
+  if (vertex_count_ > kMostElements) {
     throw Error(ErrorKind::kMemory, "a tessellated skin would have more than 2147483647 vertices");
   }
-  points_.resize(first + count);
   return static_cast<uint32_t>(first);
 }
 
@@ -247,8 +247,7 @@ void SkinLattice::place_inner(const Face& f) {
 
 void SkinLattice::number() {
   numbers_.assign(cage_vertices_.size(), kNone);
-  points_.clear();
-  triangle_count_ = 0;
+  vertex_count_ = triangle_count_ = 0;
   for (Line& line : lines_) line.start = line.end = line.inner = kNone;
   for (const uint32_t inside : inside_) {
     Face& face = faces_[inside];
@@ -257,7 +256,6 @@ void SkinLattice::number() {
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) number_line(face.line[side]);
     divide(face);
   }
-  for (LatticePoint& point : points_) point.face = kNone;
   // Spokes start in the middle of an edge, which has its vertices by now.
   for (const uint32_t inside : inside_) {
     const Face& face = faces_[inside];
@@ -265,6 +263,10 @@ void SkinLattice::number() {
     const Rail half = rail(face, 0);
     lines_[face.line[1]].start = half.vertex(half.rate);
   }
+}
+
+void SkinLattice::place() {
+  points_.assign(vertex_count_, {kNone, V2f(0)});
   for (const Face& face : faces_) {
     if (!is_hole(face)) place_rails(face);
   }
@@ -297,7 +299,7 @@ void SkinLattice::visit_split(const std::function<void(uint32_t, const LatticePo
 size_t SkinLattice::bytes_bound(size_t around, size_t vertices) {
   // Every face has at most four lines and corners of its own; vectors may have grown by doubling.
   constexpr size_t kPerFace = sizeof(Face) + 4 * (sizeof(Line) + 7 * sizeof(uint32_t));
-  return sizeof(SkinLattice) + around * kPerFace + 2 * vertices * sizeof(LatticePoint);
+  return sizeof(SkinLattice) + around * kPerFace + vertices * sizeof(LatticePoint);
 }
 
 }  // namespace pelage

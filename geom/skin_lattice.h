@@ -59,10 +59,11 @@ class SkinLattice {
   V2f side_uv(uint32_t side, float t) const;
   /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than 31 bits can number.
   void number();
+  /// After number(): finds a place for every vertex.
+  void place();
 
-  size_t vertex_count() const { return points_.size(); }
+  size_t vertex_count() const { return vertex_count_; }
   size_t triangle_count() const { return triangle_count_; }
-  /// A place of every vertex.
   const std::vector<LatticePoint>& points() const { return points_; }
 
   /// Faces with triangles here, holes among them.
@@ -122,7 +123,7 @@ class SkinLattice {
   std::vector<Face> faces_;              // those around
   std::vector<uint32_t> inside_;         // those of faces_ with triangles
   std::vector<LatticePoint> points_;
-  uint64_t triangle_count_ = 0;
+  uint64_t vertex_count_ = 0, triangle_count_ = 0;
 };
 
 }  // namespace pelage

@@ -11,7 +11,7 @@ namespace pelage {
 
 namespace {
 
-/// A face of the cage where it stands, and what it will cost.
+/// A face of the cage, about where it stands, and what it will cost.
 struct CageFace {
   uint32_t face = 0;
   size_t cost = 0;
@@ -23,10 +23,10 @@ std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& s
   std::vector<CageFace> faces(topology.cage.face_count());
   for (size_t i = 0; i < whole.face_count(); ++i)
     faces[topology.cage_face[whole.face(i)]].cost += whole.face_triangles(i) + kTrianglesPerPose;
-  const float third = topology.triangular ? 1.0f / 3 : 0.5f;
+  const float middle = topology.triangular ? 1.0f / 3 : 0.5f;
   for (uint32_t face = 0; face < faces.size(); ++face) {
     faces[face].face = face;
-    faces[face].middle = surface.evaluate(topology.cage.first_ptex[face], third, third).position;
+    faces[face].middle = surface.evaluate(topology.cage.first_ptex[face], middle, middle).position;
   }
   return faces;
 }
@@ -69,13 +69,14 @@ std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const Vie
   set_rates(whole, keys, view, options, workers);
   whole.number();
   std::vector<SkinPiece> pieces;
-  if (whole.triangle_count() + kTrianglesPerPose * whole.face_count() <= most_cost) {
+  const size_t cost = whole.triangle_count() + kTrianglesPerPose * whole.face_count();
+  if (cost <= most_cost) {
     pieces.push_back({{}, whole.vertex_count(), whole.triangle_count()});
     return pieces;
   }
   std::vector<CageFace> faces = cage_faces(whole, keys[0]);
   const CageConnectivity& cage = topology.impl().cage;
-  cut(std::span(faces), most_cost, [&](std::span<const CageFace> part) {
+  cut(std::span(faces), std::max(most_cost, cost / kMostPieces + 1), [&](std::span<const CageFace> part) {
     SkinPiece piece;
     for (const CageFace& face : part) {
       for (uint32_t f = cage.first_ptex[face.face]; f < cage.first_ptex[face.face + 1]; ++f)

@@ -24,10 +24,12 @@ struct SkinPiece {
 
 /// What tessellating some faces takes, in triangles: posing a ptex face takes as much memory as this many.
 constexpr size_t kTrianglesPerPose = 16;
+constexpr size_t kMostPieces = 64;
 
 /// Divides a skin into pieces that are compact and much alike in cost: at most `most_cost` each, in triangles
-/// and kTrianglesPerPose for each face, or one cage face. One piece where the whole costs no more. Every face
-/// is in one piece, holes in any. Throws as tessellate().
+/// and kTrianglesPerPose for each face, or one cage face, or a kMostPieces-th of the whole, because finding
+/// what is around a piece takes a look at every face. One piece where the whole costs no more. Every face is
+/// in one piece, holes in any. Throws as tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
                                    const TessellationOptions& options, size_t most_cost,
                                    const Workers& workers);

@@ -97,6 +97,7 @@ SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const 
   SkinLattice lattice(keys[0].topology().impl());
   set_rates(lattice, keys, view, options, workers);
   lattice.number();
+  lattice.place();
   return fill(lattice, keys, workers);
 }
 
@@ -107,13 +108,17 @@ SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const ui
   SkinLattice lattice(topology.impl(), faces, faces_around(topology, faces));
   set_rates(lattice, keys, view, options, Workers::alone());
   lattice.number();
+  lattice.place();
   return fill(lattice, keys, Workers::alone());
 }
 
-size_t tessellating_bytes(size_t faces, size_t vertices) {
-  // Beside the lattice, the faces themselves, and the normals of what is split.
+size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices) {
+  const std::vector<uint8_t>& split = topology.impl().cage.vertex_split;
+  const bool any = std::find(split.begin(), split.end(), uint8_t(1)) != split.end();
+  // Beside the lattice, the faces themselves, and the normals of what is split: about four of each vertex, in
+  // a vector that grows by doubling and is sorted with a copy beside it.
   return SkinLattice::bytes_bound(faces, vertices) + faces * 2 * sizeof(uint32_t) +
-         vertices * 4 * sizeof(std::pair<uint32_t, V3f>);
+         (any ? vertices * 12 * sizeof(std::pair<uint32_t, V3f>) : 0);
 }
 
 }  // namespace pelage

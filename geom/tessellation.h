@@ -61,6 +61,6 @@ SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const ui
                           const View& view, const TessellationOptions& options);
 /// What either holds at most beside what it gives, of so many ptex faces, those around them included, and
 /// vertices.
-size_t tessellating_bytes(size_t faces, size_t vertices);
+size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices);
 
 }  // namespace pelage

@@ -119,7 +119,14 @@ void MeasuredBounds::settle(uint32_t chunk) {
 void MeasuredBounds::write(const Family& family) {
   std::vector<const ChunkBounds*> all;
   for (const uint32_t chunk : family.chunks) all.push_back(&bounds_[chunk]);
-  write_bounds(family.record, span_, keys_, all, warn_);
+  write_bounds(family.record, span_, keys_, all, [this](const std::string& line) {
+    {
+      const std::lock_guard lock(warning_);
+      if (told_) return;
+      told_ = true;
+    }
+    warn_(line + "; no more is said of boxes that are not kept");
+  });
 }
 
 BoundingCounts MeasuredBounds::counts() const {

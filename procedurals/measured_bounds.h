@@ -12,8 +12,9 @@
 
 namespace pelage {
 
-/// The first of two passes (bound_chunks): boxes of chunks that were grown once, by whoever did it first.
-/// First read(), then measure(), then the rest.
+/// The first of two passes (bound_chunks): boxes of chunks that are grown once for that, in this run or in
+/// one before. Call read(), then measure(), then what they found. What a file system refuses to keep is told
+/// of once.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
@@ -48,6 +49,7 @@ class MeasuredBounds {
   const std::span<const Procedural* const> chunks_;
   const WarningSink warn_;  // by one thread at a time
   std::mutex warning_;
+  bool told_ = false;  // that something cannot be kept; guarded by warning_
   std::vector<ChunkBounds> bounds_;
   std::vector<BoundsArea> areas_;  // by chunk, so that their sum is the same for any order
   std::vector<Family> families_;

@@ -167,7 +167,7 @@ size_t PosedCharacterSkin::making_bytes(const SkinPiece& piece) const {
   std::vector<uint32_t> around;
   if (!piece.is_whole()) around = faces_around(topology, piece.faces);
   const size_t faces = piece.is_whole() ? topology.face_count() : around.size();
-  const size_t lattice = tessellating_bytes(faces, piece.vertices);
+  const size_t lattice = tessellating_bytes(topology, faces, piece.vertices);
   if (pose_.push_out_view) return lattice;
   const auto [held, making] = piece.is_whole() ? topology.pose_bytes() : topology.pose_bytes(around);
   return sizeof(SkinPose) + pose_.shutter.cages.size() * (held + sizeof(M44f)) + making + lattice;

@@ -79,8 +79,10 @@ const Schema<RenderParams>& RenderParams::schema() {
         "bounces", &RenderParams::bounces,
         {.help = "Most scatterings of a path after the first; 0 = direct light only", .min = 0, .max = 1024});
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
-    s.key("memory", &RenderParams::memory,
-          {.help = "Limit for strands, trees, skins, caches and film; running into it is an error"});
+    s.key(
+        "memory", &RenderParams::memory,
+        {.help = "Limit for strands, trees, skins, caches and film together: what is over it is dropped and "
+                 "grown again when needed; less than the largest chunk takes is an error"});
     s.key("bvh", &RenderParams::bvh, {.help = "Trees that are kept between runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "

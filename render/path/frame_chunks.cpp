@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "render/memory_budget.h"
 #include "render/path/strand_fields.h"
 
 namespace pelage {
@@ -32,7 +33,8 @@ const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part)
 
 }  // namespace
 
-FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers) : scene_(scene) {
+FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers, MemoryLedger& ledger)
+    : scene_(scene) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
     for (const auto& procedural : scene.fur[part].procedurals) {
@@ -40,16 +42,34 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Workers& workers) : sce
       scales_.push_back(procedural->scale());
     }
   }
-  std::vector<std::vector<PieceOfSkin>> pieces(scene.skins.size());
-  workers.for_each(pieces.size(), 1, [&](WorkRange range) {
+  divide_skins(workers, ledger);
+}
+
+void FrameChunks::divide_skins(const Workers& workers, MemoryLedger& ledger) {
+  size_t largest = 0;
+  for (const SkinPart& part : scene_.skins) largest = std::max(largest, part.skin->making_bytes({}));
+  const uint64_t limit = scene_.render.memory.bytes;
+  require_room(ledger, limit, static_cast<int64_t>(largest), "the largest skin, posed to be divided,");
+  const size_t at_once = std::min(static_cast<size_t>(workers.thread_count()), scene_.skins.size());
+  const bool fit = limit == 0 ||
+                   ledger.budgeted() + static_cast<int64_t>(at_once * largest) <= static_cast<int64_t>(limit);
+  const MemoryCharge passing(ledger, MemoryTag::kChunks,
+                             static_cast<int64_t>(fit ? at_once * largest : largest));
+  std::vector<std::vector<PieceOfSkin>> pieces(scene_.skins.size());
+  const auto divide = [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) {
-      const DeferredSkin& skin = *scene.skins[i].skin;
-      for (SkinPiece& piece : skin.divide(scene.camera.view(), kMostPieceCost)) {
+      const DeferredSkin& skin = *scene_.skins[i].skin;
+      for (SkinPiece& piece : skin.divide(scene_.camera.view(), kMostPieceCost)) {
         const size_t making = skin.making_bytes(piece);
         pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
       }
     }
-  });
+  };
+  if (fit) {
+    workers.for_each(pieces.size(), 1, divide);
+  } else {
+    divide({0, pieces.size()});
+  }
   for (auto& of_skin : pieces) {
     for (PieceOfSkin& piece : of_skin) pieces_.push_back(std::move(piece));
   }

@@ -21,7 +21,9 @@ class FrameChunks final : public ChunkGrower {
  public:
   /// Splits every coat down to its leaves and divides skins. Throws Error (kInput) for a
   /// coat whose material is not one for fibres.
-  FrameChunks(const RenderScene& scene, const Workers& workers);
+  /// Dividing skins poses them whole, a few at a time, charged meanwhile. Throws Error (kMemory) when one
+  /// alone does not fit `render.memory`.
+  FrameChunks(const RenderScene& scene, const Workers& workers, MemoryLedger& ledger);
 
   ChunkContents grow(uint32_t chunk) const override;
   ChunkCounts counts(uint32_t chunk) const override;
@@ -52,6 +54,7 @@ class FrameChunks final : public ChunkGrower {
     size_t making_bytes = 0;
   };
 
+  void divide_skins(const Workers& workers, MemoryLedger& ledger);
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
   const RenderScene& scene_;

@@ -23,7 +23,7 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
                                                          Progress& progress, MemoryLedger& ledger,
                                                          Statistics& statistics) {
   const Stopwatch preparing;
-  auto chunks = std::make_unique<const FrameChunks>(scene, workers);
+  auto chunks = std::make_unique<const FrameChunks>(scene, workers, ledger);
   const Stopwatch bounding;
   BoundingCounts found;
   std::vector<ChunkBounds> bounds = chunks->bounds(workers, progress, ledger, found);
