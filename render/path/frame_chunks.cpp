@@ -14,9 +14,13 @@ namespace {
 /// What growing holds for a moment: a block of strands on its way through the operators, whose points and
 /// colours are rows of floats, twice where they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
-/// In triangles. A piece of skin then takes about as much as a leaf of some hundred strands: more would ask
-/// more of the budget than anything else does, fewer would pose the faces around them too often.
-constexpr size_t kMostPieceCost = 4096;
+/// Most that a piece of skin costs, in triangles of about 250 bytes each: 1/256 of the budget, so that small
+/// budgets can hold many; but no less than what a leaf of some hundred strands takes, because every piece
+/// poses the faces around it too.
+size_t most_piece_cost(uint64_t memory_limit) {
+  constexpr uint64_t kLeast = 4096, kMost = 65536;
+  return memory_limit == 0 ? kMost : std::clamp<uint64_t>(memory_limit >> 16, kLeast, kMost);
+}
 
 size_t growth_bytes(const StrandCounts& n) {
   if (n.strands == 0) return kGrowthBytes;
@@ -55,11 +59,12 @@ void FrameChunks::divide_skins(const Workers& workers, MemoryLedger& ledger) {
                    ledger.budgeted() + static_cast<int64_t>(at_once * largest) <= static_cast<int64_t>(limit);
   const MemoryCharge passing(ledger, MemoryTag::kChunks,
                              static_cast<int64_t>(fit ? at_once * largest : largest));
+  const size_t most_cost = most_piece_cost(limit);
   std::vector<std::vector<PieceOfSkin>> pieces(scene_.skins.size());
   const auto divide = [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) {
       const DeferredSkin& skin = *scene_.skins[i].skin;
-      for (SkinPiece& piece : skin.divide(scene_.camera.view(), kMostPieceCost)) {
+      for (SkinPiece& piece : skin.divide(scene_.camera.view(), most_cost)) {
         const size_t making = skin.making_bytes(piece);
         pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
       }
