@@ -25,7 +25,8 @@ struct Statistics {
   int64_t strands_described = 0;    ///< all in the scene, before LOD
   int64_t strands_unique = 0;       ///< the same, geometry shared by identical poses counted once
   int64_t strands_generated = 0;    ///< grown for use, regrowth included
-  int64_t characters_in_frame = 0;  ///< those with a coat
+  int64_t characters = 0;           ///< those with a coat
+  int64_t characters_in_frame = 0;  ///< of these, those that the camera may see
   int64_t chunks = 0;               ///< leaves of coats and skins that could be grown
   int64_t chunks_touched = 0;       ///< those that were
   int64_t expansions = 0;           ///< growths of a chunk for use, regrowth included

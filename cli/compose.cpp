@@ -35,12 +35,11 @@ class Composer {
         lod_view_(lod_camera().lod_view()),
         poses_(std::make_shared<PoseCache>(workers.thread_count(), ledger)) {}
 
-  void add(const DrawnCharacter& character) {
-    Box3f box;
-    for (size_t part = 0; part < character.params->parts.size(); ++part) add_part(character, part, box);
-    const bool grows = std::any_of(character.params->parts.begin(), character.params->parts.end(),
-                                   [](const PartParams& part) { return !part.grooms.items.empty(); });
-    if (grows && world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
+  void add_all() {
+    const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
+    const std::vector<bool> in_full =
+        characters_in_full(drawn, scene_.render.lod.in_full, lod_view_.open.position, frame_);
+    for (size_t i = 0; i < drawn.size(); ++i) add(drawn[i], scene_.render.lod.enabled && !in_full[i]);
   }
 
  private:
@@ -49,7 +48,16 @@ class Composer {
     return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
   }
 
-  void add_part(const DrawnCharacter& character, size_t index, Box3f& box) {
+  void add(const DrawnCharacter& character, bool reduced) {
+    Box3f box;
+    for (size_t part = 0; part < character.params->parts.size(); ++part)
+      add_part(character, part, reduced, box);
+    if (!has_coat(character)) return;
+    ++world_.characters;
+    if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
+  }
+
+  void add_part(const DrawnCharacter& character, size_t index, bool reduced, Box3f& box) {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
@@ -68,7 +76,7 @@ class Composer {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
-      if (scene_.render.lod.enabled) fur.lod = simplification(*coat, skin.rest.get(), *posed);
+      if (reduced) fur.lod = simplification(*coat, skin.rest.get(), *posed);
       fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed, fur.lod));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
@@ -144,9 +152,9 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               0,
+              0,
               {}};
-  Composer composer(scene, assets, frame, workers, ledger, world);
-  for (const DrawnCharacter& character : drawn_characters(scene, assets)) composer.add(character);
+  Composer(scene, assets, frame, workers, ledger, world).add_all();
   return world;
 }
 

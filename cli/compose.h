@@ -15,7 +15,8 @@ struct World {
   RenderScene scene;
   int64_t strands_described = 0;
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
-  int64_t characters_in_frame = 0;  ///< those with a coat whose bound meets the camera's view
+  int64_t characters = 0;           ///< those with a coat
+  int64_t characters_in_frame = 0;  ///< of these, those whose bound meets the camera's view
   std::vector<MemoryCharge> charges;
 };
 

@@ -22,6 +22,15 @@ struct DrawnCharacter {
 /// All of a scene, characters first, then crowds, in the order of the scene. Refers to `scene`.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
+/// Whether hair grows on it.
+bool has_coat(const DrawnCharacter& character);
+
+/// Which of them keep every hair: `count` of those with a coat, one from the middle of each of as many equal
+/// parts of their order by distance from `eye`, so that near and far ones are sampled alike; all when there
+/// are fewer.
+std::vector<bool> characters_in_full(const std::vector<DrawnCharacter>& characters, int64_t count,
+                                     const V3f& eye, double frame);
+
 /// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval when
 /// something moves while the shutter is open.
 CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,

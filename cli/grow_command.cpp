@@ -146,6 +146,7 @@ int run_grow(const Options& options) {
       run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
   run.statistics().strands_described = world.strands_described;
   run.statistics().strands_unique = world.strands_unique;
+  run.statistics().characters = world.characters;
   run.statistics().characters_in_frame = world.characters_in_frame;
 
   std::vector<Strands> grown;

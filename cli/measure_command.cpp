@@ -91,7 +91,7 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
     case Experiment::kSamplers:
       return measure_samplers(scene, setup, display);
     case Experiment::kLod:
-      return measure_lod(scene, setup, display);
+      return measure_lod(scene, options.characters, options.parts, setup, display);
   }
   return {};
 }

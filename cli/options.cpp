@@ -116,6 +116,18 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   measure->add_option("--rays", options.rays, "accel: rays of each kind, at most (131072)")
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N");
+  measure
+      ->add_option("--characters", options.characters,
+                   "lod: how many of a crowd keep every hair, runs from which all in full are extrapolated "
+                   "(10,20,40)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 1 << 30))
+      ->type_name("N,N");
+  measure->add_option("--parts", options.parts, "lod: only these of crowd, detail, wedge and dolly")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("PARTS");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
 
   CLI::App* trace = app.add_subcommand(
@@ -266,8 +278,17 @@ void check_models(const std::vector<std::string>& models) {
   }
 }
 
+void check_parts(const std::vector<std::string>& parts) {
+  const std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
+  for (const std::string& part : parts) {
+    if (std::find(known.begin(), known.end(), part) == known.end())
+      fail("--parts: there is no part " + quote(part) + suggest(part, known));
+  }
+}
+
 void interpret(const Texts& texts, Options& options) {
   check_models(options.models);
+  check_parts(options.parts);
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))

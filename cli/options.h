@@ -29,6 +29,9 @@ enum class Command {
 
 enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod };
 
+/// Parts of the report of `measure lod`.
+inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};
+
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
   kBar,    ///< one line that is drawn again and again, with the time left
@@ -52,6 +55,9 @@ struct Options {
   Experiment experiment = Experiment::kBounds;  ///< measure
   int repeat = 3;                               ///< measure: runs of each variant
   double time_limit_s = 600;                    ///< measure: a run that takes longer is ended
+
+  std::vector<int> characters{10, 20, 40};  ///< measure lod: how many of a crowd keep every hair
+  std::vector<std::string> parts;           ///< measure lod: of the report; empty: all
 
   int rays = 1 << 17;                    ///< measure accel, trace: of each kind, at most
   std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()

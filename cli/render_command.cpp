@@ -38,6 +38,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
   run.statistics().strands_described += world.strands_described;
   run.statistics().strands_unique += world.strands_unique;
+  run.statistics().characters += world.characters;
   run.statistics().characters_in_frame += world.characters_in_frame;
   const double posed = run.seconds();
   const FrameResult result =

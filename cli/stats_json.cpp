@@ -43,6 +43,7 @@ std::string statistics_json(const Statistics& s) {
       {"strands_generated", s.strands_generated},
       {"strands_dropped", s.strands_dropped},
       {"strands_repaired", s.strands_repaired},
+      {"characters", s.characters},
       {"characters_in_frame", s.characters_in_frame},
       {"chunks", s.chunks},
       {"chunks_touched", s.chunks_touched},

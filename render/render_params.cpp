@@ -26,6 +26,10 @@ const Schema<LodParams>& LodParams::schema() {
         "camera", &LodParams::camera,
         {.help = "Camera whose view decides: one for both eyes of a stereo pair, or for shots that show the "
                  "same hair"});
+    s.key("in_full", &LodParams::in_full,
+          {.help = "So many characters with a coat keep every hair, evenly chosen in the order of their "
+                   "distance from that camera; to measure what the others save",
+           .min = 0});
     add_simplification_keys(s);
     return s;
   }();

@@ -44,6 +44,7 @@ struct ValueReader<LodCamera> {
 struct LodParams : SimplificationParams {
   bool enabled = true;
   LodCamera camera;
+  int64_t in_full = 0;  ///< characters that keep every hair
   static const Schema<LodParams>& schema();
 };
 

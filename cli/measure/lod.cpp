@@ -3,11 +3,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/measure/experiments.h"
 #include "cli/measure/lod_cases.h"
+#include "cli/measure/lod_crowd.h"
 #include "cli/measure/lod_pictures.h"
 #include "cli/measure/outcome_table.h"
 #include "cli/measure/picture_error.h"
@@ -15,6 +17,7 @@
 namespace pelage {
 namespace {
 
+constexpr const char *kCrowd = "crowd", *kDetail = "detail", *kWedge = "wedge", *kDolly = "dolly";
 constexpr int kDollySteps = 6;
 constexpr float kDollyStep = 1.01f;  // of the distance, as in a dolly over 230 frames to ten times as far
 constexpr int kSheetWidth = 320;
@@ -22,7 +25,7 @@ constexpr size_t kSheetRows = 3;
 
 /// What one variant is held against, by index of its outcomes; -1: it is full detail itself.
 struct Row {
-  std::string place, setting;
+  std::string part;
   int full = -1;
   PictureError error;
   bool known = false;
@@ -49,41 +52,30 @@ Settings both(Settings a, const Settings& b) {
 
 class LodSweep {
  public:
-  LodSweep(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display)
-      : scene_(scene),
+  LodSweep(const SceneDescription& scene, const std::vector<int>& in_full,
+           const std::vector<std::string>& parts, const MeasureSetup& setup, ProgressDisplay& display)
+      : crowd(scene, setup, in_full),
+        scene_(scene),
+        parts_(parts),
         places_(lod_places(scene)),
         display_(display),
-        runner_(
-            setup, display,
-            4 * places_.size() + 2 * (lod_ideas().size() + 1) + 3 * lod_qualities().size() + kDollySteps) {}
+        runner_(setup, display, count()) {}
 
+  /// Until one does not succeed.
   void run() {
-    for (const LodPlace& place : places_) {
-      const int full = add_pair(place, {"full", "full detail", {}, false}, -1);
-      if (full < 0) return;
-      const bool first = &place == &places_.front();
-      if (first && add_pair(place, other_hairs(scene_), full) < 0) return;
-      for (const LodSetting& idea : lod_ideas()) {
-        if (!first && idea.id != "all") break;
-        if (add_pair(place, idea, full) < 0) return;
-      }
+    if (wanted(kCrowd) && !scene_.crowds.items.empty()) {
+      crowd.run([&](const Variant& variant) {
+        return run_one(variant, {kCrowd, -1, {}, false}) ? &outcomes.back() : nullptr;
+      });
     }
-    for (size_t place = 0; place < kSheetRows; ++place) {
-      for (const LodSetting& quality : lod_qualities()) {
-        if (!add_single(places_[place], quality)) return;
-      }
-    }
-    for (int step = 0; step < kDollySteps; ++step) {
-      // One seed: what does not change in the scene does not change in the picture.
-      const float factor = static_cast<float>(std::pow(kDollyStep, step));
-      const Variant variant = variant_of(fmt::format("dolly-{}", step), fmt::format("dolly, step {}", step),
-                                         detail_camera(scene_, factor), true, 0);
-      if (!run_one(variant, {"dolly", variant.id, -1, {}, false})) return;
-    }
+    if (!ended() && wanted(kDetail)) compare_details();
+    if (!ended() && wanted(kWedge)) fill_sheet();
+    if (!ended() && wanted(kDolly)) move_away();
   }
 
   std::vector<Outcome> outcomes;
   std::vector<Row> rows;
+  LodCrowd crowd;
 
   const std::vector<LodPlace>& places() const { return places_; }
   const Outcome* find(const std::string& id) const {
@@ -94,6 +86,45 @@ class LodSweep {
   std::filesystem::path picture(const Outcome& outcome) const { return runner_.picture(outcome.variant); }
 
  private:
+  bool wanted(const char* part) const {
+    return parts_.empty() || std::find(parts_.begin(), parts_.end(), part) != parts_.end();
+  }
+  bool ended() const { return display_.cancelled() || (!outcomes.empty() && !outcomes.back().succeeded()); }
+  size_t count() const {
+    return (wanted(kCrowd) && !scene_.crowds.items.empty() ? crowd.most_variants() : 0) +
+           (wanted(kDetail) ? 4 * places_.size() + 2 * lod_ideas().size() : 0) +
+           (wanted(kWedge) ? kSheetRows * lod_qualities().size() : 0) + (wanted(kDolly) ? kDollySteps : 0);
+  }
+
+  void compare_details() {
+    for (const LodPlace& place : places_) {
+      const int full = add_pair(place, {"full", "full detail", {}, false}, -1);
+      if (full < 0) return;
+      const bool first = &place == &places_.front();
+      if (first && add_pair(place, other_hairs(scene_), full) < 0) return;
+      for (const LodSetting& idea : lod_ideas()) {
+        if (!first && idea.id != "all") break;
+        if (add_pair(place, idea, full) < 0) return;
+      }
+    }
+  }
+  void fill_sheet() {
+    for (size_t place = 0; place < kSheetRows; ++place) {
+      for (const LodSetting& quality : lod_qualities()) {
+        if (!add_single(places_[place], quality)) return;
+      }
+    }
+  }
+  void move_away() {
+    for (int step = 0; step < kDollySteps; ++step) {
+      // One seed: what does not change in the scene does not change in the picture.
+      const float factor = static_cast<float>(std::pow(kDollyStep, step));
+      const Variant variant = variant_of(fmt::format("dolly-{}", step), fmt::format("dolly, step {}", step),
+                                         detail_camera(scene_, factor), true, 0);
+      if (!run_one(variant, {kDolly, -1, {}, false})) return;
+    }
+  }
+
   bool run_one(const Variant& variant, const Row& row) {
     outcomes.push_back(runner_.run(variant));
     rows.push_back(row);
@@ -107,7 +138,7 @@ class LodSweep {
       const Variant variant = variant_of(fmt::format("{}-{}-{}", place.id, setting.id, which),
                                          fmt::format("{}, {} ({})", place.title, setting.title, which),
                                          both(place.view, setting.lod), setting.reduced, outcomes.size());
-      if (!run_one(variant, {place.id, setting.id, full, {}, false})) return -1;
+      if (!run_one(variant, {kDetail, full, {}, false})) return -1;
     }
     if (full >= 0) {
       const auto at = [&](int i) { return runner_.picture(outcomes[static_cast<size_t>(i)].variant); };
@@ -124,10 +155,11 @@ class LodSweep {
     const Variant variant = variant_of(fmt::format("sheet-{}-{}", place.id, setting.id),
                                        fmt::format("{}, {}", place.title, setting.title),
                                        both(place.view, setting.lod), true, outcomes.size());
-    return run_one(variant, {"sheet", place.id, -1, {}, false});
+    return run_one(variant, {kWedge, -1, {}, false});
   }
 
   const SceneDescription& scene_;
+  const std::vector<std::string>& parts_;
   const std::vector<LodPlace> places_;
   ProgressDisplay& display_;
   VariantRunner runner_;
@@ -171,10 +203,40 @@ Table dolly_table(const LodSweep& sweep) {
   return table;
 }
 
+void add_detail(const LodSweep& sweep, Report& report) {
+  report.sections.push_back(
+      {"Method",
+       {Paragraph{
+           "Every way to see the scene is rendered twice with full detail and twice with reduced detail, all "
+           "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
+           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b and m the mean of t: what is wrong in "
+           "both pictures, without noise. Bias is that of the mean luminance over these pixels. Shares are "
+           "of "
+           "what full detail takes from the same place. Naive thinning leaves out the same hairs and lets "
+           "the "
+           "others be as thin as they are. Other hairs: the same coats, of another seed, in full."}}});
+  Table details = select(report.data,
+                         {"variant", "wall_s", "cpu_s", "hairs", "hairs_share", "working_set_bytes",
+                          "set_share", "cpu_share", "rel_mse", "bias"},
+                         "By place and idea; each place twice.");
+  Table table = details;
+  table.rows.clear();
+  for (size_t i = 0; i < sweep.rows.size(); ++i) {
+    if (sweep.rows[i].part == kDetail) table.rows.push_back(std::move(details.rows[i]));
+  }
+  report.sections.push_back({"Detail", {std::move(table)}});
+  if (const Outcome* outcome = sweep.find("here-all-a")) {
+    if (auto colours = detail_picture(sweep.picture(*outcome)))
+      report.sections.push_back({"Where", {std::move(*colours)}});
+  }
+}
+
 }  // namespace
 
-Measured measure_lod(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display) {
-  LodSweep sweep(scene, setup, display);
+Measured measure_lod(const SceneDescription& scene, const std::vector<int>& in_full,
+                     const std::vector<std::string>& parts, const MeasureSetup& setup,
+                     ProgressDisplay& display) {
+  LodSweep sweep(scene, in_full, parts, setup, display);
   sweep.run();
   Measured measured;
   measured.outcomes = std::move(sweep.outcomes);
@@ -204,28 +266,14 @@ Measured measure_lod(const SceneDescription& scene, const MeasureSetup& setup, P
   add("bias", "bias", Quantity::kPercent,
       [](const Outcome&, const Row& row) { return row.known ? row.error.bias : NAN; });
 
-  report.sections.push_back(
-      {"Method",
-       {Paragraph{
-           "Every way to see the scene is rendered twice with full detail and twice with reduced detail, all "
-           "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
-           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b and m the mean of t: what is wrong in "
-           "both pictures, without noise. Bias is that of the mean luminance over these pixels. Shares are "
-           "of "
-           "what full detail takes from the same place. Naive thinning leaves out the same hairs and lets "
-           "the "
-           "others be as thin as they are. Other hairs: the same coats, of another seed, in full."}}});
-  report.sections.push_back({"Detail",
-                             {select(report.data,
-                                     {"variant", "wall_s", "cpu_s", "hairs", "hairs_share",
-                                      "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},
-                                     "By place and idea; each place twice.")}});
-  if (const Outcome* outcome = sweep.find("here-all-a")) {
-    if (auto colours = detail_picture(sweep.picture(*outcome)))
-      report.sections.push_back({"Where", {std::move(*colours)}});
+  if (sweep.crowd.known()) {
+    report.abstract = sweep.crowd.abstract();
+    report.sections.push_back(sweep.crowd.section());
+    sweep.crowd.add_rows(report.data);
   }
+  if (sweep.find("here-full-a")) add_detail(sweep, report);
   if (auto sheet = sheet_of(sweep)) report.sections.push_back({"Wedge", {std::move(*sheet)}});
-  report.sections.push_back({"Dolly", {dolly_table(sweep)}});
+  if (sweep.find("dolly-1")) report.sections.push_back({"Dolly", {dolly_table(sweep)}});
   return measured;
 }
 

@@ -138,6 +138,25 @@ class Measure(unittest.TestCase):
             self.assertGreater(plain["rel_mse"], 0)
             self.assertLess(abs(frame["bias"]), 0.05)
 
+    def test_lod_of_a_crowd(self):
+        crowd = ("crowds.herd={of: [box], count: 8, spacing: 3, area: {type: polygon, points: "
+                 "[[-4, -3], [4, -3], [30, -60], [-30, -60]]}}")
+        self.measure("lod", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--parts", "crowd", "--characters", "2,4,9",
+                     "--set", crowd, "--set", "image.width=96", "--set", "image.height=64", "--set", "grooms.coat.strands=4000",
+                     "--set", "render.bounds=none")
+        rows = {row["variant"]: row for row in self.read("out")["rows"]}
+        self.assertEqual(list(rows), ["warm-up", "reduced detail", "2 in full", "4 in full", "all in full",
+                                      "all in full, extrapolated", "standard error of that"])
+        grown = {name: row["strands_generated"] for name, row in rows.items()}
+        self.assertEqual(grown["all in full"], 8 * 4000)
+        self.assertLess(grown["reduced detail"], 0.7 * grown["all in full"])
+        # Near and far boxes keep different shares: the line misses by no more than that.
+        self.assertLess(abs(grown["all in full, extrapolated"] / grown["all in full"] - 1), 0.1)
+        self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
+        sections = [e.text for e in xml.etree.ElementTree.parse(self.path / "out" / "report.html").getroot().iter()
+                    if e.tag.endswith("}h2")]
+        self.assertEqual([s for s in sections if s in ("Crowd", "Wedge", "Dolly", "Detail")], ["Crowd"])
+
     def test_residency(self):
         self.measure("residency", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--threads", "1")
         rows = self.read("out")["rows"]

@@ -130,6 +130,12 @@ TEST(Options, OfMeasure) {
               "the experiment '" + promised +
                   "' is not built yet; there are accel, bounds, growth, lod, residency and samplers");
   }
+  const Options lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
+  EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
+  EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
+  EXPECT_EQ(problem({"measure", "lod", "s", "--parts", "crowds"}),
+            "--parts: there is no part 'crowds'; did you mean 'crowd'?");
+  EXPECT_NE(problem({"measure", "lod", "s", "--characters", "0"}), "");
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
 }
