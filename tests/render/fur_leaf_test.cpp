@@ -56,6 +56,9 @@ TEST(SnappedStrands, number_segments_by_strand_id_and_share_joints) {
       const SnappedSegment segment = snapped.segment(place, 0);
       if (place.segment > 0) {
         ASSERT_EQ(segment[0], last[3]) << shape.name;
+        const bool exact = std::abs(segment[0][0]) < 0x1p23f;
+        for (size_t axis = 0; axis < 3 && exact && shape.basis != CurveBasis::kLinear; ++axis)
+          ASSERT_EQ(segment[1][axis] - segment[0][axis], last[3][axis] - last[2][axis]) << shape.name;
       }
       last = segment;
     });

@@ -21,6 +21,15 @@ class Block {
     if constexpr (!kMoving) return here;
     return mix(d, here, decoded(d, place + kSizes.key(), axis));
   }
+  /// The same where numbers are those of the first point, and behind it the differences of each point from
+  /// the one before.
+  template <class D>
+  HWY_INLINE hn::Vec<D> differences(D d, uint32_t axis, size_t first) const {
+    const std::byte* place = key_ + axis * kSizes.axis + first * (kSizes.axis / 16);
+    const auto here = decoded_difference(d, place, axis, first);
+    if constexpr (!kMoving) return here;
+    return mix(d, here, decoded_difference(d, place + kSizes.key(), axis, first));
+  }
   HWY_INLINE void load_radii(V (&r)[4]) const {
     for (size_t i = 0; i < 4; ++i) {
       const std::byte* place = key_ + 3 * kSizes.axis + i * (kSizes.radii / 4);
@@ -61,6 +70,22 @@ class Block {
       return hn::Add(hn::ConvertTo(d, difference), hn::Set(d, origin_[axis]));
     }
   }
+  /// What comes before the first point is read, and not used.
+  template <class D>
+  HWY_INLINE hn::Vec<D> decoded_difference(D d, const std::byte* place, uint32_t axis, size_t first) const {
+    const std::byte* before = place - kSizes.axis / 4;
+    if constexpr (kWide) {
+      const auto points = hn::LoadU(d, reinterpret_cast<const float*>(place));
+      return hn::Sub(points, but_first_point(d, first, hn::LoadU(d, reinterpret_cast<const float*>(before))));
+    } else {
+      const hn::Rebind<uint16_t, D> words;
+      const hn::Rebind<int32_t, D> ints;
+      const auto points = hn::PromoteTo(ints, hn::LoadU(words, reinterpret_cast<const uint16_t*>(place)));
+      const auto last = hn::PromoteTo(ints, hn::LoadU(words, reinterpret_cast<const uint16_t*>(before)));
+      const auto difference = hn::ConvertTo(d, hn::Sub(points, but_first_point(ints, first, last)));
+      return hn::Add(difference, of_first_point(d, first, hn::Set(d, origin_[axis])));
+    }
+  }
   HWY_INLINE V radius(const std::byte* place) const {
     if constexpr (kWide) {
       return hn::Load(kFloats, reinterpret_cast<const float*>(place));
@@ -74,40 +99,55 @@ class Block {
   float before_, after_;
 };
 
-/// The points of a block as the ray sees them.
+/// The first points of a block as the ray sees them, and the differences of the others.
 template <class Curves>
-HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, V (&x)[4], V (&y)[4]) {
+HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& flat) {
   alignas(64) float xs[16], ys[16];
   const auto set = [](float value) HWY_ATTR { return hn::Set(kMany, value); };
   for (size_t i = 0; i < 16; i += hn::MaxLanes(kMany)) {
-    const auto pi = curves.coordinates(kMany, ray.axis[0], i);
-    const auto pj = curves.coordinates(kMany, ray.axis[1], i);
-    const auto pk = curves.coordinates(kMany, ray.axis[2], i);
-    const auto wide_x =
-        hn::Sub(hn::Sub(hn::Mul(set(ray.along_k), pi), hn::Mul(set(ray.along_i), pk)), set(ray.origin_x));
-    const auto wide_y =
-        hn::Sub(hn::Sub(hn::Mul(set(ray.along_k), pj), hn::Mul(set(ray.along_j), pk)), set(ray.origin_y));
+    const auto pi = curves.differences(kMany, ray.axis[0], i);
+    const auto pj = curves.differences(kMany, ray.axis[1], i);
+    const auto pk = curves.differences(kMany, ray.axis[2], i);
+    const auto wide_x = hn::Sub(hn::Sub(hn::Mul(set(ray.along_k), pi), hn::Mul(set(ray.along_i), pk)),
+                                of_first_point(kMany, i, set(ray.origin_x)));
+    const auto wide_y = hn::Sub(hn::Sub(hn::Mul(set(ray.along_k), pj), hn::Mul(set(ray.along_j), pk)),
+                                of_first_point(kMany, i, set(ray.origin_y)));
     hn::Store(hn::Mul(wide_x, set(ray.scale_x)), kMany, xs + i);
     hn::Store(hn::Sub(hn::Mul(wide_y, set(ray.scale_y)), hn::Mul(wide_x, set(ray.shear_y))), kMany, ys + i);
   }
-  for (size_t i = 0; i < 4; ++i) {
-    x[i] = hn::Load(kFloats, xs + 4 * i);
-    y[i] = hn::Load(kFloats, ys + 4 * i);
+  flat.x[0] = hn::Load(kFloats, xs);
+  flat.y[0] = hn::Load(kFloats, ys);
+  for (size_t i = 0; i < 3; ++i) {
+    flat.dx[i] = hn::Load(kFloats, xs + 4 * (i + 1));
+    flat.dy[i] = hn::Load(kFloats, ys + 4 * (i + 1));
   }
+}
+
+/// The last points, as those of the segments behind them come out of flatten().
+template <class Curves>
+HWY_INLINE void flatten_ends(const Curves& curves, const FurRay& ray, V& x, V& y) {
+  const V pi = curves.coordinates(kFloats, ray.axis[0], 12),
+          pj = curves.coordinates(kFloats, ray.axis[1], 12),
+          pk = curves.coordinates(kFloats, ray.axis[2], 12);
+  x = hn::Sub(hn::Sub(hn::Mul(all(ray.along_k), pi), hn::Mul(all(ray.along_i), pk)), all(ray.origin_x));
+  y = hn::Sub(hn::Sub(hn::Mul(all(ray.along_k), pj), hn::Mul(all(ray.along_j), pk)), all(ray.origin_y));
+  y = hn::Sub(hn::Mul(y, all(ray.scale_y)), hn::Mul(x, all(ray.shear_y)));
+  x = hn::Mul(x, all(ray.scale_x));
 }
 
 /// The curves of one block against the ray. True when nothing more need be known of this ray.
 template <bool kWide, bool kMoving, class Query>
 HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
   const Block<kWide, kMoving> curves(block, ray);
-  V x[4], y[4];
-  flatten(curves, ray, x, y);
+  FlatCurves flat;
+  flatten(curves, ray, flat);
 
   // The curve lies within a strip along its chord: a cubic strays from the chord by at most 3/4 of what its
   // inner points do.
-  const V ex = hn::Sub(x[3], x[0]), ey = hn::Sub(y[3], y[0]);
-  const V c0 = cross(ex, ey, x[0], y[0]);
-  const V a = hn::Sub(cross(ex, ey, x[1], y[1]), c0), b = hn::Sub(cross(ex, ey, x[2], y[2]), c0);
+  const V to_third_x = hn::Add(flat.dx[0], flat.dx[1]), to_third_y = hn::Add(flat.dy[0], flat.dy[1]);
+  const V ex = hn::Add(to_third_x, flat.dx[2]), ey = hn::Add(to_third_y, flat.dy[2]);
+  const V c0 = cross(ex, ey, flat.x[0], flat.y[0]);
+  const V a = cross(ex, ey, flat.dx[0], flat.dy[0]), b = cross(ex, ey, to_third_x, to_third_y);
   const V zero = hn::Zero(kFloats), most = all(0.75f);
   const V high = hn::Add(c0, hn::Mul(most, hn::Max(zero, hn::Max(a, b))));
   const V low = hn::Add(c0, hn::Mul(most, hn::Min(zero, hn::Min(a, b))));
@@ -115,7 +155,10 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
   const uint32_t near_strip = bits_of<float>(hn::And(hn::Le(low, reach), hn::Ge(hn::Add(high, reach), zero)));
   if (near_strip == 0) return false;
 
-  const Minima minima(x, y);
+  flat.add_points();
+  V end_x, end_y;
+  flatten_ends(curves, ray, end_x, end_y);
+  const Minima minima(flat, end_x, end_y);
   const uint32_t single = minima.single & near_strip, folded = minima.folded & near_strip;
   if ((single | folded) == 0) return false;
 
@@ -135,21 +178,21 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
   const auto lane_of = [&](uint32_t lane) HWY_ATTR {
     alignas(16) float values[4];
     FurLane result;
-    const auto copy = [&](const V(&from)[4], float(&to)[4]) HWY_ATTR {
-      for (int i = 0; i < 4; ++i) {
-        hn::Store(from[i], kFloats, values);
-        to[i] = values[lane];
-      }
+    const auto value = [&](V from) HWY_ATTR {
+      hn::Store(from, kFloats, values);
+      return values[lane];
     };
-    copy(x, result.x);
-    copy(y, result.y);
-    copy(z, result.z);
-    copy(r, result.r);
+    for (int i = 0; i < 4; ++i) {
+      result.x[i] = value(flat.x[i]), result.y[i] = value(flat.y[i]);
+      result.z[i] = value(z[i]), result.r[i] = value(r[i]);
+    }
+    for (int i = 0; i < 3; ++i) result.dx[i] = value(flat.dx[i]), result.dy[i] = value(flat.dy[i]);
+    result.end_x = value(end_x), result.end_y = value(end_y);
     return result;
   };
 
   if (single != 0) {
-    const Cubic curve_x(x), curve_y(y);
+    const Cubic curve_x(flat.x[0], flat.dx), curve_y(flat.y[0], flat.dy);
     const V u = solve(curve_x, curve_y, minima.f0, minima.f5, single);
     const V cx = curve_x.value(u), cy = curve_y.value(u);
     const V distance2 = dot(cx, cy, cx, cy);

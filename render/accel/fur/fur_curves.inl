@@ -1,6 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of fur_kernels.cpp: four plane curves and where they are nearest to the origin.
 
+/// Four curves as a ray sees them: points, and the differences of each from the one before. Differences are
+/// not those of the rounded points but known as well as their own size allows: of a curve that runs along
+/// the ray they are much smaller than points are.
+struct FlatCurves {
+  V x[4], y[4], dx[3], dy[3];
+
+  /// Points from the first one and the differences.
+  HWY_INLINE void add_points() {
+    for (int i = 0; i < 3; ++i) x[i + 1] = hn::Add(x[i], dx[i]), y[i + 1] = hn::Add(y[i], dy[i]);
+  }
+};
+
 /// Bernstein weights of a cubic at u.
 struct Weights {
   V w[4];
@@ -21,11 +33,13 @@ struct Weights {
 /// One coordinate of a curve as a polynomial.
 struct Cubic {
   V a, b, c, d;
-  HWY_INLINE explicit Cubic(const V (&p)[4]) {
-    c = hn::Mul(all(3), hn::Sub(p[1], p[0]));
-    b = hn::Sub(hn::Mul(all(3), hn::Sub(p[2], p[1])), c);
-    a = hn::Sub(hn::Sub(hn::Sub(p[3], p[0]), c), b);
-    d = p[0];
+  /// From the first point and the differences behind it.
+  HWY_INLINE Cubic(V first, const V (&differences)[3]) {
+    const V bend = hn::Sub(differences[1], differences[0]);
+    a = hn::Sub(hn::Sub(differences[2], differences[1]), bend);
+    b = hn::Mul(all(3), bend);
+    c = hn::Mul(all(3), differences[0]);
+    d = first;
   }
   HWY_INLINE V value(V u) const {
     return hn::Add(hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(a, u), b), u), c), u), d);
@@ -47,10 +61,11 @@ struct Minima {
   uint32_t single, folded;
   V f0, f5;
 
-  HWY_INLINE Minima(const V (&x)[4], const V (&y)[4]) {
-    V dx[3], dy[3];
-    for (int i = 0; i < 3; ++i) dx[i] = hn::Sub(x[i + 1], x[i]), dy[i] = hn::Sub(y[i + 1], y[i]);
-    const auto product = [&](int p, int d) HWY_ATTR { return dot(x[p], y[p], dx[d], dy[d]); };
+  /// The last points are given as the segments behind see them, their first ones. Where strands are smooth
+  /// their differences are the same too: there a minimum belongs to one of two neighbours, never to none.
+  HWY_INLINE Minima(const FlatCurves& at, V end_x, V end_y) {
+    const V(&dx)[3] = at.dx, (&dy)[3] = at.dy;
+    const auto product = [&](int p, int d) HWY_ATTR { return dot(at.x[p], at.y[p], dx[d], dy[d]); };
     const V two = all(2), three = all(3), six = all(6);
     V f1 = hn::Add(hn::Mul(two, product(0, 1)), hn::Mul(three, product(1, 0)));
     const V f2 = hn::Add(hn::Add(product(0, 2), hn::Mul(six, product(1, 1))), hn::Mul(three, product(2, 0)));
@@ -60,7 +75,7 @@ struct Minima {
     // before.
     const V zero = hn::Zero(kFloats);
     f0 = hn::Add(product(0, 0), zero);
-    f5 = hn::Add(product(3, 2), zero);
+    f5 = hn::Add(dot(end_x, end_y, dx[2], dy[2]), zero);
     // Where points at an end coincide, the curve arrives there along the next difference that is not zero.
     const auto flat0 = hn::And(hn::Eq(dx[0], zero), hn::Eq(dy[0], zero));
     const auto flat1 = hn::And(hn::Eq(dx[1], zero), hn::Eq(dy[1], zero));
@@ -82,23 +97,31 @@ struct Minima {
   }
 };
 
+constexpr float kClose = 0x1p-4f;  // steps of the grid, of which a width has 192 or more
+constexpr float kShort = 0x1p-13f;
+
 /// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
-/// bracket; each lane stops by itself.
+/// bracket; each lane stops by itself, with a step of at most kClose along the curve as the ray sees it and
+/// of kShort in the parameter.
 HWY_INLINE V solve(const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
   V u = hn::Div(f0, hn::Sub(f0, f5));
-  V low = hn::Zero(kFloats), high = all(1);
+  // Until the end was looked at, the root may be said to lie beyond it: rounding may put it there.
+  V low = hn::Zero(kFloats), high = all(2);
   auto done = hn::FirstN(kFloats, 0);
   for (int i = 0; i < 12; ++i) {
     const V cx = x.value(u), cy = y.value(u), x1 = x.first(u), y1 = y.first(u);
     const V f = dot(cx, cy, x1, y1);
-    const V slope = hn::Add(dot(x1, y1, x1, y1), dot(cx, cy, x.second(u), y.second(u)));
+    const V speed2 = dot(x1, y1, x1, y1);
+    const V slope = hn::Add(speed2, dot(cx, cy, x.second(u), y.second(u)));
     const auto below = hn::Lt(f, hn::Zero(kFloats));
     low = hn::IfThenElse(below, u, low);
     high = hn::IfThenElse(below, high, u);
     const V newton = hn::Sub(u, hn::Div(f, slope));
     const auto inside = hn::And(hn::Ge(newton, low), hn::Le(newton, high));
-    const V next = hn::IfThenElse(inside, newton, hn::Mul(all(0.5f), hn::Add(low, high)));
-    const auto small = hn::Le(hn::Abs(hn::Sub(next, u)), all(0x1p-13f));
+    const V next = hn::Min(hn::IfThenElse(inside, newton, hn::Mul(all(0.5f), hn::Add(low, high))), all(1));
+    const V step = hn::Sub(next, u);
+    const V most2 = hn::Max(speed2, all(kClose * kClose / (kShort * kShort)));
+    const auto small = hn::Le(hn::Mul(hn::Mul(step, step), most2), all(kClose * kClose));
     u = hn::IfThenElse(done, u, next);
     done = hn::Or(done, small);
     if ((active & ~bits_of<float>(done)) == 0) break;

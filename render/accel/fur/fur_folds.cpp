@@ -17,15 +17,14 @@ using Quintic = std::array<float, 6>;
 
 Quintic distance_derivative(const PlaneCurve& curve) {
   const auto product = [&](size_t point, size_t difference) {
-    return curve.x[point] * (curve.x[difference + 1] - curve.x[difference]) +
-           curve.y[point] * (curve.y[difference + 1] - curve.y[difference]);
+    return curve.x[point] * curve.dx[difference] + curve.y[point] * curve.dy[difference];
   };
   return {product(0, 0),
           (2 * product(0, 1) + 3 * product(1, 0)) / 5,
           (product(0, 2) + 6 * product(1, 1) + 3 * product(2, 0)) / 10,
           (3 * product(1, 2) + 6 * product(2, 1) + product(3, 0)) / 10,
           (3 * product(2, 2) + 2 * product(3, 1)) / 5,
-          product(3, 2)};
+          curve.end_x * curve.dx[2] + curve.end_y * curve.dy[2]};
 }
 
 struct Part {
@@ -63,16 +62,16 @@ struct Part {
 
 /// The one root between begin and end, below which c . c' is negative.
 float solve(const PlaneCurve& curve, float begin, float end) {
-  const auto evaluate = [](const float(&p)[4], float u, float& first, float& second) {
-    const float c = 3 * (p[1] - p[0]), b = 3 * (p[2] - p[1]) - c, a = p[3] - p[0] - c - b;
+  const auto evaluate = [](float point, const float(&d)[3], float u, float& first, float& second) {
+    const float bend = d[1] - d[0], a = (d[2] - d[1]) - bend, b = 3 * bend, c = 3 * d[0];
     first = (3 * a * u + 2 * b) * u + c;
     second = 6 * a * u + 2 * b;
-    return ((a * u + b) * u + c) * u + p[0];
+    return ((a * u + b) * u + c) * u + point;
   };
   float u = 0.5f * (begin + end);
   for (int i = 0; i < kMostSteps && end - begin > kNear; ++i) {
     float x1, x2, y1, y2;
-    const float x = evaluate(curve.x, u, x1, x2), y = evaluate(curve.y, u, y1, y2);
+    const float x = evaluate(curve.x[0], curve.dx, u, x1, x2), y = evaluate(curve.y[0], curve.dy, u, y1, y2);
     const float f = x * x1 + y * y1;
     (f < 0 ? begin : end) = u;
     float next = u - f / (x1 * x1 + y1 * y1 + x * x2 + y * y2);
@@ -89,7 +88,7 @@ float solve(const PlaneCurve& curve, float begin, float end) {
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]) {
   Part waiting[kDeepest + 2];
   size_t depth = 0, count = 0;
-  const auto is_flat = [&](size_t i) { return curve.x[i] == curve.x[i + 1] && curve.y[i] == curve.y[i + 1]; };
+  const auto is_flat = [&](size_t i) { return curve.dx[i] == 0 && curve.dy[i] == 0; };
   waiting[depth++] = {distance_derivative(curve), 0, 1, 0, is_flat(0), is_flat(2)};
   while (depth > 0 && count < 3) {
     const Part part = waiting[--depth];

@@ -9,6 +9,8 @@ namespace pelage {
 /// A planar Bezier curve as seen along a ray that passes the plane's origin.
 struct PlaneCurve {
   float x[4], y[4];
+  float dx[3], dy[3];  ///< of points from the ones before, known better than points are
+  float end_x, end_y;  ///< the last point, rounded as the first one of a curve behind this is
 };
 
 /// The parameters in (0, 1] where the curve's distance to the origin has a local minimum: at most three,

@@ -32,6 +32,10 @@ class FurGrid {
     // Two floats differ by a double without rounding, unless one of them is out of the other's reach.
     return static_cast<float>(whole((static_cast<double>(scene) - anchor_[axis]) * inverse_));
   }
+  /// A difference of coordinates along any axis.
+  float snap_difference(float scene) const {
+    return static_cast<float>(whole(static_cast<double>(scene) * inverse_));
+  }
   /// Radii below 0 count as none.
   float snap_radius(float scene) const {
     const double root = whole(kRootsPerUnit * std::sqrt(std::max(scene * inverse_, 0.0f)));

@@ -31,5 +31,19 @@ HWY_INLINE V bytes_at(const std::byte* place) {
                        hn::PromoteTo(kInts, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(place))));
 }
 
+/// Numbers of a block from its number `first` on, all but those of its first points set to zero; or those.
+template <class D>
+HWY_INLINE hn::Vec<D> of_first_point(D d, size_t first, hn::Vec<D> v) {
+  if (first > 0) return hn::Zero(d);
+  if constexpr (hn::MaxLanes(D()) == 4) return v;
+  return hn::IfThenElseZero(hn::FirstN(d, 4), v);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> but_first_point(D d, size_t first, hn::Vec<D> v) {
+  if (first > 0) return v;
+  if constexpr (hn::MaxLanes(D()) == 4) return hn::Zero(d);
+  return hn::IfThenZeroElse(hn::FirstN(d, 4), v);
+}
+
 HWY_INLINE V cross(V ax, V ay, V bx, V by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
 HWY_INLINE V dot(V ax, V ay, V bx, V by) { return hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)); }

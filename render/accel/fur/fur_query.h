@@ -14,16 +14,17 @@
 namespace pelage {
 
 /// One lane of what is known of a block's curves.
-struct FurLane {
-  float x[4], y[4], z[4], r[4];
+struct FurLane : PlaneCurve {
+  float z[4], r[4];
 
   static float value(const float (&p)[4], float u) {
     const float s = 1 - u;
     return (s * s * s * p[0] + 3 * (s * s * u) * p[1]) + (3 * (s * u * u) * p[2] + u * u * u * p[3]);
   }
-  static float first(const float (&p)[4], float u) {
+  /// From the differences of points.
+  static float first(const float (&d)[3], float u) {
     const float s = 1 - u;
-    return 3 * (s * s * (p[1] - p[0]) + 2 * s * u * (p[2] - p[1]) + u * u * (p[3] - p[2]));
+    return 3 * (s * s * d[0] + 2 * s * u * d[1] + u * u * d[2]);
   }
 };
 
@@ -32,7 +33,8 @@ struct FurLane {
 inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, float u, float distance) {
   const float twice = 4 * FurLane::value(lane.r, u);
   if (!(distance < twice)) return false;
-  const float x = FurLane::first(lane.x, u), y = FurLane::first(lane.y, u), z = FurLane::first(lane.z, u);
+  const float dz[3] = {lane.z[1] - lane.z[0], lane.z[2] - lane.z[1], lane.z[3] - lane.z[2]};
+  const float x = FurLane::first(lane.dx, u), y = FurLane::first(lane.dy, u), z = FurLane::first(dz, u);
   const float between = static_cast<float>(number - ray.start.first_segment) + u - ray.start.place;
   return std::abs(between) * std::sqrt(x * x + y * y + z * z) < twice;
 }
@@ -103,11 +105,8 @@ inline bool is_on_start(const FurRay& ray, uint32_t number) {
 /// ray.
 template <class Query>
 bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query& query) {
-  PlaneCurve curve;
-  std::copy_n(lane.x, 4, curve.x);
-  std::copy_n(lane.y, 4, curve.y);
   float us[3];
-  const size_t count = nearest_parameters(curve, us);
+  const size_t count = nearest_parameters(lane, us);
   for (size_t i = 0; i < count; ++i) {
     const float u = us[i];
     const float cx = FurLane::value(lane.x, u), cy = FurLane::value(lane.y, u),
@@ -117,7 +116,7 @@ bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query&
     const float t = FurLane::value(lane.z, u);
     if (!query.wants(t, number)) continue;
     if (is_on_start(ray, number) && is_start(ray, number, lane, u, t)) continue;
-    const float side = FurLane::first(lane.x, u) * cy - FurLane::first(lane.y, u) * cx;
+    const float side = FurLane::first(lane.dx, u) * cy - FurLane::first(lane.dy, u) * cx;
     if (query.take({t, number, u, std::copysign(std::sqrt(distance2) / radius, side)})) return true;
   }
   return false;

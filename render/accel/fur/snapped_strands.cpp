@@ -37,13 +37,30 @@ SnappedStrands::Place SnappedStrands::search(uint32_t number) const {
 
 SnappedSegment SnappedStrands::segment(Place place, int key) const {
   const CubicSegment curve = bezier_segment(strands_, place.strand, place.segment, key);
+  const V3f leaves = smooth_tangent(place.strand, place.segment, key, curve.p[1] - curve.p[0]);
+  const V3f arrives = smooth_tangent(place.strand, place.segment + 1, key, curve.p[3] - curve.p[2]);
   SnappedSegment snapped;
-  for (size_t i = 0; i < 4; ++i) {
-    for (int axis = 0; axis < 3; ++axis)
-      snapped[i][static_cast<size_t>(axis)] = grid_.snap(curve.p[i][axis], axis);
-    snapped[i][3] = grid_.snap_radius(curve.r[i]);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    snapped[0][a] = grid_.snap(curve.p[0][axis], axis);
+    snapped[1][a] = snapped[0][a] + grid_.snap_difference(leaves[axis]);
+    snapped[3][a] = grid_.snap(curve.p[3][axis], axis);
+    snapped[2][a] = snapped[3][a] - grid_.snap_difference(arrives[axis]);
   }
+  for (size_t i = 0; i < 4; ++i) snapped[i][3] = grid_.snap_radius(curve.r[i]);
   return snapped;
+}
+
+/// From the curve's point at a joint to the next Bezier point, and from the one before: the same floats for
+/// both segments. `otherwise` where there is nothing to agree about, or in a basis whose curves need not be
+/// smooth.
+V3f SnappedStrands::smooth_tangent(uint32_t strand, uint32_t joint, int key, const V3f& otherwise) const {
+  const CurveBasis basis = strands_.basis();
+  if (basis == CurveBasis::kLinear || basis == CurveBasis::kBezier) return otherwise;
+  const uint32_t knot = joint + (basis == CurveBasis::kBSpline ? 1 : 0);
+  if (knot == 0 || knot + 1 >= strands_.strand_points(strand)) return otherwise;
+  const size_t point = strands_.first_point(strand) + knot;
+  return (1.0f / 6) * (strands_.point(point + 1, key) - strands_.point(point - 1, key));
 }
 
 bool SnappedStrands::is_drawable(const SnappedSegment& segment) {

@@ -14,7 +14,11 @@ namespace pelage {
 using SnappedSegment = std::array<std::array<float, 4>, 4>;
 
 /// Strands as the fur tree sees them: every segment, of whatever basis, as a cubic Bezier curve on the grid.
-/// Neighbouring segments share their end point exactly, because both snap the same float.
+/// Neighbouring segments share their end point exactly, because both snap the same float; and so they do the
+/// direction there where the strand is smooth, because inner points are kept as snapped differences from the
+/// ends. Were inner points snapped by themselves, strands would have kinks, and ribbons, which are cut off
+/// across the direction at their ends, wedges missing there. Ends are off by half a step at most, inner
+/// points by a whole one.
 ///
 /// Segments are numbered along the strands, strands in ascending order of their ids (then of their place in
 /// the batch), so that of two segments the one with the smaller number stands first where distances are
@@ -56,6 +60,7 @@ class SnappedStrands {
 
  private:
   Place search(uint32_t number) const;
+  V3f smooth_tangent(uint32_t strand, uint32_t joint, int key, const V3f& otherwise) const;
 
   const Strands& strands_;
   FurGrid grid_;
