@@ -66,8 +66,11 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.peak_memory_bytes = peak_rss_bytes();
   header.program_version = version();
   header.scene_hash = scene.hash;
-  run.stage("write",
-            [&] { write_exr(path, result.film.to_exr(exr_attributes(header, world.scene.camera))); });
+  const Film& film = result.film;
+  run.stage("write", [&] {
+    write_exr(path, film.width(), film.height(), exr_attributes(header, world.scene.camera),
+              [&film](int y0, int y1) { return film.exr_rows(y0, y1); });
+  });
   run.display().note(fmt::format("{}  {} x {}, {}{}, {}", path, scene.image.width, scene.image.height,
                                  samples_text(result), result.partial ? " (partial)" : "",
                                  duration_text(seconds)));

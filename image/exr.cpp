@@ -2,8 +2,10 @@
 #include "image/exr.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <exception>
 #include <new>
+#include <type_traits>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
@@ -21,47 +23,67 @@
 namespace pelage {
 namespace {
 
+/// Rows that are written at a time: a few blocks of those that are compressed together.
+constexpr int kWrittenRows = 64;
+
 /// Pixels of one channel in the representation of the file: half channels are rounded here, once.
 struct Storage {
   std::vector<half> halves;
-  char* base = nullptr;
+  const void* base = nullptr;
   size_t size = 4;
 };
 
-Storage storage_for_writing(const ExrChannel& channel) {
+Storage storage_for_writing(const ExrChannel& channel, size_t pixels) {
+  const bool ids = channel.type == ChannelType::kUint;
+  PELAGE_CHECK((ids ? channel.ids.size() : channel.pixels.size()) == pixels);
   Storage s;
-  if (channel.type == ChannelType::kUint) {
-    s.base = reinterpret_cast<char*>(const_cast<uint32_t*>(channel.ids.data()));
+  if (ids) {
+    s.base = channel.ids.data();
   } else if (channel.type == ChannelType::kFloat) {
-    s.base = reinterpret_cast<char*>(const_cast<float*>(channel.pixels.data()));
+    s.base = channel.pixels.data();
   } else {
-    s.halves.resize(channel.pixels.size());
+    s.halves.resize(pixels);
     std::transform(channel.pixels.begin(), channel.pixels.end(), s.halves.begin(), rounded_half);
-    s.base = reinterpret_cast<char*>(s.halves.data());
+    s.base = s.halves.data();
     s.size = sizeof(half);
   }
   return s;
 }
 
-void write_file(const std::filesystem::path& path, const ExrImage& image) {
-  Imf::Header header(image.width, image.height);
+void write_rows(Imf::OutputFile& file, int width, int y0, int y1, const std::vector<ExrChannel>& channels) {
+  const Imath::Box2i window({0, y0}, {width - 1, y1 - 1});
+  Imf::FrameBuffer frame;
+  std::vector<Storage> storage;
+  storage.reserve(channels.size());
+  for (const ExrChannel& channel : channels) {
+    storage.push_back(
+        storage_for_writing(channel, static_cast<size_t>(width) * static_cast<size_t>(y1 - y0)));
+    const Storage& s = storage.back();
+    frame.insert(channel.name, Imf::Slice::Make(pixel_type(channel.type), s.base, window, s.size,
+                                                s.size * static_cast<size_t>(width)));
+  }
+  file.setFrameBuffer(frame);
+  file.writePixels(y1 - y0);
+}
+
+void write_file(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
+                const ExrRowSource& rows) {
+  std::vector<ExrChannel> channels = rows(0, std::min(height, kWrittenRows));
+  PELAGE_CHECK(!channels.empty());
+  Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
   header.lineOrder() = Imf::INCREASING_Y;
   Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709 is the library's default
-  insert_attributes(header, image.attributes);
-  Imf::FrameBuffer frame;
-  std::vector<Storage> storage;
-  storage.reserve(image.channels.size());
-  for (const ExrChannel& channel : image.channels) {
-    storage.push_back(storage_for_writing(channel));
-    const Storage& s = storage.back();
+  insert_attributes(header, attributes);
+  for (const ExrChannel& channel : channels) {
     header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
-    frame.insert(channel.name, Imf::Slice(pixel_type(channel.type), s.base, s.size,
-                                          s.size * static_cast<size_t>(image.width)));
   }
   Imf::OutputFile file(path.c_str(), header, 0);
-  file.setFrameBuffer(frame);
-  file.writePixels(image.height);
+  for (int y = 0; y < height; y += kWrittenRows) {
+    const int end = std::min(y + kWrittenRows, height);
+    if (y > 0) channels = rows(y, end);
+    write_rows(file, width, y, end, channels);
+  }
 }
 
 void read_header(const Imf::Header& header, const std::filesystem::path& path, ExrImage& image) {
@@ -117,20 +139,38 @@ const ExrChannel* ExrImage::find(std::string_view name) const {
   return nullptr;
 }
 
-void write_exr(const std::filesystem::path& path, const ExrImage& image) {
-  const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-  PELAGE_CHECK(image.width > 0 && image.height > 0 && !image.channels.empty());
-  for (const ExrChannel& channel : image.channels) {
-    const size_t held = channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size();
-    PELAGE_CHECK(held == pixels);
-  }
+void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
+               const ExrRowSource& rows) {
+  PELAGE_CHECK(width > 0 && height > 0);
   AtomicFile file(path);
   try {
-    write_file(file.temporary_path(), image);
+    write_file(file.temporary_path(), width, height, attributes, rows);
+  } catch (const Error&) {
+    throw;
   } catch (const std::exception& error) {
     throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
   }
   file.commit();
+}
+
+void write_exr(const std::filesystem::path& path, const ExrImage& image) {
+  const auto rows = [&image](int y0, int y1) {
+    const auto begin = static_cast<std::ptrdiff_t>(image.width) * y0;
+    const auto end = static_cast<std::ptrdiff_t>(image.width) * y1;
+    const auto part = [&](const auto& all) {
+      return all.empty() ? all : std::decay_t<decltype(all)>(all.begin() + begin, all.begin() + end);
+    };
+    std::vector<ExrChannel> channels;
+    for (const ExrChannel& channel : image.channels) {
+      channels.push_back({channel.name, channel.type, part(channel.pixels), part(channel.ids)});
+    }
+    return channels;
+  };
+  const auto pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+  for (const ExrChannel& channel : image.channels) {
+    PELAGE_CHECK((channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size()) == pixels);
+  }
+  write_exr(path, image.width, image.height, image.attributes, rows);
 }
 
 ExrImage read_exr(const std::filesystem::path& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <variant>
@@ -13,29 +14,39 @@ namespace pelage {
 
 enum class ChannelType { kHalf, kFloat, kUint };
 
-/// One channel of a layered image, named as in the file ("R", "key.diffuse.G", "Z", "forward.u").
+/// One channel of some rows of a layered image, named as in the file ("R", "key.diffuse.G", "Z",
+/// "forward.u").
 struct ExrChannel {
   std::string name;
   ChannelType type = ChannelType::kHalf;
-  std::vector<float> pixels;  ///< width * height, rows from the top; unused for kUint
+  std::vector<float> pixels;  ///< width * rows, from the top; unused for kUint
   std::vector<uint32_t> ids;  ///< the same for kUint
 };
 
 using ExrAttribute = std::variant<int, float, std::string, V2f, V3f, M44f>;
 
-/// The whole of a single-part scan-line EXR: what a film hands to the writer.
+using ExrAttributes = std::map<std::string, ExrAttribute>;
+
+/// Makes rows y0 .. y1-1 of a picture: the same channels, in the same order, whichever rows they are.
+using ExrRowSource = std::function<std::vector<ExrChannel>(int y0, int y1)>;
+
+/// The whole of a single-part scan-line EXR.
 struct ExrImage {
   int width = 0;
   int height = 0;
   std::vector<ExrChannel> channels;
-  std::map<std::string, ExrAttribute> attributes;
+  ExrAttributes attributes;
 
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes `image` whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities. Half channels
-/// are rounded to nearest; what is beyond their range becomes their largest number, infinity stays. Throws
-/// Error (kFailed) naming the path.
+/// Writes a picture whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities, asking `rows`
+/// for a few rows at a time, so that writing takes next to no memory. Half channels are rounded to nearest;
+/// what is beyond their range becomes their largest number, infinity stays. Throws Error (kFailed) naming the
+/// path.
+void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
+               const ExrRowSource& rows);
+/// The same of a picture that is there already.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
 /// Reads every channel of the first part (scan lines or tiles) over its data window, and those attributes

@@ -34,8 +34,8 @@ struct ExrPart {
   PixelBox data;     ///< where pixels are given
   PixelBox display;  ///< the frame of the picture
   std::vector<ExrChannelInfo> channels;
-  std::map<std::string, ExrAttribute> attributes;  ///< those that ExrAttribute can hold
-  std::vector<std::string> multi_view;             ///< views of a part that holds several, the default first
+  ExrAttributes attributes;             ///< those that ExrAttribute can hold
+  std::vector<std::string> multi_view;  ///< views of a part that holds several, the default first
 };
 
 /// Where rows of one channel are: each pixel is a word of 4 bytes, a float or, in a channel of kUint, the

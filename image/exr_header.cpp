@@ -39,16 +39,14 @@ struct AttributeWriter {
   void operator()(const M44f& v) const { header.insert(name, Imf::M44fAttribute(v)); }
 };
 
-using Attributes = std::map<std::string, ExrAttribute>;
-
 template <class Attribute>
-bool read_attribute(const Imf::Header& header, const std::string& name, Attributes& attributes) {
+bool read_attribute(const Imf::Header& header, const std::string& name, ExrAttributes& attributes) {
   const auto* attribute = header.findTypedAttribute<Attribute>(name);
   if (attribute) attributes[name] = attribute->value();
   return attribute != nullptr;
 }
 
-bool read_rational(const Imf::Header& header, const std::string& name, Attributes& attributes) {
+bool read_rational(const Imf::Header& header, const std::string& name, ExrAttributes& attributes) {
   const auto* attribute = header.findTypedAttribute<Imf::RationalAttribute>(name);
   if (attribute) attributes[name] = static_cast<float>(static_cast<double>(attribute->value()));
   return attribute != nullptr;
@@ -73,8 +71,8 @@ ChannelType channel_type(Imf::PixelType type) {
   return type == Imf::FLOAT ? ChannelType::kFloat : ChannelType::kHalf;
 }
 
-std::map<std::string, ExrAttribute> read_attributes(const Imf::Header& header) {
-  Attributes found;
+ExrAttributes read_attributes(const Imf::Header& header) {
+  ExrAttributes found;
   for (auto a = header.begin(); a != header.end(); ++a) {
     const std::string name = a.name();
     if (std::find(kStructure.begin(), kStructure.end(), name) != kStructure.end()) continue;
@@ -88,7 +86,7 @@ std::map<std::string, ExrAttribute> read_attributes(const Imf::Header& header) {
   return found;
 }
 
-void insert_attributes(Imf::Header& header, const std::map<std::string, ExrAttribute>& attributes) {
+void insert_attributes(Imf::Header& header, const ExrAttributes& attributes) {
   for (const auto& [name, value] : attributes) std::visit(AttributeWriter{header, name.c_str()}, value);
 }
 

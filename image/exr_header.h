@@ -25,8 +25,8 @@ inline half rounded_half(float v) {
 }
 
 /// Attributes that ExrAttribute can hold, without those that are the image's own shape.
-std::map<std::string, ExrAttribute> read_attributes(const Imf::Header& header);
-void insert_attributes(Imf::Header& header, const std::map<std::string, ExrAttribute>& attributes);
+ExrAttributes read_attributes(const Imf::Header& header);
+void insert_attributes(Imf::Header& header, const ExrAttributes& attributes);
 
 /// First line of a library's message, without the path that it repeats.
 std::string damage_text(const std::exception& error, const std::filesystem::path& path);

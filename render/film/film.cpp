@@ -2,6 +2,7 @@
 #include "render/film/film.h"
 
 #include <cmath>
+#include <cstddef>
 #include <functional>
 
 #include "base/check.h"
@@ -73,18 +74,14 @@ Rgb Film::layer(int x, int y, size_t layer) const {
   return {average(p, c), average(p, c + 1), average(p, c + 2)};
 }
 
-ExrImage Film::to_exr(std::map<std::string, ExrAttribute> attributes) const {
-  ExrImage image;
-  image.width = width_;
-  image.height = height_;
-  image.attributes = std::move(attributes);
-  const size_t pixels = counts_.size();
-
+std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
+  const size_t first_pixel = index(0, y0), pixels = index(0, y1) - first_pixel;
+  std::vector<ExrChannel> channels;
   const auto add_channel = [&](std::string name, ChannelType type,
                                const std::function<float(size_t)>& value) {
     ExrChannel channel{std::move(name), type, std::vector<float>(pixels), {}};
-    for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(p);
-    image.channels.push_back(std::move(channel));
+    for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(first_pixel + p);
+    channels.push_back(std::move(channel));
   };
   const auto add_color = [&](const std::string& prefix, size_t first) {
     for (size_t c = 0; c < 3; ++c) {
@@ -110,15 +107,17 @@ ExrImage Film::to_exr(std::map<std::string, ExrAttribute> attributes) const {
     add_data("root." + axis, [c](const VisibleSurface& s) { return s.root_uv[c]; });
   }
   ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
-  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[p].sample.id;
-  image.channels.push_back(std::move(id));
+  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[first_pixel + p].sample.id;
+  channels.push_back(std::move(id));
   if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {
     add_channel("noise", ChannelType::kFloat,
                 [&](size_t p) { return static_cast<float>(moments_[p].error()); });
-    image.channels.push_back({"samples", ChannelType::kUint, {}, counts_});
+    const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first_pixel);
+    channels.push_back(
+        {"samples", ChannelType::kUint, {}, {begin, begin + static_cast<std::ptrdiff_t>(pixels)}});
   }
-  return image;
+  return channels;
 }
 
 }  // namespace pelage

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <span>
 #include <vector>
 
@@ -65,10 +64,10 @@ class Film {
   Rgb layer(int x, int y, size_t layer) const;
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].sample; }
 
-  /// All channels under the names of docs and notes: R G B A and light layers as half, Z, N, tangent, forward
-  /// and root as float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of
-  /// the luminance, as float; with layers().lod, `lod` as float. Attributes are copied into the header.
-  ExrImage to_exr(std::map<std::string, ExrAttribute> attributes) const;
+  /// All channels of rows y0 .. y1-1 under the names of docs and notes: R G B A and light layers as half, Z,
+  /// N, tangent, forward and root as float, id as uint; with layers().noise, `samples` as uint and `noise`,
+  /// the standard error of the luminance, as float; with layers().lod, `lod` as float.
+  std::vector<ExrChannel> exr_rows(int y0, int y1) const;
 
  private:
   struct Surface {

@@ -3,8 +3,8 @@
 
 namespace pelage {
 
-std::map<std::string, ExrAttribute> exr_attributes(const FrameHeader& header, const Camera& camera) {
-  std::map<std::string, ExrAttribute> attributes;
+ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
+  ExrAttributes attributes;
   attributes["worldToCamera"] = camera.world_to_camera();
   attributes["worldToNDC"] = camera.world_to_ndc();
   attributes["framesPerSecond"] = static_cast<float>(header.frames_per_second);

@@ -29,6 +29,6 @@ struct FrameHeader {
 
 /// The EXR attributes of a frame: the standard ones (worldToCamera, worldToNDC, framesPerSecond) and, under
 /// "pelage:", the rest.
-std::map<std::string, ExrAttribute> exr_attributes(const FrameHeader& header, const Camera& camera);
+ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera);
 
 }  // namespace pelage

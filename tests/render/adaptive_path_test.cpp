@@ -7,6 +7,7 @@
 #include "render/path/path_integrator.h"
 #include "render/sampling/adaptive_rule.h"
 #include "tests/geom/random_strands.h"
+#include "tests/render/film_picture.h"
 #include "tests/render/path_scene.h"
 
 namespace pelage {
@@ -76,7 +77,7 @@ TEST(AdaptivePath, ThreadsMemoryAndPassesDoNotChangeThePicture) {
     scene.render.samples = 300;
     scene.render.adaptive->rule = rule;
     const FrameResult one = scene.run({}, 1), many = scene.run({}, 4);
-    const ExrImage a = one.film.to_exr({}), b = many.film.to_exr({});
+    const ExrImage a = picture_of(one.film), b = picture_of(many.film);
     ASSERT_EQ(a.channels.size(), b.channels.size());
     int named = 0;
     for (size_t i = 0; i < a.channels.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "render/film/filter_sampler.h"
 #include "render/film/frame_header.h"
+#include "tests/render/film_picture.h"
 
 namespace pelage {
 namespace {
@@ -86,7 +87,7 @@ TEST(Film, WritesEveryChannelByItsName) {
   sample.alpha = 1;
   sample.surface = {3, V3f(0, 1, 0), V3f(1, 0, 0), V2f(2, -1), V2f(0.25f, 0.75f), 77};
   film.add(1, 0, sample, std::vector<Rgb>(5, Rgb(0.1f)));
-  const ExrImage image = film.to_exr({});
+  const ExrImage image = picture_of(film);
   for (const char* name : {"R", "G", "B", "A", "key.diffuse.R", "sky.emission.B"}) {
     ASSERT_TRUE(image.find(name)) << name;
     EXPECT_EQ(image.find(name)->type, ChannelType::kHalf) << name;
@@ -107,6 +108,33 @@ TEST(Film, WritesEveryChannelByItsName) {
   ASSERT_TRUE(image.find("id"));
   EXPECT_EQ(image.find("id")->ids, (std::vector<uint32_t>{kNoStrand, 77}));
   EXPECT_EQ(image.channels.size(), 4u + 15 + 1 + 3 + 3 + 2 + 2 + 1);
+}
+
+TEST(Film, RowsAreThoseOfTheWholePicture) {
+  MemoryLedger ledger;
+  FilmLayers layers = two_lights();
+  layers.noise = layers.lod = true;
+  Film film(3, 5, layers, ledger);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 3; ++x) {
+      FilmSample sample;
+      sample.radiance = Rgb(static_cast<float>(x + 3 * y));
+      sample.surface.id = static_cast<uint32_t>(x + 3 * y);
+      sample.surface.depth = static_cast<float>(1 + x + 3 * y);
+      for (int i = 0; i <= x; ++i) film.add(x, y, sample, std::vector<Rgb>(5, Rgb(0.1f)));
+    }
+  }
+  const std::vector<ExrChannel> whole = film.exr_rows(0, 5), some = film.exr_rows(1, 4);
+  ASSERT_EQ(some.size(), whole.size());
+  const auto part = [](const auto& all) {
+    return all.empty() ? all : std::decay_t<decltype(all)>(all.begin() + 3, all.begin() + 12);
+  };
+  for (size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].name, whole[i].name);
+    EXPECT_EQ(some[i].type, whole[i].type);
+    EXPECT_EQ(some[i].pixels, part(whole[i].pixels)) << some[i].name;
+    EXPECT_EQ(some[i].ids, part(whole[i].ids)) << some[i].name;
+  }
 }
 
 TEST(FrameHeader, CarriesWhatAPictureWasMadeFrom) {

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "tests/geom/random_strands.h"
+#include "tests/render/film_picture.h"
 #include "tests/render/path_scene.h"
 
 namespace pelage {
@@ -43,8 +44,8 @@ struct BusyScene : PathScene {
 
 TEST(PathIntegrator, OneAndManyThreadsGiveTheSameFilm) {
   BusyScene scene;
-  const ExrImage one = scene.run({}, 1).film.to_exr({});
-  const ExrImage many = scene.run({}, 4).film.to_exr({});
+  const ExrImage one = picture_of(scene.run({}, 1).film);
+  const ExrImage many = picture_of(scene.run({}, 4).film);
   ASSERT_EQ(one.channels.size(), many.channels.size());
   for (size_t i = 0; i < one.channels.size(); ++i) {
     EXPECT_EQ(one.channels[i].pixels, many.channels[i].pixels) << one.channels[i].name;

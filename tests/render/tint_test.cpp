@@ -2,6 +2,7 @@
 // The colour of one animal of a crowd: parts multiply what their materials give.
 #include <gtest/gtest.h>
 
+#include "tests/render/film_picture.h"
 #include "tests/render/path_scene.h"
 
 namespace pelage {
@@ -17,7 +18,7 @@ double sum(const ExrImage& image, const std::string& name) {
   return total;
 }
 
-ExrImage render(PathScene& scene) { return scene.run().film.to_exr({}); }
+ExrImage render(PathScene& scene) { return picture_of(scene.run().film); }
 
 TEST(Tint, OfASkinMultipliesItsColour) {
   PathScene scene(12, 12);
