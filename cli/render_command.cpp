@@ -68,8 +68,9 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.scene_hash = scene.hash;
   const Film& film = result.film;
   run.stage("write", [&] {
-    write_exr(path, film.width(), film.height(), exr_attributes(header, world.scene.camera),
-              [&film](int y0, int y1) { return film.exr_rows(y0, y1); });
+    write_exr(
+        path, film.width(), film.height(), exr_attributes(header, world.scene.camera),
+        [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, run.workers().thread_count());
   });
   run.display().note(fmt::format("{}  {} x {}, {}{}, {}", path, scene.image.width, scene.image.height,
                                  samples_text(result), result.partial ? " (partial)" : "",

@@ -19,12 +19,13 @@
 #include "base/file.h"
 #include "image/exr_check.h"
 #include "image/exr_header.h"
+#include "image/exr_threads.h"
 
 namespace pelage {
 namespace {
 
 /// Rows that are written at a time: a few blocks of those that are compressed together.
-constexpr int kWrittenRows = 64;
+constexpr int kWrittenRows = 128;
 
 /// Pixels of one channel in the representation of the file: half channels are rounded here, once.
 struct Storage {
@@ -67,7 +68,7 @@ void write_rows(Imf::OutputFile& file, int width, int y0, int y1, const std::vec
 }
 
 void write_file(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-                const ExrRowSource& rows) {
+                const ExrRowSource& rows, int threads) {
   std::vector<ExrChannel> channels = rows(0, std::min(height, kWrittenRows));
   PELAGE_CHECK(!channels.empty());
   Imf::Header header(width, height);
@@ -78,7 +79,7 @@ void write_file(const std::filesystem::path& path, int width, int height, const 
   for (const ExrChannel& channel : channels) {
     header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
   }
-  Imf::OutputFile file(path.c_str(), header, 0);
+  Imf::OutputFile file(path.c_str(), header, exr_threads(threads));
   for (int y = 0; y < height; y += kWrittenRows) {
     const int end = std::min(y + kWrittenRows, height);
     if (y > 0) channels = rows(y, end);
@@ -140,11 +141,11 @@ const ExrChannel* ExrImage::find(std::string_view name) const {
 }
 
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows) {
+               const ExrRowSource& rows, int threads) {
   PELAGE_CHECK(width > 0 && height > 0);
   AtomicFile file(path);
   try {
-    write_file(file.temporary_path(), width, height, attributes, rows);
+    write_file(file.temporary_path(), width, height, attributes, rows, threads);
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
@@ -170,7 +171,7 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   for (const ExrChannel& channel : image.channels) {
     PELAGE_CHECK((channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size()) == pixels);
   }
-  write_exr(path, image.width, image.height, image.attributes, rows);
+  write_exr(path, image.width, image.height, image.attributes, rows, 1);
 }
 
 ExrImage read_exr(const std::filesystem::path& path) {

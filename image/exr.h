@@ -41,11 +41,11 @@ struct ExrImage {
 };
 
 /// Writes a picture whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities, asking `rows`
-/// for a few rows at a time, so that writing takes next to no memory. Half channels are rounded to nearest;
-/// what is beyond their range becomes their largest number, infinity stays. Throws Error (kFailed) naming the
-/// path.
+/// for a few rows at a time, so that writing takes next to no memory; `threads` compress them. Half channels
+/// are rounded to nearest; what is beyond their range becomes their largest number, infinity stays. Throws
+/// Error (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows);
+               const ExrRowSource& rows, int threads);
 /// The same of a picture that is there already.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 

@@ -14,27 +14,16 @@
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfThreading.h>
 
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/exr_check.h"
 #include "image/exr_header.h"
+#include "image/exr_threads.h"
 
 namespace pelage {
 namespace {
-
-/// OpenEXR's own threads, of which a process has one team. Under the thread sanitizer none: they are not
-/// instrumented.
-int library_threads(int threads) {
-#ifdef PELAGE_STD_THREADS
-  threads = 0;
-#endif
-  threads = threads > 1 ? threads : 0;
-  if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
-  return threads;
-}
 
 PixelBox box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
 Imath::Box2i box_of(const PixelBox& box) { return {{box.x0, box.y0}, {box.x1 - 1, box.y1 - 1}}; }
@@ -137,7 +126,7 @@ struct ExrReader::File {
 ExrReader::ExrReader(std::filesystem::path path, int threads) : path_(std::move(path)) {
   check_exr_headers(path_);
   reading(path_, [&] {
-    const int team = library_threads(threads);
+    const int team = exr_threads(threads);
     file_ = std::make_unique<File>(path_.c_str(), team);
     for (int i = 0; i < file_->input.parts(); ++i) {
       parts_.push_back(describe(file_->input.header(i), path_));
@@ -187,8 +176,8 @@ ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::v
     for (const ExrOutputPart& part : parts) {
       headers.push_back(header_for(source.file_->input.header(static_cast<int>(part.like)), part.header));
     }
-    file_ = std::make_unique<File>(path_, headers.data(), static_cast<int>(headers.size()),
-                                   library_threads(threads));
+    file_ =
+        std::make_unique<File>(path_, headers.data(), static_cast<int>(headers.size()), exr_threads(threads));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& error) {
