@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/compose.h"
 #include "cli/grow_boxes.h"
+#include "cli/report/counted.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
@@ -54,10 +55,10 @@ Growth grow(const FurPart& part, Run& run) {
 void report(const std::string& name, const Growth& growth, int threads) {
   const double rate = growth.seconds > 0 ? static_cast<double>(growth.strands) / growth.seconds : 0;
   std::cout << fmt::format(
-      "{}: {} strands, {} points, {:.1f} MiB ({:.0f} bytes per strand), {:.0f} strands/s on {} {}\n", name,
+      "{}: {} strands, {} points, {:.1f} MiB ({:.0f} bytes per strand), {:.0f} strands/s on {}\n", name,
       growth.strands, growth.points, static_cast<double>(growth.bytes) / (1 << 20),
       growth.strands ? static_cast<double>(growth.bytes) / static_cast<double>(growth.strands) : 0.0, rate,
-      threads, threads == 1 ? "thread" : "threads");
+      counted(threads, "thread"));
 }
 
 void report_cache(const std::string& name, const GroomCacheReport& cache, bool explain) {
@@ -84,8 +85,8 @@ void prune_caches(const Assets& assets) {
   }
   for (const auto& [folder, keep] : folders) {
     const ContentStore::Removed removed = ContentStore(folder).prune(std::chrono::hours(1), keep);
-    std::cout << fmt::format("{}: {} {} removed, {:.1f} MiB\n", folder.string(), removed.files,
-                             removed.files == 1 ? "file" : "files",
+    std::cout << fmt::format("{}: {} removed, {:.1f} MiB\n", folder.string(),
+                             counted(static_cast<int64_t>(removed.files), "file"),
                              static_cast<double>(removed.bytes) / (1 << 20));
   }
 }

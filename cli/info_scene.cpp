@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/info.h"
+#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {
@@ -69,9 +70,10 @@ std::string section(const char* title, const Named<T>& named) {
 }  // namespace
 
 std::string describe_scene(const SceneDescription& scene) {
-  std::string text = fmt::format("scene, {} x {} pixels, frames {}, {} samples, {} bounces, integrator {}\n",
-                                 scene.image.width, scene.image.height, shown(scene.frames),
-                                 scene.render.samples, scene.render.bounces, shown(scene.render.integrator));
+  std::string text =
+      fmt::format("scene, {} x {} pixels, frames {}, {}, {}, integrator {}\n", scene.image.width,
+                  scene.image.height, shown(scene.frames), counted(scene.render.samples, "sample"),
+                  counted(scene.render.bounces, "bounce"), shown(scene.render.integrator));
   text +=
       section("skins", scene.skins) + section("grooms", scene.grooms) + section("materials", scene.materials);
   text += section("characters", scene.characters);

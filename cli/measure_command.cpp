@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/machine.h"
+#include "cli/report/counted.h"
 #include "cli/report/report_csv.h"
 #include "cli/report/report_html.h"
 #include "cli/report/report_json.h"
@@ -71,10 +72,10 @@ void write_figures(const std::filesystem::path& folder, const Report& report) {
 }
 
 std::string picture_text(const SceneDescription& scene) {
-  return fmt::format("{} x {} pixels, {} samples, {} bounces, frame {}, shutter {:g} to {:g}, seed {}",
-                     scene.image.width, scene.image.height, scene.render.samples, scene.render.bounces,
-                     scene.frames.frames.front(), scene.camera.shutter.x, scene.camera.shutter.y,
-                     scene.render.seed);
+  return fmt::format("{} x {} pixels, {}, {}, frame {}, shutter {:g} to {:g}, seed {}", scene.image.width,
+                     scene.image.height, counted(scene.render.samples, "sample"),
+                     counted(scene.render.bounces, "bounce"), scene.frames.frames.front(),
+                     scene.camera.shutter.x, scene.camera.shutter.y, scene.render.seed);
 }
 
 Measured run_experiment(const Options& options, const SceneDescription& scene, const MeasureSetup& setup,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/frames.h"
+#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {
@@ -42,9 +43,8 @@ int run_post_frames(const Options& options, const PostWork& work) {
     for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
     if (report.cancelled) return kInterruptedExitCode;
     run.statistics().stages_s["post"] += run.seconds() - began;
-    run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {} step{}, {}", output,
-                                   report.window.width(), report.window.height(), report.longest,
-                                   report.steps, report.steps == 1 ? "" : "s",
+    run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {}, {}", output, report.window.width(),
+                                   report.window.height(), report.longest, counted(report.steps, "step"),
                                    duration_text(run.seconds() - began)));
   }
   run.finish(options);

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/compose.h"
 #include "cli/progress_display.h"
+#include "cli/report/counted.h"
 #include "cli/run.h"
 #include "cli/version.h"
 #include "render/film/frame_header.h"
@@ -28,7 +29,7 @@ void check_writable(const std::string& path) { const AtomicFile probe(path); }
 
 // "64 samples" of every pixel; "37.5 samples on average".
 std::string samples_text(const FrameResult& result) {
-  if (result.mean_samples == result.samples) return fmt::format("{} samples", result.samples);
+  if (result.mean_samples == result.samples) return counted(result.samples, "sample");
   return fmt::format("{:.1f} samples on average", result.mean_samples);
 }
 

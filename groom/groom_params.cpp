@@ -58,8 +58,7 @@ const Schema<GroomParams>& GroomParams::schema() {
           {.help = "Skin that it grows on", .default_text = "none: strands_file alone"});
     s.key("strands_file", &GroomParams::strands_file,
           {.help = "Strands made elsewhere (.hair, .tfx), in the rest space of the skin; on a skin each "
-                   "follows the "
-                   "nearest point of it",
+                   "follows the nearest point of it",
            .default_text = "none"});
     s.key("basis", &GroomParams::basis,
           {.help = "What the points of strands_file mean", .default_text = "what the file says"});

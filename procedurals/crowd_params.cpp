@@ -76,12 +76,9 @@ const Schema<CrowdParams>& CrowdParams::schema() {
     Schema<CrowdParams> s(
         "crowd",
         "Many animals from a few characters, each with a pose, size, hair length and colour of its own, "
-        "spread "
-        "evenly over an area and pushed apart where they stand too close; crowds keep clear of those that "
-        "stand above them in the scene. Every number is a function of seed "
-        "and name, not of the frame. A character that a crowd is made of is not drawn by itself unless it "
-        "says "
-        "`drawn: true`.");
+        "spread evenly over an area and pushed apart where they stand too close; crowds keep clear of those "
+        "that stand above them in the scene. Every number is a function of seed and name, not of the frame. "
+        "A character that a crowd is made of is not drawn by itself unless it says `drawn: true`.");
     s.key("of", &CrowdParams::of,
           {.help = "Names of characters; each animal is one of them, by chance", .required = true});
     s.key("count", &CrowdParams::count,

@@ -58,8 +58,7 @@ const Schema<RenderParams>& RenderParams::schema() {
           {.help =
                "What strands are traced with. `fur`: our own tree over them, two thirds as large; `embree`: "
                "Embree's curves. The two differ only where a ray passes an edge or starts within a strand's "
-               "width "
-               "of another strand. Skins, and strands with `curves: round`, are Embree's either way"});
+               "width of another strand. Skins, and strands with `curves: round`, are Embree's either way"});
     s.key("curves", &RenderParams::curves,
           {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups; always "
                    "by Embree)"});

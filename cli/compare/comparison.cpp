@@ -55,9 +55,8 @@ Table energy_table(const Comparison& comparison) {
   Table table;
   table.caption =
       "Energy. A fibre that absorbs nothing gives back 1 of what it gets, and a white coat vanishes in a "
-      "white "
-      "furnace. Distances are total variations from the traced light: 0 is the same distribution, 1 has "
-      "nothing in common.";
+      "white furnace. Distances are total variations from the traced light: 0 is the same distribution, 1 "
+      "has nothing in common.";
   table.columns = {{"model", "model"},
                    {"white_across", "white fibre, light across it", Quantity::kRatio},
                    {"white_slanted", "light at 57 degrees", Quantity::kRatio},
@@ -144,12 +143,10 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
     Picture fibres = single_fibre_sheet(comparison.fibres);
     fibres.caption = fmt::format(
         "One fibre, lit from {:.0f} degrees off its normal plane, evenly over its width. Left: where the "
-        "model "
-        "sends the light, by sin(theta_i) upward and azimuth; colours run over four decades. Middle: light "
-        "traced by brute force through the same fibre (absorption {:.1f} per radius), blurred as much as the "
-        "model is rough. Right: both around the fibre, as roots of the energy; the light comes from the "
-        "right. "
-        "Cuticle tilts are left out. Opaque models stand beside a clear fibre of the same energy.",
+        "model sends the light, by sin(theta_i) upward and azimuth; colours run over four decades. Middle: "
+        "light traced by brute force through the same fibre (absorption {:.1f} per radius), blurred as much "
+        "as the model is rough. Right: both around the fibre, as roots of the energy; the light comes from "
+        "the right. Cuticle tilts are left out. Opaque models stand beside a clear fibre of the same energy.",
         SingleFibre::kInclination * 180 / 3.14159265, SingleFibre::kAbsorption);
     report.sections.push_back({"Single fibres", {energy_table(comparison), fibres}});
   }
@@ -167,9 +164,8 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
         Paragraph{
             "Each picture is rendered in two halves with seeds of their own: a quarter of their squared "
             "difference is the variance of their mean, and relMSE the mean over fur of that variance over "
-            "the "
-            "squared radiance + 0.01 of the squared mean radiance. Times include growing the fur, which is "
-            "the same for all models; times of tables are not included."},
+            "the squared radiance + 0.01 of the squared mean radiance. Times include growing the fur, which "
+            "is the same for all models; times of tables are not included."},
         Paragraph{
             "In the furnace everything is white and the sky is 1 everywhere, with a thousand bounces: what "
             "deviates from 1 is lost or made by the model, but for noise of a few thousandths."}}});

@@ -7,6 +7,7 @@
 
 #include "cli/measure/experiments.h"
 #include "cli/measure/outcome_table.h"
+#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {
@@ -17,29 +18,20 @@ constexpr const char* kYardstick = "embree-compact";
 
 constexpr const char* kMethod =
     "The fur of the frame, without skins, is grown once; the same rays go through it in every variant, each "
-    "in "
-    "a process of its own, on {} thread{}. Camera rays go through points of the picture, tile after tile; "
-    "gather "
+    "in a process of its own, on {}. Camera rays go through points of the picture, tile after tile; gather "
     "rays from where these meet fur, in all directions; sorted ones are the same by octant of direction and "
     "along a space-filling curve; shadow rays go from there to lights; deep ones, for which anything in the "
-    "way "
-    "is enough, start at places spread evenly over all strands. A ray that starts on a strand does not meet "
-    "that "
-    "strand near its start; with Embree, which knows no such rule for one strand, it begins two widths from "
-    "there. Each kind is traced once untimed; then the faster of two passes counts, or one with pages. Every "
-    "variant runs {} time{}, in rounds; the run of "
-    "median time counts.";
+    "way is enough, start at places spread evenly over all strands. A ray that starts on a strand does not "
+    "meet that strand near its start; with Embree, which knows no such rule for one strand, it begins two "
+    "widths from there. Each kind is traced once untimed; then the faster of two passes counts, or one with "
+    "pages. Every variant runs {}, in rounds; the run of median time counts.";
 
 constexpr const char* kPaging =
     "Paged fur is the quantised tree cut into pages of 128 KiB, in a file. Pages are read when a ray needs "
-    "them, "
-    "by explicit reads that leave nothing in the system's cache, and dropped when memory asks for it. A "
-    "budget "
-    "of p % is for everything: the table, the tree over the pages' boxes and the pages themselves. Alone: a "
-    "ray "
-    "waits for each page. Together: of 32,768 rays each waits in the queue of the page that it needs next, "
-    "and "
-    "pages are read for all their rays at once.";
+    "them, by explicit reads that leave nothing in the system's cache, and dropped when memory asks for it. "
+    "A budget of p % is for everything: the table, the tree over the pages' boxes and the pages themselves. "
+    "Alone: a ray waits for each page. Together: of 32,768 rays each waits in the queue of the page that it "
+    "needs next, and pages are read for all their rays at once.";
 
 struct Kind {
   const char *id, *title;
@@ -216,11 +208,10 @@ Measured measure_accel(const SceneDescription&, const MeasureSetup& given, Progr
   report.abstract = abstract_of(outcomes, segments);
   report.data = table_of(outcomes, segments);
   const Table& data = report.data;
-  const auto plural = [](int n) { return n == 1 ? "" : "s"; };
   const int threads = std::stoi(setup.arguments.back());
   report.sections.push_back(
       {"Method",
-       {Paragraph{fmt::format(kMethod, threads, plural(threads), setup.repeat, plural(setup.repeat))}}});
+       {Paragraph{fmt::format(kMethod, counted(threads, "thread"), counted(setup.repeat, "time"))}}});
   const std::vector<Outcome> whole(outcomes.begin(),
                                    outcomes.begin() + std::min<std::ptrdiff_t>(4, std::ssize(outcomes)));
   const auto in_core = [&](const Table& t) {

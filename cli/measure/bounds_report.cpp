@@ -6,31 +6,27 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
 #include "cli/measure/memory_plots.h"
 #include "cli/measure/outcome_table.h"
+#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {
 
 constexpr const char* kStrategies =
     "none grows everything up front; rays are tested against boxes measured on what was grown. user scales "
-    "the "
-    "conservative box about its centre by a factor. conservative bounds by skin patch, strand lengths and "
-    "each "
-    "operator's reach. exact grows each chunk once in a first pass and keeps the boxes of its parts, which "
-    "hold "
-    "the whole frame interval; exact-shutter holds what the shutter sees; linear has boxes that move "
-    "linearly "
-    "over the shutter.";
+    "the conservative box about its centre by a factor. conservative bounds by skin patch, strand lengths "
+    "and each operator's reach. exact grows each chunk once in a first pass and keeps the boxes of its "
+    "parts, which hold the whole frame interval; exact-shutter holds what the shutter sees; linear has boxes "
+    "that move linearly over the shutter.";
 constexpr const char* kTerms =
     "An expansion is the growth of a chunk for use (the first pass is not one: it is the stage bound), a "
     "re-expansion one after an eviction, a false expansion that of a chunk which was the answer to no ray: "
-    "what "
-    "a ray met in it, if anything, lay behind something nearer. Box areas are sums of surface areas over all "
-    "leaves of all coats: of the box around each leaf, and of the boxes of its parts, which rays are tested "
-    "against; boxes that move count with the mean of shutter open and close. Box tests and chunk visits are "
-    "per "
-    "ray of any kind, tests of boxes that a chunk learned when it was grown included.";
+    "what a ray met in it, if anything, lay behind something nearer. Box areas are sums of surface areas "
+    "over all leaves of all coats: of the box around each leaf, and of the boxes of its parts, which rays "
+    "are tested against; boxes that move count with the mean of shutter open and close. Box tests and chunk "
+    "visits are per ray of any kind, tests of boxes that a chunk learned when it was grown included.";
 constexpr const char* kCold =
     "Caches: variants marked cold begin every run with an empty cache folder, compute the offsets of the "
     "operators and the boxes of their strategy and store both; the variant of the same name without the mark "
@@ -49,6 +45,39 @@ std::string change(double after, double before) {
   return before > 0 ? fmt::format(" ({:+.0f} %)", 100 * (after / before - 1)) : "";
 }
 
+// "1.03 times the CPU time", or why that number says nothing: times of a machine that does other things too
+// differ from run to run.
+std::string time_text(const Outcome& a, const Outcome& b, const std::string& path, const char* name) {
+  const double ratio = a.number(path) / b.number(path);
+  const bool known = a.runs.size() > 1 && b.runs.size() > 1;
+  const bool apart = !known || a.least(path) > b.most(path) || a.most(path) < b.least(path);
+  return fmt::format("{:.2f} times the {}{}", ratio, name,
+                     apart ? "" : " (less than what runs of the same strategy differ by)");
+}
+
+// Says where the scene leaves bounds nothing to save.
+std::string touched_text(const Outcome& exact, const Outcome& conservative) {
+  const auto all = [](const Outcome& o) { return o.number("chunks_touched") >= o.number("chunks"); };
+  if (!all(exact) || !all(conservative)) return "";
+  return "Some ray needs nearly every chunk whatever its box, as is usual where light comes from all around "
+         "and "
+         "everything is in the frame: what bounds can save here is not growth, only box tests and visits. ";
+}
+
+// Other work on the machine slows runs down, and not all of them alike.
+std::string load_text(const std::vector<Outcome>& outcomes) {
+  double most = 0;
+  for (const Outcome& outcome : outcomes) {
+    for (const VariantRun& run : outcome.runs) most = std::max(most, run.load);
+  }
+  // A run that follows another finds that one's threads in the mean of the last minute.
+  if (most <= 1.5 * available_processors()) return "";
+  return fmt::format(
+      " The machine was busy with other things (a load of {:.0f} on {} processors): counts and memory are "
+      "what they are, times are not to be trusted.",
+      most, available_processors());
+}
+
 // What the numbers say of the strategies that the question is about.
 std::string findings(const std::vector<Outcome>& outcomes) {
   const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
@@ -61,23 +90,27 @@ std::string findings(const std::vector<Outcome>& outcomes) {
     const double after = a.number("false_expansions"), before = b.number("false_expansions");
     text += fmt::format(
         "{} boxes instead of {} ones: {:.0f} false expansions instead of {:.0f}{}, {:.0f} expansions instead "
-        "of "
-        "{:.0f}, {:.2f} times the box area, {:.2f} times the wall time, {:.2f} times the CPU time. ",
+        "of {:.0f}, {:.2f} times the box area, {}, {}. ",
         name, than, after, before, change(after, before), a.number("expansions"), b.number("expansions"),
-        a.number("bounds_area") / b.number("bounds_area"), a.number("wall_s") / b.number("wall_s"),
-        a.number("cpu_s") / b.number("cpu_s"));
+        a.number("bounds_area") / b.number("bounds_area"), time_text(a, b, "wall_s", "wall time"),
+        time_text(a, b, "cpu_s", "CPU time"));
   };
-  if (exact && conservative) against("Exact", *exact, "conservative", *conservative);
+  if (exact && conservative) {
+    against("Exact", *exact, "conservative", *conservative);
+    text += touched_text(*exact, *conservative);
+  }
   if (exact && shutter) against("Shutter-aware", *shutter, "exact", *exact);
   if (exact && none) {
     text += fmt::format(
-        "Growth on demand with exact boxes instead of growing everything up front: {:.2f} times the wall "
-        "time, "
-        "{:.2f} times the peak resident set.",
-        exact->number("wall_s") / none->number("wall_s"),
+        "Growth on demand with exact boxes instead of growing everything up front: {}, {:.2f} times the peak "
+        "resident set.",
+        time_text(*exact, *none, "wall_s", "wall time"),
         exact->number("peak_rss_bytes") / none->number("peak_rss_bytes"));
   }
-  return text;
+  const bool once =
+      std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.runs.size() < 2; });
+  if (once) text += " Each ran once: by how much times vary is not known.";
+  return text + load_text(outcomes);
 }
 
 using Differences = std::vector<std::optional<PictureDifference>>;
@@ -234,9 +267,9 @@ Report bounds_report(const BoundsResults& results) {
   report.sections.push_back(
       {"Method",
        {Paragraph{fmt::format(
-            "Every variant renders the same frame in a process of its own, {} time{}, in rounds over all "
+            "Every variant renders the same frame in a process of its own, {}, in rounds over all "
             "variants; numbers are those of the run of median wall time, least and most are the spread. {}",
-            results.repeat, results.repeat == 1 ? "" : "s", results.cached ? kCold : kUncached)},
+            counted(results.repeat, "time"), results.cached ? kCold : kUncached)},
         Paragraph{kStrategies}, Paragraph{kTerms},
         Paragraph{
             "Memory over time is sampled every 10 ms; the kernel keeps the peak of the resident set (peak "

@@ -7,37 +7,28 @@
 #include "cli/measure/experiments.h"
 #include "cli/measure/growth_edits.h"
 #include "cli/measure/outcome_table.h"
+#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {
 
 constexpr const char* kMethod =
     "Each groom is grown on its own by pelage grow: uncached, by its operators; cold, with an empty cache "
-    "that the "
-    "run fills; and warm, from the cache so filled. Caches of all other grooms are switched off; grooms "
-    "without a "
-    "cache in the scene have only their uncached run. Every variant runs {} time{} in processes of its own; "
-    "the run "
-    "of median wall time is reported. Uncached runs grow the coat once, warm ones on every character that "
-    "wears it "
-    "and write a strand file; times of growth are for one coat, without writing. Filling the cache is the "
-    "time by "
-    "which opening it takes longer cold than warm, follicles included; after so many growths from the cache "
-    "it is "
-    "earned back. Files are read from the page cache. Growth reads offsets and follicles; layers, one per "
-    "operator, "
-    "are kept so that editing one recomputes only it and what follows.";
+    "that the run fills; and warm, from the cache so filled. Caches of all other grooms are switched off; "
+    "grooms without a cache in the scene have only their uncached run. Every variant runs {} in processes of "
+    "its own; the run of median wall time is reported. Uncached runs grow the coat once, warm ones on every "
+    "character that wears it and write a strand file; times of growth are for one coat, without writing. "
+    "Filling the cache is the time by which opening it takes longer cold than warm, follicles included; "
+    "after so many growths from the cache it is earned back. Files are read from the page cache. Growth "
+    "reads offsets and follicles; layers, one per operator, are kept so that editing one recomputes only it "
+    "and what follows.";
 
 constexpr const char* kEdits =
     "Each run finds the cache as an edit of the operator leaves it: offsets and layers from it on are not "
-    "there, "
-    "those before it are. It goes on from the last layer, runs this operator and all that follow, and stores "
-    "what "
-    "they make; the time is that of all this. Read from the last row up, the times are the cumulative cost "
-    "of the "
-    "stack; the difference of two rows is what one operator costs, storing its layer included. Follicles "
-    "stay. The "
-    "last operator leaves no layer, but the offsets.";
+    "there, those before it are. It goes on from the last layer, runs this operator and all that follow, and "
+    "stores what they make; the time is that of all this. Read from the last row up, the times are the "
+    "cumulative cost of the stack; the difference of two rows is what one operator costs, storing its layer "
+    "included. Follicles stay. The last operator leaves no layer, but the offsets.";
 
 // Three ways to grow one groom: its operators, its operators and a new cache, its cache.
 struct GroomVariants {
@@ -164,8 +155,7 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
   report.data = outcome_table(outcomes);
   add_column(report.data, {"strands_per_s", "strands per second", Quantity::kRate}, outcomes,
              [](const Outcome& o) -> Cell { return rate(o); });
-  report.sections.push_back(
-      {"Method", {Paragraph{fmt::format(kMethod, setup.repeat, setup.repeat == 1 ? "" : "s")}}});
+  report.sections.push_back({"Method", {Paragraph{fmt::format(kMethod, counted(setup.repeat, "time"))}}});
   report.sections.push_back({"Cached against uncached", {}});
   if (!summary.rows.empty()) report.sections.back().blocks.push_back(std::move(summary));
   report.sections.back().blocks.push_back(std::move(rates));

@@ -189,8 +189,7 @@ std::string ledger_text(const std::vector<Outcome>& outcomes) {
   return fmt::format(
       "Ledger against kernel: when the anonymous resident pages were at their highest, the ledger's tags and "
       "the baseline (what the process holds once its command line is read) explained them to within {:.1f} % "
-      "of "
-      "what they had grown by ({}, {:+.1f} MiB) in the worst case; 10 % is what Pelage promises.",
+      "of what they had grown by ({}, {:+.1f} MiB) in the worst case; 10 % is what Pelage promises.",
       100 * worst, at->variant.title, bytes / (1 << 20));
 }
 

@@ -149,12 +149,11 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "ones, whose pixels get {} at most. All pictures have seeds of their own. relMSE is the mean over "
            "pixels with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two truths, t is "
            "their mean and m the mean of t. Fewer samples: those that plain sampling needs for the same "
-           "relMSE "
-           "over those that were taken, in all and on pixels with alpha alone. Bias is that of the mean "
-           "luminance over these pixels. A rule that knew the variance of every pixel beforehand, and spent "
-           "nothing elsewhere, would take {:.2f} times fewer samples on pixels with alpha, {:.2f} times "
-           "fewer "
-           "in all: counts in proportion to the root of the variance are the best that there are.",
+           "relMSE over those that were taken, in all and on pixels with alpha alone. Bias is that of the "
+           "mean luminance over these pixels. A rule that knew the variance of every pixel beforehand, and "
+           "spent nothing elsewhere, would take {:.2f} times fewer samples on pixels with alpha, {:.2f} "
+           "times fewer in all: counts in proportion to the root of the variance are the best that "
+           "there are.",
            kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
            sweep.best.all)}}});
   report.sections.push_back(

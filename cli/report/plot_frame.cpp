@@ -15,7 +15,7 @@ constexpr double kLegendLine = 18, kSwatch = 22, kLegendGap = 16;
 std::vector<double> ticks_of(const PlotScale& scale) {
   const double low = scale.low * scale.unit.factor, high = scale.high * scale.unit.factor;
   if (scale.log) return log_ticks(low, high);
-  return linear_ticks(low, high, std::max(2, static_cast<int>(std::abs(scale.to - scale.from) / 70)));
+  return linear_ticks(low, high, std::max(2, static_cast<int>(std::abs(scale.to - scale.from) / 50)));
 }
 
 // Calls `place` with the left edge and the line of each entry; returns the number of lines.

@@ -69,8 +69,7 @@ void Svg::text(double x, double y, std::string_view text, TextAnchor anchor, std
 void Svg::upright_text(double x, double y, std::string_view text) {
   out_ += fmt::format(
       "<text class=\"label\" x=\"0\" y=\"0\" text-anchor=\"middle\" transform=\"translate({},{}) "
-      "rotate(-90)\">{}"
-      "</text>\n",
+      "rotate(-90)\">{}</text>\n",
       px(x), px(y), escape_markup(text));
 }
 

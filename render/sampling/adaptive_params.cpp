@@ -24,8 +24,7 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
                    "budget, by the least number of samples, or each pixel"});
     s.key("pilot", &AdaptiveParams::pilot,
           {.help = "Two-stage: samples that a pixel gets before counts are decided; a quarter of them where "
-                   "nothing is "
-                   "met and nothing varies",
+                   "nothing is met and nothing varies",
            .min = 4,
            .max = 65536});
     s.key("batch", &AdaptiveParams::batch,

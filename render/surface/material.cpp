@@ -43,8 +43,7 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
     Schema<P> s(
         "cone-shell",
         "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two highlights, "
-        "each "
-        "a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
+        "each a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
     add_color_keys(
         s, "Colour of much such fur together, turned into albedo; with diffuse, that of the fibre's lobes");
     s.key("diffuse", &P::diffuse,

@@ -120,8 +120,7 @@ TEST_F(MeasureRuns, TheMedianRunCounts) {
   const Outcome three = outcome(
       "case $stats in *.2.json) t=1;; *.3.json) t=2;; *) t=3;; esac\n"
       "echo '{\"wall_s\": '$t', \"rays\": {\"camera\": 4, \"shadow\": 6}, \"timeline_columns\": "
-      "[\"seconds\"], "
-      "\"timeline\": [[0], [1]]}' > $stats",
+      "[\"seconds\"], \"timeline\": [[0], [1]]}' > $stats",
       3);
   ASSERT_EQ(three.runs.size(), 3u);
   EXPECT_EQ(three.number("wall_s"), 2);

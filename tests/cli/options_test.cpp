@@ -89,9 +89,7 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_EQ(problem({"rendr", "s"}), "there is no command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
             "there is no command 'zebra'; expected one of compare, convert, grow, info, manual, measure, "
-            "motionblur, "
-            "render, "
-            "stereo");
+            "motionblur, render, stereo");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}),
             "there is no flag '--fraems'; did you mean '--frames'?");
   EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "there is no flag '--memroy'; did you mean '--memory'?");
