@@ -70,13 +70,18 @@ class Composer {
     const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
     charge(posed->bytes());
     box.extendBy(posed->bound(BoundSpan::kShutter));
+    const size_t own = world_.scene.skins.size();
     world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
                                   material_index(scene_, part.material), tint});
     for (const auto& groom : part.grooms.items) {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
-      if (reduced) fur.lod = simplification(*coat, skin.rest.get(), *posed);
+      if (reduced) {
+        fur.lod = simplification(*coat, skin.rest.get(), *posed);
+        std::optional<Simplification>& densest = world_.scene.skins[own].lod;
+        if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
+      }
       fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed, fur.lod));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));

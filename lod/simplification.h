@@ -36,6 +36,8 @@ class Simplification {
                  float budget);
 
   const LodView& view() const { return view_; }
+  /// Strands over a point of the skin, on average; 0 when not known.
+  float depth() const { return nature_.density * nature_.width * nature_.length; }
 
   /// The share lambda in (0, 1] of the strands with their root here when the shutter opens and closes.
   ///

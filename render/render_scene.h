@@ -36,7 +36,8 @@ struct SkinPart {
   std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
-  Rgb tint{1};  ///< multiplies its colour
+  Rgb tint{1};                             ///< multiplies its colour
+  std::optional<Simplification> lod = {};  ///< of the densest coat on it, where detail was reduced
 };
 
 /// Everything that a renderer needs to know of one frame. World space.

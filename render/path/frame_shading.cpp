@@ -35,6 +35,33 @@ std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
 }
 
+// How far above the skin light starts that leaves it beside the hit, over the way to there: facets stand out
+// of the surface that they stand for.
+constexpr float kSkinRise = 0.08f;
+
+/// Numbers of what is seen and of the line of sight, not of the place where it was met: what changes a little
+/// from frame to frame must not draw anew.
+class SightDice {
+ public:
+  SightDice(const Ray& ray, uint64_t seen) : ray_(ray), seen_(seen) {}
+  float number(uint64_t use) const {
+    return unit_float(hash64(use, seen_, bits(0), bits(1) << 32 | bits(2)));
+  }
+  /// A place on a skin with this normal, evenly in a disc about the origin.
+  V3f on_skin(const V3f& normal, float radius) const {
+    const V3f side = normal.cross(std::abs(normal.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized();
+    const float angle = 2 * std::numbers::pi_v<float> * number(random_use("deputy: angle"));
+    const float distance = radius * std::sqrt(number(random_use("deputy: distance")));
+    return distance * (std::cos(angle) * side + std::sin(angle) * normal.cross(side));
+  }
+
+ private:
+  uint64_t bits(int i) const { return std::bit_cast<uint32_t>(ray_.direction[i]); }
+
+  const Ray& ray_;
+  uint64_t seen_;
+};
+
 /// One of the strands that a strand with reduced detail stands for, from which light goes on: were it to go
 /// on from the wide strand, it would find its way as clear as the line of sight, and the room empty where the
 /// others would be.
@@ -43,24 +70,15 @@ struct Deputy {
   bool meets_own = false;
 };
 
-/// Chosen by the strand and the line of sight, not by the place on the strand: what changes a little from
-/// frame to frame must not draw anew.
 Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
                  const Strands& strand) {
-  const auto bits = [&](int i) { return uint64_t{std::bit_cast<uint32_t>(ray.direction[i])}; };
-  const auto number = [&](uint64_t use) {
-    return unit_float(hash64(use, hit.strand_id, bits(0), bits(1) << 32 | bits(2)));
-  };
   Deputy deputy;
   const StrandAttribute* packed = strand.find_attribute(kRootNormal);
   const float spread = lod.spread(share);
   if (!packed || packed->components != 2 || !(spread > 0)) return deputy;
-  const V3f normal = unpacked_line({packed->values[0], packed->values[1]});
-  const V3f side = normal.cross(std::abs(normal.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized();
-  const float angle = 2 * std::numbers::pi_v<float> * number(random_use("deputy: angle"));
-  const float distance = spread * std::sqrt(number(random_use("deputy: distance")));
-  deputy.away = distance * (std::cos(angle) * side + std::sin(angle) * normal.cross(side));
-  deputy.meets_own = number(random_use("deputy: own")) < lod.own_shadow(share);
+  const SightDice dice(ray, hit.strand_id);
+  deputy.away = dice.on_skin(unpacked_line({packed->values[0], packed->values[1]}), spread);
+  deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
   return deputy;
 }
 
@@ -128,7 +146,11 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1 && leaves_own_strand_) {
-    const Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
+    Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
+    // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
+    // coat from the side are the upper edges of wide strands.
+    const float beside_axis = 1 - 1 / lod->gain(share);
+    deputy.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
     return {point.position, point.tangent, point.radius / lod->gain(share), deputy.away, deputy.meets_own,
             at.h,           bsdf};
   }
@@ -153,8 +175,19 @@ Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& 
 ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const {
   const SkinPart& part = scene_.skins[hit.part];
   const Skin& skin = *skins_[part.material];
-  const SkinPoint point = pelage::skin_point(triangle, ray, hit);
+  SkinPoint point = pelage::skin_point(triangle, ray, hit);
   const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
+  if (part.lod && leaves_own_strand_) {
+    // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
+    // wide strands.
+    const V3f open = point.position - ray.time * point.shutter_motion;
+    const float share = part.lod->share(open, open + point.shutter_motion);
+    V3f away = SightDice(ray, hit.part).on_skin(point.normal, part.lod->spread(share));
+    const float rise = skin_rise(triangle, ray.time, point.normal, away);
+    away += (rise + kSkinRise * away.length()) * point.normal;
+    point.position += away;
+    point.start += away;
+  }
   if (!skin.coat) return {point.position, point.start, LambertBsdf(color, point.normal)};
   return {point.position, point.start,
           GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};

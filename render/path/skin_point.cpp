@@ -58,6 +58,20 @@ SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit) {
   return point;
 }
 
+float skin_rise(const SkinMesh& triangle, float time, const V3f& normal, const V3f& away) {
+  const Corner a = corner(triangle, 0, time), b = corner(triangle, 1, time), c = corner(triangle, 2, time);
+  // away = s (b - a) + t (c - a), by the dual basis of the triangle.
+  const V3f u = b.position - a.position, v = c.position - a.position;
+  const V3f across = u.cross(v);
+  const float square = across.length2();
+  if (!(square > 0)) return 0;
+  const float s = away.cross(v).dot(across) / square, t = u.cross(away).dot(across) / square;
+  V3f turned = s * (b.normal - a.normal) + t * (c.normal - a.normal);
+  if (a.normal.dot(normal) < 0) turned = -turned;
+  const float most = away.length();
+  return std::clamp(-0.5f * turned.dot(away), -most, most);
+}
+
 V2f skin_parameters(const SkinMesh& triangle, const Hit& hit) {
   const V2f* corners = triangle.vertex_uv.data();
   return corners[0] * (1 - hit.u - hit.v) + corners[1] * hit.u + corners[2] * hit.v;

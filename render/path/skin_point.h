@@ -19,6 +19,10 @@ struct SkinPoint {
 /// `triangle`: HitGeometry::triangle of the hit.
 SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit);
 
+/// How far the skin is above the tangent plane at a hit, `away` from it along that plane, if it goes on
+/// bending as in this triangle; at most the length of `away`. `normal`: SkinPoint::normal.
+float skin_rise(const SkinMesh& triangle, float time, const V3f& normal, const V3f& away);
+
 /// Parameters in its ptex face of a hit.
 V2f skin_parameters(const SkinMesh& triangle, const Hit& hit);
 
