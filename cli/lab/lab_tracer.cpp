@@ -116,6 +116,7 @@ LabResult trace_fur(const LabFur& fur, const std::vector<LabRays>& sets, FurNode
   const SnappedStrands snapped(fur.strands, fur.grid());
   FurTreeOptions options;
   options.layout = layout;
+  options.build.turn = FurTurn::kWhereItPays;  // as in renders
   const FurTree tree(snapped, options);
   result.build_cpu_s = cpu_seconds() - start;
   result.bytes = result.resident_bytes = static_cast<double>(tree.bytes());

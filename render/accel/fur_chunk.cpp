@@ -84,6 +84,24 @@ FurChunk::FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTre
   build_peak_ = bytes_;
 }
 
+ChunkBounds FurChunk::part_bounds(size_t parts) const {
+  ChunkBounds bounds = subtree_bounds(tree_.view(), parts);
+  if (!tree_.view().frame.turned) return bounds;
+  // Boxes around turned ones reach beyond everything that is in them.
+  const FurTreeView& tree = tree_.view();
+  for (Box3f& box : bounds.boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<size_t>(axis);
+      const auto scene = [&](float grid) {
+        return static_cast<float>(tree.anchor[axis] + static_cast<double>(grid) * tree.step);
+      };
+      box.min[axis] = std::max(box.min[axis], scene(tree_.box().low[a]));
+      box.max[axis] = std::min(box.max[axis], scene(tree_.box().high[a]));
+    }
+  }
+  return bounds;
+}
+
 FurStart FurChunk::start_of(const Ray& ray) const {
   if (ray.start.chunk != number_) return {};
   return {ray.start.first_segment, ray.start.segment_count, ray.start.place};

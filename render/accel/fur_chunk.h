@@ -11,6 +11,8 @@
 namespace pelage {
 
 struct FurChunkOptions {
+  FurChunkOptions() { tree.build.turn = FurTurn::kWhereItPays; }
+
   FurTreeOptions tree;
   bool compact_attributes = true;
 };
@@ -35,7 +37,7 @@ class FurChunk final : public ChunkGeometry {
   const PackedStrands& strands() const { return strands_; }
   size_t segment_count() const { return strands_.segment_count(); }
   /// Boxes of about so many parts that hold every hit.
-  ChunkBounds part_bounds(size_t parts) const { return subtree_bounds(tree_.view(), parts); }
+  ChunkBounds part_bounds(size_t parts) const;
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
   /// At least what making a chunk of these counts holds at any moment, the contents that it is given

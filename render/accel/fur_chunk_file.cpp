@@ -27,6 +27,8 @@ struct Head {
   int32_t motion_keys;
   float step, anchor[3], reach;
   float low[3], high[3];
+  uint32_t turned;
+  float axes[9];
 };
 
 ContentHash entry_key(const ContentHash& key) {
@@ -87,7 +89,9 @@ void FurChunkFile::Writer::add(const FurChunk* chunk) {
     head.anchor[axis] = view.anchor[static_cast<int>(axis)];
     head.low[axis] = tree.box().low[axis];
     head.high[axis] = tree.box().high[axis];
+    for (size_t i = 0; i < 3; ++i) head.axes[3 * axis + i] = view.frame.axes[axis][static_cast<int>(i)];
   }
+  head.turned = view.frame.turned ? 1 : 0;
   std::vector<std::byte> known(sizeof(Head));
   std::memcpy(known.data(), &head, sizeof(Head));
   const std::vector<std::byte> packed = chunk->strands().stored_head();
@@ -163,6 +167,10 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   const FurTreelet whole{0, 0, 0, static_cast<uint32_t>(nodes), static_cast<uint32_t>(nodes + leaves)};
   FurTreeView view = treelet_view(table.trees[0], whole, tree.data());
   view.leaves = tree.data() + begin;
+  view.frame.turned = head.turned != 0;
+  for (size_t i = 0; i < 3; ++i)
+    view.frame.axes[i] = V3f(head.axes[3 * i], head.axes[3 * i + 1], head.axes[3 * i + 2]);
+  if (!view.frame.is_possible()) refuse(file_);
   if (nodes > 0 &&
       (!is_possible_treelet(view, whole) || !numbers_are_below(view, nodes, strands->segment_count()))) {
     refuse(file_);

@@ -21,7 +21,7 @@ class Workers;
 class FurChunkFile {
  public:
   /// Counts up whenever the same strands would give other bytes.
-  static constexpr uint32_t kVersion = 1;
+  static constexpr uint32_t kVersion = 2;
 
   /// Writes an entry, chunk by chunk, in order; it exists from commit() on.
   class Writer {

@@ -28,8 +28,9 @@ class FurChunkFileTest : public ChunkAccelTest {
       std::unique_ptr<FurChunk> chunk;
       if (std::holds_alternative<FurContents>(chunks.contents[c].geometry)) {
         const StrandScale scale = chunks.scale(c);
-        chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale.width, scale.anchor),
-                                           FurChunkOptions());
+        FurChunkOptions options;
+        options.tree.build.turn = FurTurn::kAlways;
+        chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale.width, scale.anchor), options);
       }
       writer.add(chunk.get());
     }

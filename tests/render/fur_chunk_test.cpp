@@ -61,6 +61,12 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2, 2500 * more);  // loose ones
   for (int keys : {1, 2})
     expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500 * more);
+  ChunkAccelOptions turned = fur_options();
+  turned.fur.tree.build.turn = FurTurn::kAlways;
+  expect_same(*whole, *make(chunks, chunks.bounds(8), turned), 5, 2500 * more);
+  turned.eager = true;
+  expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), turned), 6,
+              1500 * more);
   eager.fur.tree.layout = FurNodeLayout::kFloat;
   eager.fur.tree.build.cuts = 0.3f;
   expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500 * more);

@@ -148,6 +148,7 @@ FurCutter::~FurCutter() = default;
 
 void FurCutter::add(const FurTree& tree) {
   const FurTreeView& view = tree.view();
+  PELAGE_CHECK(!view.frame.turned);
   table_.trees.push_back({view.layout, view.motion_keys, view.step, view.anchor, view.reach});
   moves_ = moves_ || view.motion_keys > 1;
   if (!view.nodes) return;
@@ -263,7 +264,8 @@ FurTreeView treelet_view(const FurPagedTree& tree, const FurTreelet& treelet, co
           tree.motion_keys,
           tree.step,
           tree.anchor,
-          tree.reach};
+          tree.reach,
+          {}};
 }
 
 bool is_possible_treelet(const FurTreeView& view, const FurTreelet& treelet) {

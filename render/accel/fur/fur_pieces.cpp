@@ -82,7 +82,7 @@ float saving(const Moving& part) {
 
 class Cutter {
  public:
-  explicit Cutter(const SnappedStrands& strands) : strands_(strands) {}
+  Cutter(const SnappedStrands& strands, const FurFrame& frame) : strands_(strands), frame_(frame) {}
 
   /// All keys of a segment; false when it is not drawable.
   bool read(SnappedStrands::Place place, Moving& part) const {
@@ -90,7 +90,7 @@ class Cutter {
     for (int key = 0; key < strands_.motion_keys(); ++key) {
       const SnappedSegment segment = strands_.segment(place, key);
       if (!SnappedStrands::is_drawable(segment)) return false;
-      part.emplace_back(segment);
+      part.emplace_back(frame_(segment));
     }
     return true;
   }
@@ -127,6 +127,7 @@ class Cutter {
 
  private:
   const SnappedStrands& strands_;
+  const FurFrame& frame_;
 };
 
 }  // namespace
@@ -143,8 +144,8 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part) {
   return result;
 }
 
-std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts) {
-  const Cutter cutter(strands);
+std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts, const FurFrame& frame) {
+  const Cutter cutter(strands, frame);
   const size_t budget = piece_count_bound(strands.segment_count(), cuts) - strands.segment_count();
   const std::vector<uint8_t> levels = budget > 0 ? cutter.choose_cuts(budget) : std::vector<uint8_t>();
   std::vector<FurPiece> pieces;

@@ -18,6 +18,8 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum) && !std::isnan(ray.far);
 }
 
+float largest(const V3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
 }  // namespace
 
 bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
@@ -28,14 +30,10 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
                                  (double(ray.origin.y) - tree.anchor.y) * grid,
                                  (double(ray.origin.z) - tree.anchor.z) * grid};
   for (int i = 0; i < 3; ++i) origin[i] = static_cast<float>(grid_origin[i]);
-  origin_reach = std::max({std::abs(origin[0]), std::abs(origin[1]), std::abs(origin[2])});
-  if (!(origin_reach <= FurGrid::kReach)) return false;
-  for (int i = 0; i < 3; ++i) {
-    const float along = std::abs(d[i]) < kSmallest ? std::copysign(kSmallest, d[i]) : d[i];
-    inverse[i] = 1 / along;
-    near_side[i] = along < 0 ? 1 : 0;
-  }
+  if (!(largest(origin) <= FurGrid::kReach)) return false;
+  direction = d;
   inverse[3] = near_origin[3] = far_origin[3] = 0;
+  stands_ = Stands::kNowhere;
   begin(tree, ray, from);
 
   const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
@@ -82,11 +80,25 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
   near = ray.near * grid;
   far = ray.far * grid;
   start = from;
-  const float doubt = kDoubt * (origin_reach + tree.reach);
+  if (tree.frame.turned || stands_ != Stands::kAlongGrid) stand_in(tree.frame);
+  // Turning rounds boxes and rays by a few units more.
+  const float doubt = (tree.frame.turned ? 2 * kDoubt : kDoubt) * (slab_reach_ + tree.reach);
   for (int i = 0; i < 3; ++i) {
     const float outward = near_side[i] == 1 ? doubt : -doubt;
-    near_origin[i] = origin[i] - outward;
-    far_origin[i] = origin[i] + outward;
+    near_origin[i] = slab_origin_[i] - outward;
+    far_origin[i] = slab_origin_[i] + outward;
+  }
+}
+
+void FurRay::stand_in(const FurFrame& frame) {
+  stands_ = frame.turned ? Stands::kTurned : Stands::kAlongGrid;
+  slab_origin_ = frame.turned ? frame(origin) : origin;
+  slab_reach_ = largest(slab_origin_);
+  const V3f d = frame.turned ? frame(direction) : direction;
+  for (int i = 0; i < 3; ++i) {
+    const float along = std::abs(d[i]) < kSmallest ? std::copysign(kSmallest, d[i]) : d[i];
+    inverse[i] = 1 / along;
+    near_side[i] = along < 0 ? 1 : 0;
   }
 }
 

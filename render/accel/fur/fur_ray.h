@@ -16,7 +16,7 @@ namespace pelage {
 /// and y are X and Y made orthonormal, z is the distance along the ray. What the origin contributes is
 /// subtracted as one number, taken in double precision, so that its distance costs no accuracy.
 struct FurRay {
-  // Slab test [Kay86], by axis; the fourth lane is unused.
+  // Slab test [Kay86], by axis of the tree's frame; the fourth lane is unused.
   alignas(16) float inverse[4];
   alignas(16) float near_origin[4];  ///< moved so that boxes are a little larger
   alignas(16) float far_origin[4];
@@ -29,8 +29,8 @@ struct FurRay {
   float depth[3], origin_depth;     ///< z = depth . P - origin_depth
 
   float near, far;
-  float origin[3], origin_reach;  ///< the largest coordinate
-  int key = 0;                    ///< motion: between this key and the next
+  V3f origin, direction;
+  int key = 0;  ///< motion: between this key and the next
   float fraction = 0;
   FurStart start;
 
@@ -40,6 +40,12 @@ struct FurRay {
  private:
   friend class FurRays;
   void begin(const FurTreeView& tree, const Ray& ray, const FurStart& from);
+  void stand_in(const FurFrame& frame);
+
+  enum class Stands : uint8_t { kNowhere, kAlongGrid, kTurned };
+  Stands stands_ = Stands::kNowhere;
+  V3f slab_origin_;
+  float slab_reach_ = 0;  // its largest coordinate
 };
 
 /// One ray on its way through many trees. What it looks like in grid units is found once as long as their

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/four_lanes.h"
+#include "render/accel/fur/fur_frame.h"
 #include "render/accel/fur/snapped_strands.h"
 
 namespace pelage {
@@ -32,6 +33,7 @@ struct FurBuildOptions {
   /// Pieces that long or diagonal segments may be cut into beyond one, over the number of segments. Each
   /// piece has a box of its own and tests the whole segment.
   float cuts = 0;
+  FurTurn turn = FurTurn::kNever;
 };
 
 /// The shape of a fur tree, before it is written in any layout.
@@ -60,8 +62,9 @@ FurTopologySize topology_bound(size_t pieces);
 /// The Bezier curve of a part of a segment.
 SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 
-/// The pieces of all drawable segments: boxes of their Bezier hulls, averaged over the motion keys.
-std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts);
+/// The pieces of all drawable segments: boxes of their Bezier hulls in a frame, averaged over the motion
+/// keys.
+std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts, const FurFrame& frame);
 /// At least their number, for so many segments.
 inline size_t piece_count_bound(size_t segments, float cuts) {
   return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));

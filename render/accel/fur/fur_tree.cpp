@@ -32,9 +32,11 @@ FurBox hull(const SnappedSegment& segment) {
 /// side by side.
 class FurTree::Writer {
  public:
-  Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout)
+  Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout,
+         const FurFrame& frame)
       : strands_(strands),
         topology_(topology),
+        frame_(frame),
         layout_(layout),
         keys_(static_cast<size_t>(strands.motion_keys())),
         node_bytes_(topology.nodes.size() * node_size(layout, strands.motion_keys())),
@@ -62,8 +64,10 @@ class FurTree::Writer {
       }
     }
   }
-  /// Boxes of everything, one per key.
+  /// Boxes of everything in the frame, one per key.
   std::span<const FurBox> boxes() const { return std::span(node_boxes_).first(keys_); }
+  /// The box of everything along the grid.
+  const FurBox& whole() const { return whole_; }
 
  private:
   static size_t block_count(const FurTopology::Child& child) {
@@ -146,7 +150,9 @@ class FurTree::Writer {
       out += block_size(wide);
       for (size_t i = 0; i < block.segments.size(); ++i) {
         const uint32_t part = topology_.order[child.first + first + i / keys_].part;
-        boxes[i % keys_].extend(hull(part_of(block.segments[i], part)));
+        const SnappedSegment curve = part_of(block.segments[i], part);
+        boxes[i % keys_].extend(hull(frame_(curve)));
+        whole_.extend(hull(curve));
       }
     }
     return true;
@@ -168,12 +174,14 @@ class FurTree::Writer {
 
   const SnappedStrands& strands_;
   const FurTopology& topology_;
+  const FurFrame& frame_;
   const FurNodeLayout layout_;
   const size_t keys_, node_bytes_;
   size_t leaf_bytes_ = 0;
-  std::vector<bool> wide_;                // of leaves: by node and child
-  std::vector<FurBox> boxes_;             // of leaves: by node, child and key
-  std::vector<FurBox> node_boxes_;        // by node and key
+  std::vector<bool> wide_;          // of leaves: by node and child
+  std::vector<FurBox> boxes_;       // of leaves: by node, child and key
+  std::vector<FurBox> node_boxes_;  // by node and key
+  FurBox whole_;
   std::vector<FurReference> references_;  // by node and child
   std::vector<SnappedSegment> segments_;
 };
@@ -190,17 +198,20 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.motion_keys = strands.motion_keys();
   view_.step = strands.grid().step();
   view_.anchor = strands.grid().anchor();
-  std::vector<FurPiece> pieces = make_pieces(strands, options.build.cuts);
+  view_.frame = choose_frame(strands, options.build.turn);
+  std::vector<FurPiece> pieces = make_pieces(strands, options.build.cuts, view_.frame);
   build_bytes_ = pieces.capacity() * sizeof(FurPiece);
   const FurTopology topology = build_topology(std::move(pieces), options.build);
   const size_t topology_bytes = topology.bytes();
   build_bytes_ += topology_bytes;
   if (topology.nodes.empty()) return;
-  Writer writer(strands, topology, options.layout);
+  Writer writer(strands, topology, options.layout, view_.frame);
   block_ = writer.write(options.pool);
   node_bytes_ = writer.node_bytes();
   leaf_bytes_ = writer.leaf_bytes();
-  for (const FurBox& box : writer.boxes()) box_.extend(box);
+  box_ = writer.whole();
+  FurBox all = box_;
+  for (const FurBox& box : writer.boxes()) all.extend(box);
   build_bytes_ =
       std::max(build_bytes_,
                topology_bytes + block_.bytes() +
@@ -208,11 +219,12 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.nodes = block_.data();
   view_.leaves = block_.data() + writer.leaves();
   for (size_t axis = 0; axis < 3; ++axis) {
-    view_.reach = std::max({view_.reach, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
+    view_.reach = std::max({view_.reach, std::abs(all.low[axis]), std::abs(all.high[axis])});
   }
 }
 
 size_t FurTree::build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options) {
+  // What a frame is chosen from is gone before, and never as much.
   const size_t pieces = piece_count_bound(segments, options.build.cuts);
   const FurTopologySize size = topology_bound(pieces);
   const size_t topology = size.nodes * sizeof(FurTopology::Node) + pieces * sizeof(CurvePart);

@@ -29,6 +29,7 @@ struct FurTreeView {
   float step = 1;   ///< of the grid
   V3f anchor{0};    ///< of the grid
   float reach = 0;  ///< largest coordinate of the boxes, in grid units
+  FurFrame frame;   ///< in which the boxes of nodes stand
 };
 
 /// Rays against the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments, four of them to a
@@ -58,7 +59,7 @@ class FurTree {
   bool occluded(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
 
   const FurTreeView& view() const { return view_; }
-  /// Box of everything, in grid units, over all motion keys.
+  /// Box of everything, in grid units and along the grid, over all motion keys.
   const FurBox& box() const { return box_; }
   size_t bytes() const { return block_.bytes(); }
   /// Most that was held while it was built, itself included.
