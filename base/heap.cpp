@@ -22,6 +22,12 @@ void keep_heap_small() {
 #endif
 }
 
+void give_back_heap() {
+#if defined(__GLIBC__)
+  malloc_trim(0);
+#endif
+}
+
 size_t heap_bytes(size_t bytes) {
   if (bytes + kHeader < kHeapPages) return bytes;
   return (bytes + kHeader + kPage - 1) / kPage * kPage;

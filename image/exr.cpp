@@ -24,8 +24,11 @@
 namespace pelage {
 namespace {
 
-/// Rows that are written at a time: a few blocks of those that are compressed together.
-constexpr int kWrittenRows = 128;
+/// Rows that are compressed together.
+constexpr int kBlockRows = 16;
+
+/// Rows that are written at a time: a block for each thread.
+int rows_at_once(int threads) { return kBlockRows * std::max(1, threads); }
 
 /// Pixels of one channel in the representation of the file: half channels are rounded here, once.
 struct Storage {
@@ -69,7 +72,8 @@ void write_rows(Imf::OutputFile& file, int width, int y0, int y1, const std::vec
 
 void write_file(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
                 const ExrRowSource& rows, int threads) {
-  std::vector<ExrChannel> channels = rows(0, std::min(height, kWrittenRows));
+  const int step = rows_at_once(threads);
+  std::vector<ExrChannel> channels = rows(0, std::min(height, step));
   PELAGE_CHECK(!channels.empty());
   Imf::Header header(width, height);
   header.compression() = Imf::ZIP_COMPRESSION;
@@ -80,8 +84,8 @@ void write_file(const std::filesystem::path& path, int width, int height, const 
     header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
   }
   Imf::OutputFile file(path.c_str(), header, exr_threads(threads));
-  for (int y = 0; y < height; y += kWrittenRows) {
-    const int end = std::min(y + kWrittenRows, height);
+  for (int y = 0; y < height; y += step) {
+    const int end = std::min(y + step, height);
     if (y > 0) channels = rows(y, end);
     write_rows(file, width, y, end, channels);
   }
@@ -152,6 +156,18 @@ void write_exr(const std::filesystem::path& path, int width, int height, const E
     throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
   }
   file.commit();
+}
+
+int64_t exr_writing_bytes(int width, const std::vector<ExrChannel>& channels, int threads) {
+  int64_t made = 0, stored = 0;  // per pixel: by the source and what it is rounded to, and in the file
+  for (const ExrChannel& channel : channels) {
+    const int64_t size = channel.type == ChannelType::kHalf ? sizeof(half) : sizeof(float);
+    made += sizeof(float) + (channel.type == ChannelType::kHalf ? size : 0);
+    stored += size;
+  }
+  // The library has two blocks per thread under way, each as pixels, rearranged, and compressed.
+  const int64_t blocks = std::max(1, 2 * exr_threads(threads));
+  return width * (rows_at_once(threads) * made + blocks * kBlockRows * 3 * stored);
 }
 
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -46,6 +47,8 @@ struct ExrImage {
 /// Error (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
                const ExrRowSource& rows, int threads);
+/// What that holds at any moment, those rows included. Of `channels` only names and types are looked at.
+int64_t exr_writing_bytes(int width, const std::vector<ExrChannel>& channels, int threads);
 /// The same of a picture that is there already.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
