@@ -27,18 +27,22 @@ bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
   constexpr int kAngles = 16, kRadii = 4;
   bool same = false;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-  for (int i = 0; i <= kRadii * kAngles; ++i) {
-    const double angle = 2 * std::numbers::pi * (i % kAngles) / kAngles;
-    const double r = i == kRadii * kAngles ? 0 : std::ldexp(margin, -(i / kAngles));
-    const FurTruth::Found found = truth.closest(r * std::cos(angle), r * std::sin(angle));
-    if (found.number != hit.number) continue;
+  const auto look = [&](double x, double y) {
+    const FurTruth::Found found = truth.closest(x, y);
+    if (found.number != hit.number) return;
     same = true;
     nearest = std::min(nearest, found.distance);
     farthest = std::max(farthest, found.distance);
+  };
+  for (int i = 0; i <= kRadii * kAngles; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % kAngles) / kAngles;
+    const double r = i == kRadii * kAngles ? 0 : std::ldexp(margin, -(i / kAngles));
+    look(r * std::cos(angle), r * std::sin(angle));
   }
-  if (!same || !hit) return same;
+  if (!hit) return same;
   const FurTruth::Place place = truth.place_at(hit.number, hit.u);
-  return place.moved <= margin && place.beside <= margin &&
+  look(place.x, place.y);
+  return same && place.moved <= margin && place.beside <= margin &&
          std::abs(place.distance - hit.distance) <= margin && hit.distance >= nearest - 4 * margin &&
          hit.distance <= farthest + 4 * margin;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "render/accel/fur/fur_tree.h"
 
@@ -47,6 +48,7 @@ class FurTruth {
     double distance = 0;  ///< along the ray
     double beside = 0;    ///< of the ray's line from the axis, less the radius
     double moved = 0;     ///< how far the line has to move at least to be as near as nowhere else around
+    double x = 0, y = 0;  ///< where to, as closest() wants it
   };
   Place place_at(uint32_t number, double u) const {
     const Curve curve = seen_from_ray(strands_.locate(number), 0, 0);
@@ -54,12 +56,30 @@ class FurTruth {
     place.distance = value(curve.z, u);
     place.beside = std::hypot(value(curve.x, u), value(curve.y, u)) - value(curve.r, u);
     const double speed = std::hypot(first(curve.x, u), first(curve.y, u));
-    place.moved = speed > 0 ? std::abs(slope(curve, u)) / speed : 0;
+    if (!(speed > 0)) return place;
+    const double along = slope(curve, u) / speed;
+    place.moved = std::abs(along);
+    place.x = along * first(curve.x, u) / speed;
+    place.y = along * first(curve.y, u) / speed;
     return place;
   }
 
  private:
-  static constexpr int kSteps = 128;
+  /// Where curves are looked at: more and more often towards the ends, where inner points that are but a step
+  /// of the grid away make hooks; and not at the ends, where a curve has no direction if points coincide
+  /// there.
+  static const std::vector<double>& steps() {
+    static const std::vector<double> at = [] {
+      constexpr int kEven = 128, kHalvings = 22;
+      std::vector<double> result{1e-9};
+      for (int i = kHalvings; i > 0; --i) result.push_back(std::ldexp(1.0 / kEven, -i));
+      for (int i = 1; i < kEven; ++i) result.push_back(double(i) / kEven);
+      for (int i = 1; i <= kHalvings; ++i) result.push_back(1 - std::ldexp(1.0 / kEven, -i));
+      result.push_back(1 - 1e-9);
+      return result;
+    }();
+    return at;
+  }
 
   struct Curve {
     double x[4], y[4], z[4], r[4];
@@ -77,9 +97,8 @@ class FurTruth {
       reach = std::max(reach, curve.r[i]);
     }
     if (nearest > 2 * reach) return;
-    for (int i = 0; i < kSteps; ++i) {
-      // Just inside the ends, where the curve has a direction even if points coincide there.
-      double low = std::max(double(i) / kSteps, 1e-9), high = std::min(double(i + 1) / kSteps, 1 - 1e-9);
+    for (size_t i = 0; i + 1 < steps().size(); ++i) {
+      double low = steps()[i], high = steps()[i + 1];
       if (!(slope(curve, low) < 0 && slope(curve, high) >= 0)) continue;
       for (int step = 0; step < 60; ++step) {
         const double middle = 0.5 * (low + high);

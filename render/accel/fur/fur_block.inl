@@ -193,7 +193,7 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
 
   if (single != 0) {
     const Cubic curve_x(flat.x[0], flat.dx), curve_y(flat.y[0], flat.dy);
-    const V u = solve(curve_x, curve_y, minima.f0, minima.f5, single);
+    const V u = solve(flat, curve_x, curve_y, minima.f0, minima.f5, single);
     const V cx = curve_x.value(u), cy = curve_y.value(u);
     const V distance2 = dot(cx, cy, cx, cy);
     const Weights weights(u);
@@ -201,7 +201,7 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
     uint32_t hits = bits_of<float>(hn::Lt(distance2, hn::Mul(radius, radius))) & single;
     if (hits != 0) {
       load_depths();
-      const V side = cross(curve_x.first(u), curve_y.first(u), cx, cy);
+      const V side = cross(Derivatives(flat.dx, u).first, Derivatives(flat.dy, u).first, cx, cy);
       const V h = hn::CopySign(hn::Div(hn::Sqrt(distance2), radius), side);
       alignas(16) float us[4], ts[4], hs[4];
       hn::Store(weights(z), kFloats, ts);

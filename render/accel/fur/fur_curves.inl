@@ -44,14 +44,18 @@ struct Cubic {
   HWY_INLINE V value(V u) const {
     return hn::Add(hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(a, u), b), u), c), u), d);
   }
-  HWY_INLINE V first(V u) const {
-    const V b2 = hn::Add(b, b);
-    return hn::Add(hn::Mul(hn::Add(hn::Mul(hn::Mul(all(3), a), u), b2), u), c);
-  }
-  HWY_INLINE V second(V u) const {
-    const V three = hn::Mul(all(3), hn::Mul(a, u));
-    const V half = hn::Add(three, b);
-    return hn::Add(half, half);
+};
+
+/// A third of the first derivative of one coordinate, and a sixth of the second. From a polynomial the first
+/// would be lost in rounding where a curve all but stands still.
+struct Derivatives {
+  V first, second;
+  HWY_INLINE Derivatives(const V (&differences)[3], V u) {
+    const V s = hn::Sub(all(1), u);
+    const V before = hn::Add(hn::Mul(s, differences[0]), hn::Mul(u, differences[1]));
+    const V behind = hn::Add(hn::Mul(s, differences[1]), hn::Mul(u, differences[2]));
+    first = hn::Add(hn::Mul(s, before), hn::Mul(u, behind));
+    second = hn::Sub(behind, before);
   }
 };
 
@@ -103,25 +107,30 @@ constexpr float kShort = 0x1p-13f;
 /// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
 /// bracket; each lane stops by itself, with a step of at most kClose along the curve as the ray sees it and
 /// of kShort in the parameter.
-HWY_INLINE V solve(const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
+HWY_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
   V u = hn::Div(f0, hn::Sub(f0, f5));
-  // Until the end was looked at, the root may be said to lie beyond it: rounding may put it there.
-  V low = hn::Zero(kFloats), high = all(2);
-  auto done = hn::FirstN(kFloats, 0);
+  V low = hn::Zero(kFloats), high = all(1);
+  // The last points as they follow from the first ones are rounded otherwise than those of f5, which may put
+  // the root beyond them.
+  auto done = hn::Lt(dot(at.x[3], at.y[3], at.dx[2], at.dy[2]), low);
+  u = hn::IfThenElse(done, high, u);
   for (int i = 0; i < 12; ++i) {
-    const V cx = x.value(u), cy = y.value(u), x1 = x.first(u), y1 = y.first(u);
-    const V f = dot(cx, cy, x1, y1);
-    const V speed2 = dot(x1, y1, x1, y1);
-    const V slope = hn::Add(speed2, dot(cx, cy, x.second(u), y.second(u)));
+    const V cx = x.value(u), cy = y.value(u);
+    const Derivatives dx(at.dx, u), dy(at.dy, u);
+    const V f = dot(cx, cy, dx.first, dy.first);  // a third of c . c'
+    const V speed2 = dot(dx.first, dy.first, dx.first, dy.first);
+    const V bend = dot(cx, cy, dx.second, dy.second);
+    const V slope = hn::Add(hn::Mul(all(3), speed2), hn::Add(bend, bend));
     const auto below = hn::Lt(f, hn::Zero(kFloats));
     low = hn::IfThenElse(below, u, low);
     high = hn::IfThenElse(below, high, u);
     const V newton = hn::Sub(u, hn::Div(f, slope));
     const auto inside = hn::And(hn::Ge(newton, low), hn::Le(newton, high));
-    const V next = hn::Min(hn::IfThenElse(inside, newton, hn::Mul(all(0.5f), hn::Add(low, high))), all(1));
+    const V next = hn::IfThenElse(inside, newton, hn::Mul(all(0.5f), hn::Add(low, high)));
     const V step = hn::Sub(next, u);
-    const V most2 = hn::Max(speed2, all(kClose * kClose / (kShort * kShort)));
-    const auto small = hn::Le(hn::Mul(hn::Mul(step, step), most2), all(kClose * kClose));
+    constexpr float kClose2 = kClose * kClose / 9;
+    const V most2 = hn::Max(speed2, all(kClose2 / (kShort * kShort)));
+    const auto small = hn::Le(hn::Mul(hn::Mul(step, step), most2), all(kClose2));
     u = hn::IfThenElse(done, u, next);
     done = hn::Or(done, small);
     if ((active & ~bits_of<float>(done)) == 0) break;

@@ -64,8 +64,9 @@ struct Part {
 float solve(const PlaneCurve& curve, float begin, float end) {
   const auto evaluate = [](float point, const float(&d)[3], float u, float& first, float& second) {
     const float bend = d[1] - d[0], a = (d[2] - d[1]) - bend, b = 3 * bend, c = 3 * d[0];
-    first = (3 * a * u + 2 * b) * u + c;
-    second = 6 * a * u + 2 * b;
+    const float s = 1 - u, before = s * d[0] + u * d[1], behind = s * d[1] + u * d[2];
+    first = 3 * (s * before + u * behind);
+    second = 6 * (behind - before);
     return ((a * u + b) * u + c) * u + point;
   };
   float u = 0.5f * (begin + end);
