@@ -32,6 +32,9 @@ std::string taken_text(const MemoryLedger& ledger) {
   return fmt::format("{} are taken{}", size_text(ledger.budgeted()), parts.empty() ? "" : " (" + parts + ")");
 }
 
+/// " (walker.coat)".
+std::string of_text(const std::string& name) { return name.empty() ? "" : " (of " + name + ")"; }
+
 }  // namespace
 
 Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget,
@@ -57,15 +60,19 @@ size_t Residency::index_bytes(size_t slots, int threads) {
 void Residency::refuse_small_budget() const {
   if (budget_.limit == 0) return;
   size_t largest = 0;
-  for (size_t slot = 0; slot < slots_.size(); ++slot) {
-    largest = std::max(largest, grower_.reserve_bytes(static_cast<uint32_t>(slot)));
+  uint32_t which = 0;
+  for (uint32_t slot = 0; slot < slots_.size(); ++slot) {
+    const size_t bytes = grower_.reserve_bytes(slot);
+    if (bytes > largest) which = slot;
+    largest = std::max(largest, bytes);
   }
   const int64_t least = ledger_.budgeted() + static_cast<int64_t>(largest);
   if (least <= static_cast<int64_t>(budget_.limit)) return;
-  throw Error(ErrorKind::kMemory,
-              fmt::format("render.memory ({}) is too small: {}, and the largest chunk needs {}; {}M would do",
-                          size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
-                          size_text(static_cast<int64_t>(largest)), (least >> 20) + 1));
+  throw Error(
+      ErrorKind::kMemory,
+      fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; {}M would do",
+                  size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
+                  of_text(grower_.name(which)), size_text(static_cast<int64_t>(largest)), (least >> 20) + 1));
 }
 
 Residency::~Residency() {
@@ -186,7 +193,7 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       Victims victims;
       const Room room = reserve(needed, victims);
       if (room == Room::kGranted) return grow(lock, slot, thread, needed, victims);
-      if (room == Room::kNever) throw_too_full(needed);
+      if (room == Room::kNever) throw_too_full(slot, needed);
       if (!starving.up) {  // a pin let go before now would not have woken us
         starving.raise();
         continue;
@@ -251,12 +258,12 @@ Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   return *unit;
 }
 
-void Residency::throw_too_full(int64_t needed) const {
+void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
   const char* remedy = keeps_all_ ? "; with bounds other than none not everything is held at once" : "";
   throw Error(ErrorKind::kMemory,
-              fmt::format("render.memory ({}) is used up: {}, and a chunk of {} is needed{}",
+              fmt::format("render.memory ({}) is used up: {}, and a chunk{} of {} is needed{}",
                           size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
-                          size_text(needed), remedy));
+                          of_text(grower_.name(slot)), size_text(needed), remedy));
 }
 
 void Residency::grow_all(const Workers& workers, Progress& progress) {

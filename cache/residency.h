@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Grower {
   /// Upper bound of the bytes held at any moment while `slot` is grown and afterwards. May become less once
   /// the slot has been grown, never more.
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
+  /// For messages: what the slot is of, or nothing.
+  virtual std::string name(uint32_t) const { return {}; }
   /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw.
   virtual Grown grow(uint32_t slot) = 0;
 };
@@ -178,7 +181,7 @@ class Residency {
   void sleep(std::unique_lock<std::mutex>& lock);
   void wake();
   void refuse_small_budget() const;
-  [[noreturn]] void throw_too_full(int64_t needed) const;
+  [[noreturn]] void throw_too_full(uint32_t slot, int64_t needed) const;
 
   Grower& grower_;
   MemoryLedger& ledger_;

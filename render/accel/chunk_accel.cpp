@@ -90,6 +90,8 @@ class ChunkAccel::Growth final : public Grower {
     return EmbreeChunk::bytes_bound(counts);
   }
 
+  std::string name(uint32_t slot) const override { return grower_.name(slot); }
+
   Grown grow(uint32_t slot) override {
     // One thread at a time grows a slot, so nobody else stores what is learned.
     const bool learns = known_[slot].learns && !learned(slot);

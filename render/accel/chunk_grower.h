@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -44,6 +45,8 @@ class ChunkGrower {
   virtual ChunkContents grow(uint32_t chunk) const = 0;
   /// Upper bounds, without growing.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
+  /// For messages: what the chunk is a part of, or nothing.
+  virtual std::string name(uint32_t) const { return {}; }
   /// Of fur, without growing.
   virtual StrandScale scale(uint32_t chunk) const = 0;
 };

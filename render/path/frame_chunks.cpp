@@ -134,6 +134,11 @@ StrandScale FrameChunks::scale(uint32_t chunk) const {
   return chunk < leaves_.size() ? scales_[coats_[chunk]] : StrandScale{};
 }
 
+std::string FrameChunks::name(uint32_t chunk) const {
+  return chunk < leaves_.size() ? scene_.fur[parts_[chunk]].name
+                                : scene_.skins[pieces_[chunk - leaves_.size()].skin].name;
+}
+
 bool FrameChunks::opaque() const {
   return std::all_of(scene_.fur.begin(), scene_.fur.end(),
                      [&](const FurPart& part) { return is_opaque(fibre_material(scene_, part).opacity); });

@@ -28,6 +28,8 @@ class FrameChunks final : public ChunkGrower {
   ChunkContents grow(uint32_t chunk) const override;
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
+  /// That of its coat or skin: "walker.under".
+  std::string name(uint32_t chunk) const override;
 
   /// Which coat a leaf is of.
   uint32_t part(uint32_t leaf) const { return parts_[leaf]; }
