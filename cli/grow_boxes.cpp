@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/grow_boxes.h"
 
+#include <algorithm>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -24,6 +25,8 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
       if (leaf->bounds_record()) remembering.push_back(leaf);
     }
     if (remembering.empty()) continue;
+    const bool reduced = std::any_of(world.scene.fur.begin(), world.scene.fur.end(),
+                                     [](const FurPart& part) { return part.lod.has_value(); });
     BoundingCounts counts;
     bound_chunks(
         bounding, remembering, run.workers(), run.display(), run.ledger(),
@@ -31,8 +34,9 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
     if (run.display().cancelled()) return false;
     const double seconds = run.seconds() - began;
     run.statistics().stages_s["bound"] += seconds;
-    std::cout << fmt::format("boxes of frame {}: {} chunks, {} of them remembered, {:.2f} s\n", frame,
-                             remembering.size(), counts.remembered, seconds);
+    std::cout << fmt::format("boxes of frame {}: {} chunks{}, {} of them remembered, {:.2f} s\n", frame,
+                             remembering.size(), reduced ? " in reduced detail" : "", counts.remembered,
+                             seconds);
   }
   return true;
 }

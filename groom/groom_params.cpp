@@ -37,10 +37,10 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
                                "`pelage grow SCENE --prune` removes all that the scene does not need. "
                                "Programs whose growth is built from "
                                "the same sources share a folder.");
-    s.key(
-        "directory", &GroomCacheParams::directory,
-        {.help = "Folder; files in it are named by what they were made from, and may be removed at any time",
-         .default_text = "cache, in the current folder"});
+    s.key("directory", &GroomCacheParams::directory,
+          {.help = "Folder; files in it are named by what they were made from, and may be removed at any "
+                   "time, but not written over while a run reads them",
+           .default_text = "cache, in the current folder"});
     s.key(
         "freeze", &GroomCacheParams::freeze,
         {.help = "Last operator that is frozen: it and those before it run once, and their result is kept in "
