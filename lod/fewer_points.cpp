@@ -2,6 +2,7 @@
 #include "lod/fewer_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "lod/point_fit.h"
@@ -54,6 +55,35 @@ void combine(std::span<const float> weights, const float* rows, size_t width, fl
   }
 }
 
+/// Values at points of one strand, `width` at each, that may have overshot those that they were fitted to:
+/// draws all of them to their means over the strand, by the same share, until each lies within what it was
+/// fitted to. Colours keep their mean and their hue; cut off one by one, bright bands would lose their
+/// strongest channel.
+void limit(std::span<float> values, std::span<const float> fitted_to, size_t width) {
+  const size_t points = values.size() / width;
+  std::vector<float> means(width, 0.0f);
+  for (size_t p = 0; p < points; ++p) {
+    const float part = (p == 0 || p + 1 == points ? 0.5f : 1.0f) / static_cast<float>(points - 1);
+    for (size_t c = 0; c < width; ++c) means[c] += part * values[p * width + c];
+  }
+  std::vector<float> low(fitted_to.begin(), fitted_to.begin() + static_cast<std::ptrdiff_t>(width));
+  std::vector<float> high = low;
+  for (size_t i = 0; i < fitted_to.size(); ++i) {
+    low[i % width] = std::min(low[i % width], fitted_to[i]);
+    high[i % width] = std::max(high[i % width], fitted_to[i]);
+  }
+  float keep = 1;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const float off = values[i] - means[i % width];
+    const float room = off > 0 ? high[i % width] - means[i % width] : low[i % width] - means[i % width];
+    if (std::abs(off) > std::abs(room)) keep = std::min(keep, std::max(0.0f, room / off));
+  }
+  for (size_t i = 0; i < values.size(); ++i) {
+    const size_t c = i % width;
+    values[i] = std::clamp(means[c] + keep * (values[i] - means[c]), low[c], high[c]);
+  }
+}
+
 }  // namespace
 
 Strands with_fewer_points(Strands strands, std::span<const float> tolerance) {
@@ -101,11 +131,9 @@ Strands with_fewer_points(Strands strands, std::span<const float> tolerance) {
           std::copy_n(from, strands.strand_points(s) * width, to);
           continue;
         }
-        const auto [low, high] = std::minmax_element(from, from + strands.strand_points(s) * width);
-        for (size_t row = 0; row < fits[s]->to(); ++row, to += width) {
-          combine(fits[s]->values(row), from, width, to);
-          for (size_t c = 0; c < width; ++c) to[c] = std::clamp(to[c], *low, *high);
-        }
+        for (size_t row = 0; row < fits[s]->to(); ++row)
+          combine(fits[s]->values(row), from, width, to + row * width);
+        limit({to, fits[s]->to() * width}, {from, strands.strand_points(s) * width}, width);
       }
     }
     fewer.attributes.push_back(std::move(attribute));

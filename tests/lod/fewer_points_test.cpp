@@ -121,6 +121,37 @@ TEST(FewerPoints, MeansOfRadiiAndColorsStay) {
   }
 }
 
+// A bright band between dark ends, as guard hairs have: what is fitted overshoots it.
+TEST(FewerPoints, BandsKeepTheirHue) {
+  StrandArrays banded = some_strands(6, 8, 0).arrays();
+  const float color[] = {0.68f, 0.47f, 0.29f}, dark = 0.15f;
+  for (size_t i = 0; i < banded.attributes[0].values.size(); ++i) {
+    const size_t point = i / 3 % 8, strand = i / 24;
+    banded.attributes[0].values[i] = color[i % 3] * (point == 2 + strand % 3 || point == 4 ? 1 : dark);
+  }
+  const Strands full(std::move(banded));
+  const Strands fewer = with_fewer_points(Strands(full), std::vector<float>(6, 1.0f));
+  ASSERT_EQ(fewer.point_count(), 24u);
+  const auto mean = [](const Strands& strands, size_t s, size_t c) {
+    const std::vector<float>& values = strands.find_attribute("color")->values;
+    const uint32_t first = strands.first_point(s), last = strands.first_point(s + 1) - 1;
+    double sum = 0;
+    for (uint32_t p = first; p <= last; ++p) sum += (p == first || p == last ? 0.5 : 1) * values[3 * p + c];
+    return sum / (last - first);
+  };
+  for (size_t s = 0; s < 6; ++s) {
+    for (size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(mean(fewer, s, c), mean(full, s, c), 0.004 * color[c]);
+      for (uint32_t p = fewer.first_point(s); p < fewer.first_point(s + 1); ++p) {
+        const float value = fewer.find_attribute("color")->values[3 * p + c];
+        EXPECT_LE(value, color[c]);
+        EXPECT_GE(value, dark * color[c]);
+        EXPECT_NEAR(value / color[c], fewer.find_attribute("color")->values[3 * p] / color[0], 1e-5);
+      }
+    }
+  }
+}
+
 TEST(FewerPoints, EachStrandByItself) {
   const Strands full = some_strands(10, 8, 0.02f);
   std::vector<float> tolerance(10, 0.0f);
