@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -10,8 +11,8 @@
 
 namespace pelage {
 
-/// The fur tree's ribbons by brute force in double precision, on the points that it decodes: every segment is
-/// walked along in small steps, and every minimum of the distance to the ray's line refined by halving.
+/// The fur tree's ribbons by brute force in double precision, on the points that it decodes: every minimum
+/// of a segment's distance to the ray's line is found between the roots of derivatives, by halving.
 class FurTruth {
  public:
   FurTruth(const SnappedStrands& strands, const Ray& ray) : strands_(strands), ray_(ray) {
@@ -65,20 +66,35 @@ class FurTruth {
   }
 
  private:
-  /// Where curves are looked at: more and more often towards the ends, where inner points that are but a step
-  /// of the grid away make hooks; and not at the ends, where a curve has no direction if points coincide
-  /// there.
-  static const std::vector<double>& steps() {
-    static const std::vector<double> at = [] {
-      constexpr int kEven = 128, kHalvings = 22;
-      std::vector<double> result{1e-9};
-      for (int i = kHalvings; i > 0; --i) result.push_back(std::ldexp(1.0 / kEven, -i));
-      for (int i = 1; i < kEven; ++i) result.push_back(double(i) / kEven);
-      for (int i = 1; i <= kHalvings; ++i) result.push_back(1 - std::ldexp(1.0 / kEven, -i));
-      result.push_back(1 - 1e-9);
-      return result;
-    }();
-    return at;
+  /// Ascending roots of a polynomial of the degree kDegree in (low, high): between the roots of its
+  /// derivative it has one at most.
+  template <size_t kDegree>
+  static std::vector<double> roots(const std::array<double, kDegree + 1>& p, double low, double high) {
+    std::vector<double> ends{low};
+    if constexpr (kDegree > 1) {
+      std::array<double, kDegree> derivative;
+      for (size_t i = 0; i < kDegree; ++i) derivative[i] = static_cast<double>(i + 1) * p[i + 1];
+      const std::vector<double> turns = roots<kDegree - 1>(derivative, low, high);
+      ends.insert(ends.end(), turns.begin(), turns.end());
+    }
+    ends.push_back(high);
+    const auto at = [&](double u) {
+      double value = 0;
+      for (size_t i = kDegree + 1; i-- > 0;) value = value * u + p[i];
+      return value;
+    };
+    std::vector<double> found;
+    for (size_t i = 0; i + 1 < ends.size(); ++i) {
+      double a = ends[i], b = ends[i + 1];
+      const bool below = at(a) < 0;
+      if (below == (at(b) < 0)) continue;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (a + b);
+        ((at(middle) < 0) == below ? a : b) = middle;
+      }
+      found.push_back(b);
+    }
+    return found;
   }
 
   struct Curve {
@@ -97,13 +113,14 @@ class FurTruth {
       reach = std::max(reach, curve.r[i]);
     }
     if (nearest > 2 * reach) return;
-    for (size_t i = 0; i + 1 < steps().size(); ++i) {
-      double low = steps()[i], high = steps()[i + 1];
-      if (!(slope(curve, low) < 0 && slope(curve, high) >= 0)) continue;
-      for (int step = 0; step < 60; ++step) {
-        const double middle = 0.5 * (low + high);
-        (slope(curve, middle) < 0 ? low : high) = middle;
-      }
+    // Not at the ends, where a curve has no direction if points coincide there.
+    constexpr double kFirst = 1e-9, kLast = 1 - 1e-9;
+    const std::vector<double> turns = roots<5>(slope_polynomial(curve), kFirst, kLast);
+    for (size_t i = 0; i < turns.size(); ++i) {
+      const double high = turns[i];
+      // From falling to rising: what is between this place and the one before says which it is.
+      const double before = 0.5 * ((i == 0 ? kFirst : turns[i - 1]) + high);
+      if (!(slope(curve, before) < 0)) continue;
       const double radius = value(curve.r, high), distance = value(curve.z, high);
       if (std::hypot(value(curve.x, high), value(curve.y, high)) < radius && distance > ray_.near &&
           distance < ray_.far) {
@@ -136,6 +153,17 @@ class FurTruth {
   static double first(const double (&p)[4], double u) {
     const double s = 1 - u;
     return s * s * (p[1] - p[0]) + 2 * s * u * (p[2] - p[1]) + u * u * (p[3] - p[2]);
+  }
+  static std::array<double, 6> slope_polynomial(const Curve& c) {
+    std::array<double, 6> result{};
+    for (const auto& p : {c.x, c.y}) {
+      const double power[4] = {p[0], 3 * (p[1] - p[0]), 3 * (p[2] - 2 * p[1] + p[0]),
+                               p[3] - 3 * p[2] + 3 * p[1] - p[0]};
+      for (size_t i = 0; i < 4; ++i) {
+        for (size_t j = 1; j < 4; ++j) result[i + j - 1] += static_cast<double>(j) / 3 * power[i] * power[j];
+      }
+    }
+    return result;
   }
   static double slope(const Curve& c, double u) {
     return value(c.x, u) * first(c.x, u) + value(c.y, u) * first(c.y, u);
