@@ -115,12 +115,21 @@ class FurTruth {
     if (nearest > 2 * reach) return;
     // Not at the ends, where a curve has no direction if points coincide there.
     constexpr double kFirst = 1e-9, kLast = 1 - 1e-9;
-    const std::vector<double> turns = roots<5>(slope_polynomial(curve), kFirst, kLast);
-    for (size_t i = 0; i < turns.size(); ++i) {
-      const double high = turns[i];
-      // From falling to rising: what is between this place and the one before says which it is.
-      const double before = 0.5 * ((i == 0 ? kFirst : turns[i - 1]) + high);
-      if (!(slope(curve, before) < 0)) continue;
+    // Between the roots of its derivative the slope has one root at most. The slope itself is not taken from
+    // its polynomial, which is but noise where the curve comes to rest.
+    const std::array<double, 6> polynomial = slope_polynomial(curve);
+    std::array<double, 5> derivative;
+    for (size_t i = 0; i < 5; ++i) derivative[i] = static_cast<double>(i + 1) * polynomial[i + 1];
+    std::vector<double> places{kFirst};
+    for (const double turn : roots<4>(derivative, kFirst, kLast)) places.push_back(turn);
+    places.push_back(kLast);
+    for (size_t i = 0; i + 1 < places.size(); ++i) {
+      double low = places[i], high = places[i + 1];
+      if (!(slope(curve, low) < 0 && slope(curve, high) >= 0)) continue;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (slope(curve, middle) < 0 ? low : high) = middle;
+      }
       const double radius = value(curve.r, high), distance = value(curve.z, high);
       if (std::hypot(value(curve.x, high), value(curve.y, high)) < radius && distance > ray_.near &&
           distance < ray_.far) {
