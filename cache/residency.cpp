@@ -46,7 +46,8 @@ Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudg
       slots_(slots),
       hazards_(static_cast<size_t>(threads)),
       keeps_all_(budget.limit == 0),
-      clock_(slots) {
+      clock_(slots),
+      turns_(threads) {
   index_charge_ = MemoryCharge(ledger, tag, static_cast<int64_t>(index_bytes(slots, threads)));
   refuse_small_budget();
 }
@@ -94,9 +95,13 @@ bool Residency::is_pinned(const Resident* unit) const {
   });
 }
 
-void Residency::sleep(std::unique_lock<std::mutex>& lock) {
+void Residency::sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> at_most) {
   const auto start = std::chrono::steady_clock::now();
-  changed_.wait(lock);
+  if (at_most) {
+    changed_.wait_for(lock, *at_most);
+  } else {
+    changed_.wait(lock);
+  }
   counts_.waited_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -160,6 +165,7 @@ Residency::Room Residency::reserve(int64_t bytes, Victims& victims) {
   }
   for (const auto& [number, unit] : victims.units) {
     ++counts_.evictions;
+    slots_[number].dropped_at = static_cast<uint32_t>(counts_.expansions);
     if (!slots_[number].hit.load(std::memory_order_relaxed)) ++counts_.false_expansions;
   }
   charge(std::max<int64_t>(0, bytes - victims.bytes));
@@ -188,6 +194,10 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
       set_flag(s.used);
       return *unit;
+    }
+    if (!s.growing && !turns_.may_grow(thread, GrowthTurns::Clock::now())) {
+      sleep(lock, GrowthTurns::kPatience);
+      continue;
     }
     if (!s.growing) {
       Victims victims;
@@ -237,6 +247,10 @@ Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   s.growing = false;
   --growing_;
   charge(bytes - reserved);
+  // What goes and comes back within so few growths was being used, by this thread or another one.
+  constexpr uint32_t kSoon = 32;
+  const auto since = static_cast<uint32_t>(counts_.expansions) - s.dropped_at;
+  turns_.grown(thread, s.touched && since < kSoon, GrowthTurns::Clock::now());
   ++counts_.expansions;
   if (bytes > reserved) ++counts_.overruns;
   if (s.touched) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "base/check.h"
 #include "base/ledger.h"
 #include "cache/clock_ring.h"
+#include "cache/growth_turns.h"
 
 namespace pelage {
 
@@ -73,7 +76,8 @@ struct ResidencyCounts {
 /// thread reserves what growing can take at most before it claims the slot, and until then it holds nothing,
 /// neither memory nor pin nor claim. So a thread that needs room can have all that the others do not pin or
 /// grow at this moment, and they get done: every budget that holds the largest slot finishes. One that holds
-/// the largest slots of all threads at once lets none of them wait for room.
+/// the largest slots of all threads at once lets none of them wait for room. Where the units that each thread
+/// comes back to do not fit together, fewer threads grow at a time (GrowthTurns).
 ///
 /// Whatever else is charged to budgeted tags is seen by the next reservation; what may grow while a Residency
 /// works (poses, say) should be charged at its most before.
@@ -125,7 +129,8 @@ class Residency {
     std::atomic<bool> hit{false};   // since it was grown
     bool growing = false;           // this and the following: guarded by mutex_
     bool touched = false;
-    uint8_t credit = 0;  // rounds of the clock's hand that it may stay unused
+    uint8_t credit = 0;       // rounds of the clock's hand that it may stay unused
+    uint32_t dropped_at = 0;  // how many expansions there had been
     size_t bytes = 0;
   };
   struct alignas(64) Hazard {
@@ -178,7 +183,8 @@ class Residency {
   Room evict(int64_t bytes, Victims& victims);
   bool is_pinned(const Resident* unit) const;
   void charge(int64_t bytes);
-  void sleep(std::unique_lock<std::mutex>& lock);
+  /// Until something changed, or `at_most` so long.
+  void sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> at_most = {});
   void wake();
   void refuse_small_budget() const;
   [[noreturn]] void throw_too_full(uint32_t slot, int64_t needed) const;
@@ -196,6 +202,7 @@ class Residency {
   mutable std::mutex mutex_;
   std::condition_variable changed_;  // a growth ended, or something was let go while somebody starved
   ClockRing clock_;                  // slots with a unit; this and the following: guarded by mutex_
+  GrowthTurns turns_;
   std::map<uint32_t, std::exception_ptr> failures_;
   int growing_ = 0;
   int64_t held_ = 0;  // charged for units and reservations
