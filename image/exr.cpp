@@ -152,6 +152,8 @@ void write_exr(const std::filesystem::path& path, int width, int height, const E
     write_file(file.temporary_path(), width, height, attributes, rows, threads);
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
   }

@@ -211,10 +211,9 @@ void add_detail(const LodSweep& sweep, Report& report) {
            "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
            "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b and m the mean of t: what is wrong in "
            "both pictures, without noise. Bias is that of the mean luminance over these pixels. Shares are "
-           "of "
-           "what full detail takes from the same place. Naive thinning leaves out the same hairs and lets "
-           "the "
-           "others be as thin as they are. Other hairs: the same coats, of another seed, in full."}}});
+           "of what full detail takes from the same place. Naive thinning leaves out the same hairs and "
+           "lets the others be as thin as they are. Other hairs: the same coats, of another seed, in "
+           "full."}}});
   Table details = select(report.data,
                          {"variant", "wall_s", "cpu_s", "hairs", "hairs_share", "working_set_bytes",
                           "set_share", "cpu_share", "rel_mse", "bias"},

@@ -108,8 +108,10 @@ FurBox FurFrame::unturned(const FurBox& box) const {
 }
 
 bool FurFrame::is_possible() const {
-  for (const V3f& axis : axes) {
-    if (!(std::abs(axis.length() - 1) < 1e-3f)) return false;
+  constexpr float kNearly = 1e-3f;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!(std::abs(axes[i].length() - 1) < kNearly)) return false;
+    if (!(std::abs(axes[i].dot(axes[(i + 1) % 3])) < kNearly)) return false;
   }
   return true;
 }
