@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "base/error.h"
@@ -26,6 +27,38 @@ constexpr int kMostParts = 1024;
 /// Rows that are compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
 /// DWAA, DWAB).
 constexpr int64_t kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+
+/// Bytes of the values that the library reads without a look at the length that the file claims.
+struct TypeBytes {
+  std::string_view type;
+  int64_t bytes;
+};
+constexpr TypeBytes kTypeBytes[] = {
+    {"box2f", 16},
+    {"box2i", 16},
+    {"chromaticities", 32},
+    {"compression", 1},
+    {"deepImageState", 1},
+    {"double", 8},
+    {"envmap", 1},
+    {"float", 4},
+    {"int", 4},
+    {"keycode", 28},
+    {"lineOrder", 1},
+    {"m33d", 72},
+    {"m33f", 36},
+    {"m44d", 128},
+    {"m44f", 64},
+    {"rational", 8},
+    {"tiledesc", 9},
+    {"timecode", 8},
+    {"v2d", 16},
+    {"v2f", 8},
+    {"v2i", 8},
+    {"v3d", 24},
+    {"v3f", 12},
+    {"v3i", 12},
+};
 
 class HeaderWalk {
  public:
@@ -54,6 +87,10 @@ class HeaderWalk {
     throw Error(ErrorKind::kInput, {path_.string(), 0, 0}, why);
   }
 
+  [[noreturn]] void fail_length(const std::string& attribute) const {
+    fail("attribute " + quote(attribute) + " is not as long as it claims");
+  }
+
   void bytes(void* to, int64_t count) {
     stream_.read(static_cast<char*>(to), count);
     if (stream_.gcount() != count) fail("ends within its header");
@@ -78,12 +115,15 @@ class HeaderWalk {
     bool is_empty = true;
     for (std::string attribute = name(); !attribute.empty(); attribute = name()) {
       is_empty = false;
-      name();
+      const std::string type = name();
       const int64_t length = signed_number();
       const int64_t begin = stream_.tellg();
       if (length < 0 || length > size_ - begin) {
         fail("attribute " + quote(attribute) + " claims " + std::to_string(length) +
              " bytes, more than there are");
+      }
+      for (const TypeBytes& known : kTypeBytes) {
+        if (type == known.type && length != known.bytes) fail_length(attribute);
       }
       if (attribute == "dataWindow" && length == 16) {
         const int64_t x0 = signed_number(), y0 = signed_number();
@@ -95,8 +135,15 @@ class HeaderWalk {
         rows = kind < std::size(kBlockRows) ? kBlockRows[kind] : 256;
       } else if (attribute == "tiles" && length == 9) {
         rows = tile_rows();
-      } else if (attribute == "channels") {
-        pixel_bytes = channels();
+      } else if (type == "chlist") {
+        const int64_t bytes = channels();
+        if (stream_.tellg() != begin + length) fail_length(attribute);
+        if (attribute == "channels") pixel_bytes = bytes;
+      } else if (type == "preview") {
+        const uint64_t pixels = length < 8 ? 0 : uint64_t(number()) * number();
+        if (length < 8 || pixels != uint64_t(length - 8) / 4) fail_length(attribute);
+      } else if (type == "stringvector") {
+        strings(attribute, begin + length);
       }
       stream_.seekg(begin + length);
     }
@@ -118,6 +165,14 @@ class HeaderWalk {
       stream_.seekg(12, std::ios::cur);
     }
     return total;
+  }
+
+  void strings(const std::string& attribute, int64_t end) {
+    while (stream_.tellg() < end) {
+      const int64_t length = signed_number();
+      if (length < 0 || length > end - stream_.tellg()) fail_length(attribute);
+      stream_.seekg(length, std::ios::cur);
+    }
   }
 
   int64_t tile_rows() {
