@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include "cli/counted.h"
 #include "cli/info.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

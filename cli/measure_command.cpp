@@ -7,9 +7,9 @@
 
 #include "base/file.h"
 #include "cli/commands.h"
+#include "cli/counted.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/machine.h"
-#include "cli/report/counted.h"
 #include "cli/report/report_csv.h"
 #include "cli/report/report_html.h"
 #include "cli/report/report_json.h"

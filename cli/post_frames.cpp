@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/counted.h"
 #include "cli/frames.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

@@ -8,8 +8,8 @@
 #include "base/heap.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
+#include "cli/counted.h"
 #include "cli/progress_display.h"
-#include "cli/report/counted.h"
 #include "cli/run.h"
 #include "cli/version.h"
 #include "render/film/frame_header.h"
@@ -70,13 +70,10 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.scene_hash = scene.hash;
   give_back_heap();  // the chunks of the frame are gone
   const Film& film = result.film;
-  const int threads = run.workers().thread_count();
-  const MemoryCharge writing(run.ledger(), MemoryTag::kFilm,
-                             exr_writing_bytes(film.width(), film.exr_rows(0, 0), threads));
   run.stage("write", [&] {
     write_exr(
         path, film.width(), film.height(), exr_attributes(header, world.scene.camera),
-        [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, threads);
+        [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, run.workers(), run.ledger());
   });
   run.display().note(fmt::format("{}  {} x {}, {}{}, {}", path, scene.image.width, scene.image.height,
                                  samples_text(result), result.partial ? " (partial)" : "",

@@ -8,87 +8,48 @@
 #include <type_traits>
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
-#include <OpenEXR/ImfStandardAttributes.h>
 
 #include "base/check.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/ledger.h"
+#include "base/parallel.h"
 #include "image/exr_check.h"
+#include "image/exr_file.h"
 #include "image/exr_header.h"
-#include "image/exr_threads.h"
 
 namespace pelage {
 namespace {
 
-/// Rows that are compressed together.
-constexpr int kBlockRows = 16;
+/// Rows of a picture that are made and written at a time, for each thread: as many as are compressed
+/// together.
+constexpr int kRowsPerThread = 16;
 
-/// Rows that are written at a time: a block for each thread.
-int rows_at_once(int threads) { return kBlockRows * std::max(1, threads); }
-
-/// Pixels of one channel in the representation of the file: half channels are rounded here, once.
-struct Storage {
-  std::vector<half> halves;
-  const void* base = nullptr;
-  size_t size = 4;
-};
-
-Storage storage_for_writing(const ExrChannel& channel, size_t pixels) {
-  const bool ids = channel.type == ChannelType::kUint;
-  PELAGE_CHECK((ids ? channel.ids.size() : channel.pixels.size()) == pixels);
-  Storage s;
-  if (ids) {
-    s.base = channel.ids.data();
-  } else if (channel.type == ChannelType::kFloat) {
-    s.base = channel.pixels.data();
-  } else {
-    s.halves.resize(pixels);
-    std::transform(channel.pixels.begin(), channel.pixels.end(), s.halves.begin(), rounded_half);
-    s.base = s.halves.data();
-    s.size = sizeof(half);
-  }
-  return s;
+std::vector<ExrChannelInfo> described(const std::vector<ExrChannel>& channels) {
+  std::vector<ExrChannelInfo> result;
+  for (const ExrChannel& channel : channels) result.push_back({channel.name, channel.type});
+  return result;
 }
 
-void write_rows(Imf::OutputFile& file, int width, int y0, int y1, const std::vector<ExrChannel>& channels) {
-  const Imath::Box2i window({0, y0}, {width - 1, y1 - 1});
-  Imf::FrameBuffer frame;
-  std::vector<Storage> storage;
-  storage.reserve(channels.size());
-  for (const ExrChannel& channel : channels) {
-    storage.push_back(
-        storage_for_writing(channel, static_cast<size_t>(width) * static_cast<size_t>(y1 - y0)));
-    const Storage& s = storage.back();
-    frame.insert(channel.name, Imf::Slice::Make(pixel_type(channel.type), s.base, window, s.size,
-                                                s.size * static_cast<size_t>(width)));
-  }
-  file.setFrameBuffer(frame);
-  file.writePixels(y1 - y0);
+/// What one pixel takes as a row source gives it, and rounded.
+int64_t bytes_of_pixel(const std::vector<ExrChannel>& channels) {
+  int64_t bytes = 0;
+  for (const ExrChannel& channel : channels)
+    bytes += sizeof(float) + (channel.type == ChannelType::kHalf ? sizeof(half) : 0);
+  return bytes;
 }
 
-void write_file(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-                const ExrRowSource& rows, int threads) {
-  const int step = rows_at_once(threads);
-  std::vector<ExrChannel> channels = rows(0, std::min(height, step));
-  PELAGE_CHECK(!channels.empty());
-  Imf::Header header(width, height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  header.lineOrder() = Imf::INCREASING_Y;
-  Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709 is the library's default
-  insert_attributes(header, attributes);
-  for (const ExrChannel& channel : channels) {
-    header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
+/// Where the writer finds the rows of every channel.
+std::vector<ExrRows> rows_of(std::vector<ExrChannel>& channels, size_t width, size_t count) {
+  std::vector<ExrRows> rows;
+  for (size_t i = 0; i < channels.size(); ++i) {
+    ExrChannel& channel = channels[i];
+    const bool ids = channel.type == ChannelType::kUint;
+    PELAGE_CHECK((ids ? channel.ids.size() : channel.pixels.size()) == width * count);
+    rows.push_back({i, ids ? reinterpret_cast<float*>(channel.ids.data()) : channel.pixels.data(), width});
   }
-  Imf::OutputFile file(path.c_str(), header, exr_threads(threads));
-  for (int y = 0; y < height; y += step) {
-    const int end = std::min(y + step, height);
-    if (y > 0) channels = rows(y, end);
-    write_rows(file, width, y, end, channels);
-  }
+  return rows;
 }
 
 void read_header(const Imf::Header& header, const std::filesystem::path& path, ExrImage& image) {
@@ -145,31 +106,21 @@ const ExrChannel* ExrImage::find(std::string_view name) const {
 }
 
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows, int threads) {
-  PELAGE_CHECK(width > 0 && height > 0);
-  AtomicFile file(path);
-  try {
-    write_file(file.temporary_path(), width, height, attributes, rows, threads);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
+               const ExrRowSource& rows, const Workers& workers, MemoryLedger& ledger) {
+  const int threads = workers.thread_count(), step = kRowsPerThread * threads;
+  std::vector<ExrChannel> channels = rows(0, 0);
+  const PixelBox frame{0, 0, width, height};
+  ExrWriter writer(path, {{}, {}, frame, frame, described(channels), attributes, {}}, threads);
+  const MemoryCharge charge(
+      ledger, MemoryTag::kFilm,
+      writer.buffer_bytes() + bytes_of_pixel(channels) * width * std::min(step, height));
+  for (int y = 0; y < height; y += step) {
+    const int count = std::min(step, height - y);
+    channels = rows(y, y + count);
+    writer.write(0, count, rows_of(channels, static_cast<size_t>(width), static_cast<size_t>(count)),
+                 workers);
   }
-  file.commit();
-}
-
-int64_t exr_writing_bytes(int width, const std::vector<ExrChannel>& channels, int threads) {
-  int64_t made = 0, stored = 0;  // per pixel: by the source and what it is rounded to, and in the file
-  for (const ExrChannel& channel : channels) {
-    const int64_t size = channel.type == ChannelType::kHalf ? sizeof(half) : sizeof(float);
-    made += sizeof(float) + (channel.type == ChannelType::kHalf ? size : 0);
-    stored += size;
-  }
-  // The library has two blocks per thread under way, each as pixels, rearranged, and compressed.
-  const int64_t blocks = std::max(1, 2 * exr_threads(threads));
-  return width * (rows_at_once(threads) * made + blocks * kBlockRows * 3 * stored);
+  writer.commit();
 }
 
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {
@@ -189,7 +140,8 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   for (const ExrChannel& channel : image.channels) {
     PELAGE_CHECK((channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size()) == pixels);
   }
-  write_exr(path, image.width, image.height, image.attributes, rows, 1);
+  MemoryLedger none;  // what is written is there already
+  write_exr(path, image.width, image.height, image.attributes, rows, Workers::alone(), none);
 }
 
 ExrImage read_exr(const std::filesystem::path& path) {

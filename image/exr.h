@@ -13,6 +13,9 @@
 
 namespace pelage {
 
+class MemoryLedger;
+class Workers;
+
 enum class ChannelType { kHalf, kFloat, kUint };
 
 /// One channel of some rows of a layered image, named as in the file ("R", "key.diffuse.G", "Z",
@@ -41,14 +44,11 @@ struct ExrImage {
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes a picture whole or not at all (law 6), ZIP compressed, with Rec. 709 chromaticities, asking `rows`
-/// for a few rows at a time, so that writing takes next to no memory; `threads` compress them. Half channels
-/// are rounded to nearest; what is beyond their range becomes their largest number, infinity stays. Throws
-/// Error (kFailed) naming the path.
+/// Writes a picture as ExrWriter does, asking `rows` for a few at a time: that, and what writing takes
+/// besides, is charged as film meanwhile. `rows` gives what the first call gave, of other rows. Throws Error
+/// (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows, int threads);
-/// What that holds at any moment, those rows included. Of `channels` only names and types are looked at.
-int64_t exr_writing_bytes(int width, const std::vector<ExrChannel>& channels, int threads);
+               const ExrRowSource& rows, const Workers& workers, MemoryLedger& ledger);
 /// The same of a picture that is there already.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
@@ -14,16 +15,27 @@
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include "base/check.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "image/exr_check.h"
 #include "image/exr_header.h"
-#include "image/exr_threads.h"
 
 namespace pelage {
 namespace {
+
+/// OpenEXR's own threads, of which a process has one team. Under the thread sanitizer none: they are not
+/// instrumented.
+int library_threads(int threads) {
+#ifdef PELAGE_STD_THREADS
+  threads = 0;
+#endif
+  threads = threads > 1 ? threads : 0;
+  if (threads > Imf::globalThreadCount()) Imf::setGlobalThreadCount(threads);
+  return threads;
+}
 
 PixelBox box_of(const Imath::Box2i& box) { return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1}; }
 Imath::Box2i box_of(const PixelBox& box) { return {{box.x0, box.y0}, {box.x1 - 1, box.y1 - 1}}; }
@@ -54,13 +66,15 @@ constexpr int kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 /// A block is held as it is in the file, as pixels, and once between.
 constexpr int64_t kCopiesOfBlock = 3;
 
-int64_t bytes_of_block(const Imf::Header& header, const ExrPart& part) {
+/// What the library holds while it reads or writes a part with a team of `team` threads: blocks of rows, two
+/// for each.
+int64_t bytes_of_blocks(const Imf::Header& header, const ExrPart& part, int team) {
   const auto compression = static_cast<size_t>(header.compression());
   int64_t rows = compression < std::size(kBlockRows) ? kBlockRows[compression] : 256;
   if (header.hasTileDescription()) rows = std::max<int64_t>(rows, header.tileDescription().ySize);
   int64_t pixel = 0;
   for (const ExrChannelInfo& channel : part.channels) pixel += channel.type == ChannelType::kHalf ? 2 : 4;
-  return kCopiesOfBlock * rows * pixel * part.data.width();
+  return std::max(1, 2 * team) * kCopiesOfBlock * rows * pixel * part.data.width();
 }
 
 bool loses(Imf::Compression compression) {
@@ -98,10 +112,6 @@ Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
   return header;
 }
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::exception& error) {
-  throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
-}
-
 /// Runs what may throw anything while a file is read.
 template <class Work>
 auto reading(const std::filesystem::path& path, Work&& work) {
@@ -116,6 +126,20 @@ auto reading(const std::filesystem::path& path, Work&& work) {
   }
 }
 
+/// The same while one is written.
+template <class Work>
+auto writing(const std::filesystem::path& path, Work&& work) {
+  try {
+    return work();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
+  }
+}
+
 }  // namespace
 
 struct ExrReader::File {
@@ -126,11 +150,11 @@ struct ExrReader::File {
 ExrReader::ExrReader(std::filesystem::path path, int threads) : path_(std::move(path)) {
   check_exr_headers(path_);
   reading(path_, [&] {
-    const int team = exr_threads(threads);
+    const int team = library_threads(threads);
     file_ = std::make_unique<File>(path_.c_str(), team);
     for (int i = 0; i < file_->input.parts(); ++i) {
       parts_.push_back(describe(file_->input.header(i), path_));
-      buffer_bytes_ += std::max(1, 2 * team) * bytes_of_block(file_->input.header(i), parts_.back());
+      buffer_bytes_ += bytes_of_blocks(file_->input.header(i), parts_.back(), team);
     }
   });
   if (parts_.empty()) refuse_exr(path_, "has no parts");
@@ -157,34 +181,48 @@ void ExrReader::read(size_t part, int y0, int y1, std::span<const ExrRows> rows)
 }
 
 struct ExrWriter::File {
-  File(const std::filesystem::path& path, const Imf::Header* headers, int count, int threads)
+  File(const std::filesystem::path& path, const std::vector<Imf::Header>& headers,
+       std::vector<ExrPart> described, int team)
       : atomic(path),
-        output(std::make_unique<Imf::MultiPartOutputFile>(atomic.temporary_path().c_str(), headers, count,
-                                                          false, threads)) {}
+        output(std::make_unique<Imf::MultiPartOutputFile>(atomic.temporary_path().c_str(), headers.data(),
+                                                          static_cast<int>(headers.size()), false, team)),
+        parts(std::move(described)) {
+    for (size_t i = 0; i < parts.size(); ++i) buffer_bytes += bytes_of_blocks(headers[i], parts[i], team);
+  }
   AtomicFile atomic;
   std::unique_ptr<Imf::MultiPartOutputFile> output;
   std::vector<ExrPart> parts;
   std::vector<half> halves;  // one call's half channels, one after the other
+  int64_t buffer_bytes = 0;
 };
+
+ExrWriter::ExrWriter(std::filesystem::path path, ExrPart part, int threads) : path_(std::move(path)) {
+  PELAGE_CHECK(part.data.width() > 0 && part.data.height() > 0 && !part.channels.empty());
+  file_ = writing(path_, [&] {
+    Imf::Header own;
+    own.compression() = Imf::ZIP_COMPRESSION;
+    Imf::addChromaticities(own, Imf::Chromaticities());  // Rec. 709 is the library's default
+    const std::vector headers{header_for(own, part)};
+    return std::make_unique<File>(path_, headers, std::vector{std::move(part)}, library_threads(threads));
+  });
+}
 
 ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
                      int threads)
     : path_(std::move(path)) {
   PELAGE_CHECK(!parts.empty());
-  try {
+  file_ = writing(path_, [&] {
     std::vector<Imf::Header> headers;
-    for (const ExrOutputPart& part : parts) {
+    std::vector<ExrPart> described;
+    for (ExrOutputPart& part : parts) {
       headers.push_back(header_for(source.file_->input.header(static_cast<int>(part.like)), part.header));
+      described.push_back(std::move(part.header));
     }
-    file_ =
-        std::make_unique<File>(path_, headers.data(), static_cast<int>(headers.size()), exr_threads(threads));
-  } catch (const Error&) {
-    throw;
-  } catch (const std::exception& error) {
-    fail_to_write(path_, error);
-  }
-  for (ExrOutputPart& part : parts) file_->parts.push_back(std::move(part.header));
+    return std::make_unique<File>(path_, headers, std::move(described), library_threads(threads));
+  });
 }
+
+int64_t ExrWriter::buffer_bytes() const { return file_->buffer_bytes; }
 
 ExrWriter::~ExrWriter() = default;
 
@@ -195,7 +233,7 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows, con
   const auto width = static_cast<size_t>(info.data.width()), height = static_cast<size_t>(count);
   size_t half_channels = 0;
   for (const ExrChannelInfo& channel : info.channels) half_channels += channel.type == ChannelType::kHalf;
-  try {
+  writing(path_, [&] {
     file_->halves.resize(half_channels * width * height);
     half* next = file_->halves.data();
     std::vector<std::pair<const ExrRows*, half*>> rounded;
@@ -223,21 +261,17 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows, con
     });
     output.setFrameBuffer(frame);
     output.writePixels(count);
-  } catch (const std::exception& error) {
-    fail_to_write(path_, error);
-  }
+  });
 }
 
 void ExrWriter::commit() {
-  try {
+  writing(path_, [&] {
     for (size_t i = 0; i < file_->parts.size(); ++i) {
       Imf::OutputPart output(*file_->output, static_cast<int>(i));
       PELAGE_CHECK(output.currentScanLine() == file_->parts[i].data.y1);
     }
     file_->output.reset();
-  } catch (const std::exception& error) {
-    fail_to_write(path_, error);
-  }
+  });
   file_->atomic.commit();
 }
 

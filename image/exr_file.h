@@ -84,16 +84,22 @@ struct ExrOutputPart {
   ExrPart header;
 };
 
-/// Writes parts like those of another file, by rows from the top, whole or not at all (law 6). Compression
-/// is kept where it is lossless, and is ZIP where it was not. Half channels are rounded as in write_exr.
+/// Writes a file by rows from the top, whole or not at all (law 6). Half channels are rounded to nearest;
+/// what is beyond their range becomes their largest number, infinity stays. `threads`: how many may encode.
 /// Throws Error (kFailed) naming the path. Thread safety: one thread at a time.
 class ExrWriter {
  public:
+  /// A new picture, ZIP compressed, with Rec. 709 chromaticities.
+  ExrWriter(std::filesystem::path path, ExrPart part, int threads = 0);
+  /// Parts like those of another file. Compression is kept where it is lossless, and is ZIP where it was not.
   ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
             int threads = 0);
   ~ExrWriter();
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
+
+  /// What the library holds, at most, while it encodes.
+  int64_t buffer_bytes() const;
 
   /// The next `count` rows of a part, all its channels in order. `workers` round floats to halves.
   void write(size_t part, int count, std::span<const ExrRows> rows, const Workers& workers);

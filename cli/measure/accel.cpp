@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "cli/counted.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/outcome_table.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

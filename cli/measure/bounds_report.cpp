@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "cli/counted.h"
 #include "cli/measure/memory_plots.h"
 #include "cli/measure/outcome_table.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "cli/counted.h"
 #include "cli/measure/caches.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/growth_edits.h"
 #include "cli/measure/outcome_table.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

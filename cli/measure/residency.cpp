@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "cli/counted.h"
 #include "cli/measure/caches.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/memory_plots.h"
 #include "cli/measure/outcome_table.h"
 #include "cli/measure/picture_difference.h"
-#include "cli/report/counted.h"
 
 namespace pelage {
 namespace {

@@ -167,6 +167,12 @@ TEST(Exr, RefusesHeadersThatClaimTooMuch) {
             ": attribute 'dataWindow' claims 1879048192 bytes, more than there are");
   EXPECT_EQ(error(patched(whole, window, 0, 0xffffffff)),
             ": attribute 'dataWindow' claims -1 bytes, more than there are");
+  // The library reads as many bytes as a type has, and then takes what follows for the next attribute.
+  EXPECT_EQ(error(patched(whole, window, 0, 17)), ": attribute 'dataWindow' is not as long as it claims");
+  const std::string channels("channels\0chlist\0", 16);
+  const auto channel_bytes = static_cast<unsigned char>(whole[whole.find(channels) + channels.size()]);
+  EXPECT_EQ(error(patched(whole, channels, 0, channel_bytes + 1u)),
+            ": attribute 'channels' is not as long as it claims");
   // Rows that the file does not hold: read as far as they go, then refused.
   EXPECT_NE(error(patched(whole, window, 16, 60000)), "");
 }

@@ -19,6 +19,7 @@ struct RandomCoatOptions {
   int64_t strands = 900;
   int leaf_strands = 300;
   bool push_out = false;
+  int cage_levels = 2;                         ///< faces of the ball: 6 * 4^levels
   float length = 1;                            // factor on the length that comes from the seed
   std::filesystem::path cache = {};            // of the groom; none when empty
   std::optional<OperatorList> operators = {};  ///< random ones when not given
@@ -33,7 +34,7 @@ class RandomCoat {
     const auto between = [&](float low, float high) {
       return low + (high - low) * unit_float(hash64(seed, draw++, random_use("random coat")));
     };
-    const ControlMesh cage = shapes::ball_cage(2);
+    const ControlMesh cage = shapes::ball_cage(options.cage_levels);
     rest = shapes::surface_of(cage);
     GroomParams params;
     params.skin.name = "ball";
