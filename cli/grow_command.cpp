@@ -103,6 +103,17 @@ void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   std::cout << path << "\n";
 }
 
+// Whoever grows caches ahead of time must be told when there are none afterwards.
+void require_kept(const Assets& assets, const Options& options) {
+  std::string lost;
+  for (const auto& [name, groom] : assets.grooms) {
+    if (!options.groom.empty() && name != options.groom) continue;
+    if (groom->cache_report() && !groom->cache_report()->stored)
+      lost += (lost.empty() ? "'" : ", '") + name + "'";
+  }
+  if (!lost.empty()) throw Error(ErrorKind::kFailed, "the cache could not be written: of groom " + lost);
+}
+
 std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rfind('.') + 1); }
 
 }  // namespace
@@ -141,6 +152,7 @@ int run_grow(const Options& options) {
   // What a cache holds needs no pose; strands are made for those who ask for them.
   if (all_cached && options.output.empty()) {
     run.finish(options);
+    require_kept(*assets, options);
     return 0;
   }
   World world =
@@ -170,6 +182,7 @@ int run_grow(const Options& options) {
   }
   if (!options.output.empty()) write_grown(options.output, grown);
   run.finish(options);
+  if (options.output.empty()) require_kept(*assets, options);
   return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "cli/commands.h"
 #include "tests/cli/small_scene.h"
 
@@ -63,6 +64,18 @@ TEST_F(GrowBoxesTest, NothingIsMeasuredForStrategiesThatStateTheirBoxes) {
 
 TEST_F(GrowBoxesTest, CoatsWithoutACacheAreLeftOut) {
   EXPECT_EQ(grow({{"grooms.coat.cache", "null"}}).find("boxes"), std::string::npos);
+}
+
+// Whoever fills caches ahead of time relies on the exit code.
+TEST_F(GrowBoxesTest, FailsWhenNothingWasKept) {
+  try {
+    grow({{"grooms.coat.cache", "{directory: /proc/none, freeze: length}"}});
+    ADD_FAILURE() << "kept in /proc";
+  } catch (const Error& error) {
+    testing::internal::GetCapturedStdout();
+    EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+    EXPECT_STREQ(error.what(), "the cache could not be written: of groom 'coat'");
+  }
 }
 
 }  // namespace
