@@ -95,6 +95,45 @@ INSTANTIATE_TEST_SUITE_P(grooms, FurIntersection, testing::ValuesIn(groom_shapes
   return name;
 });
 
+Ray towards_z(float x, float y) {
+  Ray ray;
+  ray.origin = {x, y, -1};
+  return ray;
+}
+
+// A curve that runs along the ray at last, having come from far beside it: the root that says where it is
+// nearest is all but fivefold, and far from it Newton's steps are short.
+TEST(FurHit, is_found_where_curves_come_to_rest_beside_the_ray) {
+  const FlushDenormals flush;
+  constexpr float kWidth = 1e-3f;
+  TestRandom random(8);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto near_ray = [&](float z) {
+      return V3f(0.02f * kWidth * random.between(-1, 1), 0.02f * kWidth * random.between(-1, 1), z);
+    };
+    StrandArrays a;
+    a.basis = CurveBasis::kBezier;
+    a.first_point = {0, 4};
+    a.ids = {5};
+    const float beside = std::pow(10.0f, random.between(-3, 0));
+    for (const V3f& p : {V3f(beside, 0, 1), near_ray(1.1f), near_ray(1.2f), near_ray(1.3f)})
+      a.points.insert(a.points.end(), {p.x, p.y, p.z, 0.5f * kWidth});
+    const Strands strands(std::move(a));
+    const SnappedStrands snapped(strands, FurGrid(kWidth));
+    const FurTree tree(snapped, {});
+    const Ray ray = towards_z(0, 0.1f * kWidth);
+    const FurHit hit = tree.closest(ray, {});
+    if (!hit) continue;
+    ++hits;
+    const FurTruth truth(snapped, ray);
+    // Where a curve turns round, it has no direction in which the ray could have passed elsewhere.
+    if (std::abs(hit.distance - truth.closest().distance) < 4e-3f * kWidth) continue;
+    EXPECT_LT(truth.place_at(0, hit.u).moved, 1e-3f * kWidth) << i << ": " << hit.u;
+  }
+  EXPECT_GT(hits, 1000);
+}
+
 /// One straight strand along x from 0 to 7, half a unit wide.
 Strands straight() {
   StrandArrays a;
@@ -102,12 +141,6 @@ Strands straight() {
   a.ids = {5};
   for (int i = 0; i < 8; ++i) a.points.insert(a.points.end(), {static_cast<float>(i), 0, 0, 0.25f});
   return Strands(std::move(a));
-}
-
-Ray towards_z(float x, float y) {
-  Ray ray;
-  ray.origin = {x, y, -1};
-  return ray;
 }
 
 TEST(FurHit, says_where_on_the_ribbon) {

@@ -9,7 +9,8 @@ namespace pelage {
 namespace {
 
 constexpr int kDeepest = 20;  // halvings
-constexpr int kMostSteps = 40;
+// Newton's; then every other one is a halving, which ends wherever rounding lets it (see fur_curves.inl).
+constexpr int kNewtonSteps = 16, kMostSteps = kNewtonSteps + 2 * 22;
 constexpr float kNear = 0x1p-22f;  // of the parameter
 
 /// c . c' / 3 over a part of the curve, in Bernstein form times ten over binomials.
@@ -76,10 +77,11 @@ float solve(const PlaneCurve& curve, float begin, float end) {
     const float f = x * x1 + y * y1;
     (f < 0 ? begin : end) = u;
     float next = u - f / (x1 * x1 + y1 * y1 + x * x2 + y * y2);
-    if (!(next >= begin && next <= end)) next = 0.5f * (begin + end);
+    const bool halves = i >= kNewtonSteps && i % 2 == 0;
+    if (halves || !(next >= begin && next <= end)) next = 0.5f * (begin + end);
     const float step = std::abs(next - u);
     u = next;
-    if (step < kNear) break;
+    if (step < kNear && !halves) break;
   }
   return u;
 }
