@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What it costs that fur stands in chunks: rays against chunks that grew when a ray met them and are all
-// resident, over the same rays against one fur tree over everything, on one thread. Runs alternate, and of
-// each the best counts.
+// resident, over the same rays against one fur tree over everything, on one thread.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -11,9 +10,9 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "base/statistics.h"
 #include "bench/ball_chunks.h"
 #include "bench/furball.h"
+#include "bench/interleaved.h"
 #include "procedurals/segment_parts.h"
 #include "render/accel/chunk_accel.h"
 #include "render/accel/flush_denormals.h"
@@ -21,7 +20,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kRuns = 7;
+constexpr size_t kSliceRays = 2500, kPasses = 15;
 
 /// The strands of a furball in chunks of at most `chunk_strands`.
 class FurballChunks final : public ChunkGrower {
@@ -55,13 +54,16 @@ class FurballChunks final : public ChunkGrower {
   std::vector<Strands> chunks_;
 };
 
-double seconds(const Accel& accel, const std::vector<Ray>& rays, bool shadow, size_t& hits) {
+/// How many of the rays of a slice meet something.
+size_t trace(const Accel& accel, const std::vector<Ray>& rays, size_t slice, bool shadow) {
   TraceThread thread;
-  hits = 0;
-  const double start = cpu_seconds();
-  for (const Ray& ray : rays)
-    hits += shadow ? accel.transmittance(ray, thread) == 0 : static_cast<bool>(accel.closest(ray, thread));
-  return cpu_seconds() - start;
+  size_t hits = 0;
+  const size_t end = std::min(rays.size(), (slice + 1) * kSliceRays);
+  for (size_t i = slice * kSliceRays; i < end; ++i) {
+    hits += shadow ? accel.transmittance(rays[i], thread) == 0
+                   : static_cast<bool>(accel.closest(rays[i], thread));
+  }
+  return hits;
 }
 
 void lazy_over_eager(benchmark::State& state) {
@@ -79,16 +81,13 @@ void lazy_over_eager(benchmark::State& state) {
   const std::vector<Ray> deep = rays_deep_in_furball(100000), camera = camera_rays_at_furball(316);
   for (auto _ : state) {
     const auto compare = [&](const std::string& name, const std::vector<Ray>& rays, bool shadow) {
-      double best[2] = {1e30, 1e30};
-      size_t hits[2];
-      seconds(lazy, rays, shadow, hits[0]);  // until all is resident
-      for (int run = 0; run < kRuns; ++run) {
-        best[0] = std::min(best[0], seconds(lazy, rays, shadow, hits[0]));
-        best[1] = std::min(best[1], seconds(eager, rays, shadow, hits[1]));
-      }
+      size_t hits[2] = {0, 0};
+      const Interleaved times((rays.size() + kSliceRays - 1) / kSliceRays, kPasses,
+                              [&](size_t slice) { hits[0] += trace(lazy, rays, slice, shadow); },
+                              [&](size_t slice) { hits[1] += trace(eager, rays, slice, shadow); });
       if (hits[0] != hits[1]) state.SkipWithError("chunks change the answer");
-      state.counters[name + " lazy/eager time"] = best[0] / best[1];
-      state.counters[name + " Mray/s eager"] = static_cast<double>(rays.size()) / best[1] * 1e-6;
+      times.show(state, name + " lazy/eager time");
+      state.counters[name + " Mray/s eager"] = static_cast<double>(rays.size()) / times.second_s() * 1e-6;
     };
     compare("1 occlusion", deep, true);
     compare("2 closest", deep, false);
