@@ -82,7 +82,8 @@ class Composer {
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
         if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
       }
-      fur.procedurals.push_back(std::make_unique<FurProcedural>(coat, posed, fur.lod));
+      fur.procedurals.push_back(
+          std::make_unique<FurProcedural>(coat, posed, fur.lod, reduced ? lie(coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
@@ -100,11 +101,25 @@ class Composer {
     nature.length *= skin.scale() * skin.length();
     nature.area_share *= skin.length();
     nature.density /= skin.scale() * skin.scale();
-    const LodParams& lod = scene_.render.lod;
+    SimplificationParams lod = scene_.render.lod;
+    // Some dozen strands that stand alone: leaving any out saves nothing and shows.
+    if (groom.role() == StrandRole::kWhisker) lod.motion_blur = lod.depth_of_field = lod.turned_away = false;
     const float budget = groom.role() == StrandRole::kGuard     ? lod.guard
                          : groom.role() == StrandRole::kWhisker ? lod.whisker
                                                                 : lod.under;
     return {lod, lod_view_, nature, budget};
+  }
+
+  /// Null where blur does not ask for it.
+  std::shared_ptr<const CoatLie> lie(const std::shared_ptr<const Groom>& groom,
+                                     const std::shared_ptr<const LimitSurface>& rest) {
+    const V2f shutter = scene_.camera.shutter;
+    if (!groom->grows_on_skin() || !scene_.render.lod.motion_blur || !(shutter.y > shutter.x) ||
+        groom->role() == StrandRole::kWhisker)
+      return {};
+    std::shared_ptr<const CoatLie>& known = lies_[groom.get()];
+    if (!known) known = std::make_shared<const CoatLie>(*groom, rest, workers_);
+    return known;
   }
 
   /// What sharing a topology saves is measured by not doing it.
@@ -136,6 +151,7 @@ class Composer {
   const LodView lod_view_;
   std::shared_ptr<PoseCache> poses_;
   std::map<const Groom*, StrandNature> natures_;
+  std::map<const Groom*, std::shared_ptr<const CoatLie>> lies_;
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };
 

@@ -1,25 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lod/motion_blur.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace pelage {
 namespace {
 
-V3f in_camera(const LodPose& pose, const V3f& point) {
-  const V3f d = point - pose.position;
+V3f turned(const LodPose& pose, const V3f& d) {
   return {d.dot(pose.right), d.dot(pose.up), d.dot(pose.forward)};
+}
+
+/// As the camera sees it when the shutter opens: the motion, and the direction to the point.
+struct Seen {
+  V3f motion{0};  // across the line of sight
+  V3f sight{0};   // unit, or 0 in the eye
+};
+
+Seen seen(const LodView& view, const V3f& at_open, const V3f& at_close) {
+  const V3f from = turned(view.open, at_open - view.open.position);
+  const V3f motion = turned(view.close, at_close - view.close.position) - from;
+  const V3f sight = from.normalized();
+  return {motion - motion.dot(sight) * sight, sight};
 }
 
 }  // namespace
 
 float motion_across(const LodView& view, const V3f& at_open, const V3f& at_close) {
-  const V3f from = in_camera(view.open, at_open);
-  const V3f motion = in_camera(view.close, at_close) - from;
-  const float distance2 = from.length2();
-  if (!(distance2 > 0)) return motion.length();
-  const float along = motion.dot(from);
-  return std::sqrt(std::max(0.0f, motion.length2() - along * along / distance2));
+  return seen(view, at_open, at_close).motion.length();
+}
+
+float motion_across_line(const LodView& view, const V3f& at_open, const V3f& at_close, const V3f& line) {
+  const Seen s = seen(view, at_open, at_close);
+  const float along = s.motion.normalized().dot(turned(view.open, line));
+  return s.motion.length() * std::sqrt(std::max(0.0f, 1 - along * along));
 }
 
 }  // namespace pelage

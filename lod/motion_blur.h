@@ -10,4 +10,9 @@ namespace pelage {
 /// line from the eye to the point [Ryu07]. Times pixels_per_unit() it is the length of the blur.
 float motion_across(const LodView& view, const V3f& at_open, const V3f& at_close);
 
+/// How far across a line through the point that lies along `line` when the shutter opens: a unit vector,
+/// shorter where the line is not certain. Of a line that points to the eye, and of one of no direction, all
+/// of the motion is across.
+float motion_across_line(const LodView& view, const V3f& at_open, const V3f& at_close, const V3f& line);
+
 }  // namespace pelage

@@ -8,6 +8,7 @@
 #include "lod/depth_of_field.h"
 #include "lod/motion_blur.h"
 #include "lod/size.h"
+#include "lod/turned_away.h"
 
 namespace pelage {
 namespace {
@@ -25,17 +26,32 @@ constexpr double kRoom = 0.6;
 // far enough that what the line of sight found clear does not count for the light too. And in widths.
 constexpr float kSpread = 1.5f;
 constexpr float kMostSpread = 4;
+// Strands turned away: all of them down to the first cosine, kLeastTurned from the second one on. What is
+// between them is seen past the edge of an animal, at a grazing angle, where many strands lie over each
+// other.
+constexpr float kTurnsAway = -0.1f, kTurnedAway = -0.5f;
+constexpr float kLeastTurned = 0.2f;
+// How wide a strand may be relative to the blur across it. What a blurred pixel collects varies by
+// s^2 / (lambda N) however it is blurred: with more, fur looks streaked.
+constexpr float kHidden = 0.1f;
 constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kMeanSine = 2 / kPi;  // of lines in all directions
 
 /// How many times as many strands contribute to a pixel as without blur: ratio of the areas of a strand of
-/// `length` pixels swept by what a pixel collects, a disc of 1 pixel that moves by `motion`, or a disc of
-/// confusion. Strands lie in all directions.
-float blur_ratio(float length, float motion, float confusion) {
+/// `length` pixels swept by what a pixel collects, a disc of 1 pixel that moves by `motion`, by `across`
+/// across the strand, or a disc of confusion.
+float blur_ratio(float length, float motion, float across, float confusion) {
   const float still = kPi / 4 + length;
-  const float moving = still + motion + length * motion * (2 / kPi);
+  const float moving = still + motion + length * across;
   const float disc = std::sqrt(1 + confusion * confusion);
   const float blurred = kPi / 4 * disc * disc + length * disc;
   return (moving / still) * (blurred / still);
+}
+
+/// What is left of a share where skin faces the camera like this.
+float still_seen(float facing) {
+  const float t = std::clamp((facing - kTurnedAway) / (kTurnsAway - kTurnedAway), 0.0f, 1.0f);
+  return kLeastTurned + (1 - kLeastTurned) * t * t * (3 - 2 * t);
 }
 
 /// Minus the logarithm of what is bare, of a coat of which `depth` strands stand over a point on average and
@@ -72,29 +88,38 @@ void Simplification::tabulate_area() {
   area_[0] = area_[1];
 }
 
-float Simplification::share(float pixels, float motion, float confusion) const {
+float Simplification::share(float pixels, float motion, float across, float confusion) const {
   const float width = nature_.width * pixels, length = nature_.length * pixels;
   if (!(width > 0) || !(length > 0)) return 1;  // nothing is seen of them: nothing is to be gained
-  const float blur = std::max(motion, confusion);
   float share = 1;
   if (params_.size && width < 1) share = std::pow(width, 2 * std::log(0.5f) / std::log(kHalf));
-  if (blur > 0) share *= std::pow(blur_ratio(length, motion, confusion), -params_.blur_strength);
-  const float widest = std::min(std::max(1.0f, blur / 2), length / 4);
+  if (motion > 0 || confusion > 0)
+    share *= std::pow(blur_ratio(length, motion, across, confusion), -params_.blur_strength);
+  const float blur = kHidden * std::hypot(across, confusion);
+  const float widest = std::min(std::hypot(1.0f, blur), length / 4);
   share = std::max({share, width / widest, params_.least_share}) * budget_;
   return std::min(share, 1.0f);
 }
 
-float Simplification::share(const V3f& root_at_open, const V3f& root_at_close) const {
-  const float pixels = params_.quality * pixels_per_unit(view_, root_at_open);
-  const float motion = params_.motion_blur ? motion_across(view_, root_at_open, root_at_close) : 0.0f;
-  const float confusion = params_.depth_of_field ? confusion_diameter(view_, root_at_open) : 0.0f;
-  return share(pixels, motion * pixels, confusion * pixels);
+float Simplification::share(const RootPlace& root) const {
+  const float pixels = params_.quality * pixels_per_unit(view_, root.open);
+  float motion = 0, across = 0, confusion = 0;
+  if (params_.motion_blur) {
+    motion = motion_across(view_, root.open, root.close);
+    across = root.lie.length2() > 0 ? motion_across_line(view_, root.open, root.close, root.lie)
+                                    : motion * kMeanSine;
+  }
+  if (params_.depth_of_field) confusion = confusion_diameter(view_, root.open);
+  const float seen = share(pixels, motion * pixels, across * pixels, confusion * pixels);
+  if (!params_.turned_away) return seen;
+  const float least = std::min(1.0f, params_.least_share * budget_);
+  return std::max(seen * still_seen(facing(view_, root.open, root.normal)), least);
 }
 
 float Simplification::most_share(float distance) const {
   // Shares grow with the size and shrink with every blur. Roots may be off by some rounding.
   const float pixels = params_.quality * pixels_per_unit(view_, distance);
-  return std::min(1.0f, share(pixels, 0, 0) * (1 + 1e-4f));
+  return std::min(1.0f, share(pixels, 0, 0, 0) * (1 + 1e-4f));
 }
 
 float Simplification::fade_half_width(float share) { return std::min({kMostFade, share / 4, 1 - share}); }
@@ -137,13 +162,14 @@ float Simplification::width_factor(float share, float priority) const {
 }
 
 float Simplification::most_width_factor(float distance) const {
-  float least = params_.least_share;
   const float pixels = params_.quality * pixels_per_unit(view_, distance);
   const float width = nature_.width * pixels, length = nature_.length * pixels;
   if (!(width > 0) || !(length > 0)) return 1;
   // What the share is at least, whatever the blur; without blur, what it is at this distance.
-  least = std::max(least, 4 * width / length) * budget_;
-  if (!params_.motion_blur && !params_.depth_of_field) least = std::max(least, share(pixels, 0, 0));
+  float least = 4 * width / length * budget_;
+  if (!params_.motion_blur && !params_.depth_of_field) least = std::max(least, share(pixels, 0, 0, 0));
+  least = std::min(least, 1.0f) * (params_.turned_away ? kLeastTurned : 1.0f);
+  least = std::max(least, params_.least_share * budget_);
   return gain(std::min(least, 1.0f)) * (1 + 1e-4f);
 }
 
@@ -161,9 +187,9 @@ ContentHash Simplification::hash() const {
   hasher.add("simplification");
   const auto add = [&](const auto&... values) { (hasher.add(values), ...); };
   const SimplificationParams& p = params_;
-  add(p.quality, p.size, p.motion_blur, p.depth_of_field, p.width_gain, p.contrast, p.fewer_points,
-      p.blur_strength, p.least_share, budget_, nature_.width, nature_.length, nature_.area_share,
-      nature_.density, static_cast<uint32_t>(nature_.even));
+  add(p.quality, p.size, p.motion_blur, p.depth_of_field, p.turned_away, p.width_gain, p.contrast,
+      p.fewer_points, p.blur_strength, p.least_share, budget_, nature_.width, nature_.length,
+      nature_.area_share, nature_.density, static_cast<uint32_t>(nature_.even));
   for (const LodPose* pose : {&view_.open, &view_.close}) {
     for (const V3f* v : {&pose->position, &pose->right, &pose->up, &pose->forward}) add(v->x, v->y, v->z);
     add(pose->focal_pixels);

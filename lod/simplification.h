@@ -19,6 +19,13 @@ struct StrandNature {
   bool even = true;      ///< whether every prefix of their order is blue noise
 };
 
+/// Where a strand has its root, by which detail is decided. World space.
+struct RootPlace {
+  V3f open{0}, close{0};  ///< when the shutter opens and closes
+  V3f normal{0};          ///< of the skin when the shutter opens; 0: not known
+  V3f lie{0};             ///< how strands lie there then: unit, shorter where they lie anyhow
+};
+
 /// Stochastic simplification of one coat: how many strands are enough at a place, and how wide those must be
 /// that stay [Cook07, Ryu07].
 ///
@@ -39,13 +46,15 @@ class Simplification {
   /// Strands over a point of the skin, on average; 0 when not known.
   float depth() const { return nature_.density * nature_.width * nature_.length; }
 
-  /// The share lambda in (0, 1] of the strands with their root here when the shutter opens and closes.
+  /// The share lambda in (0, 1] of the strands with their root here.
   ///
-  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but no less than what keeps a widened strand under a
-  /// pixel or half the blur, and under a quarter of its own length: else widths would grow without bound
-  /// where a coat shrinks. lambda_size = w^(2 ln(1/2) / ln h) for a width of w < 1 pixels, h = 0.4 [Cook07,
-  /// eq. 2]; lambda_blur keeps the number of strands that contribute to a pixel (to the power blur_strength).
-  float share(const V3f& root_at_open, const V3f& root_at_close) const;
+  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but no less than what keeps a widened strand under
+  /// hypot(1, a tenth of the blur across it) pixels, and under a quarter of its own
+  /// length: else widths would grow without bound where a coat shrinks. lambda_size = w^(2 ln(1/2) / ln h)
+  /// for a width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur keeps the number of strands that
+  /// contribute to a pixel (to the power blur_strength). Where the skin is turned away, less, down to a fifth
+  /// of that; there strands may be as much wider.
+  float share(const RootPlace& root) const;
   /// No root at this distance from the camera, or further away, has a larger share.
   float most_share(float distance) const;
   /// Half the width of the fade: min(0.1, lambda / 4, 1 - lambda), so that the mean of fade() over all x is
@@ -84,7 +93,7 @@ class Simplification {
   ContentHash hash() const;
 
  private:
-  float share(float pixels, float motion, float confusion) const;
+  float share(float pixels, float motion, float across, float confusion) const;
   void tabulate_area();
 
   static constexpr size_t kAreaSteps = 32;

@@ -9,7 +9,7 @@ namespace pelage {
 /// How many strands of a coat are enough: keys of `render.lod`. Each idea has a switch of its own.
 struct SimplificationParams {
   float quality = 1;
-  bool size = true, motion_blur = true, depth_of_field = true;
+  bool size = true, motion_blur = true, depth_of_field = true, turned_away = true;
   bool width_gain = true, contrast = true, fewer_points = true;
   float guard = 1.5f, under = 1, whisker = 4;
   float blur_strength = 0.75f;
@@ -31,6 +31,10 @@ void add_simplification_keys(Schema<P>& s) {
   key("size", &Base::size, {.help = "Strands that look thinner than a pixel are thinned out"});
   key("motion_blur", &Base::motion_blur, {.help = "More so where they move across the picture"});
   key("depth_of_field", &Base::depth_of_field, {.help = "More so where they are out of focus"});
+  key("turned_away", &Base::turned_away,
+      {.help =
+           "And where the skin is turned away from the camera, down to a fifth: there they are seen past the "
+           "edge of the animal at most, and in shadows"});
   key("width_gain", &Base::width_gain,
       {.help = "Those that stay become wider, so that the coat covers as much as before; false only to "
                "measure what that is worth"});

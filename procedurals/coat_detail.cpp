@@ -24,8 +24,8 @@ Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
 }  // namespace
 
 CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-                       const Simplification& simplification)
-    : groom_(std::move(groom)), simplification_(simplification) {
+                       const Simplification& simplification, std::shared_ptr<const CoatLie> lie)
+    : groom_(std::move(groom)), simplification_(simplification), lie_(std::move(lie)) {
   const Box3f roots = root_box(*groom_, skin);
   if (roots.isEmpty()) return;
   const V3f eye = simplification_.view().open.position;
@@ -63,17 +63,20 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
     const float priority = groom_->priority(begin + s);
     if (priority >= first_out_) continue;
     const SurfacePoint root = groom_->root(begin + s, skin, pose.open_key);
-    const V3f open = root.position;
-    const V3f close =
-        pose.close_key == pose.open_key ? open : groom_->root(begin + s, skin, pose.close_key).position;
-    const float share = simplification_.share(open, close);
+    RootPlace place;
+    place.open = place.close = root.position;
+    if (pose.close_key != pose.open_key) place.close = groom_->root(begin + s, skin, pose.close_key).position;
+    place.normal = root.du.cross(root.dv).normalized();
+    if (lie_) place.lie = lie_->at(groom_->follicles().root(begin + s), root);
+    const float share = simplification_.share(place);
     const float width = simplification_.width_factor(share, priority);
     if (width <= 0) continue;
     choice.strands.push_back(s);
     choice.width.push_back(width);
     choice.contrast.push_back(simplification_.contrast(share));
-    choice.normal.push_back(packed_line(root.du.cross(root.dv).normalized()));
-    choice.tolerance.push_back(share < 1 ? simplification_.tolerance(open) : 0.0f);
+    const V2f normal = packed_line(place.normal);
+    choice.detail.insert(choice.detail.end(), {normal.x, normal.y, packed_share(share)});
+    choice.tolerance.push_back(share < 1 ? simplification_.tolerance(place.open) : 0.0f);
   }
   return choice;
 }

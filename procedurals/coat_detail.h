@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include "geom/strand_scale.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
+#include "procedurals/coat_lie.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
 
 /// Attribute of strands with reduced detail: packed_line() of the normal of the skin at their roots when the
-/// shutter opens.
-inline constexpr const char* kRootNormal = "root normal";
+/// shutter opens, and packed_share() of what is kept there.
+inline constexpr const char* kRootDetail = "root detail";
+inline constexpr int kRootDetailSize = 3;
+
+/// A share as a multiple of 1/255, finer the less it is; 1 stays 1.
+inline float packed_share(float share) { return std::round(255 * std::sqrt(share)) / 255; }
+inline float unpacked_share(float packed) { return packed * packed; }
 
 /// Which strands of one coat on one character are worth growing, each decided from where its own root stands
 /// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
@@ -21,8 +28,9 @@ inline constexpr const char* kRootNormal = "root normal";
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatDetail {
  public:
+  /// `lie` tells blur along strands from blur across them; null: strands lie anyhow.
   CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-             const Simplification& simplification);
+             const Simplification& simplification, std::shared_ptr<const CoatLie> lie);
 
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
@@ -35,7 +43,7 @@ class CoatDetail {
     std::vector<uint32_t> strands;  ///< by number in the leaf
     std::vector<float> width;
     std::vector<float> contrast;
-    std::vector<V2f> normal;       ///< of the skin at the root: packed_line()
+    std::vector<float> detail;     ///< kRootDetail
     std::vector<float> tolerance;  ///< for fewer control points
     KeptStrands kept() const { return {strands, width, contrast}; }
   };
@@ -49,6 +57,7 @@ class CoatDetail {
  private:
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
+  std::shared_ptr<const CoatLie> lie_;
   float first_out_ = 1;  // no strand of this priority or behind it is kept
   float most_width_factor_ = 1, least_width_factor_ = 1;
 };

@@ -34,9 +34,9 @@ Box3f bound_of(const std::vector<std::unique_ptr<Procedural>>& chunks, BoundSpan
 
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin,
-                             const std::optional<Simplification>& lod)
+                             const std::optional<Simplification>& lod, std::shared_ptr<const CoatLie> lie)
     : groom_(std::move(groom)), skin_(std::move(skin)) {
-  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod);
+  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(lie));
   skin_->expect_leaves(*groom_, detail_ != nullptr);
 }
 

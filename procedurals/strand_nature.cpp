@@ -5,9 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "base/parallel.h"
-#include "geom/closest_point.h"
-#include "geom/tessellation.h"
+#include "procedurals/coat_sample.h"
 
 namespace pelage {
 namespace {
@@ -68,29 +66,10 @@ double density(const FollicleTree& follicles, const std::vector<double>& areas) 
 }  // namespace
 
 StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
-  PosedSkin pose;
-  if (rest) pose.keys = {rest, 1};
-  SkinMesh mesh;
-  std::vector<ClosestPointTree> trees;
-  if (groom.needs_closest_point()) {
-    const View view;  // from which no face is large
-    mesh = tessellate(pose.keys, view, {}, workers);
-    trees.emplace_back(mesh, 0);
-    pose.trees = trees;
-  }
-  const FollicleTree& follicles = groom.follicles();
   Sums sums;
-  for (size_t leaf = 0; leaf < follicles.leaves().size(); ++leaf) {
-    std::vector<uint32_t> sample;
-    const FollicleTree::Leaf& range = follicles.leaves()[leaf];
-    for (uint32_t f = range.begin; f < range.end && follicles.id(f) < kSample; ++f)
-      sample.push_back(f - range.begin);
-    if (sample.empty()) continue;
-    const std::vector<float> width(sample.size(), 1.0f);
-    const KeptStrands kept{sample, width, {}};
-    const Strands strands = groom.grow(leaf, pose, &kept);
+  visit_coat_sample(groom, rest, kSample, workers, [&](const Strands& strands) {
     for (size_t s = 0; s < strands.strand_count(); ++s) add_strand(strands, s, sums);
-  }
+  });
   StrandNature nature;
   if (!(sums.length > 0)) return nature;
   nature.width = static_cast<float>(sums.area / sums.length);
@@ -100,7 +79,7 @@ StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const W
     const std::vector<double> areas = face_areas(*rest);
     nature.area_share =
         static_cast<float>(sums.area / sums.strands / std::accumulate(areas.begin(), areas.end(), 0.0));
-    nature.density = static_cast<float>(density(follicles, areas));
+    nature.density = static_cast<float>(density(groom.follicles(), areas));
   }
   return nature;
 }

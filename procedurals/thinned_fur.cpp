@@ -11,13 +11,9 @@
 namespace pelage {
 namespace {
 
-/// Strands with the attribute kRootNormal.
-Strands with_normals(Strands strands, std::span<const V2f> normals) {
-  StrandAttribute attribute{kRootNormal, AttributeClass::kPerStrand, 2, {}};
-  attribute.values.reserve(2 * normals.size());
-  for (const V2f& n : normals) attribute.values.insert(attribute.values.end(), {n.x, n.y});
+Strands with_detail(Strands strands, std::vector<float> detail) {
   StrandArrays arrays = std::move(strands).release();
-  arrays.attributes.push_back(std::move(attribute));
+  arrays.attributes.push_back({kRootDetail, AttributeClass::kPerStrand, kRootDetailSize, std::move(detail)});
   return Strands(std::move(arrays));
 }
 
@@ -71,11 +67,11 @@ auto ThinnedFurProcedural::in_pose(BoundSpan span, const Use& use) const {
 Strands ThinnedFurProcedural::grow(const SkinPose& pose) const {
   std::vector<Strands> leaves;
   for (size_t leaf = first_; leaf < end_; ++leaf) {
-    const CoatDetail::Choice choice = detail_->choose(leaf, pose);
+    CoatDetail::Choice choice = detail_->choose(leaf, pose);
     if (choice.strands.empty()) continue;
     const KeptStrands kept = choice.kept();
     Strands strands = detail_->groom().grow(leaf, pose.skin(), &kept);
-    if (detail_->groom().grows_on_skin()) strands = with_normals(std::move(strands), choice.normal);
+    if (detail_->groom().grows_on_skin()) strands = with_detail(std::move(strands), std::move(choice.detail));
     leaves.push_back(with_fewer_points(std::move(strands), choice.tolerance));
   }
   if (leaves.size() == 1) return std::move(leaves.front());
@@ -107,7 +103,7 @@ StrandCounts ThinnedFurProcedural::counts() const {
   for (size_t leaf = first_; leaf < end_; ++leaf)
     sum += detail_->groom().counts(leaf, detail_->candidates(leaf));
   sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
-  if (detail_->groom().grows_on_skin()) sum.attribute_floats += 2 * sum.strands;
+  if (detail_->groom().grows_on_skin()) sum.attribute_floats += kRootDetailSize * sum.strands;
   return sum;
 }
 
@@ -119,7 +115,7 @@ size_t ThinnedFurProcedural::making_bytes() const {
   // Leaves, before and while they become one batch with fewer points.
   const StrandCounts n = counts();
   return (4 * n.points * n.motion_keys + n.attribute_floats) * sizeof(float) +
-         n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + sizeof(V2f) + 8 * sizeof(float));
+         n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + (kRootDetailSize + 8) * sizeof(float));
 }
 
 /// Of all that is kept of the coat, however it is divided.

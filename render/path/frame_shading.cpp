@@ -73,9 +73,9 @@ struct Deputy {
 Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
                  const Strands& strand) {
   Deputy deputy;
-  const StrandAttribute* packed = strand.find_attribute(kRootNormal);
+  const StrandAttribute* packed = strand.find_attribute(kRootDetail);
   const float spread = lod.spread(share);
-  if (!packed || packed->components != 2 || !(spread > 0)) return deputy;
+  if (!packed || packed->components != kRootDetailSize || !(spread > 0)) return deputy;
   const SightDice dice(ray, hit.strand_id);
   deputy.away = dice.on_skin(unpacked_line({packed->values[0], packed->values[1]}), spread);
   deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
@@ -123,7 +123,10 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
 
 float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
-  return lod ? lod->share(strand.point(0), strand.point(0, strand.motion_keys() - 1)) : 1.0f;
+  if (!lod) return 1;
+  const StrandAttribute* detail = strand.find_attribute(kRootDetail);
+  if (detail && detail->components == kRootDetailSize) return unpacked_share(detail->values[2]);
+  return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
 }
 
 ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const {
@@ -181,7 +184,8 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
     // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
     // wide strands.
     const V3f open = point.position - ray.time * point.shutter_motion;
-    const float share = part.lod->share(open, open + point.shutter_motion);
+    const float share =
+        part.lod->share({.open = open, .close = open + point.shutter_motion, .normal = point.normal});
     V3f away = SightDice(ray, hit.part).on_skin(point.normal, part.lod->spread(share));
     const float rise = skin_rise(triangle, ray.time, point.normal, away);
     away += (rise + kSkinRise * away.length()) * point.normal;

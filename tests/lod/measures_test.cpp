@@ -10,6 +10,7 @@
 #include "lod/depth_of_field.h"
 #include "lod/motion_blur.h"
 #include "lod/size.h"
+#include "lod/turned_away.h"
 
 namespace pelage {
 namespace {
@@ -82,6 +83,37 @@ TEST(LodMeasures, MotionAlongTheViewDoesNotBlur) {
   view.close = pose({1, 0, 10}, {1, 0, 0});
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {1, 0, 0}), 0, 1e-6);
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {0, 0, 0}), 1, 1e-6);
+}
+
+TEST(LodMeasures, MotionAcrossALineIsHowFarItsPictureMovesSideways) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    LodView view;
+    const V3f at = 3.0f * random.vector(), look = V3f(0, 0, -300) + random.vector();
+    view.open = pose(at, look);
+    view.close = pose(at + 0.2f * random.vector(), look + 0.2f * random.vector());
+    // A line in the plane of the picture, near the axis, so that it is seen at its full length.
+    const V3f open = view.open.position + 30.0f * view.open.forward + 0.1f * random.vector();
+    const V3f close = open + random.vector();
+    const float angle = 3.14159265f * random.next();
+    const V3f line = std::cos(angle) * view.open.right + std::sin(angle) * view.open.up;
+    const V2f moved = project(view.close, close) - project(view.open, open);
+    const float sideways = std::abs(moved.dot(V2f(-std::sin(angle), std::cos(angle))));
+    const float measured = motion_across_line(view, open, close, line) * pixels_per_unit(view, open);
+    EXPECT_NEAR(measured, sideways, 0.05f * moved.length() + 0.05f);
+    const float all = motion_across(view, open, close);
+    EXPECT_NEAR(motion_across_line(view, open, close, V3f(0)), all, 1e-5f);
+    EXPECT_NEAR(motion_across_line(view, open, close, view.open.forward), all, 0.01f * all);
+  }
+}
+
+TEST(LodMeasures, SkinFacesTheCameraThatItsNormalPointsTo) {
+  LodView view;
+  view.open.position = V3f(0, 0, 10);
+  EXPECT_FLOAT_EQ(facing(view, {0, 0, 0}, {0, 0, 1}), 1);
+  EXPECT_FLOAT_EQ(facing(view, {0, 0, 20}, {0, 0, 1}), -1);
+  EXPECT_FLOAT_EQ(facing(view, {0, 10, 0}, {0, -1, 0}), std::sqrt(0.5f));
+  EXPECT_EQ(facing(view, {0, 0, 0}, V3f(0)), 1);
 }
 
 TEST(LodMeasures, ConfusionIsWhereALensSmearsAPoint) {

@@ -27,7 +27,7 @@ Simplification sized(const StrandNature& nature = kHair, float budget = 1) {
 }
 
 float share_at(const Simplification& s, float distance) {
-  return s.share({0, 0, -distance}, {0, 0, -distance});
+  return s.share({V3f(0, 0, -distance), V3f(0, 0, -distance)});
 }
 
 TEST(Simplification, KeepsEverythingUpClose) {
@@ -64,34 +64,88 @@ TEST(Simplification, NoStrandGrowsBeyondThePixelOrAQuarterOfItself) {
   }
 }
 
-TEST(Simplification, BlurThinsFurtherAndLetsStrandsBeAsWideAsHalfOfIt) {
+TEST(Simplification, BlurThinsFurtherAndLetsStrandsBeAsWideAsATenthOfIt) {
   SimplificationParams params;
   const float distance = 30;
   const V3f here(0, 0, -distance);
   LodView view = view_from(V3f(0));
   const Simplification still(params, view, kHair, 1);
-  float before = still.share(here, here);
+  float before = still.share({here, here});
   for (float pixels = 0.1f; pixels < 100; pixels *= 1.3f) {
     const V3f there = here + V3f(pixels * distance / 1000, 0, 0);
-    const float share = still.share(here, there);
+    const float share = still.share({here, there});
     EXPECT_LE(share, before * (1 + 1e-6f));  // equal shares are off by rounding
     const float width = 0.01f * 1000 / distance * still.width_factor(share, 0);
-    EXPECT_LE(width, std::max(1.0f, 0.5f * pixels) * 1.0001f);
+    EXPECT_LE(width, std::hypot(1.0f, 0.1f * pixels) * 1.0001f);
     EXPECT_LE(still.width_factor(share, 0), still.most_width_factor(distance));
     before = share;
   }
-  EXPECT_LT(before, 0.3f * still.share(here, here));
+  EXPECT_LT(before, 0.3f * still.share({here, here}));
   view.lens_diameter = 2;
   view.focus_distance = 10;
-  EXPECT_LT(Simplification(params, view, kHair, 1).share(here, here), 0.5f * still.share(here, here));
+  EXPECT_LT(Simplification(params, view, kHair, 1).share({here, here}), 0.5f * still.share({here, here}));
   // Each has its switch.
   params.depth_of_field = false;
-  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here), still.share(here, here));
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share({here, here}), still.share({here, here}));
   params.motion_blur = false;
-  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here + V3f(3, 0, 0)), still.share(here, here));
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share({here, here + V3f(3, 0, 0)}),
+            still.share({here, here}));
   params.size = false;
   params.least_share = 1;
-  EXPECT_EQ(Simplification(params, view, kHair, 1).share(here, here), 1);
+  EXPECT_EQ(Simplification(params, view, kHair, 1).share({here, here}), 1);
+}
+
+TEST(Simplification, MotionHidesTheWidthOfStrandsAcrossItOnly) {
+  const float distance = 30, pixels = 100;
+  const V3f here(0, 0, -distance), there = here + V3f(pixels * distance / 1000, 0, 0);
+  const Simplification s = sized({0.01f, 5.0f, 1e-6f});
+  const float still = s.share({here, here});
+  float before = 2;
+  for (int degrees = 0; degrees <= 90; degrees += 5) {
+    const float angle = static_cast<float>(degrees) * 0.0174532925f;
+    RootPlace root{here, there};
+    root.lie = V3f(std::cos(angle), std::sin(angle), 0);
+    const float share = s.share(root);
+    EXPECT_LT(share, before) << degrees;
+    EXPECT_LE(share, still);
+    EXPECT_LE(0.01f * 1000 / distance * s.width_factor(share, 0),
+              std::hypot(1.0f, 0.1f * pixels * std::sin(angle)) * 1.0001f);
+    root.lie = -root.lie;
+    EXPECT_EQ(s.share(root), share);
+    EXPECT_LE(share, s.most_share(distance));
+    EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+    before = share;
+  }
+  EXPECT_LT(before, 0.3f * still);
+  // Without a direction, and along the line of sight, all is across or nearly.
+  EXPECT_EQ(s.share({here, there, V3f(0), V3f(0, 0, 1)}), before);
+  EXPECT_LT(s.share({here, there}), 1.6f * before);
+}
+
+TEST(Simplification, FewerStayWhereTheSkinIsTurnedAway) {
+  SimplificationParams params;
+  for (const auto& [distance, length] : {std::pair{5.0f, 1.0f}, {100.0f, 1.0f}, {100.0f, 0.02f}}) {
+    const V3f here(0, 0, -distance);
+    const Simplification s(params, view_from(V3f(0)), {0.01f, length, 1e-5f}, 1);
+    const float whole = s.share({here, here});
+    float before = whole;
+    for (int degrees = 0; degrees <= 180; ++degrees) {
+      const float angle = static_cast<float>(degrees) * 0.0174532925f;
+      const float share = s.share({here, here, V3f(std::sin(angle), 0, std::cos(angle))});
+      EXPECT_LE(share, before);
+      EXPECT_GT(share, before - 0.056f * whole);  // in steps of a degree
+      if (degrees <= 95) {
+        EXPECT_EQ(share, whole);  // what is seen, and what stands on the edge
+      }
+      EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+      before = share;
+    }
+    EXPECT_FLOAT_EQ(before, 0.2f * whole);
+  }
+  params.turned_away = false;
+  const V3f here(0, 0, -100);
+  const Simplification all(params, view_from(V3f(0)), kHair, 1);
+  EXPECT_EQ(all.share({here, here, V3f(0, 0, -1)}), all.share({here, here}));
 }
 
 TEST(Simplification, TheMeanOfTheFadeIsTheShare) {

@@ -63,7 +63,7 @@ TEST(ThinnedFur, CloseByItIsTheWholeCoatBitByBit) {
   const RandomCoat coat(3, {});
   Seen close;
   close.focal_pixels = 1e7f;
-  close.params.motion_blur = false;
+  close.params.motion_blur = close.params.turned_away = false;
   const auto whole = by_id(FurProcedural(coat.groom, coat.skin));
   EXPECT_TRUE(by_id(FurProcedural(coat.groom, coat.skin, seen(coat, close))) == whole);
   EXPECT_EQ(whole.size(), coat.groom->follicles().size());
@@ -92,13 +92,16 @@ TEST(ThinnedFur, EachStrandIsKeptForWhereItsRootStands) {
     s.distance = 12;
     s.confusion = 0.02f;
     const Simplification lod = seen(coat, s);
-    const auto kept = by_id(FurProcedural(coat.groom, coat.skin, lod));
+    const auto lie = std::make_shared<const CoatLie>(*coat.groom, coat.rest, Workers(1));
+    const auto kept = by_id(FurProcedural(coat.groom, coat.skin, lod, lie));
     const auto pose = coat.skin->pose(BoundSpan::kShutter);
     std::set<uint64_t> expected;
     for (size_t f = 0; f < coat.groom->follicles().size(); ++f) {
-      const V3f open = coat.groom->root(f, pose->skin(), 0).position;
-      const V3f close = coat.groom->root(f, pose->skin(), pose->keys.size() - 1).position;
-      if (lod.width_factor(lod.share(open, close), coat.groom->priority(f)) > 0)
+      const SurfacePoint open = coat.groom->root(f, pose->skin(), 0);
+      const RootPlace root{open.position, coat.groom->root(f, pose->skin(), pose->keys.size() - 1).position,
+                           open.du.cross(open.dv).normalized(),
+                           lie->at(coat.groom->follicles().root(f), open)};
+      if (lod.width_factor(lod.share(root), coat.groom->priority(f)) > 0)
         expected.insert(coat.groom->follicles().id(f));
     }
     std::set<uint64_t> ids;
@@ -117,6 +120,7 @@ TEST(ThinnedFur, FartherIsASubset) {
     Seen s;
     s.distance = distance;
     s.params.least_share = 1e-3f;
+    s.params.turned_away = false;  // from farther away more of a ball is seen
     std::set<uint64_t> now;
     for (const auto& [id, points] : by_id(FurProcedural(coat.groom, coat.skin, seen(coat, s)))) {
       EXPECT_TRUE(before.count(id));
