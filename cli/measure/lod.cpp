@@ -209,8 +209,10 @@ void add_detail(const LodSweep& sweep, Report& report) {
        {Paragraph{
            "Every way to see the scene is rendered twice with full detail and twice with reduced detail, all "
            "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
-           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b and m the mean of t: what is wrong in "
-           "both pictures, without noise. Bias is that of the mean luminance over these pixels. Shares are "
+           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b over 9 x 9 pixels and m that over all: "
+           "what "
+           "is wrong in both pictures, without noise. Bias is that of the mean luminance over these pixels. "
+           "Shares are "
            "of what full detail takes from the same place. Naive thinning leaves out the same hairs and "
            "lets the others be as thin as they are. Other hairs: the same coats, of another seed, in "
            "full."}}});

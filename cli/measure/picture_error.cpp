@@ -11,6 +11,7 @@ namespace pelage {
 namespace {
 
 constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};  // luminance
+constexpr int kAround = 4;                               // pixels to each side
 
 /// R, G, B, A of a picture; empty when one is missing.
 std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
@@ -23,14 +24,32 @@ std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
   return channels;
 }
 
-}  // namespace
-
-std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b) {
-  return picture_error(x, x, a, b);
+/// Mean of two pictures over the pixels around each, by rows and then by columns.
+std::vector<double> blurred_mean(const std::vector<float>& a, const std::vector<float>& b, int width,
+                                 int height, int around) {
+  const auto along = [around](const std::vector<double>& from, int count, int lines, size_t step,
+                              size_t next) {
+    std::vector<double> to(from.size());
+    for (int line = 0; line < lines; ++line) {
+      const size_t first = static_cast<size_t>(line) * next;
+      const auto at = [&](int i) { return first + static_cast<size_t>(i) * step; };
+      for (int i = 0; i < count; ++i) {
+        const int low = std::max(0, i - around), high = std::min(count - 1, i + around);
+        double sum = 0;
+        for (int j = low; j <= high; ++j) sum += from[at(j)];
+        to[at(i)] = sum / (high - low + 1);
+      }
+    }
+    return to;
+  };
+  std::vector<double> mean(a.size());
+  for (size_t p = 0; p < a.size(); ++p) mean[p] = 0.5 * (double{a[p]} + double{b[p]});
+  const auto row = static_cast<size_t>(width);
+  return along(along(mean, width, height, 1, row), height, width, row, 1);
 }
 
-std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
-                                          const ExrImage& b) {
+std::optional<PictureError> error_of(const ExrImage& x, const ExrImage& y, const ExrImage& a,
+                                     const ExrImage& b, int t_around) {
   const auto cx = channels_of(x), cy = channels_of(y), ca = channels_of(a), cb = channels_of(b);
   const auto fits = [&](const ExrImage& i) { return i.width == a.width && i.height == a.height; };
   if (cx.empty() || cy.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(y) || !fits(b)) return {};
@@ -53,10 +72,11 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, 
       luminance_t += kWeights[c] * truth(c, p);
     }
   }
-  for (size_t p = 0; p < pixels; ++p) {
-    if (!((*ca[3])[p] > 0)) continue;
-    for (size_t c = 0; c < 3; ++c) {
-      const double t = truth(c, p), m = mean[c] / surface, v = (*cx[c])[p], w = (*cy[c])[p];
+  for (size_t c = 0; c < 3; ++c) {
+    const std::vector<double> around = blurred_mean(*ca[c], *cb[c], a.width, a.height, t_around);
+    for (size_t p = 0; p < pixels; ++p) {
+      if (!((*ca[3])[p] > 0)) continue;
+      const double t = around[p], m = mean[c] / surface, v = (*cx[c])[p], w = (*cy[c])[p];
       const double of_a = (*ca[c])[p], of_b = (*cb[c])[p];
       const double error = 0.5 * ((v - of_a) * (w - of_b) + (v - of_b) * (w - of_a));
       if (error != 0) result.rel_mse += error / (t * t + 0.01 * m * m) / 3;
@@ -73,10 +93,25 @@ std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, 
   return result;
 }
 
+}  // namespace
+
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b) {
+  return error_of(x, x, a, b, 0);
+}
+
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
+                                          const ExrImage& b) {
+  return error_of(x, y, a, b, kAround);
+}
+
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
                                                    const std::filesystem::path& a,
                                                    const std::filesystem::path& b) {
-  return picture_error_of_files(x, x, a, b);
+  try {
+    return picture_error(read_exr(x), read_exr(a), read_exr(b));
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,

@@ -24,7 +24,8 @@ struct PictureError {
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
 
 /// The same where there are two pictures of independent seeds of what is tested too: then their noise is not
-/// counted either, only what is wrong in both.
+/// counted either, only what is wrong in both. Here t is the mean over 9 x 9 pixels around each: that of a
+/// pixel alone is small where a and b both happen to be too dark, and errors there are not zero on average.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
                                           const ExrImage& b);
 

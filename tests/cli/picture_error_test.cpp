@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/hash.h"
+
 namespace pelage {
 namespace {
 
@@ -33,6 +35,33 @@ TEST(PictureError, IsRelativeToTheTruthOnSurfaces) {
   EXPECT_DOUBLE_EQ(error->samples, 22);
   EXPECT_DOUBLE_EQ(error->surface_samples, 40);
   EXPECT_FALSE(picture_error(truth, truth, ExrImage{}));
+}
+
+/// Grey whose noise is as skewed as that of few samples: four exponential numbers per pixel.
+ExrImage noisy(uint64_t seed, float grey) {
+  ExrImage image;
+  image.width = 300;
+  image.height = 200;
+  const size_t pixels = 60000;
+  uint64_t draw = 0;
+  for (const char* name : {"R", "G", "B"}) {
+    image.channels.push_back({name, ChannelType::kFloat, std::vector<float>(pixels, 0.0f), {}});
+    for (float& value : image.channels.back().pixels) {
+      for (int i = 0; i < 4; ++i) value -= grey / 4 * std::log(1 - unit_float(hash64(seed, draw++)));
+    }
+  }
+  image.channels.push_back({"A", ChannelType::kFloat, std::vector<float>(pixels, 1.0f), {}});
+  return image;
+}
+
+TEST(PictureError, OfFourPicturesCountsNoNoise) {
+  const ExrImage a = noisy(1, 1), b = noisy(2, 1);
+  // The variance of a pixel is 0.25; the deviation of the mean over all pixels and channels is 0.0006.
+  const auto none = picture_error(noisy(3, 1), noisy(4, 1), a, b);
+  EXPECT_NEAR(none->rel_mse, 0, 0.003);
+  const auto brighter = picture_error(noisy(3, 1.2f), noisy(4, 1.2f), a, b);
+  EXPECT_NEAR(brighter->rel_mse, 0.04, 0.004);
+  EXPECT_NEAR(brighter->bias, 0.2, 0.01);
 }
 
 /// Samples of variance 1, 1, 4, 4: counts in proportion to 1, 1, 2, 2 leave 2.25 where equal ones leave 2.5.
