@@ -103,8 +103,9 @@ struct Minima {
 
 constexpr float kClose = 0x1p-4f;  // steps of the grid, of which a width has 192 or more
 constexpr float kShort = 0x1p-13f;
-// One curve of ten thousand takes more than six steps. A curve that comes to rest near the ray has a root
-// that is all but fivefold: there Newton's steps take but a fifth of the rest, and every other one is a halving.
+// One block of ten thousand takes more than six steps. A curve that comes to rest near the ray has a root
+// that is all but fivefold: there Newton's steps take but a fifth of the rest, and every other one is a
+// halving.
 constexpr int kNewtonSteps = 8, kMostSteps = kNewtonSteps + 2 * 26;
 
 /// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
