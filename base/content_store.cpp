@@ -153,6 +153,7 @@ ContentStore::Lock::~Lock() {
 }
 
 ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash& key,
+                                      const std::function<bool()>& cancelled,
                                       std::chrono::milliseconds patience) const {
   const auto give_up = std::chrono::steady_clock::now() + patience;
   Lock lock;
@@ -164,7 +165,8 @@ ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash
     if (descriptor < 0) return lock;
     bool mine = false;
     while (!(mine = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) &&
-           (errno == EWOULDBLOCK || errno == EINTR) && std::chrono::steady_clock::now() < give_up) {
+           (errno == EWOULDBLOCK || errno == EINTR) && std::chrono::steady_clock::now() < give_up &&
+           !cancelled()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     struct stat held {
@@ -176,7 +178,7 @@ ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash
       return lock;
     }
     ::close(descriptor);
-    if (!mine || std::chrono::steady_clock::now() >= give_up) return lock;
+    if (!mine || std::chrono::steady_clock::now() >= give_up || cancelled()) return lock;
   }
 }
 

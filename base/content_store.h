@@ -77,6 +77,8 @@ class ContentStore {
     void add(std::span<const T> values) {
       add(std::as_bytes(values));
     }
+    /// Whether nothing more can come of it.
+    bool failed() const { return !failure_.empty(); }
     /// Whether the entry now exists.
     bool commit(const WarningSink& warn);
 
@@ -115,13 +117,17 @@ class ContentStore {
     int descriptor_ = -1;
     std::filesystem::path path_;
   };
-  /// Waits until nobody else computes this entry. Open it again afterwards: it may be there now. A process
-  /// that dies gives its locks back.
+  /// Waits until nobody else computes this entry, patience runs out or `cancelled` says so. Open it again
+  /// afterwards: it may be there now. A process that dies gives its locks back.
   Lock lock(const std::string& kind, const ContentHash& key,
+            const std::function<bool()>& cancelled = [] { return false; },
             std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
   /// Removes what processes that were killed have left half-written, if it has not been touched for `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
+
+  /// What nothing has used for so long goes whenever something is stored.
+  static constexpr std::chrono::hours kUnusedAge{24 * 30};
 
   struct Removed {
     size_t files = 0;

@@ -12,8 +12,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What nothing has used for so long goes whenever something is stored.
-constexpr std::chrono::hours kUnusedAge{24 * 30};
 
 size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   size_t end = stack.size();
@@ -80,7 +78,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   };
   if (!frozen) {
     store->sweep();
-    const ContentStore::Lock lock = store->lock("offsets", offset_key);
+    const ContentStore::Lock lock = store->lock("offsets", offset_key, [&] { return progress.cancelled(); });
     open([](const std::string&) {});  // another process may have been at it; damage has been told of
     report->fresh = report->stored = frozen.has_value();
     if (!have_follicles) {
@@ -111,7 +109,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   report->files = {report->file, follicles, GroomManifest::file(*store, name)};
   for (const GroomStage& stage : now.stages())
     report->files.push_back(layer_file(*store, stage.hash, params.leaf_strands));
-  if (!report->fresh) store->prune(kUnusedAge);
+  if (!report->fresh) store->prune(ContentStore::kUnusedAge);
   stack->prepare(frozen_end, stack->size(), context);
   prepare_rest(context.workers);
   report->strands = source.follicles().size();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <string>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/counted.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/outcome_table.h"
+#include "cli/measure/work_folder.h"
 
 namespace pelage {
 namespace {
@@ -183,13 +184,15 @@ std::string abstract_of(const std::vector<Outcome>& outcomes, double segments) {
 
 }  // namespace
 
-Measured measure_accel(const SceneDescription&, const MeasureSetup& given, ProgressDisplay& display) {
+Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given, ProgressDisplay& display) {
   MeasureSetup setup = given;
   // Times per thread are what is compared.
   bool threads_given = false;
   for (const std::string& argument : setup.arguments) threads_given |= argument == "--threads";
   if (!threads_given) setup.arguments.insert(setup.arguments.end(), {"--threads", "1"});
-  const std::filesystem::path work = setup.folder / "work";
+  if (scene.grooms.items.empty()) throw Error(ErrorKind::kInput, "measure accel: the scene has no fur");
+  const WorkFolder folder(setup.folder);
+  const std::filesystem::path& work = folder.path();
 
   VariantRunner runner(setup, display, 1 + variants(work).size());
   Variant prepare = variant_of("prepare", "prepare", "prepare", work);
@@ -200,8 +203,6 @@ Measured measure_accel(const SceneDescription&, const MeasureSetup& given, Progr
   std::vector<Outcome> outcomes;
   if (measured.outcomes[0].succeeded() && !display.cancelled())
     outcomes = runner.run_in_rounds(variants(work));
-  std::error_code ignored;
-  std::filesystem::remove_all(work, ignored);
 
   Report& report = measured.report;
   report.title = "What fur is traced with";

@@ -43,7 +43,12 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   options.threads = workers.thread_count();
   options.opaque = chunks->opaque();
   const Stopwatch storing;
-  const bool stores = !scene.render.bvh.file.empty() && !options.eager && chunks->in_fur_trees();
+  const bool may_store = !options.eager && chunks->in_fur_trees();
+  const bool stores = !scene.render.bvh.file.empty() && may_store;
+  if (!scene.render.bvh.file.empty() && !may_store) {
+    progress.warn("render.bvh.file: only trees of accel: fur, curves: flat are kept, and none with bounds: none; "
+                  "going on without");
+  }
   if (stores) {
     options.file = stored_fur(scene.render, *chunks, options, workers, progress, ledger);
     if (progress.cancelled()) return nullptr;

@@ -25,14 +25,14 @@ std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkO
   return hasher.add(static_cast<uint64_t>(chunks.leaves().size())).digest();
 }
 
-/// Grows all fur once, a few chunks at a time, and writes it in order.
+/// Grows all fur once, a few chunks at a time, and writes it in order; no more than can be written.
 bool write(const ContentStore& store, const ContentHash& key, const FrameChunks& chunks,
            const ChunkAccelOptions& options, const Workers& workers, Progress& progress,
            MemoryLedger& ledger) {
   FurChunkFile::Writer writer(store, key);
   const size_t leaves = chunks.leaves().size();
   progress.begin("store fur", static_cast<double>(leaves));
-  for (uint32_t next = 0; next < leaves && !progress.cancelled();) {
+  for (uint32_t next = 0; next < leaves && !progress.cancelled() && !writer.failed();) {
     // As many as there are threads and memory for, but one at least.
     std::vector<MemoryCharge> charges;
     while (next + charges.size() < leaves && charges.size() < static_cast<size_t>(workers.thread_count())) {
@@ -70,7 +70,7 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
   const std::optional<ContentHash> key = content_of(chunks, options.fur);
   if (!key || !chunks.opaque()) {
     warn(std::string("render.bvh.file: ") +
-         (key ? "fur that is not opaque is not kept" : "fur that was made elsewhere is not kept") +
+         (key ? "fur that is not opaque is not kept" : "there is no fur that could be kept") +
          "; going on without");
     return nullptr;
   }
@@ -80,7 +80,8 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
     return file && file->check_all(workers, warn) ? std::move(file) : nullptr;
   };
   if (auto file = open()) return file;
-  const ContentStore::Lock lock = store.lock("fur-chunks", *key);
+  store.sweep();
+  const ContentStore::Lock lock = store.lock("fur-chunks", *key, [&] { return progress.cancelled(); });
   if (lock.held()) {
     // Who had it before may have written them.
     if (auto file = FurChunkFile::open(store, *key, chunks.leaves().size(), [](const std::string&) {});
@@ -89,6 +90,7 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
     }
   }
   if (!write(store, *key, chunks, options, workers, progress, ledger)) return nullptr;
+  store.prune(ContentStore::kUnusedAge);
   return FurChunkFile::open(store, *key, chunks.leaves().size(), warn);
 }
 

@@ -83,6 +83,14 @@ TEST_F(BvhFileTest, IsMadeAgainWhenItIsDamaged) {
   }
 }
 
+// A folder that takes nothing costs next to nothing: not a frame grown for a file that will not be.
+TEST_F(BvhFileTest, GrowsNothingForAFolderThatTakesNothing) {
+  const std::string plain = render("plain", {});
+  const int64_t grown = statistics_["strands_generated"];
+  expect_equal(plain, render("nowhere", {{"render.bvh.file", "/proc/none"}}));
+  EXPECT_EQ(statistics_["strands_generated"], grown);
+}
+
 TEST_F(BvhFileTest, IsNotUsedForWhatItCannotKeep) {
   const std::string plain = render("plain", {{"materials.fur.opacity", "0.5"}});
   expect_equal(plain, stored("stored", {{"materials.fur.opacity", "0.5"}}));
