@@ -119,9 +119,10 @@ class ContentStore {
   };
   /// Waits until nobody else computes this entry, patience runs out or `cancelled` says so. Open it again
   /// afterwards: it may be there now. A process that dies gives its locks back.
-  Lock lock(const std::string& kind, const ContentHash& key,
-            const std::function<bool()>& cancelled = [] { return false; },
-            std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
+  Lock lock(
+      const std::string& kind, const ContentHash& key,
+      const std::function<bool()>& cancelled = [] { return false; },
+      std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
   /// Removes what processes that were killed have left half-written, if it has not been touched for `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;

@@ -12,7 +12,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-
 size_t end_of_frozen(const OperatorStack& stack, const std::string& freeze) {
   size_t end = stack.size();
   while (end > 0 && stack.operators()[end - 1]->name() != freeze) --end;

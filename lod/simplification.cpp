@@ -97,8 +97,11 @@ float Simplification::share(float pixels, float motion, float across, float conf
     share *= std::pow(blur_ratio(length, motion, across, confusion), -params_.blur_strength);
   const float blur = kHidden * std::hypot(across, confusion);
   const float widest = std::min(std::hypot(1.0f, blur), length / 4);
-  share = std::max({share, width / widest, params_.least_share}) * budget_;
-  return std::min(share, 1.0f);
+  return std::min(std::max(share * budget_, least_kept(width / widest)), 1.0f);
+}
+
+float Simplification::least_kept(float share) const {
+  return std::max(share, params_.least_share) * std::max(budget_, 1.0f);
 }
 
 float Simplification::share(const RootPlace& root) const {
@@ -112,8 +115,7 @@ float Simplification::share(const RootPlace& root) const {
   if (params_.depth_of_field) confusion = confusion_diameter(view_, root.open);
   const float seen = share(pixels, motion * pixels, across * pixels, confusion * pixels);
   if (!params_.turned_away) return seen;
-  const float least = std::min(1.0f, params_.least_share * budget_);
-  return std::max(seen * still_seen(facing(view_, root.open, root.normal)), least);
+  return std::min(1.0f, std::max(seen * still_seen(facing(view_, root.open, root.normal)), least_kept(0)));
 }
 
 float Simplification::most_share(float distance) const {
@@ -166,10 +168,10 @@ float Simplification::most_width_factor(float distance) const {
   const float width = nature_.width * pixels, length = nature_.length * pixels;
   if (!(width > 0) || !(length > 0)) return 1;
   // What the share is at least, whatever the blur; without blur, what it is at this distance.
-  float least = 4 * width / length * budget_;
+  float least = least_kept(4 * width / length);
   if (!params_.motion_blur && !params_.depth_of_field) least = std::max(least, share(pixels, 0, 0, 0));
   least = std::min(least, 1.0f) * (params_.turned_away ? kLeastTurned : 1.0f);
-  least = std::max(least, params_.least_share * budget_);
+  least = std::max(least, least_kept(0));
   return gain(std::min(least, 1.0f)) * (1 + 1e-4f);
 }
 

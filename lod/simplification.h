@@ -94,6 +94,8 @@ class Simplification {
 
  private:
   float share(float pixels, float motion, float across, float confusion) const;
+  /// A share that widths or the scene ask for at least: more where a budget gives more, never less.
+  float least_kept(float share) const;
   void tabulate_area();
 
   static constexpr size_t kAreaSteps = 32;

@@ -18,8 +18,10 @@ namespace pelage {
 namespace {
 
 constexpr const char *kCrowd = "crowd", *kDetail = "detail", *kWedge = "wedge", *kDolly = "dolly";
-constexpr int kDollySteps = 6;
-constexpr float kDollyStep = 1.01f;  // of the distance, as in a dolly over 230 frames to ten times as far
+// Parts of a dolly: where the camera of the detail stands, of its distance, and how much farther in the next
+// frame, as in a dolly over 230 frames to ten times as far.
+constexpr double kDollyPlaces[] = {0.25, 0.5, 1};
+constexpr double kDollyStep = 1.01;
 constexpr int kSheetWidth = 320;
 constexpr size_t kSheetRows = 3;
 
@@ -44,6 +46,8 @@ Variant variant_of(const std::string& id, const std::string& title, const Settin
   set("image.lod_layer", "true");
   return variant;
 }
+
+std::string dolly_id(double factor) { return fmt::format("dolly-{:.5g}", factor); }
 
 Settings both(Settings a, const Settings& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -93,7 +97,8 @@ class LodSweep {
   size_t count() const {
     return (wanted(kCrowd) && !scene_.crowds.items.empty() ? crowd.most_variants() : 0) +
            (wanted(kDetail) ? 4 * places_.size() + 2 * lod_ideas().size() : 0) +
-           (wanted(kWedge) ? kSheetRows * lod_qualities().size() : 0) + (wanted(kDolly) ? kDollySteps : 0);
+           (wanted(kWedge) ? kSheetRows * lod_qualities().size() : 0) +
+           (wanted(kDolly) ? 2 * std::size(kDollyPlaces) : 0);
   }
 
   void compare_details() {
@@ -116,12 +121,14 @@ class LodSweep {
     }
   }
   void move_away() {
-    for (int step = 0; step < kDollySteps; ++step) {
-      // One seed: what does not change in the scene does not change in the picture.
-      const float factor = static_cast<float>(std::pow(kDollyStep, step));
-      const Variant variant = variant_of(fmt::format("dolly-{}", step), fmt::format("dolly, step {}", step),
-                                         detail_camera(scene_, factor), true, 0);
-      if (!run_one(variant, {kDolly, -1, {}, false})) return;
+    for (const double place : kDollyPlaces) {
+      for (const double factor : {place, place * kDollyStep}) {
+        // One seed: what does not change in the scene does not change in the picture.
+        const Variant variant =
+            variant_of(dolly_id(factor), fmt::format("dolly, {:.5g} of the distance", factor),
+                       detail_camera(scene_, static_cast<float>(factor)), true, 0);
+        if (!run_one(variant, {kDolly, -1, {}, false})) return;
+      }
     }
   }
 
@@ -184,21 +191,27 @@ std::optional<Picture> sheet_of(const LodSweep& sweep) {
 Table dolly_table(const LodSweep& sweep) {
   Table table;
   table.caption = fmt::format(
-      "What changes in the picture of a camera that stands still while that of the detail moves away by {:g} "
-      "%: largest and root of the mean squared difference of the luminance, over its mean. Noise is what two "
-      "seeds differ by.",
-      100 * (kDollyStep - 1));
-  table.columns = {{"step", "step", Quantity::kRatio},
+      "What changes in the picture of a camera that stands still while that of the detail moves away by "
+      "{:.3g} "
+      "%, from parts of its distance: differences of the luminance, over its mean: the largest of a pixel, "
+      "the largest of the mean over {} x {} pixels, and the root of the mean square. Noise is what two seeds "
+      "differ by.",
+      100 * (kDollyStep - 1), kChangeBlock, kChangeBlock);
+  table.columns = {{"from", "from", Quantity::kRatio},
+                   {"hairs_before", "hairs", Quantity::kRatio},
+                   {"hairs_after", "hairs then", Quantity::kRatio},
                    {"largest", "largest", Quantity::kPercent},
+                   {"largest_block", "of a block", Quantity::kPercent},
                    {"rms", "rms", Quantity::kPercent}};
   const auto add = [&](const std::string& name, const Outcome* from, const Outcome* to) {
     if (!from || !to) return;
     const PictureChange change = change_between(sweep.picture(*from), sweep.picture(*to));
-    table.rows.push_back({Text{name}, change.largest, change.rms});
+    table.rows.push_back({Text{name}, from->number("strands_generated"), to->number("strands_generated"),
+                          change.largest, change.largest_block, change.rms});
   };
-  for (int step = 1; step < kDollySteps; ++step)
-    add(fmt::format("{} to {}", step - 1, step), sweep.find(fmt::format("dolly-{}", step - 1)),
-        sweep.find(fmt::format("dolly-{}", step)));
+  for (const double place : kDollyPlaces)
+    add(fmt::format("{:g} of the distance", place), sweep.find(dolly_id(place)),
+        sweep.find(dolly_id(place * kDollyStep)));
   add("noise, for comparison", sweep.find("here-all-a"), sweep.find("here-all-b"));
   return table;
 }
@@ -274,7 +287,8 @@ Measured measure_lod(const SceneDescription& scene, const std::vector<int>& in_f
   }
   if (sweep.find("here-full-a")) add_detail(sweep, report);
   if (auto sheet = sheet_of(sweep)) report.sections.push_back({"Wedge", {std::move(*sheet)}});
-  if (sweep.find("dolly-1")) report.sections.push_back({"Dolly", {dolly_table(sweep)}});
+  if (sweep.find(dolly_id(kDollyPlaces[0] * kDollyStep)))
+    report.sections.push_back({"Dolly", {dolly_table(sweep)}});
   return measured;
 }
 

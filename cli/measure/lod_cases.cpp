@@ -27,10 +27,11 @@ Settings from(const SceneDescription& scene, float factor) {
 }
 
 /// Of all ideas, those that are on.
-Settings ideas(bool motion, bool focus, bool contrast, bool points) {
+Settings ideas(bool motion, bool focus, bool turned_away, bool contrast, bool points) {
   const auto word = [](bool on) { return std::string(on ? "true" : "false"); };
   return {{"render.lod.motion_blur", word(motion)},
           {"render.lod.depth_of_field", word(focus)},
+          {"render.lod.turned_away", word(turned_away)},
           {"render.lod.contrast", word(contrast)},
           {"render.lod.fewer_points", word(points)}};
 }
@@ -60,13 +61,14 @@ std::vector<LodPlace> lod_places(const SceneDescription& scene) {
 }
 
 std::vector<LodSetting> lod_ideas() {
-  Settings naive = ideas(true, true, true, true);
+  Settings naive = ideas(true, true, true, true, true);
   naive.emplace_back("render.lod.width_gain", "false");
   return {{"all", "everything", {}},
-          {"size", "size", ideas(false, false, false, false)},
-          {"motion", "+ motion", ideas(true, false, false, false)},
-          {"focus", "+ focus", ideas(true, true, false, false)},
-          {"contrast", "+ contrast", ideas(true, true, true, false)},
+          {"size", "size", ideas(false, false, false, false, false)},
+          {"motion", "+ motion", ideas(true, false, false, false, false)},
+          {"focus", "+ focus", ideas(true, true, false, false, false)},
+          {"turned", "+ turned away", ideas(true, true, true, false, false)},
+          {"contrast", "+ contrast", ideas(true, true, true, true, false)},
           {"naive", "naive: no width gain", naive}};
 }
 
@@ -88,9 +90,15 @@ std::vector<LodSetting> lod_qualities() {
 
 Settings detail_camera(const SceneDescription& scene, float factor) {
   const double frame = frame_of(scene);
-  return {{"render.lod.camera", fmt::format("{{position: {}, look_at: {}, up: {}, fov: {:.9g}}}",
-                                            text(away(scene, factor)), text(scene.camera.look_at.at(frame)),
-                                            text(scene.camera.up.at(frame)), scene.camera.fov.at(frame))}};
+  const CameraParams& camera = scene.camera;
+  std::string lens;
+  if (camera.lens)
+    lens = fmt::format(", lens: {{f_stop: {:.9g}, focal_length: {:.9g}, focus_distance: {:.9g}}}",
+                       camera.lens->f_stop, camera.lens->focal_length, camera.lens->focus_distance * factor);
+  return {{"render.lod.camera",
+           fmt::format("{{position: {}, look_at: {}, up: {}, fov: {:.9g}, shutter: [{:.9g}, {:.9g}]{}}}",
+                       text(away(scene, factor)), text(camera.look_at.at(frame)), text(camera.up.at(frame)),
+                       camera.fov.at(frame), camera.shutter.x, camera.shutter.y, lens)}};
 }
 
 }  // namespace pelage

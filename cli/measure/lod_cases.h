@@ -32,7 +32,8 @@ std::vector<LodSetting> lod_ideas();
 LodSetting other_hairs(const SceneDescription& scene);
 /// From coarse to fine: `quality`.
 std::vector<LodSetting> lod_qualities();
-/// The camera of the detail moves away by `factor` while the camera of the picture stays.
+/// The camera of the detail stands still at `factor` of its distance, with the shutter and the lens of the
+/// camera of the picture, which stays.
 Settings detail_camera(const SceneDescription& scene, float factor);
 
 }  // namespace pelage

@@ -109,16 +109,22 @@ std::vector<LodCrowd::Line> LodCrowd::lines() const {
 
 std::string LodCrowd::abstract() const {
   const std::vector<Line> all = lines();
-  const auto saved = [&](size_t line) {
-    return 100 * (1 - points_.front().number(line == 0   ? "strands_generated"
-                                             : line == 1 ? "working_set_bytes"
-                                                         : "cpu_s") /
-                          all[line].fit.at(all_));
+  const auto saved = [&](const std::string& key) {
+    const auto line =
+        std::find_if(all.begin(), all.end(), [&](const Line& l) { return l.column.key == key; });
+    const double full = whole_.empty() ? line->fit.at(all_) : whole_.front().number(key);
+    const double part = 100 * (1 - points_.front().number(key) / full);
+    return whole_.empty()
+               ? fmt::format("{:.1f} +- {:.1f} %", part, (100 - part) * line->fit.error_at(all_) / full)
+               : fmt::format("{:.1f} %", part);
   };
   return fmt::format(
-      "Of {:.0f} characters, reduced detail grows {:.1f} % fewer hairs, in {:.1f} % less working set and "
-      "{:.1f} % less CPU time than full detail, which is extrapolated from up to {:.0f} of them in full.",
-      all_, saved(0), saved(1), saved(2), in_full_.back());
+      "Of {:.0f} characters, reduced detail grows {} fewer hairs, in {} less working set and {} less CPU "
+      "time "
+      "than full detail, which {}.",
+      all_, saved("strands_generated"), saved("working_set_bytes"), saved("cpu_s"),
+      whole_.empty() ? fmt::format("is extrapolated from up to {:.0f} of them in full", in_full_.back())
+                     : "was measured");
 }
 
 Section LodCrowd::section() const {

@@ -2,6 +2,7 @@
 #include "cli/measure/lod_pictures.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 
 #include "base/error.h"
@@ -14,6 +15,8 @@ PictureChange change_between(const std::filesystem::path& from, const std::files
   try {
     const ExrImage a = read_exr(from), b = read_exr(to);
     double sum = 0, squares = 0, largest = 0, count = 0;
+    const int columns = (a.width + kChangeBlock - 1) / kChangeBlock;
+    std::map<int, double> blocks;  // sums of changes
     const std::vector<float>& alpha = a.find("A")->pixels;
     for (size_t p = 0; p < alpha.size(); ++p) {
       if (!(alpha[p] > 0)) continue;
@@ -25,10 +28,16 @@ PictureChange change_between(const std::filesystem::path& from, const std::files
       sum += before;
       squares += (after - before) * (after - before);
       largest = std::max(largest, std::abs(after - before));
+      const int x = static_cast<int>(p) % a.width / kChangeBlock,
+                y = static_cast<int>(p) / a.width / kChangeBlock;
+      blocks[y * columns + x] += after - before;
       ++count;
     }
     if (!(sum > 0)) return {};
-    return {largest * count / sum, std::sqrt(squares / count) * count / sum};
+    double largest_block = 0;
+    for (const auto& [block, change] : blocks) largest_block = std::max(largest_block, std::abs(change));
+    largest_block /= kChangeBlock * kChangeBlock;
+    return {largest * count / sum, std::sqrt(squares / count) * count / sum, largest_block * count / sum};
   } catch (const Error&) {
     return {};
   }

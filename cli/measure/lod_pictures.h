@@ -13,8 +13,10 @@ namespace pelage {
 /// How much two pictures of one camera and one seed differ: of the luminance, relative to its mean over
 /// pixels with alpha.
 struct PictureChange {
-  double largest = NAN, rms = NAN;
+  double largest = NAN, rms = NAN;  ///< of pixels
+  double largest_block = NAN;       ///< of means over kChangeBlock^2 pixels: what is more than noise
 };
+constexpr int kChangeBlock = 8;
 /// Not-a-number when a file cannot be read.
 PictureChange change_between(const std::filesystem::path& from, const std::filesystem::path& to);
 

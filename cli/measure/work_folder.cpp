@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/measure/work_folder.h"
 
-#include <stdlib.h>
-
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <system_error>
+
+#include <stdlib.h>
 
 #include "base/error.h"
 

@@ -29,6 +29,8 @@ class FurChunkFile {
     Writer(const ContentStore& store, const ContentHash& key);
     /// `chunk` may be null: one that is no fur.
     void add(const FurChunk* chunk);
+    /// Whether nothing more can come of it.
+    bool failed() const { return entry_.failed(); }
     /// Whether the entry now exists; what the file system refuses is told to `warn`.
     bool commit(const WarningSink& warn);
 

@@ -46,8 +46,9 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const bool may_store = !options.eager && chunks->in_fur_trees();
   const bool stores = !scene.render.bvh.file.empty() && may_store;
   if (!scene.render.bvh.file.empty() && !may_store) {
-    progress.warn("render.bvh.file: only trees of accel: fur, curves: flat are kept, and none with bounds: none; "
-                  "going on without");
+    progress.warn(
+        "render.bvh.file: only trees of accel: fur, curves: flat are kept, and none with bounds: none; "
+        "going on without");
   }
   if (stores) {
     options.file = stored_fur(scene.render, *chunks, options, workers, progress, ledger);

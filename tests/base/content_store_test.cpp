@@ -187,7 +187,10 @@ TEST(ContentStore, AKillInTheMiddleLeavesNoEntryAndGivesTheLockBack) {
   }
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  EXPECT_FALSE(store.lock("test", kKey, [] { return false; }, std::chrono::milliseconds(30)).held());
+  EXPECT_FALSE(store
+                   .lock(
+                       "test", kKey, [] { return false; }, std::chrono::milliseconds(30))
+                   .held());
   // Whoever is told to stop waits no longer.
   EXPECT_FALSE(store.lock("test", kKey, [] { return true; }).held());
   ::kill(child, SIGKILL);

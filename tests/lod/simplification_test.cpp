@@ -256,6 +256,43 @@ TEST(Simplification, BudgetsAndQualityKeepMore) {
   EXPECT_NEAR(share_at({params, view_from(V3f(0)), kHair, 1}, 100), 2 * plain, 1e-5);
 }
 
+// A small budget thins out sooner, but strands become no wider than others' do, and what is always kept is.
+TEST(Simplification, SmallBudgetsKeepWhatIsLeast) {
+  SimplificationParams params;
+  params.least_share = 0.02f;
+  const Simplification s(params, view_from(V3f(0)), kHair, 0.1f), all = sized();
+  for (const float distance : {12.0f, 20.0f, 100.0f, 1000.0f, 1e5f}) {
+    const float share = share_at(s, distance), width = 0.01f * 1000 / distance;
+    EXPECT_LE(share, share_at(all, distance) + 1e-6f);
+    EXPECT_GE(share, std::min(1.0f, width / std::min(1.0f, 25 * width)) * 0.999f) << distance;
+    EXPECT_GE(share, 0.02f);
+    EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+  }
+}
+
+// Frame by frame, each 1 % farther away: the criterion of docs/LOD.md.
+TEST(Simplification, NothingPopsInADolly) {
+  const Simplification s = sized();
+  const int n = 4000;
+  float before = 1;
+  for (float distance = 5; distance < 3000; distance *= 1.01f) {
+    const float share = share_at(s, distance);
+    float largest = 0, sum = 0;
+    for (int i = 0; i < n; ++i) {
+      const float priority = (static_cast<float>(i) + 0.5f) / n;
+      const float change =
+          std::abs(Simplification::fade(share, priority) - Simplification::fade(before, priority));
+      largest = std::max(largest, change);
+      sum += change;
+    }
+    EXPECT_LE(sum / n, 0.016f) << share;
+    if (before <= 0.9f) {
+      EXPECT_LE(largest, 0.07f) << share;
+    }
+    before = share;
+  }
+}
+
 TEST(Simplification, WithoutWidthStrandsAreOnlyThinned) {
   SimplificationParams params;
   params.width_gain = false;
