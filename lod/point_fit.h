@@ -14,7 +14,6 @@ class PointFit {
   /// 4 <= to < from.
   PointFit(size_t from, size_t to);
 
-  size_t from() const { return from_; }
   size_t to() const { return to_; }
 
   /// New points: sums over the old ones with these weights, row by row. The first and the last are kept.

@@ -44,7 +44,9 @@ void add_simplification_keys(Schema<P>& s) {
   key("fewer_points", &Base::fewer_points,
       {.help = "Strands get fewer control points where that moves them by less than a tenth of a pixel"});
   key("guard", &Base::guard,
-      {.help = "How many strands of grooms of the role guard are kept, relative to what their size asks for",
+      {.help = "How many strands of grooms of the role guard are kept, relative to what their size asks for; "
+               "below "
+               "1 they are thinned out sooner, but no wider than a pixel",
        .min = 0.01,
        .max = 1000});
   key("under", &Base::under, {.help = "The same for the role under", .min = 0.01, .max = 1000});

@@ -220,5 +220,13 @@ TEST_F(LodBall, IsAsBrightAsBefore) {
   EXPECT_NEAR(seen(25, clean).luminance, full, 0.02 * full);
 }
 
+// Seen from beside the light, nothing is in shadow but what light that left skin or wide strands in the gap
+// that they were seen through would not find: 17 % there, if it left them so.
+TEST_F(LodBall, HasNoHotSpotBesideTheLight) {
+  const std::vector<Override> beside{{"render.bounces", "1"}, {"lights.key.position", "[3.5, 0, 100]"}};
+  const double full = seen(0, beside).luminance;
+  EXPECT_NEAR(seen(25, beside).luminance, full, 0.04 * full);
+}
+
 }  // namespace
 }  // namespace pelage

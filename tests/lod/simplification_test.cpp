@@ -301,6 +301,23 @@ TEST(Simplification, WithoutWidthStrandsAreOnlyThinned) {
   EXPECT_EQ(s.width_factor(0.1f, 0.9f), 0);
 }
 
+// Colours that vary are drawn to their mean by the root of the share [Cook07, eq. 22]; curves may move by a
+// tenth of a pixel, which is half as long in the scene for a camera twice as near, or twice the quality.
+TEST(Simplification, ContrastAndToleranceAreWhatTheySay) {
+  const Simplification s = sized();
+  for (const float share : {0.01f, 0.25f, 0.81f}) EXPECT_FLOAT_EQ(s.contrast(share), std::sqrt(share));
+  EXPECT_FLOAT_EQ(s.tolerance(V3f(0, 0, -100)), 0.1f * 100 / 1000);
+  EXPECT_FLOAT_EQ(s.tolerance(V3f(0, 0, -50)), 0.1f * 50 / 1000);
+  SimplificationParams params;
+  params.quality = 2;
+  EXPECT_FLOAT_EQ(Simplification(params, view_from(V3f(0)), kHair, 1).tolerance(V3f(0, 0, -100)),
+                  0.05f * 100 / 1000);
+  params.fewer_points = params.contrast = false;
+  const Simplification off(params, view_from(V3f(0)), kHair, 1);
+  EXPECT_EQ(off.tolerance(V3f(0, 0, -100)), 0);
+  EXPECT_EQ(off.contrast(0.1f), 1);
+}
+
 TEST(Simplification, CoatsOfNothingAreLeftAlone) {
   EXPECT_EQ(share_at(sized({}), 1e5f), 1);
   EXPECT_EQ(share_at(sized({0, 1, 0}), 1e5f), 1);

@@ -86,6 +86,24 @@ TEST(Camera, MovesOverTheShutterAsItsKeysSay) {
   EXPECT_LT((camera.view().position - params.position.at(1.5)).length(), 1e-6f);
 }
 
+// What decides about detail: both ends of the shutter, and the lens.
+TEST(Camera, DetailKnowsItsShutterAndLens) {
+  CameraParams params;
+  params.position = Keyed<V3f>({{0, V3f(0, 0, 10)}, {1, V3f(8, 0, 10)}});
+  params.look_at = Keyed<V3f>({{0, V3f(0)}, {1, V3f(8, 0, 0)}});
+  params.fov = Keyed<float>(60);
+  params.shutter = V2f(-0.25f, 0.25f);
+  params.lens = LensParams{2, 5, 7};
+  const LodView view = Camera(params, 0.5, 200, 100).lod_view();
+  EXPECT_NEAR(view.open.position.x, 2, 1e-5);
+  EXPECT_NEAR(view.close.position.x, 6, 1e-5);
+  EXPECT_NEAR(view.open.focal_pixels, 50 / std::tan(0.5235988f), 1e-3);
+  EXPECT_NEAR(view.lens_diameter, 2.5f, 1e-6);  // focal length over f-stop
+  EXPECT_NEAR(view.focus_distance, 7, 1e-6);
+  params.lens.reset();
+  EXPECT_EQ(Camera(params, 0.5, 200, 100).lod_view().lens_diameter, 0);
+}
+
 TEST(Camera, HeaderMatricesAgreeWithProjection) {
   const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
   for (uint64_t i = 0; i < 100; ++i) {

@@ -29,11 +29,11 @@ TEST(FurGrid, snaps_to_whole_steps_and_once) {
     const float x = random.between(-1, 1) * std::ldexp(1.0f, i % 40 - 10);
     const float snapped = grid.snap(x, 0);
     ASSERT_EQ(snapped, std::round(snapped));
-    ASSERT_LE(std::abs(grid.to_scene(snapped) - x), 0.5f * grid.step());
-    ASSERT_EQ(grid.snap(grid.to_scene(snapped), 0), snapped);
+    ASSERT_LE(std::abs((snapped * grid.step()) - x), 0.5f * grid.step());
+    ASSERT_EQ(grid.snap((snapped * grid.step()), 0), snapped);
     const float r = random.unit() * 0.005f, snapped_r = grid.snap_radius(r);
-    ASSERT_EQ(grid.snap_radius(grid.to_scene(snapped_r)), snapped_r);
-    ASSERT_NEAR(grid.to_scene(snapped_r), r, 0.0075f * std::sqrt(r * 0.005f) + 0.001f * grid.step());
+    ASSERT_EQ(grid.snap_radius((snapped_r * grid.step())), snapped_r);
+    ASSERT_NEAR((snapped_r * grid.step()), r, 0.0075f * std::sqrt(r * 0.005f) + 0.001f * grid.step());
   }
   EXPECT_EQ(grid.snap_radius(-1), 0);
 }

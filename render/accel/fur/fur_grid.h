@@ -9,8 +9,9 @@
 namespace pelage {
 
 /// The grid that the curves of one groom are snapped to, once, when a strand is grown. Its step is a power of
-/// two, so that going to grid units and back is exact; it depends on the groom's parameters alone, so that
-/// every tree over a strand, whatever its chunk, decodes the same floats.
+/// two, so that going to grid units and back is exact; it depends on the groom's parameters alone, and where
+/// it stands on the place of the character, so that every tree over a strand, whatever its chunk, decodes the
+/// same floats.
 ///
 /// In grid units a coordinate is a whole number. Floats beyond 2^24 are whole numbers already, so that
 /// nothing special happens far from the origin. Radii are squares of whole numbers over 256: finer at a tip
@@ -24,8 +25,6 @@ class FurGrid {
 
   float step() const { return step_; }
   const V3f& anchor() const { return anchor_; }
-  /// Of a length.
-  float to_scene(float grid) const { return grid * step_; }
 
   /// The coordinate along an axis in grid units: the nearest whole number of steps, halves to even ones.
   float snap(float scene, int axis) const {

@@ -19,10 +19,10 @@ struct FurStart {
 struct FurHit {
   static constexpr uint32_t kNone = ~0u;
 
-  float distance = std::numeric_limits<float>::infinity();
-  uint32_t number = kNone;  ///< of the segment, as SnappedStrands counts
-  float u = 0;              ///< along the segment, in (0, 1]
-  float h = 0;              ///< across it, as Hit::v
+  float distance = std::numeric_limits<float>::infinity();  ///< grid units inside a tree, scene units outside
+  uint32_t number = kNone;                                  ///< of the segment, as SnappedStrands counts
+  float u = 0;                                              ///< along the segment, in (0, 1]
+  float h = 0;                                              ///< across it, as Hit::v
 
   explicit operator bool() const { return number != kNone; }
   /// Nearer, or as near and of the smaller number.

@@ -31,7 +31,7 @@ struct FurChild {
 };
 
 /// Float layout: by motion key and axis the low and then the high sides of four children; then their
-/// references, from kFloatReferences on counting back from the end of the node.
+/// references, from references() on.
 struct FurFloatNode {
   static constexpr size_t kKey = 96, kAxis = 32, kSide = 16;
   static constexpr size_t references(int motion_keys) { return kKey * static_cast<size_t>(motion_keys); }

@@ -42,7 +42,6 @@ class FurPageFile {
   explicit FurPageFile(StoredSections file);
 
   const FurPageTable& table() const { return table_; }
-  uint64_t file_bytes() const { return file_.file_bytes(); }
   /// What this object holds.
   size_t bytes() const {
     return file_.bytes() + table_.bytes() + first_treelet_.capacity() * sizeof(uint32_t);

@@ -66,8 +66,9 @@ class PagedFur {
   bool occluded(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
 
   /// The same for many rays at once. A ray that comes to a page which is not resident waits, and the others
-  /// go on; then the page that most rays wait for is read, for all of them. Every ray still visits its
-  /// treelets front to back, so that nothing is tested that it would not test alone. `starts` is empty or as
+  /// go on; then the page that most rays wait for is read, for all of them. Every ray still visits
+  /// its treelets in the order in which it would alone: front to back, or, where anything in its way will do,
+  /// what is resident first. `starts` is empty or as
   /// long as `rays`, and so are the answers, which are the same.
   void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
@@ -75,9 +76,6 @@ class PagedFur {
                 std::span<uint8_t> answers, PagedFurCounts& counts) const;
 
   const FurPageTable& table() const { return file_.table(); }
-  const Box3f& bounds() const { return tree_->bounds(); }
-  /// What is resident whatever the rays do.
-  size_t fixed_bytes() const { return fixed_bytes_; }
   /// Expansions are pages read.
   ResidencyCounts counts() const { return residency_->counts(); }
   uint64_t bytes_read() const;
