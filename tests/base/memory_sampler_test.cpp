@@ -51,8 +51,9 @@ TEST(MemorySampler, KeepsTheLedgerOfTheHighestMoment) {
   MemoryLedger ledger;
   MemorySampler sampler(ledger, Clock::now(), 0.001);
   {
-    const TouchedPages pages(size_t(96) << 20);
+    // Charged before the pages are there and until they are gone: no sample of them is without it.
     const MemoryCharge charge(ledger, MemoryTag::kFilm, int64_t(96) << 20);
+    const TouchedPages pages(size_t(96) << 20);
     // At least one sample begins and ends in here, however slow the machine.
     const auto until = Clock::now() + std::chrono::milliseconds(100);
     while (Clock::now() < until) std::this_thread::yield();
