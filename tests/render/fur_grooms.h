@@ -26,7 +26,7 @@ struct GroomShape {
 };
 
 inline std::vector<GroomShape> groom_shapes() {
-  std::vector<GroomShape> shapes(10);
+  std::vector<GroomShape> shapes(12);
   shapes[0].name = "plain";
   shapes[1].name = "curly", shapes[1].turns = 4, shapes[1].curl = 0.2f;
   shapes[2].name = "tight", shapes[2].turns = 6, shapes[2].curl = 0.02f, shapes[2].width = 0.05f;
@@ -37,6 +37,8 @@ inline std::vector<GroomShape> groom_shapes() {
   shapes[7].name = "lines", shapes[7].basis = CurveBasis::kLinear;
   shapes[8].name = "through its points", shapes[8].basis = CurveBasis::kCatmullRom, shapes[8].turns = 2;
   shapes[9].name = "moving", shapes[9].motion_keys = 3;
+  shapes[10].name = "needles", shapes[10].width = 1e-4f;
+  shapes[11].name = "very far away", shapes[11].centre = V3f(3e5f, -2e6f, 7e4f);
   return shapes;
 }
 

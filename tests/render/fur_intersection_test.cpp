@@ -19,17 +19,18 @@ constexpr size_t kStrands = 30;
 class FurIntersection : public testing::TestWithParam<GroomShape> {};
 
 /// Whether the truth finds the same segment first, or nothing as well, somewhere within `margin` sideways of
-/// the ray: then the ray passes an edge that near. What was hit must be a hit of a ray that near, too, and as
-/// deep as the truth finds it around there. (Of a ray that runs along a strand, how deep it meets it depends
-/// on the square root of how far it passes from where it would not meet it: rays within the margin meet it at
-/// depths that differ by far more than that.)
+/// the ray, or where the ray begins and ends that much sooner or later: then the ray passes an edge that
+/// near. What was hit must be a hit of a ray that near, too, and as deep as the truth finds it around there.
+/// (Of a ray that runs along a strand, how deep it meets it depends on the square root of how far it passes
+/// from where it would not meet it: rays within the margin meet it at depths that differ by far more than
+/// that.)
 bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
   // Near, too: beside the axis, the gap that corners of polylines have on their outside is a hair's breadth.
   constexpr int kAngles = 16, kRadii = 12;
   bool same = false;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-  const auto look = [&](double x, double y) {
-    const FurTruth::Found found = truth.closest(x, y);
+  const auto look = [&](double x, double y, double z = 0) {
+    const FurTruth::Found found = truth.closest(x, y, z);
     if (found.number != hit.number) return;
     same = true;
     nearest = std::min(nearest, found.distance);
@@ -40,6 +41,8 @@ bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
     const double r = i == kRadii * kAngles ? 0 : std::ldexp(margin, -(i / kAngles));
     look(r * std::cos(angle), r * std::sin(angle));
   }
+  look(0, 0, margin);
+  look(0, 0, -margin);
   if (!hit) return same;
   const FurTruth::Place place = truth.place_at(hit.number, hit.u);
   look(place.x, place.y);

@@ -33,11 +33,11 @@ class FurTruth {
     double radius = 0;
   };
 
-  /// The nearest hit of the line moved sideways by `x` and `y`, scene units.
-  Found closest(double x = 0, double y = 0) const {
+  /// The nearest hit of the ray moved sideways by `x` and `y` and forward by `z`, scene units.
+  Found closest(double x = 0, double y = 0, double z = 0) const {
     Found best;
     strands_.for_each_segment([&](uint32_t number, SnappedStrands::Place place) {
-      each_hit(number, place, x, y, [&](double distance, double radius) {
+      each_hit(number, place, {x, y, z}, [&](double distance, double radius) {
         if (distance < best.distance) best = {distance, number, radius};
       });
     });
@@ -52,7 +52,7 @@ class FurTruth {
     double x = 0, y = 0;  ///< where to, as closest() wants it
   };
   Place place_at(uint32_t number, double u) const {
-    const Curve curve = seen_from_ray(strands_.locate(number), 0, 0);
+    const Curve curve = seen_from_ray(strands_.locate(number), V3d(0));
     Place place;
     place.distance = value(curve.z, u);
     place.beside = std::hypot(value(curve.x, u), value(curve.y, u)) - value(curve.r, u);
@@ -102,8 +102,8 @@ class FurTruth {
   };
 
   template <class Use>
-  void each_hit(uint32_t, SnappedStrands::Place place, double x, double y, const Use& use) const {
-    const Curve curve = seen_from_ray(place, x, y);
+  void each_hit(uint32_t, SnappedStrands::Place place, const V3d& moved, const Use& use) const {
+    const Curve curve = seen_from_ray(place, moved);
     double nearest = 1e300, reach = 0;
     for (int i = 0; i < 4; ++i) {
       nearest = std::min(nearest, std::hypot(curve.x[i], curve.y[i]));
@@ -138,7 +138,7 @@ class FurTruth {
     }
   }
 
-  Curve seen_from_ray(SnappedStrands::Place place, double x, double y) const {
+  Curve seen_from_ray(SnappedStrands::Place place, const V3d& moved) const {
     Curve curve;
     const double step = strands_.grid().step();
     const SnappedSegment a = strands_.segment(place, key_);
@@ -147,9 +147,9 @@ class FurTruth {
       double p[4];
       for (size_t j = 0; j < 4; ++j) p[j] = step * ((1 - fraction_) * a[i][j] + fraction_ * b[i][j]);
       const V3d relative = V3d(strands_.grid().anchor()) - V3d(ray_.origin) + V3d(p[0], p[1], p[2]);
-      curve.x[i] = relative.dot(first_) - x;
-      curve.y[i] = relative.dot(second_) - y;
-      curve.z[i] = relative.dot(V3d(ray_.direction)) / V3d(ray_.direction).length2();
+      curve.x[i] = relative.dot(first_) - moved.x;
+      curve.y[i] = relative.dot(second_) - moved.y;
+      curve.z[i] = relative.dot(V3d(ray_.direction)) / V3d(ray_.direction).length2() - moved.z;
       curve.r[i] = p[3];
     }
     return curve;

@@ -41,6 +41,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 //
 #include "render/accel/fur/fur_block.inl"
 //
+#include "render/accel/fur/fur_ray_space.inl"
+//
+#include "render/accel/fur/fur_segments.inl"
+//
 #include "render/accel/fur/fur_slabs.inl"
 //
 #include "render/accel/fur/fur_walk.inl"

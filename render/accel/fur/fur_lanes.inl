@@ -11,6 +11,8 @@ constexpr Ints kInts;
 constexpr Words kWords;
 using Many = hn::CappedTag<float, 16>;
 constexpr Many kMany;
+using Doubles = hn::CappedTag<double, 4>;
+constexpr Doubles kDoubles;
 
 HWY_INLINE V all(float x) { return hn::Set(kFloats, x); }
 

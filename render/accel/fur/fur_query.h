@@ -15,7 +15,13 @@ namespace pelage {
 
 /// One lane of what is known of a block's curves.
 struct FurLane : PlaneCurve {
-  float z[4], r[4];
+  float z, dz[3];  ///< how far along the ray: the first point, and differences as those of x and y
+  float r[4];
+
+  float depth(float u) const {
+    const float s = 1 - u, second = dz[0] + dz[1];
+    return z + (3 * (s * s * u) * dz[0] + (3 * (s * u * u) * second + u * u * u * (second + dz[2])));
+  }
 
   static float value(const float (&p)[4], float u) {
     const float s = 1 - u;
@@ -33,8 +39,7 @@ struct FurLane : PlaneCurve {
 inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, float u, float distance) {
   const float twice = 4 * FurLane::value(lane.r, u);
   if (!(distance < twice)) return false;
-  const float dz[3] = {lane.z[1] - lane.z[0], lane.z[2] - lane.z[1], lane.z[3] - lane.z[2]};
-  const float x = FurLane::first(lane.dx, u), y = FurLane::first(lane.dy, u), z = FurLane::first(dz, u);
+  const float x = FurLane::first(lane.dx, u), y = FurLane::first(lane.dy, u), z = FurLane::first(lane.dz, u);
   const float between = static_cast<float>(number - ray.start.first_segment) + u - ray.start.place;
   return std::abs(between) * std::sqrt(x * x + y * y + z * z) < twice;
 }
@@ -113,7 +118,7 @@ bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query&
                 radius = FurLane::value(lane.r, u);
     const float distance2 = cx * cx + cy * cy;
     if (!(distance2 < radius * radius)) continue;
-    const float t = FurLane::value(lane.z, u);
+    const float t = lane.depth(u);
     if (!query.wants(t, number)) continue;
     if (is_on_start(ray, number) && is_start(ray, number, lane, u, t)) continue;
     const float side = FurLane::first(lane.dx, u) * cy - FurLane::first(lane.dy, u) * cx;

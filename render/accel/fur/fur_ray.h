@@ -13,8 +13,9 @@ namespace pelage {
 ///
 /// Ray space: with k the axis that the direction is longest along, X = d_k P_i - d_i P_k and Y = d_k P_j -
 /// d_j P_k vanish on the whole line through the origin, whatever their rounding does to lengths [Woop13]; x
-/// and y are X and Y made orthonormal, z is the distance along the ray. What the origin contributes is
-/// subtracted as one number, taken in double precision, so that its distance costs no accuracy.
+/// and y are X and Y made orthonormal, z is the distance along the ray. Of a segment that a ray may meet the
+/// end points are brought there in double precision, so that neither their distance nor the ray's costs any
+/// accuracy; floats decide only which segments come near, with `point_doubt` to spare.
 struct FurRay {
   // Slab test [Kay86], by axis of the tree's frame; the fourth lane is unused.
   alignas(16) float inverse[4];
@@ -24,9 +25,11 @@ struct FurRay {
 
   uint32_t axis[3];  ///< i, j, k
   float along_k, along_i, along_j;
-  float origin_x, origin_y;         ///< of X and Y
+  double origin_x, origin_y;        ///< of X and Y
   float scale_x, scale_y, shear_y;  ///< x = scale_x X, y = scale_y Y - shear_y X
-  float depth[3], origin_depth;     ///< z = depth . P - origin_depth
+  float depth[3];                   ///< z = depth . P - origin_depth
+  double origin_depth;
+  float point_doubt;  ///< by how much x and y may be off where floats make them from points of the tree
 
   float near, far;
   V3f origin, direction;

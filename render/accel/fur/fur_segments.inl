@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Part of fur_kernels.cpp: blocks of four segments against a ray.
+
+/// The curves of one block against the ray. True when nothing more need be known of this ray.
+template <bool kWide, bool kMoving, class Query>
+HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
+  const Block<kWide, kMoving> curves(block, ray);
+  FlatCurves flat;
+  flatten(curves, ray, flat);
+
+  // The curve lies within a strip along its chord: a cubic strays from the chord by at most 3/4 of what its
+  // inner points do.
+  const V to_third_x = hn::Add(flat.dx[0], flat.dx[1]), to_third_y = hn::Add(flat.dy[0], flat.dy[1]);
+  const V ex = hn::Add(to_third_x, flat.dx[2]), ey = hn::Add(to_third_y, flat.dy[2]);
+  const V c0 = cross(ex, ey, flat.x[0], flat.y[0]);
+  const V a = cross(ex, ey, flat.dx[0], flat.dy[0]), b = cross(ex, ey, to_third_x, to_third_y);
+  const V zero = hn::Zero(kFloats), most = all(0.75f);
+  const V high = hn::Add(c0, hn::Mul(most, hn::Max(zero, hn::Max(a, b))));
+  const V low = hn::Add(c0, hn::Mul(most, hn::Min(zero, hn::Min(a, b))));
+  const V reach = hn::Mul(hn::Add(curves.most_radius(), all(ray.point_doubt)), hn::Sqrt(dot(ex, ey, ex, ey)));
+  const uint32_t near_strip = bits_of<float>(hn::And(hn::Le(low, reach), hn::Ge(hn::Add(high, reach), zero)));
+  if (near_strip == 0) return false;
+
+  V end_x, end_y;
+  flatten_point(curves, ray, 0, flat.x[0], flat.y[0]);
+  flatten_point(curves, ray, 3, end_x, end_y);
+  flat.add_points();
+  const Minima minima(flat, end_x, end_y);
+  const uint32_t single = minima.single & near_strip, folded = minima.folded & near_strip;
+  if ((single | folded) == 0) return false;
+
+  V r[4];
+  curves.load_radii(r);
+  const uint32_t* numbers = reinterpret_cast<const FurBlockHeader*>(block)->number;
+  const auto lane_of = [&](uint32_t lane, const Depths& depths) HWY_ATTR {
+    alignas(16) float values[4];
+    FurLane result;
+    const auto value = [&](V from) HWY_ATTR {
+      hn::Store(from, kFloats, values);
+      return values[lane];
+    };
+    for (int i = 0; i < 4; ++i)
+      result.x[i] = value(flat.x[i]), result.y[i] = value(flat.y[i]), result.r[i] = value(r[i]);
+    for (int i = 0; i < 3; ++i) {
+      result.dx[i] = value(flat.dx[i]), result.dy[i] = value(flat.dy[i]);
+      result.dz[i] = value(depths.differences[i]);
+    }
+    result.z = value(depths.first);
+    result.end_x = value(end_x), result.end_y = value(end_y);
+    return result;
+  };
+
+  if (single != 0) {
+    const Cubic curve_x(flat.x[0], flat.dx), curve_y(flat.y[0], flat.dy);
+    const V u = solve(flat, curve_x, curve_y, minima.f0, minima.f5, single);
+    const V cx = curve_x.value(u), cy = curve_y.value(u);
+    const V distance2 = dot(cx, cy, cx, cy);
+    const Weights weights(u);
+    const V radius = weights(r);
+    uint32_t hits = bits_of<float>(hn::Lt(distance2, hn::Mul(radius, radius))) & single;
+    if (hits != 0) {
+      const Depths depths(curves, ray);
+      const V side = cross(Derivatives(flat.dx, u).first, Derivatives(flat.dy, u).first, cx, cy);
+      const V h = hn::CopySign(hn::Div(hn::Sqrt(distance2), radius), side);
+      alignas(16) float us[4], ts[4], hs[4];
+      hn::Store(depths.at(weights), kFloats, ts);
+      hn::Store(u, kFloats, us);
+      hn::Store(h, kFloats, hs);
+      for (; hits != 0; hits &= hits - 1) {
+        const auto lane = static_cast<uint32_t>(std::countr_zero(hits));
+        const uint32_t number = numbers[lane];
+        if (!query.wants(ts[lane], number)) continue;
+        if (is_on_start(ray, number) && is_start(ray, number, lane_of(lane, depths), us[lane], ts[lane]))
+          continue;
+        if (query.take({ts[lane], number, us[lane], hs[lane]})) return true;
+      }
+    }
+  }
+  if (HWY_LIKELY(folded == 0)) return false;
+  const Depths depths(curves, ray);
+  for (uint32_t lanes = folded; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
+    if (test_folded(lane_of(lane, depths), numbers[lane], ray, query)) return true;
+  }
+  return false;
+}
+
+/// Wide blocks are rare.
+template <bool kMoving, class Query>
+HWY_NOINLINE bool test_wide_block(const std::byte* block, const FurRay& ray, Query& query) {
+  return test_block<true, kMoving>(block, ray, query);
+}
+
+template <bool kMoving, class Query>
+HWY_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurRay& ray, Query& query) {
+  const std::byte* block = tree.leaves + leaf.leaf_offset();
+  const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
+  if constexpr (Query::kCounts) query.tests.segments += 4 * leaf.blocks();
+  for (uint32_t i = 0; i < leaf.blocks(); ++i, block += size) {
+    if (HWY_UNLIKELY(leaf.is_wide())) {
+      if (test_wide_block<kMoving>(block, ray, query)) return true;
+    } else if (test_block<false, kMoving>(block, ray, query)) {
+      return true;
+    }
+  }
+  return false;
+}
