@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/nearest_name.h"
+#include "cli/leaf_sizes.h"
 #include "cli/scene_schema.h"
 #include "scene/document_hash.h"
 
@@ -118,6 +119,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
+  choose_leaf_sizes(scene);
   return scene;
 }
 

@@ -102,7 +102,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
   impl->hash = ContentHasher()
                    .add(identity.whole())
-                   .add(params.leaf_strands)
+                   .add(params.leaf_size())
                    .add(params.cache ? params.cache->freeze.name : std::string())
                    .digest();
 
@@ -128,7 +128,7 @@ FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const Prepa
     options.coverage = [this](const V3f& at, const V3f& normal) { return stack->coverage(at, normal); };
   }
   options.seed = hash64(seed, random_use("follicles"));
-  options.leaf_strands = params.leaf_strands;
+  options.leaf_strands = params.leaf_size();
   return FollicleTree::build(*source.rest, options, context.workers);
 }
 

@@ -49,8 +49,8 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   frozen_end = end_of_frozen(*stack, params.cache->freeze.name);
 
   const ContentHash follicle_key =
-      in_leaves(identity.stages()[GroomIdentity::kStrands].hash, params.leaf_strands);
-  const ContentHash offset_key = in_leaves(identity.of_operator(frozen_end - 1).hash, params.leaf_strands);
+      in_leaves(identity.stages()[GroomIdentity::kStrands].hash, params.leaf_size());
+  const ContentHash offset_key = in_leaves(identity.of_operator(frozen_end - 1).hash, params.leaf_size());
   GroomManifest now(identity, GroomIdentity::kFirstOperator + frozen_end);
   const std::optional<GroomManifest> before = GroomManifest::read(*store, name);
   report.emplace();
@@ -88,9 +88,9 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     if (!frozen) {
       const FrozenGrowth growth{source, *stack,       identity,        frozen_end, *store,
                                 warn,   cannot_store, context.workers, progress};
-      FrozenGrowth::Result grown = growth.run(context, params.leaf_strands);
+      FrozenGrowth::Result grown = growth.run(context, params.leaf_size());
       report->resumed = grown.resumed;
-      if (before) remove_old_layers(*store, *before, now, params.leaf_strands);
+      if (before) remove_old_layers(*store, *before, now, params.leaf_size());
       report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
       // Read back, so that what is in memory may go.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
@@ -107,7 +107,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   if (!before || before->text() != now.text()) now.write(*store, name);
   report->files = {report->file, follicles, GroomManifest::file(*store, name)};
   for (const GroomStage& stage : now.stages())
-    report->files.push_back(layer_file(*store, stage.hash, params.leaf_strands));
+    report->files.push_back(layer_file(*store, stage.hash, params.leaf_size()));
   if (!report->fresh) store->prune(ContentStore::kUnusedAge);
   stack->prepare(frozen_end, stack->size(), context);
   prepare_rest(context.workers);

@@ -81,8 +81,13 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("operators", &GroomParams::operators,
           {.help =
                "What shapes the strands, in this order; every strand begins straight, one scene unit long"});
-    s.key("leaf_strands", &GroomParams::leaf_strands,
-          {.help = "Most strands that are grown together; changes no pixel", .min = 1, .max = 1e6});
+    s.key(
+        "leaf_strands", &GroomParams::leaf_strands,
+        {.help = "Most strands that are grown together; changes no pixel. By default 8000, or the quarter of "
+                 "it and so on of which some thousand fit render.memory; coats with a cache always 8000",
+         .min = 1,
+         .max = 1e6,
+         .default_text = "8000, 2000, 500 or 125"});
     s.key("cache", &GroomParams::cache, {.help = "Keeps what frozen operators do", .default_text = "none"});
     return s;
   }();

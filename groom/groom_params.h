@@ -32,8 +32,11 @@ struct GroomParams {
   int points = 8;
   int64_t seed = 0;
   OperatorList operators;
-  int leaf_strands = 8000;
+  std::optional<int> leaf_strands;
   std::optional<GroomCacheParams> cache;
+
+  static constexpr int kMostLeafStrands = 8000;  ///< where nobody says
+  int leaf_size() const { return leaf_strands.value_or(kMostLeafStrands); }
   static const Schema<GroomParams>& schema();
 };
 

@@ -47,7 +47,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   }
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
-  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_strands, place_);
+  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), place_);
 
   for (const FollicleTree::Leaf& leaf : follicles_.leaves()) {
     StrandReach reach{0, 0, 0, std::numbers::pi_v<float>, 1};

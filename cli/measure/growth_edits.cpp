@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> layers_of(const std::string& groom, const Gro
   if (!manifest) return layers;
   const auto& stages = manifest->stages();
   for (size_t i = GroomIdentity::kFirstOperator; i + 1 < stages.size(); ++i)
-    layers.push_back(layer_file(store, stages[i].hash, params.leaf_strands));
+    layers.push_back(layer_file(store, stages[i].hash, params.leaf_size()));
   return layers;
 }
 

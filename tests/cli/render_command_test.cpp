@@ -92,9 +92,9 @@ TEST_F(RenderCommandTest, OutputThatCannotBeWrittenIsFoundBeforeRendering) {
 }
 
 TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
-  const auto refused = [&](const Override& memory, const Override& what) -> std::string {
+  const auto refused = [&](std::vector<Override> overrides) -> std::string {
     Options o = options("x.exr");
-    o.overrides = {memory, what};
+    o.overrides = std::move(overrides);
     try {
       run_render(o);
     } catch (const Error& error) {
@@ -104,9 +104,11 @@ TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
     }
     return "rendered";
   };
-  EXPECT_NE(refused({"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}).find("the film"),
+  EXPECT_NE(refused({{"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}}).find("the film"),
             std::string::npos);
-  EXPECT_NE(refused({"render.memory", "2M"}, {"grooms.coat.strands", "100000"})
+  EXPECT_NE(refused({{"render.memory", "2M"},
+                     {"grooms.coat.strands", "100000"},
+                     {"grooms.coat.leaf_strands", "100000"}})
                 .find("the largest chunk (of walker.coat) needs"),
             std::string::npos);
 }
