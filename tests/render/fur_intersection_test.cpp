@@ -29,7 +29,7 @@ bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
   constexpr int kAngles = 16, kRadii = 12;
   bool same = false;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
-  const auto look = [&](double x, double y, double z = 0) {
+  const auto look = [&](double x, double y, double z) {
     const FurTruth::Found found = truth.closest(x, y, z);
     if (found.number != hit.number) return;
     same = true;
@@ -39,13 +39,11 @@ bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
   for (int i = 0; i <= kRadii * kAngles; ++i) {
     const double angle = 2 * std::numbers::pi * (i % kAngles) / kAngles;
     const double r = i == kRadii * kAngles ? 0 : std::ldexp(margin, -(i / kAngles));
-    look(r * std::cos(angle), r * std::sin(angle));
+    for (const double z : {0.0, margin, -margin}) look(r * std::cos(angle), r * std::sin(angle), z);
   }
-  look(0, 0, margin);
-  look(0, 0, -margin);
   if (!hit) return same;
   const FurTruth::Place place = truth.place_at(hit.number, hit.u);
-  look(place.x, place.y);
+  look(place.x, place.y, 0);
   return same && place.moved <= margin && place.beside <= margin &&
          std::abs(place.distance - hit.distance) <= margin && hit.distance >= nearest - 4 * margin &&
          hit.distance <= farthest + 4 * margin;
