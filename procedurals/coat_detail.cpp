@@ -11,14 +11,14 @@
 namespace pelage {
 namespace {
 
-/// Holds all roots when the shutter opens.
+/// Holds all roots when the shutter opens. Of the coat as a whole: the boxes of its leaves, turned one by
+/// one, would say where it is divided.
 Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
   if (groom.grows_on_skin()) return skin.bound(BoundSpan::kShutter);
   const SkinPose pose = skin.pose(BoundSpan::kShutter, {});
   Box3f box;
-  for (const FollicleTree::Leaf& leaf : groom.follicles().leaves())
-    box.extendBy(Imath::transform(leaf.rest_roots, pose.transforms[pose.open_key]));
-  return box;
+  for (const FollicleTree::Leaf& leaf : groom.follicles().leaves()) box.extendBy(leaf.rest_roots);
+  return box.isEmpty() ? box : Imath::transform(box, pose.transforms[pose.open_key]);
 }
 
 }  // namespace

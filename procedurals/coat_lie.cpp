@@ -27,16 +27,14 @@ CoatLie::CoatLie(const Groom& groom, std::shared_ptr<const LimitSurface> rest, c
       static_cast<size_t>(nodes_[0]) * static_cast<size_t>(nodes_[1]) * static_cast<size_t>(nodes_[2]);
   directions_.assign(count, V3f(0));
   std::vector<float> weights(count, 0.0f);
-  visit_coat_sample(groom, rest_.get(), kSample, workers, [&](const Strands& strands) {
-    for (size_t s = 0; s < strands.strand_count(); ++s) {
-      const uint32_t first = strands.first_point(s);
-      const V3f root = strands.point(first);
-      const V3f direction = (strands.point(first + strands.strand_points(s) - 1) - root).normalized();
-      visit_nodes(root, [&](size_t node, float weight) {
-        directions_[node] += weight * direction;
-        weights[node] += weight;
-      });
-    }
+  visit_coat_sample(groom, rest_.get(), kSample, workers, [&](const Strands& strands, size_t s) {
+    const uint32_t first = strands.first_point(s);
+    const V3f root = strands.point(first);
+    const V3f direction = (strands.point(first + strands.strand_points(s) - 1) - root).normalized();
+    visit_nodes(root, [&](size_t node, float weight) {
+      directions_[node] += weight * direction;
+      weights[node] += weight;
+    });
   });
   for (size_t node = 0; node < count; ++node) {
     if (weights[node] > 0) directions_[node] /= weights[node];

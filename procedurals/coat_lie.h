@@ -12,7 +12,7 @@ namespace pelage {
 class Workers;
 
 /// How the strands of a groom lie at rest: the mean direction from root to tip, a continuous function of the
-/// place, from some thousand of them. It knows nothing of leaves.
+/// place, from some thousand of them. The same, bit by bit, however the groom is divided into leaves.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatLie {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/coat_sample.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "base/parallel.h"
@@ -8,9 +9,17 @@
 #include "geom/tessellation.h"
 
 namespace pelage {
+namespace {
+
+struct Place {
+  uint64_t id;
+  size_t batch, strand;
+};
+
+}  // namespace
 
 void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t count, const Workers& workers,
-                       const std::function<void(const Strands&)>& visit) {
+                       const std::function<void(const Strands&, size_t strand)>& visit) {
   PosedSkin pose;
   if (rest) pose.keys = {rest, 1};
   SkinMesh mesh;
@@ -22,6 +31,8 @@ void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t co
     pose.trees = trees;
   }
   const FollicleTree& follicles = groom.follicles();
+  std::vector<Strands> batches;
+  std::vector<Place> places;
   for (size_t leaf = 0; leaf < follicles.leaves().size(); ++leaf) {
     std::vector<uint32_t> sample;
     const FollicleTree::Leaf& range = follicles.leaves()[leaf];
@@ -30,8 +41,12 @@ void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t co
     if (sample.empty()) continue;
     const std::vector<float> width(sample.size(), 1.0f);
     const KeptStrands kept{sample, width, {}};
-    visit(groom.grow(leaf, pose, &kept));
+    batches.push_back(groom.grow(leaf, pose, &kept));
+    for (size_t s = 0; s < sample.size(); ++s)
+      places.push_back({batches.back().id(s), batches.size() - 1, s});
   }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
+  for (const Place& place : places) visit(batches[place.batch], place.strand);
 }
 
 }  // namespace pelage

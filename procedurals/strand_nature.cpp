@@ -67,9 +67,8 @@ double density(const FollicleTree& follicles, const std::vector<double>& areas) 
 
 StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
   Sums sums;
-  visit_coat_sample(groom, rest, kSample, workers, [&](const Strands& strands) {
-    for (size_t s = 0; s < strands.strand_count(); ++s) add_strand(strands, s, sums);
-  });
+  visit_coat_sample(groom, rest, kSample, workers,
+                    [&](const Strands& strands, size_t s) { add_strand(strands, s, sums); });
   StrandNature nature;
   if (!(sums.length > 0)) return nature;
   nature.width = static_cast<float>(sums.area / sums.length);

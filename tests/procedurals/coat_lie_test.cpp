@@ -15,11 +15,13 @@ namespace {
 /// A ball with hair that is combed one way.
 class CombedBall {
  public:
-  explicit CombedBall(float lift) : cage(shapes::ball_cage(2)), rest(shapes::surface_of(cage)), workers(2) {
+  explicit CombedBall(float lift, int leaf_strands = 8000)
+      : cage(shapes::ball_cage(2)), rest(shapes::surface_of(cage)), workers(2) {
     GroomParams params;
     params.skin.name = "ball";
     params.strands = 6000;
     params.points = 4;
+    params.leaf_strands = leaf_strands;
     stacks::add<Length>(params.operators, {.value = Field(0.05f), .scale = Field(1.0f), .variation = 0.3f});
     stacks::add<Comb>(
         params.operators,
@@ -95,6 +97,19 @@ TEST(CoatLie, IsContinuousAlongTheSkin) {
     }
     EXPECT_LT(nearest, 1e-5f);
     EXPECT_LT((there - before).length(), 0.01f) << face;
+  }
+}
+
+TEST(CoatLie, IsTheSameBitByBitForAnyLeaves) {
+  const CombedBall whole(0.4f);
+  const CoatLie lie(*whole.groom, whole.rest, whole.workers);
+  for (const int leaf_strands : {1000, 137}) {
+    const CombedBall divided(0.4f, leaf_strands);
+    const CoatLie other(*divided.groom, divided.rest, divided.workers);
+    for (const RootAddress& root : whole.groom->follicles().roots()) {
+      const SurfacePoint point = whole.rest->evaluate(root.face, root.u, root.v);
+      EXPECT_EQ(lie.at(root, point), other.at(root, point)) << leaf_strands;
+    }
   }
 }
 

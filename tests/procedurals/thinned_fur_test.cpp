@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/curve_bounds.h"
+#include "geom/io/strand_file.h"
 #include "procedurals/fur.h"
 #include "procedurals/strand_nature.h"
 #include "tests/procedurals/random_coats.h"
@@ -109,6 +110,33 @@ TEST(ThinnedFur, EachStrandIsKeptForWhereItsRootStands) {
     EXPECT_EQ(ids, expected);
     EXPECT_LT(ids.size(), 0.8 * static_cast<double>(coat.groom->follicles().size()));
     EXPECT_GT(ids.size(), 10u);
+  }
+}
+
+// A turned box of a part is another box than the part of a turned box.
+TEST(ThinnedFur, StrandsOnNoSkinHaveOneScaleHoweverTheyAreDivided) {
+  const RandomCoat coat(5, {});
+  const TemporaryFolder folder;
+  GroomParams params;
+  params.strands_file = {folder.path() / "coat.hair", {}};
+  PosedSkin rest;
+  rest.keys = {coat.rest.get(), 1};
+  write_strands(params.strands_file.path, coat.groom->grow(0, rest));
+  MemoryLedger ledger;
+  TextureLibrary textures(ledger);
+  Seen s;
+  s.distance = 25;
+  const auto scale_of = [&](int leaf_strands) {
+    params.leaf_strands = leaf_strands;
+    const std::shared_ptr<const Groom> free =
+        Groom::create("free", params, nullptr, textures, Workers(1), ledger);
+    return FurProcedural(free, coat.skin, seen(coat, s)).scale();
+  };
+  const StrandScale whole = scale_of(8000);
+  EXPECT_GT(whole.width, 0);
+  for (const int leaf_strands : {100, 7}) {
+    EXPECT_EQ(scale_of(leaf_strands).width, whole.width) << leaf_strands;
+    EXPECT_EQ(scale_of(leaf_strands).anchor, whole.anchor) << leaf_strands;
   }
 }
 
