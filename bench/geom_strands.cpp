@@ -6,11 +6,11 @@
 #include <benchmark/benchmark.h>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "bench/yardstick.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
 #include "tests/geom/random_strands.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "base/temporary_folder.h"
 #include "groom/cache_report.h"
 #include "groom/color.h"
 #include "groom/groom.h"
@@ -21,7 +22,6 @@
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
-#include "tests/support/temporary_folder.h"
 
 namespace {
 

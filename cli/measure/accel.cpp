@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/temporary_folder.h"
 #include "cli/counted.h"
 #include "cli/measure/experiments.h"
 #include "cli/measure/outcome_table.h"
-#include "cli/measure/work_folder.h"
 
 namespace pelage {
 namespace {
@@ -191,7 +191,7 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given,
   for (const std::string& argument : setup.arguments) threads_given |= argument == "--threads";
   if (!threads_given) setup.arguments.insert(setup.arguments.end(), {"--threads", "1"});
   if (scene.grooms.items.empty()) throw Error(ErrorKind::kInput, "measure accel: the scene has no fur");
-  const WorkFolder folder(setup.folder);
+  const TemporaryFolder folder(setup.folder);
   const std::filesystem::path& work = folder.path();
 
   VariantRunner runner(setup, display, 1 + variants(work).size());

@@ -6,7 +6,7 @@
 #include "base/content_store.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "tests/support/temporary_folder.h"
+#include "base/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "cli/measure/picture_difference.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

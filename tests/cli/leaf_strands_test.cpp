@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "cli/measure/picture_difference.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

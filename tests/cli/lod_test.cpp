@@ -9,12 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "cli/measure/lod_pictures.h"
 #include "cli/measure/picture_difference.h"
 #include "cli/measure/run_statistics.h"
 #include "image/exr.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

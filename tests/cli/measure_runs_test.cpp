@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "cli/measure/machine.h"
 #include "cli/measure/picture_difference.h"
 #include "cli/measure/process.h"
 #include "cli/measure/variant.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "cli/commands.h"
 #include "tests/post/exr_pictures.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.h"
+#include "base/temporary_folder.h"
 #include "cli/report/axis_ticks.h"
 #include "cli/report/markup.h"
 #include "cli/report/plot_svg.h"
@@ -16,7 +17,6 @@
 #include "cli/report/report_json.h"
 #include "cli/report/svg.h"
 #include "image/texture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

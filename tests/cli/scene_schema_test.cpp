@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "cli/info.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

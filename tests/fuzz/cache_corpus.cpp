@@ -4,10 +4,10 @@
 #include "base/content_store.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/temporary_folder.h"
 #include "groom/frozen_leaf_writer.h"
 #include "groom/strand_layer.h"
 #include "tests/fuzz/corpus.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/temporary_folder.h"
 #include "geom/io/strand_file.h"
 #include "image/exr.h"
 #include "tests/geom/random_strands.h"
 #include "tests/post/exr_pictures.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

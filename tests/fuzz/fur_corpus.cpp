@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "render/accel/fur/fur_page_file.h"
 #include "tests/fuzz/corpus.h"
 #include "tests/render/fur_grooms.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

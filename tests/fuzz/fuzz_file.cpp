@@ -4,8 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "base/temporary_folder.h"
 #include "tests/fuzz/fuzz_targets.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 

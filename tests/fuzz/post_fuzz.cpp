@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/check.h"
 #include "base/error.h"
+#include "base/temporary_folder.h"
 #include "post/blur_file.h"
 #include "post/stereo_file.h"
 #include "tests/fuzz/fuzz_targets.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
 #include "groom/cache_report.h"
 #include "groom/groom.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "base/temporary_folder.h"
 #include "geom/closest_point.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
@@ -12,7 +13,6 @@
 #include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

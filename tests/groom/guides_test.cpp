@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
+#include "base/temporary_folder.h"
 #include "geom/curve.h"
 #include "geom/io/strand_file.h"
 #include "groom/resample.h"
 #include "tests/groom/operator_harness.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -44,7 +44,7 @@ class Files(unittest.TestCase):
         self.assert_none([p for p in our_code() if p.suffix == ".h" and "#pragma once" not in p.read_text()])
 
     def test_tests_share_no_files(self):
-        """CTest runs them side by side: a fixed name in a shared folder is a race. tests/support has a folder each."""
+        """CTest runs them side by side: a fixed name in a shared folder is a race. base/temporary_folder.h gives each its own."""
         self.assert_none([p for p in our_code() if p.suffix == ".cpp" and "testing::TempDir" in p.read_text()])
 
     def test_sources_are_built(self):

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/temporary_folder.h"
 #include "tests/post/exr_pictures.h"
 #include "tests/support/data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

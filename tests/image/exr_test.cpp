@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/temporary_folder.h"
 #include "tests/support/data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

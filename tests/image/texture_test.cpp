@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "image/exr.h"
 #include "image/field_nodes.h"
 #include "tests/support/data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

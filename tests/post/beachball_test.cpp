@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "post/blur_file.h"
 #include "post/stereo_file.h"
 #include "tests/post/exr_pictures.h"
 #include "tests/support/data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "tests/post/exr_pictures.h"
 #include "tests/post/picture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

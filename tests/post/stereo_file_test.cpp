@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "tests/post/exr_pictures.h"
 #include "tests/post/picture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "base/progress.h"
+#include "base/temporary_folder.h"
 #include "geom/curve_bounds.h"
 #include "procedurals/bounds_file.h"
 #include "procedurals/segment_parts.h"
 #include "tests/procedurals/random_coats.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

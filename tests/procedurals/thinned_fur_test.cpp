@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
 #include "procedurals/fur.h"
 #include "procedurals/strand_nature.h"
 #include "tests/procedurals/random_coats.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/temporary_folder.h"
 #include "tests/render/chunk_accel_fixture.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
 #include "render/accel/fur/fur_page_file.h"
 #include "tests/render/fur_grooms.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
 #include "scene/document.h"
 #include "tests/scene/document_text.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/temporary_folder.h"
 #include "tests/support/data.h"
-#include "tests/support/temporary_folder.h"
 
 namespace pelage {
 namespace {
