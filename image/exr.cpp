@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <exception>
-#include <new>
 #include <type_traits>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -12,10 +10,10 @@
 #include <OpenEXR/ImfInputFile.h>
 
 #include "base/check.h"
-#include "base/error.h"
 #include "base/ledger.h"
 #include "base/parallel.h"
 #include "image/exr_check.h"
+#include "image/exr_errors.h"
 #include "image/exr_file.h"
 #include "image/exr_header.h"
 
@@ -147,17 +145,11 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
 ExrImage read_exr(const std::filesystem::path& path) {
   check_exr_headers(path);
   ExrImage image;
-  try {
+  guarded_exr(path, ErrorKind::kInput, [&] {
     Imf::InputFile file(path.c_str(), 0);
     read_header(file.header(), path, image);
     read_rows(file, image);
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
-  } catch (const std::exception& error) {
-    refuse_exr(path, damage_text(error, path));
-  }
+  });
   return image;
 }
 

@@ -2,8 +2,6 @@
 #include "image/exr_file.h"
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -18,9 +16,9 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include "base/check.h"
-#include "base/error.h"
 #include "base/file.h"
 #include "image/exr_check.h"
+#include "image/exr_errors.h"
 #include "image/exr_header.h"
 
 namespace pelage {
@@ -112,34 +110,6 @@ Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
   return header;
 }
 
-/// Runs what may throw anything while a file is read.
-template <class Work>
-auto reading(const std::filesystem::path& path, Work&& work) {
-  try {
-    return work();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
-  } catch (const std::exception& error) {
-    refuse_exr(path, damage_text(error, path));
-  }
-}
-
-/// The same while one is written.
-template <class Work>
-auto writing(const std::filesystem::path& path, Work&& work) {
-  try {
-    return work();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::kMemory, {path.string(), 0, 0}, "does not fit in memory");
-  } catch (const std::exception& error) {
-    throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, std::string("cannot write: ") + error.what());
-  }
-}
-
 }  // namespace
 
 struct ExrReader::File {
@@ -149,7 +119,7 @@ struct ExrReader::File {
 
 ExrReader::ExrReader(std::filesystem::path path, int threads) : path_(std::move(path)) {
   check_exr_headers(path_);
-  reading(path_, [&] {
+  guarded_exr(path_, ErrorKind::kInput, [&] {
     const int team = library_threads(threads);
     file_ = std::make_unique<File>(path_.c_str(), team);
     for (int i = 0; i < file_->input.parts(); ++i) {
@@ -166,7 +136,7 @@ void ExrReader::read(size_t part, int y0, int y1, std::span<const ExrRows> rows)
   const ExrPart& info = parts_.at(part);
   PELAGE_CHECK(y0 >= info.data.y0 && y1 <= info.data.y1 && y0 <= y1);
   if (y0 == y1 || rows.empty()) return;
-  reading(path_, [&] {
+  guarded_exr(path_, ErrorKind::kInput, [&] {
     Imf::FrameBuffer frame;
     for (const ExrRows& to : rows) {
       const ExrChannelInfo& channel = info.channels.at(to.channel);
@@ -198,7 +168,7 @@ struct ExrWriter::File {
 
 ExrWriter::ExrWriter(std::filesystem::path path, ExrPart part, int threads) : path_(std::move(path)) {
   PELAGE_CHECK(part.data.width() > 0 && part.data.height() > 0 && !part.channels.empty());
-  file_ = writing(path_, [&] {
+  file_ = guarded_exr(path_, ErrorKind::kFailed, [&] {
     Imf::Header own;
     own.compression() = Imf::ZIP_COMPRESSION;
     Imf::addChromaticities(own, Imf::Chromaticities());  // Rec. 709 is the library's default
@@ -211,7 +181,7 @@ ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::v
                      int threads)
     : path_(std::move(path)) {
   PELAGE_CHECK(!parts.empty());
-  file_ = writing(path_, [&] {
+  file_ = guarded_exr(path_, ErrorKind::kFailed, [&] {
     std::vector<Imf::Header> headers;
     std::vector<ExrPart> described;
     for (ExrOutputPart& part : parts) {
@@ -233,7 +203,7 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows, con
   const auto width = static_cast<size_t>(info.data.width()), height = static_cast<size_t>(count);
   size_t half_channels = 0;
   for (const ExrChannelInfo& channel : info.channels) half_channels += channel.type == ChannelType::kHalf;
-  writing(path_, [&] {
+  guarded_exr(path_, ErrorKind::kFailed, [&] {
     file_->halves.resize(half_channels * width * height);
     half* next = file_->halves.data();
     std::vector<std::pair<const ExrRows*, half*>> rounded;
@@ -265,7 +235,7 @@ void ExrWriter::write(size_t part, int count, std::span<const ExrRows> rows, con
 }
 
 void ExrWriter::commit() {
-  writing(path_, [&] {
+  guarded_exr(path_, ErrorKind::kFailed, [&] {
     for (size_t i = 0; i < file_->parts.size(); ++i) {
       Imf::OutputPart output(*file_->output, static_cast<int>(i));
       PELAGE_CHECK(output.currentScanLine() == file_->parts[i].data.y1);

@@ -12,8 +12,6 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
-#include "base/error.h"
-
 namespace pelage {
 namespace {
 
@@ -88,20 +86,6 @@ ExrAttributes read_attributes(const Imf::Header& header) {
 
 void insert_attributes(Imf::Header& header, const ExrAttributes& attributes) {
   for (const auto& [name, value] : attributes) std::visit(AttributeWriter{header, name.c_str()}, value);
-}
-
-std::string damage_text(const std::exception& error, const std::filesystem::path& path) {
-  std::string text = error.what();
-  if (const size_t named = text.find(path.string() + "\". "); named != std::string::npos) {
-    text.erase(0, named + path.string().size() + 3);
-  }
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
-  return "damaged: " + text;
-}
-
-void refuse_exr(const std::filesystem::path& path, const std::string& why) {
-  throw Error(ErrorKind::kInput, {path.string(), 0, 0}, why);
 }
 
 }  // namespace pelage

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <limits>
-#include <string>
 
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfPixelType.h>
@@ -27,10 +25,5 @@ inline half rounded_half(float v) {
 /// Attributes that ExrAttribute can hold, without those that are the image's own shape.
 ExrAttributes read_attributes(const Imf::Header& header);
 void insert_attributes(Imf::Header& header, const ExrAttributes& attributes);
-
-/// First line of a library's message, without the path that it repeats.
-std::string damage_text(const std::exception& error, const std::filesystem::path& path);
-
-[[noreturn]] void refuse_exr(const std::filesystem::path& path, const std::string& why);
 
 }  // namespace pelage
