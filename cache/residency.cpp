@@ -173,7 +173,7 @@ Residency::Room Residency::reserve(int64_t bytes, Victims& victims) {
 }
 
 Resident& Residency::pin_slowly(uint32_t slot, int thread) {
-  const auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
+  auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
   Slot& s = slots_[slot];
   // Who lets go of a pin or a reservation while this is up wakes us.
   struct Starving {
@@ -200,9 +200,14 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       continue;
     }
     if (!s.growing) {
+      if (const auto raised = raised_.find(slot); raised != raised_.end())
+        needed = std::max(needed, raised->second);
       Victims victims;
       const Room room = reserve(needed, victims);
-      if (room == Room::kGranted) return grow(lock, slot, thread, needed, victims);
+      if (room == Room::kGranted) {
+        if (Resident* unit = grow(lock, slot, thread, needed, victims)) return *unit;
+        continue;
+      }
       if (room == Room::kNever) throw_too_full(slot, needed);
       if (!starving.up) {  // a pin let go before now would not have woken us
         starving.raise();
@@ -213,8 +218,9 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
   }
 }
 
-/// Grows a slot whose bytes are reserved, and pins it for `thread` before anybody could evict it.
-Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
+/// Grows a slot whose bytes are reserved, and pins it for `thread` before anybody could evict it. Null, and
+/// nothing reserved any more, where they turned out to be too few.
+Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
                           Victims& victims) {
   Slot& s = slots_[slot];
   s.growing = true;
@@ -231,7 +237,6 @@ Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   Grower::Grown grown;
   try {
     grown = grower_.grow(slot);
-    PELAGE_CHECK(grown.unit != nullptr);
   } catch (...) {
     lock.lock();
     s.growing = false;
@@ -246,6 +251,13 @@ Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   lock.lock();
   s.growing = false;
   --growing_;
+  if (!grown.unit) {
+    PELAGE_CHECK(bytes > reserved);
+    charge(-reserved);
+    raised_[slot] = bytes;
+    changed_.notify_all();
+    return nullptr;
+  }
   charge(bytes - reserved);
   // What goes and comes back within so few growths was being used, by this thread or another one.
   constexpr uint32_t kSoon = 32;
@@ -269,7 +281,7 @@ Resident& Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
   s.unit.store(unit, std::memory_order_seq_cst);
   changed_.notify_all();
-  return *unit;
+  return unit;
 }
 
 void Residency::throw_too_full(uint32_t slot, int64_t needed) const {

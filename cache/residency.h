@@ -36,16 +36,18 @@ class Resident {
 class Grower {
  public:
   struct Grown {
-    std::unique_ptr<Resident> unit;  ///< never null
+    std::unique_ptr<Resident> unit;  ///< null: it takes more than was reserved, see grow()
     size_t bytes = 0;                ///< held from now on, at most reserve_bytes
   };
   virtual ~Grower() = default;
   /// Upper bound of the bytes held at any moment while `slot` is grown and afterwards. May become less once
-  /// the slot has been grown, never more.
+  /// the slot has been grown, more only by what grow() said.
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
   /// For messages: what the slot is of, or nothing.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw.
+  /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw. Where
+  /// it turns out that the slot takes more than was reserved, it gives no unit and says in `bytes` how much:
+  /// it is called again when so much is reserved, and holds nothing until then.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
@@ -177,7 +179,7 @@ class Residency {
   }
 
   Resident& pin_slowly(uint32_t slot, int thread);
-  Resident& grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
+  Resident* grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
                  Victims& victims);
   Room reserve(int64_t bytes, Victims& victims);
   Room evict(int64_t bytes, Victims& victims);
@@ -204,6 +206,7 @@ class Residency {
   ClockRing clock_;                  // slots with a unit; this and the following: guarded by mutex_
   GrowthTurns turns_;
   std::map<uint32_t, std::exception_ptr> failures_;
+  std::map<uint32_t, int64_t> raised_;  // what slots take at most that gave no unit
   int growing_ = 0;
   int64_t held_ = 0;  // charged for units and reservations
   ResidencyCounts counts_;

@@ -44,9 +44,10 @@ class ChunkAccel::Growth final : public Grower {
   /// what snapping to a grid may add, and leaves one part: what a ray meets of a chunk that is resident, its
   /// tree tells at less cost than boxes above it.
   Growth(const ChunkGrower& grower, std::span<ChunkBounds> bounds, const ChunkAccelOptions& options,
-         const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger)
+         const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger, Progress& progress)
       : grower_(grower),
         options_(options),
+        progress_(progress),
         fur_(with_pool(options.fur)),
         device_(device),
         patterns_(patterns),
@@ -96,10 +97,15 @@ class ChunkAccel::Growth final : public Grower {
     // One thread at a time grows a slot, so nobody else stores what is learned.
     const bool learns = known_[slot].learns && !learned(slot);
     if (is_stored(slot)) {
-      std::unique_ptr<FurChunk> fur = options_.file->read(slot, &pool_);
-      if (learns) learn(slot, fur->part_bounds(part_count(fur->segment_count())));
-      const size_t bytes = fur->bytes();
-      return {std::move(fur), bytes};
+      const auto warn = [this](const std::string& line) { progress_.warn(line); };
+      if (std::unique_ptr<FurChunk> fur = options_.file->read(slot, warn, &pool_)) {
+        if (learns) learn(slot, fur->part_bounds(part_count(fur->segment_count())));
+        const size_t bytes = fur->bytes();
+        return {std::move(fur), bytes};
+      }
+      // It is no longer stored: growing it takes more than reading it was thought to.
+      const size_t needed = reserve_bytes(slot);
+      if (needed > options_.file->bytes_bound(slot)) return {nullptr, needed};
     }
     ChunkContents contents = grower_.grow(slot);
     std::unique_ptr<ChunkGeometry> unit;
@@ -155,6 +161,7 @@ class ChunkAccel::Growth final : public Grower {
   PagePool pool_;  // of all trees
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
+  Progress& progress_;
   const FurChunkOptions fur_;
   const EmbreeDevice& device_;
   SegmentPatterns& patterns_;
@@ -200,7 +207,7 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
   for (size_t i = 0; i < threads; ++i) scratch_[i].seen.resize(chunks);
   charges_.emplace_back(ledger, MemoryTag::kChunks,
                         static_cast<int64_t>(threads * chunks * sizeof(uint32_t)));
-  growth_ = std::make_unique<Growth>(grower, bounds, options_, device_, patterns_, ledger);
+  growth_ = std::make_unique<Growth>(grower, bounds, options_, device_, patterns_, ledger, progress);
 
   if (!options.eager) build_tree(bounds, ledger, workers);
   residency_ = std::make_unique<Residency>(*growth_, chunks, options.threads,

@@ -29,6 +29,7 @@ struct ChunkAccelOptions {
   uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
   int threads = 1;            ///< TraceThread::worker is below it
   /// Where chunks of fur are read instead of being grown, unless all are grown before the first ray; or null.
+  /// What is damaged there is grown.
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
@@ -46,9 +47,9 @@ struct ChunkAccelOptions {
 class ChunkAccel final : public Accel {
  public:
   /// `bounds`: one per chunk, over the whole shutter; what they say is not read with `eager`, where boxes are
-  /// measured on what was grown. The grower outlives the accelerator. When `progress` is cancelled
-  /// meanwhile, the accelerator is not to be used. Throws Error: kMemory when the limit is too small, and
-  /// what the grower throws where all is grown.
+  /// measured on what was grown. Grower and `progress`, which is told of chunks of the file that are damaged,
+  /// outlive the accelerator. When `progress` is cancelled meanwhile, the accelerator is not to be used.
+  /// Throws Error: kMemory when the limit is too small, and what the grower throws where all is grown.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ChunkAccelOptions& options,
              MemoryLedger& ledger, const Workers& workers, Progress& progress);
   ~ChunkAccel() override;

@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <mutex>
 #include <string>
+#include <system_error>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "render/accel/fur/fur_leaf.h"
 #include "render/accel/fur/fur_pages.h"
 
@@ -115,7 +114,8 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
   return std::make_unique<const FurChunkFile>(std::move(*file));
 }
 
-FurChunkFile::FurChunkFile(StoredSections file) : file_(std::move(file)) {}
+FurChunkFile::FurChunkFile(StoredSections file)
+    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {}
 
 size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);
@@ -127,8 +127,18 @@ size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
          PageBlock::held_bytes(FurTree::leaves_offset(nodes) + leaves) + places;
 }
 
-std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, PagePool* pool) const {
-  std::unique_ptr<FurChunk> result = parse(chunk, pool);
+std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, const WarningSink& warn, PagePool* pool) const {
+  std::unique_ptr<FurChunk> result;
+  try {
+    result = parse(chunk, pool);
+  } catch (const Error& error) {
+    lost_[chunk].store(true, std::memory_order_relaxed);
+    if (is_damaged_.exchange(true)) return nullptr;
+    std::error_code ignored;
+    std::filesystem::remove(file_.path(), ignored);
+    warn(std::string(error.what()) + "; grown instead, and made again by the next run");
+    return nullptr;
+  }
   chunks_read_.fetch_add(1, std::memory_order_relaxed);
   uint64_t bytes = 0;
   for (size_t i = 0; i < kSections; ++i) bytes += file_.section_bytes(kSections * size_t(chunk) + i);
@@ -179,23 +189,6 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   for (size_t axis = 0; axis < 3; ++axis) box.low[axis] = head.low[axis], box.high[axis] = head.high[axis];
   return std::make_unique<FurChunk>(head.part, chunk, std::move(*strands),
                                     FurTree(view, box, std::move(tree), nodes, leaves));
-}
-
-bool FurChunkFile::check_all(const Workers& workers, const WarningSink& warn) const {
-  std::mutex mutex;
-  std::string wrong;
-  workers.for_each(chunk_count(), 1, [&](WorkRange range) {
-    try {
-      for (size_t chunk = range.begin; chunk < range.end; ++chunk) {
-        if (has(static_cast<uint32_t>(chunk))) parse(static_cast<uint32_t>(chunk), nullptr);
-      }
-    } catch (const Error& e) {
-      const std::lock_guard lock(mutex);
-      if (wrong.empty()) wrong = e.what();
-    }
-  });
-  if (!wrong.empty()) warn(wrong + "; made again");
-  return wrong.empty();
 }
 
 }  // namespace pelage

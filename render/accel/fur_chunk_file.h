@@ -11,11 +11,10 @@
 
 namespace pelage {
 
-class Workers;
-
 /// The fur of a frame on disk, chunk by chunk: an entry of kind "fur-chunks" of a content store. A chunk is
 /// four sections, each with a checksum: what is known of it, the packed strands, nodes, leaves. They are read
-/// when the chunk is needed, straight to where they stay; nothing is mapped.
+/// and checked when the chunk is needed, straight to where they stay; nothing is mapped. A chunk that is not
+/// what was written is lost, the others are not.
 ///
 /// Thread safety: const members may be called from any thread.
 class FurChunkFile {
@@ -45,28 +44,32 @@ class FurChunkFile {
   explicit FurChunkFile(StoredSections file);
 
   size_t chunk_count() const { return file_.section_count() / kSections; }
-  /// Of any chunk of the frame: those behind the last are no fur.
+  /// Of any chunk of the frame: those behind the last are no fur. No longer of one that is lost.
   bool has(uint32_t chunk) const {
-    return chunk < chunk_count() && file_.section_bytes(kSections * size_t(chunk)) > 0;
+    return chunk < chunk_count() && file_.section_bytes(kSections * size_t(chunk)) > 0 &&
+           !lost_[chunk].load(std::memory_order_relaxed);
   }
   /// At least what reading a chunk holds at any moment, and what the chunk holds afterwards.
   size_t bytes_bound(uint32_t chunk) const;
-  /// `pool` as FurTreeOptions. Throws Error (kInput) when it cannot be read or is not what was written.
-  std::unique_ptr<FurChunk> read(uint32_t chunk, PagePool* pool = nullptr) const;
-  /// Reads all chunks once. Whether they are what was written; otherwise `warn` has been told.
-  bool check_all(const Workers& workers, const WarningSink& warn) const;
+  /// `pool` as FurTreeOptions. Null when the chunk cannot be read or is not what was written: then it is
+  /// lost, the file is no longer found, so that it will be made again, and `warn` has been told, once for all
+  /// chunks.
+  std::unique_ptr<FurChunk> read(uint32_t chunk, const WarningSink& warn, PagePool* pool = nullptr) const;
 
   /// What this object holds.
-  size_t bytes() const { return sizeof(*this) + file_.bytes(); }
+  size_t bytes() const { return sizeof(*this) + file_.bytes() + chunk_count() * sizeof(lost_[0]); }
   int64_t chunks_read() const { return chunks_read_.load(std::memory_order_relaxed); }
   int64_t bytes_read() const { return bytes_read_.load(std::memory_order_relaxed); }
 
  private:
   static constexpr size_t kSections = 4;
 
+  /// Throws Error (kInput) when it cannot be read or is not what was written.
   std::unique_ptr<FurChunk> parse(uint32_t chunk, PagePool* pool) const;
 
   StoredSections file_;
+  std::unique_ptr<std::atomic<bool>[]> lost_;  // by chunk
+  mutable std::atomic<bool> is_damaged_{false};
   mutable std::atomic<int64_t> chunks_read_{0}, bytes_read_{0};
 };
 

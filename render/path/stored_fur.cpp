@@ -75,23 +75,19 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
     return nullptr;
   }
   const ContentStore store(params.bvh.file.path);
-  const auto open = [&]() -> std::shared_ptr<const FurChunkFile> {
-    auto file = FurChunkFile::open(store, *key, chunks.leaves().size(), warn);
-    return file && file->check_all(workers, warn) ? std::move(file) : nullptr;
+  const auto open = [&](const WarningSink& tell) {
+    return FurChunkFile::open(store, *key, chunks.leaves().size(), tell);
   };
-  if (auto file = open()) return file;
+  if (auto file = open(warn)) return file;
   store.sweep();
   const ContentStore::Lock lock = store.lock("fur-chunks", *key, [&] { return progress.cancelled(); });
   if (lock.held()) {
     // Who had it before may have written them.
-    if (auto file = FurChunkFile::open(store, *key, chunks.leaves().size(), [](const std::string&) {});
-        file && file->check_all(workers, [](const std::string&) {})) {
-      return file;
-    }
+    if (auto file = open([](const std::string&) {})) return file;
   }
   if (!write(store, *key, chunks, options, workers, progress, ledger)) return nullptr;
   store.prune(ContentStore::kUnusedAge);
-  return FurChunkFile::open(store, *key, chunks.leaves().size(), warn);
+  return open(warn);
 }
 
 }  // namespace pelage

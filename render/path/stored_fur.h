@@ -12,9 +12,9 @@
 
 namespace pelage {
 
-/// The chunks of fur that `render.bvh.file` keeps of a frame: opened and checked, or grown, built and written
-/// first. Null, after one warning, where they cannot be kept: of fur whose content has no name, of coats that
-/// are not opaque everywhere, and where the folder cannot be written. Null, too, when cancelled. Throws what
+/// The chunks of fur that `render.bvh.file` keeps of a frame: opened, or grown, built and written first.
+/// Null, after one warning, where they cannot be kept: of fur whose content has no name, of coats that are
+/// not opaque everywhere, and where the folder cannot be written. Null, too, when cancelled. Throws what
 /// growing throws.
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
                                                const ChunkAccelOptions& options, const Workers& workers,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cache/residency.h"
 
+#include <array>
 #include <latch>
 #include <regex>
 #include <stdexcept>
@@ -318,6 +319,62 @@ TEST_F(ResidencyTest, ChargesHonestlyWhatAGrowerUnderstated) {
   residency.visit(0, 0, [](Resident&) {});
   EXPECT_EQ(residency.counts().overruns, 1);
   EXPECT_EQ(ledger_.budgeted() - index, 150);
+}
+
+/// Where every third slot takes more than it was thought to, as is found out when it is first grown.
+class SurprisedGrower final : public Grower {
+ public:
+  static bool is_surprise(uint32_t slot) { return slot % 3 == 0; }
+  size_t reserve_bytes(uint32_t slot) const override {
+    return known_[slot].load() ? 3 * kBytes : size_t(kBytes);
+  }
+  Grown grow(uint32_t slot) override {
+    ++calls;
+    if (is_surprise(slot) && !known_[slot].load()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      known_[slot].store(true);
+      return {nullptr, 3 * kBytes};
+    }
+    return {std::make_unique<Resident>(), is_surprise(slot) ? 2 * kBytes : size_t(kBytes)};
+  }
+
+  std::atomic<int> calls{0};
+
+ private:
+  std::array<std::atomic<bool>, 100> known_{};
+};
+
+TEST_F(ResidencyTest, ReservesMoreForASlotThatTurnsOutToTakeMore) {
+  for (const double units : {3.0, 7.5, 12.0}) {
+    SurprisedGrower grower;
+    MemoryLedger ledger;
+    const int64_t limit = index_bytes(grower, 60, 4) + static_cast<int64_t>(units * kBytes);
+    Residency residency(grower, 60, 4, MemoryBudget{static_cast<uint64_t>(limit)}, ledger,
+                        MemoryTag::kChunks);
+    std::vector<std::thread> threads;
+    for (int thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([&, thread] {
+        for (uint32_t i = 0; i < 300; ++i)
+          residency.visit(hash64(i / 3, thread / 2) % 60, thread, [](Resident&) {});
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    const ResidencyCounts counts = residency.counts();
+    EXPECT_EQ(counts.overruns, 0);
+    EXPECT_LE(ledger.peak(MemoryTag::kChunks), limit);
+    EXPECT_GT(counts.evictions, 0);
+    EXPECT_GT(grower.calls, counts.expansions);  // surprises
+  }
+}
+
+TEST_F(ResidencyTest, SaysSoWhenASlotThatTakesMoreDoesNotFit) {
+  SurprisedGrower grower;
+  const int64_t limit = index_bytes(grower, 6, 1) + int64_t(2.5 * kBytes);
+  Residency residency(grower, 6, 1, MemoryBudget{static_cast<uint64_t>(limit)}, ledger_, MemoryTag::kChunks);
+  residency.visit(1, 0, [](Resident&) {});
+  EXPECT_NE(text_of([&] { residency.visit(3, 0, [](Resident&) {}); }, ErrorKind::kMemory).find("is used up"),
+            std::string::npos);
+  residency.visit(2, 0, [](Resident&) {});
 }
 
 using ResidencyDeathTest = ResidencyTest;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Trees of a frame that are kept between runs (render.bvh.file) change no pixel.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -27,7 +28,10 @@ class BvhFileTest : public testing::Test {
     options.overrides.insert(options.overrides.end(), overrides.begin(), overrides.end());
     options.output = (folder_.path() / (name + ".exr")).string();
     options.stats = (folder_.path() / "stats.json").string();
+    testing::internal::CaptureStderr();
     EXPECT_EQ(run_render(options), 0);
+    const std::string said = testing::internal::GetCapturedStderr();
+    warnings_ = static_cast<int>(std::count(said.begin(), said.end(), '\n'));
     statistics_ = nlohmann::json::parse(read_file(*options.stats));
     return options.output;
   }
@@ -38,6 +42,11 @@ class BvhFileTest : public testing::Test {
   std::filesystem::path file() const {
     return std::filesystem::directory_iterator(folder_.path() / "trees")->path();
   }
+  void damage(const std::vector<size_t>& places) const {
+    std::string bytes = read_file(file());
+    for (const size_t at : places) bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    std::ofstream(file(), std::ios::binary) << bytes;
+  }
   static void expect_equal(const std::string& a, const std::string& b) {
     const auto difference = compare_picture_files(a, b);
     ASSERT_TRUE(difference);
@@ -46,6 +55,7 @@ class BvhFileTest : public testing::Test {
 
   TemporaryFolder folder_;
   nlohmann::json statistics_;
+  int warnings_ = 0;  // lines of the last run
 };
 
 TEST_F(BvhFileTest, ChangesNoPixel) {
@@ -70,15 +80,31 @@ TEST_F(BvhFileTest, ChangesNoPixel) {
   EXPECT_GT(statistics_["strands_generated"], 0);
 }
 
-TEST_F(BvhFileTest, IsMadeAgainWhenItIsDamaged) {
+TEST_F(BvhFileTest, IsMadeAgainWhenItsTableIsDamaged) {
   const std::string first = stored("first");
   const std::string whole = read_file(file());
-  for (const size_t at : {whole.size() / 3, whole.size() - 20}) {
-    std::string damaged = whole;
-    damaged[at] = static_cast<char>(damaged[at] ^ 1);
-    std::ofstream(file(), std::ios::binary) << damaged;
-    expect_equal(first, stored("again"));
+  damage({whole.size() - 20});
+  expect_equal(first, stored("again"));
+  EXPECT_EQ(warnings_, 1);
+  EXPECT_GT(statistics_["strands_generated"], 0);
+  EXPECT_EQ(read_file(file()), whole);
+}
+
+// Chunks are checked when they are read: one that is damaged is grown, all others are read.
+TEST_F(BvhFileTest, ChunksThatAreDamagedAreGrown) {
+  const std::string first = stored("first");
+  const std::string whole = read_file(file());
+  const int64_t all = statistics_["strands_generated"], read = statistics_["chunks_read"];
+  for (const std::vector<size_t>& places :
+       {std::vector{whole.size() / 3}, {whole.size() / 5, whole.size() / 2, whole.size() / 7 * 5}}) {
+    damage(places);
+    expect_equal(first, stored("damaged"));
+    EXPECT_EQ(warnings_, 1);
     EXPECT_GT(statistics_["strands_generated"], 0);
+    EXPECT_LT(statistics_["strands_generated"], all);
+    EXPECT_GT(statistics_["chunks_read"], read / 2);
+    expect_equal(first, stored("made again"));
+    EXPECT_EQ(warnings_, 0);
     EXPECT_EQ(read_file(file()), whole);
   }
 }

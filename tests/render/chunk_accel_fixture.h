@@ -1,12 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
+#include <string_view>
+
 #include <gtest/gtest.h>
 
+#include "base/progress.h"
 #include "render/accel/flush_denormals.h"
 #include "tests/render/chunk_scenes.h"
 
 namespace pelage {
+
+/// Counts what went wrong.
+class WarningCounter final : public Progress {
+ public:
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  void warn(std::string_view) override { ++warnings; }
+  bool cancelled() const override { return false; }
+
+  std::atomic<int> warnings{0};
+};
 
 class ChunkAccelTest : public testing::Test {
  protected:
@@ -69,7 +85,7 @@ class ChunkAccelTest : public testing::Test {
   }
 
   MemoryLedger ledger_;
-  NoProgress progress_;
+  WarningCounter progress_;
 };
 
 /// Scenes of every kind of strand.
