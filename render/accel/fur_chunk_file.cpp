@@ -34,6 +34,20 @@ ContentHash entry_key(const ContentHash& key) {
   return ContentHasher().add("fur chunks").add(FurChunkFile::kVersion).add(key).digest();
 }
 
+/// Whether no ray can meet a lane, because it is one point without a width at every key.
+bool is_empty_lane(const std::byte* block, bool wide, size_t lane, int motion_keys) {
+  for (int key = 0; key < motion_keys; ++key) {
+    const SnappedSegment segment = read_block(block, wide, lane, key);
+    for (const auto& point : segment) {
+      for (size_t axis = 0; axis < 3; ++axis) {
+        if (point[axis] != segment[0][axis]) return false;
+      }
+      if (point[3] != 0) return false;
+    }
+  }
+  return true;
+}
+
 /// Whether every segment in the leaves of a possible tree is one of `count`.
 bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count) {
   const size_t size = node_size(view.layout, view.motion_keys);
@@ -43,13 +57,27 @@ bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count)
       if (!r.is_leaf()) continue;
       const size_t block = (r.is_wide() ? kWideBlock : kNarrowBlock).block(view.motion_keys);
       for (uint32_t b = 0; b < r.blocks(); ++b) {
+        const std::byte* const place = view.leaves + r.leaf_offset() + b * block;
         FurBlockHeader header;
-        std::memcpy(&header, view.leaves + r.leaf_offset() + b * block, sizeof(header));
-        for (const uint32_t number : header.number) {
-          if (number != FurBlockHeader::kNone && number >= count) return false;
+        std::memcpy(&header, place, sizeof(header));
+        for (size_t lane = 0; lane < FurBlockHeader::kLanes; ++lane) {
+          const uint32_t number = header.number[lane];
+          const bool is_good = number == FurBlockHeader::kNone
+                                   ? is_empty_lane(place, r.is_wide(), lane, view.motion_keys)
+                                   : number < count;
+          if (!is_good) return false;
         }
       }
     }
+  }
+  return true;
+}
+
+/// Of a tree that holds anything.
+bool is_possible(const FurBox& box) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(box.low[axis]) || !std::isfinite(box.high[axis]) || box.low[axis] > box.high[axis])
+      return false;
   }
   return true;
 }
@@ -187,6 +215,7 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   }
   FurBox box;
   for (size_t axis = 0; axis < 3; ++axis) box.low[axis] = head.low[axis], box.high[axis] = head.high[axis];
+  if (nodes > 0 && !is_possible(box)) refuse(file_);
   return std::make_unique<FurChunk>(head.part, chunk, std::move(*strands),
                                     FurTree(view, box, std::move(tree), nodes, leaves));
 }

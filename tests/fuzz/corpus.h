@@ -26,5 +26,6 @@ std::vector<std::string> cache_corpus();
 std::vector<std::string> leaf_corpus();
 std::vector<std::string> fur_corpus();
 std::vector<std::string> treelet_corpus();
+std::vector<std::string> chunks_corpus();
 
 }  // namespace pelage

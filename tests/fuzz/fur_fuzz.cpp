@@ -9,6 +9,7 @@
 #include "render/accel/flush_denormals.h"
 #include "render/accel/fur/paged_fur.h"
 #include "tests/fuzz/fuzz_targets.h"
+#include "tests/fuzz/right_checksums.h"
 
 namespace pelage {
 namespace {
@@ -21,13 +22,9 @@ Ray ray_of(int i) {
   return ray;
 }
 
-}  // namespace
-
-void fuzz_fur(std::span<const uint8_t> bytes) {
-  const std::filesystem::path path = fuzz_file(bytes, ".cache");
-  const FlushDenormals flush;
+void feed(std::span<const uint8_t> bytes) {
   try {
-    FurPageFile file{StoredSections(path)};
+    FurPageFile file{StoredSections(fuzz_file(bytes, ".cache"))};
     MemoryLedger ledger;
     const PagedFur fur(std::move(file), {}, ledger, Workers::alone());
     PagedFurCounts counts;
@@ -39,6 +36,14 @@ void fuzz_fur(std::span<const uint8_t> bytes) {
   } catch (const Error& error) {
     PELAGE_CHECK(error.kind() == ErrorKind::kInput);
   }
+}
+
+}  // namespace
+
+void fuzz_fur(std::span<const uint8_t> bytes) {
+  const FlushDenormals flush;
+  feed(bytes);
+  feed(with_right_checksums(bytes));
 }
 
 void fuzz_treelet(std::span<const uint8_t> bytes) {

@@ -28,10 +28,13 @@ void fuzz_cache(std::span<const uint8_t> bytes);
 /// A leaf of an operator cache, as if its checksum were right; and a layer of one.
 void fuzz_leaf(std::span<const uint8_t> bytes);
 
-/// A file of fur pages, and rays through what it holds.
+/// A file of fur pages, as it is and as if its checksums were right, and rays through what it holds.
 void fuzz_fur(std::span<const uint8_t> bytes);
 /// A treelet of one, as if its checksum were right.
 void fuzz_treelet(std::span<const uint8_t> bytes);
+
+/// A file of chunks of fur, as it is and as if its checksums were right, and rays through what it holds.
+void fuzz_chunks(std::span<const uint8_t> bytes);
 
 /// A file of this process that holds `bytes`; its name ends in `ending`.
 std::filesystem::path fuzz_file(std::span<const uint8_t> bytes, const std::string& ending);

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur_chunk_file.h"
 
+#include <cstring>
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/stored_file_layout.h"
 #include "base/temporary_folder.h"
+#include "render/accel/fur/fur_leaf.h"
+#include "tests/fuzz/right_checksums.h"
 #include "tests/render/chunk_accel_fixture.h"
 
 namespace pelage {
@@ -188,7 +194,38 @@ TEST_F(FurChunkFileTest, chunks_that_are_damaged_are_grown) {
   }
 }
 
-// As if checksums were right: what is known of a chunk is changed, number by number.
+// As if checksums were right.
+TEST_F(FurChunkFileTest, refuses_what_no_chunk_is) {
+  const TestChunks chunks = random_chunks(7, scene_of_kind(0));
+  write(chunks);
+  const std::filesystem::path place = path();
+  const std::string whole = read_file(place);
+  const StoredFileLayout layout =
+      StoredFileLayout::read(place, whole.size(), [&](uint64_t offset, std::span<std::byte> out) {
+        std::memcpy(out.data(), &whole[offset], out.size());
+      });
+  const uint64_t head = layout.sections[0].offset, leaves = layout.sections[3].offset;
+  const auto is_read_with = [&](uint64_t at, auto value) {
+    std::string bytes = whole;
+    std::memcpy(&bytes[at], &value, sizeof(value));
+    const auto mended = with_right_checksums({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+    rewrite(place, std::string(mended.begin(), mended.end()));
+    const auto file = open(chunks.contents.size());
+    return file && file->read(0, sink()) != nullptr;
+  };
+  float low = 0;
+  std::memcpy(&low, &whole[head + 36], sizeof(low));
+  EXPECT_TRUE(is_read_with(head + 36, low));
+  // A box that holds nothing.
+  EXPECT_FALSE(is_read_with(head + 36, std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_FALSE(is_read_with(head + 36, 1e20f));
+  // A segment that is another, that there is not, or that has no number.
+  EXPECT_TRUE(is_read_with(leaves + 16, uint32_t(1)));
+  EXPECT_FALSE(is_read_with(leaves + 16, uint32_t(1000000)));
+  EXPECT_FALSE(is_read_with(leaves + 16, FurBlockHeader::kNone));
+}
+
+// The same: what is known of a chunk is changed, number by number.
 TEST_F(FurChunkFileTest, refuses_packed_strands_that_reach_beyond_their_block) {
   const TestChunks chunks = random_chunks(7, scene_of_kind(0));
   const Strands& strands = std::get<FurContents>(chunks.contents[0].geometry).strands;
