@@ -81,4 +81,10 @@ void StoredSections::read(size_t i, std::span<std::byte> out) const {
     refuse_stored_file(path_, "its bytes have changed");
 }
 
+void StoredSections::expect(size_t i) const {
+  const stored_file_format::Section& section = layout_.sections[i];
+  ::posix_fadvise(descriptor_, static_cast<off_t>(section.offset), static_cast<off_t>(section.bytes),
+                  POSIX_FADV_WILLNEED);
+}
+
 }  // namespace pelage

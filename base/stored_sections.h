@@ -35,6 +35,9 @@ class StoredSections {
   /// Reads section `i` into `out`, which is as long as it. Throws Error (kInput) when it cannot be read or is
   /// not what was written.
   void read(size_t i, std::span<std::byte> out) const;
+  /// Says that section `i` will be read soon: the system may fetch it meanwhile. Until it is read, the system
+  /// keeps that copy.
+  void expect(size_t i) const;
 
  private:
   void read_at(uint64_t offset, std::span<std::byte> out) const;

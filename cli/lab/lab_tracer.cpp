@@ -20,9 +20,10 @@
 namespace pelage {
 namespace {
 
-constexpr int kPasses = 2, kPagedPasses = 1;     // that are timed, after one that is not
-constexpr size_t kGrain = 1024, kBatch = 32768;  // rays
-constexpr int kTessellationRate = 8;             // that the renderer asks of Embree
+constexpr int kPasses = 2, kPagedPasses = 1;  // that are timed, after one that is not
+constexpr size_t kGrain = 1024;               // rays
+constexpr uint64_t kWaitingShare = 8;         // of a budget rays that wait have one part in so many
+constexpr int kTessellationRate = 8;          // that the renderer asks of Embree
 
 /// Sums of one range.
 struct Sums {
@@ -181,6 +182,20 @@ void trace_together(const PagedFur& fur, const LabRays& set, const WorkRange& ra
   }
 }
 
+/// The share of the tree's size is for everything that is held.
+PagedFurOptions paged_options(const FurPageFile& file, double share, const Workers& workers) {
+  PagedFurOptions options;
+  options.threads = workers.thread_count();
+  if (share >= 1) {
+    options.memory_limit = PagedFur::bytes_for(file, 1, options, workers);
+    return options;
+  }
+  options.memory_limit = static_cast<uint64_t>(share * static_cast<double>(file.table().total_page_bytes()));
+  const uint64_t waiting = options.memory_limit / kWaitingShare / static_cast<uint64_t>(options.threads);
+  options.waiting_rays = std::min<size_t>(options.waiting_rays, waiting / sizeof(WaitingRays::Ray));
+  return options;
+}
+
 LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& sets, double share,
                       const Workers& workers) {
   auto file = FurPageFile::open(store, kLabKey,
@@ -188,9 +203,7 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
   if (!file) throw Error(ErrorKind::kFailed, store.folder().string() + ": there are no pages prepared here");
   LabResult result;
   result.bytes = static_cast<double>(file->table().total_page_bytes());
-  PagedFurOptions options;
-  options.threads = workers.thread_count();
-  options.memory_limit = PagedFur::bytes_for(*file, share, workers);
+  const PagedFurOptions options = paged_options(*file, share, workers);
   result.limit_bytes = static_cast<double>(options.memory_limit);
   MemoryLedger ledger;
   const double start = cpu_seconds();
@@ -198,6 +211,8 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
   result.build_cpu_s = cpu_seconds() - start;
   const auto meter = [&] { return std::pair(fur.counts().expansions, fur.bytes_read()); };
   for (const LabRays& set : sets) {
+    // To each thread one stretch of them.
+    const size_t stretch = set.size() / static_cast<size_t>(options.threads) + 1;
     LabCost& alone = result.rays[set.name] = cost_of(
         set, workers, kGrain,
         [&](const WorkRange& range, Sums& sums) { trace_alone(fur, set, range, false, sums); }, meter,
@@ -210,7 +225,7 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
       alone.segment_tests = static_cast<double>(tests.segments);
     }
     result.rays[set.name + "_together"] = cost_of(
-        set, workers, kBatch,
+        set, workers, stretch,
         [&](const WorkRange& range, Sums& sums) { trace_together(fur, set, range, sums); }, meter,
         kPagedPasses);
   }
@@ -269,7 +284,9 @@ LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_
   store_lab_fur(store, fur);
   const SnappedStrands snapped(fur.strands, fur.grid());
   const double start = cpu_seconds();
-  const FurTree tree(snapped, {});
+  FurTreeOptions options;
+  options.build.turn = FurTurn::kWhereItPays;  // as in renders
+  const FurTree tree(snapped, options);
   store_lab_rays(store, make_lab_rays(scene, fur.strands, snapped, tree, most_rays));
   LabResult result;
   result.segments = static_cast<double>(fur.segment_count());

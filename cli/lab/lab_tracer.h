@@ -22,7 +22,8 @@ struct LabVariant {
     kPaged,          ///< the same read from its file
   };
   Kind kind = Kind::kFur64;
-  double share = 1;  ///< of kPaged: memory over the size of the tree
+  /// Of kPaged: memory over the size of the tree. 1: enough to hold all of it, beside what is always held.
+  double share = 1;
 
   static const std::vector<std::string>& names();
   /// Throws Error (kArguments) with the nearest name.

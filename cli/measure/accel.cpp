@@ -30,9 +30,12 @@ constexpr const char* kMethod =
 constexpr const char* kPaging =
     "Paged fur is the quantised tree cut into pages of 128 KiB, in a file. Pages are read when a ray needs "
     "them, by explicit reads that leave nothing in the system's cache, and dropped when memory asks for it. "
-    "A budget of p % is for everything: the table, the tree over the pages' boxes and the pages themselves. "
-    "Alone: a ray waits for each page. Together: of 32,768 rays each waits in the queue of the page that it "
-    "needs next, and pages are read for all their rays at once.";
+    "A budget of p % of its size is for everything: the table, the tree over the pages' boxes, rays that "
+    "wait "
+    "and the pages themselves; 100 % holds all pages beside the others. Alone: a ray waits for each page. "
+    "Together: up to 4,096 rays a thread, but not more than an eighth of the budget holds at 64 bytes each, "
+    "wait in the queues of the pages that they need next; pages are read for all their rays at once, each "
+    "while rays go through the one before.";
 
 struct Kind {
   const char *id, *title;

@@ -185,8 +185,12 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   FurPageTable table;
   if (head.version != kVersion || head.layout > static_cast<uint32_t>(FurNodeLayout::kQuantised))
     refuse(file_);
+  FurFrame frame;
+  frame.turned = head.turned != 0;
+  for (size_t i = 0; i < 3; ++i)
+    frame.axes[i] = V3f(head.axes[3 * i], head.axes[3 * i + 1], head.axes[3 * i + 2]);
   table.trees.push_back({static_cast<FurNodeLayout>(head.layout), head.motion_keys, head.step,
-                         V3f(head.anchor[0], head.anchor[1], head.anchor[2]), head.reach});
+                         V3f(head.anchor[0], head.anchor[1], head.anchor[2]), head.reach, frame});
   if (!table.is_possible()) refuse(file_);
 
   PageBlock block(file_.section_bytes(first + kPacked));
@@ -205,10 +209,6 @@ std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) co
   const FurTreelet whole{0, 0, 0, static_cast<uint32_t>(nodes), static_cast<uint32_t>(nodes + leaves)};
   FurTreeView view = treelet_view(table.trees[0], whole, tree.data());
   view.leaves = tree.data() + begin;
-  view.frame.turned = head.turned != 0;
-  for (size_t i = 0; i < 3; ++i)
-    view.frame.axes[i] = V3f(head.axes[3 * i], head.axes[3 * i + 1], head.axes[3 * i + 2]);
-  if (!view.frame.is_possible()) refuse(file_);
   if (nodes > 0 &&
       (!is_possible_treelet(view, whole) || !numbers_are_below(view, nodes, strands->segment_count()))) {
     refuse(file_);

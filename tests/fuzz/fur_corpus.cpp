@@ -8,12 +8,13 @@
 namespace pelage {
 namespace {
 
-FurTree small_tree(size_t strands, int motion_keys, FurNodeLayout layout) {
+FurTree small_tree(size_t strands, int motion_keys, FurNodeLayout layout, FurTurn turn = FurTurn::kNever) {
   GroomShape shape;
   shape.motion_keys = motion_keys;
   const Strands groom = random_groom(shape, strands, 3);
   FurTreeOptions options;
   options.layout = layout;
+  options.build.turn = turn;
   return FurTree(SnappedStrands(groom, FurGrid(shape.width)), options);
 }
 
@@ -27,6 +28,7 @@ std::vector<std::string> fur_corpus() {
     FurPageFile::Writer writer(store, {1, 2}, size_t(4) << 10);
     writer.add(small_tree(12, keys, FurNodeLayout::kQuantised));
     writer.add(small_tree(5, keys, FurNodeLayout::kFloat));
+    writer.add(small_tree(8, 1, FurNodeLayout::kQuantised, FurTurn::kAlways));
     writer.commit([](const std::string&) {});
     files.push_back(read_file(std::filesystem::directory_iterator(folder.path())->path()));
   }
@@ -36,9 +38,11 @@ std::vector<std::string> fur_corpus() {
 std::vector<std::string> treelet_corpus() {
   std::vector<std::string> treelets;
   for (const FurNodeLayout layout : {FurNodeLayout::kQuantised, FurNodeLayout::kFloat}) {
-    const FurTree tree = small_tree(10, 1, layout);
+    const bool turned = layout == FurNodeLayout::kQuantised;
+    const FurTree tree = small_tree(10, 1, layout, turned ? FurTurn::kAlways : FurTurn::kNever);
     std::string bytes(16, '\0');
     bytes[0] = layout == FurNodeLayout::kQuantised ? '\0' : '\1';
+    bytes[4] = turned ? '\1' : '\0';
     bytes[3] = static_cast<char>(tree.node_bytes() / node_size(layout, 1) - 1);
     bytes.append(reinterpret_cast<const char*>(tree.view().nodes), tree.node_bytes());
     bytes.append(reinterpret_cast<const char*>(tree.view().leaves), tree.leaf_bytes());

@@ -33,6 +33,12 @@ void feed(std::span<const uint8_t> bytes) {
       PELAGE_CHECK(!hit || hit.tree < fur.table().trees.size());
       fur.occluded(ray_of(i), {}, 0, counts);
     }
+    std::vector<Ray> rays;
+    for (int i = 0; i < 8; ++i) rays.push_back(ray_of(i));
+    std::vector<PagedFurHit> hits(rays.size());
+    std::vector<uint8_t> answers(rays.size());
+    fur.closest(rays, {}, 0, hits, counts);
+    fur.occluded(rays, {}, 0, answers, counts);
   } catch (const Error& error) {
     PELAGE_CHECK(error.kind() == ErrorKind::kInput);
   }
@@ -54,6 +60,7 @@ void fuzz_treelet(std::span<const uint8_t> bytes) {
   tree.motion_keys = 1 + bytes[1] % 3;
   tree.step = std::ldexp(1.0f, -8 + bytes[2] % 16);
   tree.reach = 1e4f;
+  if (bytes[4] % 2 == 1) tree.frame = {{V3f(0.6f, 0.8f, 0), V3f(0, 0, 1), V3f(0.8f, -0.6f, 0)}, true};
   const std::span<const uint8_t> content = bytes.subspan(16);
   FurTreelet treelet;
   treelet.end = static_cast<uint32_t>(content.size());

@@ -22,11 +22,12 @@ struct GroomShape {
   V3f centre{0};
   CurveBasis basis = CurveBasis::kPinnedBSpline;
   int motion_keys = 1;
+  V3f combed{0};            ///< the direction of all strands, if it is not 0
   bool degenerate = false;  ///< points coincide, widths vanish, strands have no length
 };
 
 inline std::vector<GroomShape> groom_shapes() {
-  std::vector<GroomShape> shapes(12);
+  std::vector<GroomShape> shapes(13);
   shapes[0].name = "plain";
   shapes[1].name = "curly", shapes[1].turns = 4, shapes[1].curl = 0.2f;
   shapes[2].name = "tight", shapes[2].turns = 6, shapes[2].curl = 0.02f, shapes[2].width = 0.05f;
@@ -39,6 +40,7 @@ inline std::vector<GroomShape> groom_shapes() {
   shapes[9].name = "moving", shapes[9].motion_keys = 3;
   shapes[10].name = "needles", shapes[10].width = 1e-4f;
   shapes[11].name = "very far away", shapes[11].centre = V3f(3e5f, -2e6f, 7e4f);
+  shapes[12].name = "combed", shapes[12].combed = V3f(1, -1, 1).normalized(), shapes[12].curl = 0.02f;
   return shapes;
 }
 
@@ -52,7 +54,8 @@ inline Strands random_groom(const GroomShape& shape, size_t strand_count, uint64
   for (uint64_t s = 0; s < strand_count; ++s) {
     const auto points = static_cast<uint32_t>(4 + 8 * random.unit());
     const V3f root = shape.centre + 0.5f * (2.0f * random.unit3() - V3f(1));
-    const V3f along = random.direction();
+    V3f along = random.direction();
+    if (shape.combed != V3f(0)) along = (shape.combed + 0.1f * along).normalized();
     const V3f side = along.cross(random.direction()).normalized(), other = along.cross(side);
     const V3f motion = 0.2f * random.direction();
     const float phase = 6.28f * random.unit();

@@ -20,18 +20,20 @@ struct FurWarnings {
   }
 };
 
-inline FurTreeOptions fur_options(FurNodeLayout layout) {
+inline FurTreeOptions fur_options(FurNodeLayout layout, FurTurn turn = FurTurn::kNever) {
   FurTreeOptions options;
   options.layout = layout;
+  options.build.turn = turn;
   return options;
 }
 
 /// A groom, the tree over it in memory, and the same tree in a file.
 struct StoredGroom {
-  StoredGroom(const GroomShape& shape, size_t count, FurNodeLayout layout, size_t page_bytes = kSmallPages)
+  StoredGroom(const GroomShape& shape, size_t count, FurNodeLayout layout, FurTurn turn = FurTurn::kNever,
+              size_t page_bytes = kSmallPages)
       : strands(random_groom(shape, count, 7)),
         snapped(strands, FurGrid(shape.width)),
-        tree(snapped, fur_options(layout)),
+        tree(snapped, fur_options(layout, turn)),
         store(folder.path()) {
     FurPageFile::Writer writer(store, kFurKey, page_bytes);
     writer.add(tree);

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "render/accel/flush_denormals.h"
 #include "tests/render/fur_paging.h"
+#include "tests/support/allocation_meter.h"
 
 namespace pelage {
 namespace {
@@ -20,9 +21,10 @@ constexpr size_t kStrands = 300;
 constexpr uint64_t kRays = 500;
 
 /// A page for each of `threads` and `share` of the rest.
-PagedFurOptions budget(StoredGroom& groom, double share, int threads) {
+PagedFurOptions budget(StoredGroom& groom, double share, int threads, size_t waiting_rays = 100) {
   PagedFurOptions options;
   options.threads = threads;
+  options.waiting_rays = waiting_rays;
   options.poison = true;
   MemoryLedger ledger;
   const PagedFur idle(groom.open(), options, ledger, Workers::alone());  // holds what is always held
@@ -74,9 +76,19 @@ INSTANTIATE_TEST_SUITE_P(Grooms, PagedFurOf, testing::ValuesIn(groom_shapes()), 
   return name;
 });
 
+struct Built {
+  FurNodeLayout layout;
+  FurTurn turn;
+};
+
 TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
-  for (const FurNodeLayout layout : {FurNodeLayout::kFloat, FurNodeLayout::kQuantised}) {
-    StoredGroom groom(GetParam(), kStrands, layout);
+  for (const auto& [layout, turn] : {Built{FurNodeLayout::kFloat, FurTurn::kNever},
+                                     Built{FurNodeLayout::kQuantised, FurTurn::kWhereItPays},
+                                     Built{FurNodeLayout::kQuantised, FurTurn::kAlways}}) {
+    StoredGroom groom(GetParam(), kStrands, layout, turn);
+    const bool moves = GetParam().motion_keys > 1;
+    const bool pays = turn == FurTurn::kWhereItPays && GetParam().name == "combed";
+    EXPECT_EQ(groom.tree.view().frame.turned, (turn == FurTurn::kAlways && !moves) || pays);
     const Queries q = queries(GetParam(), groom);
     EXPECT_GT(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
     for (const double share : {1.0, 0.25, 0.0}) {
@@ -102,7 +114,7 @@ TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
 }
 
 TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
-  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised);
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurTurn::kWhereItPays);
   const Queries q = queries(GetParam(), groom);
   const FlushDenormals flush;
   MemoryLedger ledger, other;
@@ -118,14 +130,102 @@ TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
   }
   EXPECT_LE(counts.treelet_visits, alone_counts.treelet_visits);
   EXPECT_LT(together.counts().expansions, alone.counts().expansions);
+  EXPECT_LE(ledger.peak(MemoryTag::kChunks), static_cast<int64_t>(options.memory_limit));
   std::vector<uint8_t> answers(kRays);
   together.occluded(q.rays, q.starts, 0, answers, counts);
   EXPECT_EQ(answers, q.occluded);
 }
 
+TEST_P(PagedFurOf, answers_alike_however_few_rays_may_wait) {
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurTurn::kAlways);
+  const Queries q = queries(GetParam(), groom);
+  const FlushDenormals flush;
+  for (const size_t waiting_rays : {0, 1, 7, 10000}) {
+    MemoryLedger ledger;
+    const PagedFur fur(groom.open(), budget(groom, 0.1, 1, waiting_rays), ledger, Workers::alone());
+    PagedFurCounts counts;
+    // What is in the answers before does not matter.
+    std::vector<PagedFurHit> hits(kRays, PagedFurHit{{0, 3, 0.5f, 0}, 1});
+    std::vector<uint8_t> answers(kRays, 2);
+    fur.closest(q.rays, q.starts, 0, hits, counts);
+    fur.occluded(q.rays, q.starts, 0, answers, counts);
+    for (size_t i = 0; i < kRays; ++i) ASSERT_TRUE(same_hit(hits[i].hit, q.closest[i])) << i;
+    ASSERT_EQ(answers, q.occluded);
+  }
+}
+
+TEST_P(PagedFurOf, holds_nothing_that_is_not_charged) {
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised);
+  const Queries q = queries(GetParam(), groom);
+  const FlushDenormals flush;
+  // As many as there are rays, so that what waits would be seen.
+  const PagedFurOptions options = budget(groom, 0.1, 1, kRays);
+  std::vector<PagedFurHit> hits(kRays);
+  std::vector<uint8_t> answers(kRays);
+  MemoryLedger ledger;
+  FurPageFile file = groom.open();
+  const size_t page = file.table().largest_page();
+  const auto file_bytes = static_cast<int64_t>(file.bytes());
+  const PagedFur fur(std::move(file), options, ledger, Workers::alone());
+  const size_t before = live_bytes();
+  reset_peak();
+  PagedFurCounts counts;
+  fur.closest(q.rays, q.starts, 0, hits, counts);
+  fur.occluded(q.rays, q.starts, 0, answers, counts);
+  EXPECT_GT(fur.counts().evictions, 0);
+  // Everything but frames, which are aligned and do not come from where this is counted: what is held for
+  // rays was there before.
+  EXPECT_LT(peak_bytes() - before, page);
+  const auto waiting = static_cast<int64_t>(WaitingRays::bytes(fur.table().page_bytes.size(), kRays));
+  EXPECT_GE(waiting, static_cast<int64_t>(kRays * sizeof(WaitingRays::Ray)));
+  EXPECT_GT(ledger.current(MemoryTag::kChunks), file_bytes + waiting);
+  EXPECT_LE(ledger.peak(MemoryTag::kChunks), static_cast<int64_t>(options.memory_limit));
+}
+
+/// Two trees that are turned differently, and one that is not.
+TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
+  const GroomShape shape = groom_shapes()[0], combed = groom_shapes()[12];
+  const GroomShape* shapes[] = {&shape, &combed, &shape};
+  TemporaryFolder folder;
+  const ContentStore store(folder.path());
+  FurWarnings warnings;
+  FurPageFile::Writer writer(store, kFurKey, kSmallPages);
+  std::vector<FurTree> trees;
+  for (size_t i = 0; i < 3; ++i) {
+    const Strands strands = random_groom(*shapes[i], 100, 40 + i);
+    const SnappedStrands snapped(strands, FurGrid(shapes[i]->width, V3f(0, static_cast<float>(i), 1)));
+    trees.emplace_back(snapped,
+                       fur_options(FurNodeLayout::kQuantised, i == 2 ? FurTurn::kNever : FurTurn::kAlways));
+    writer.add(trees.back());
+  }
+  ASSERT_TRUE(writer.commit(warnings.sink()));
+  MemoryLedger ledger;
+  const PagedFur fur(FurPageFile::open(store, kFurKey, warnings.sink()).value(), {}, ledger,
+                     Workers::alone());
+  const FlushDenormals flush;
+  const Strands aim = random_groom(shape, 100, 40);
+  TestRandom random(9);
+  PagedFurCounts counts;
+  int met = 0;
+  for (uint64_t i = 0; i < kRays; ++i) {
+    const Ray ray = ray_at_groom(shape, aim, random, i);
+    PagedFurHit truth;
+    for (uint32_t t = 0; t < 3; ++t) {
+      const PagedFurHit hit{trees[t].closest(ray, {}), t};
+      if (hit && (!truth || hit.stands_before(truth))) truth = hit;
+    }
+    const PagedFurHit hit = fur.closest(ray, {}, 0, counts);
+    ASSERT_TRUE(same_hit(hit.hit, truth.hit)) << i;
+    ASSERT_TRUE(!hit || hit.tree == truth.tree);
+    ASSERT_EQ(fur.occluded(ray, {}, 0, counts), bool(truth));
+    met += bool(hit);
+  }
+  EXPECT_GT(met, 50);
+}
+
 TEST(PagedFur, answers_alike_for_any_number_of_threads) {
-  const GroomShape shape = groom_shapes()[1];
-  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised);
+  const GroomShape shape = groom_shapes()[12];
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurTurn::kAlways);
   const Queries q = queries(shape, groom);
   for (const int threads : {2, 5}) {
     for (const double share : {0.5, 0.0}) {
@@ -180,6 +280,11 @@ TEST(PagedFur, reports_a_page_that_was_damaged_meanwhile) {
   const FlushDenormals flush;
   PagedFurCounts counts;
   EXPECT_THROW(for (const Ray& ray : q.rays) fur.closest(ray, {}, 0, counts), Error);
+  // Rays that waited are forgotten.
+  std::vector<PagedFurHit> hits(kRays);
+  EXPECT_THROW(fur.closest(q.rays, {}, 0, hits, counts), Error);
+  fur.closest(std::span<const Ray>(), {}, 0, {}, counts);
+  EXPECT_THROW(fur.closest(q.rays, {}, 0, hits, counts), Error);
 }
 
 TEST(PagedFur, of_nothing_is_never_met) {

@@ -22,6 +22,8 @@ struct FurFrame {
   SnappedSegment operator()(const SnappedSegment& segment) const;
   /// A box along the axes of the grid around one that stands in this frame.
   FurBox unturned(const FurBox& box) const;
+  /// The same axes, turned or not.
+  bool operator==(const FurFrame& o) const { return turned == o.turned && (!turned || axes == o.axes); }
   /// Whether it may come from a file.
   bool is_possible() const;
 };

@@ -26,6 +26,8 @@ struct StoredTree {
   uint32_t layout;
   int32_t motion_keys;
   float step, anchor[3], reach;
+  uint32_t turned;
+  float axes[3][3];
 };
 
 static_assert(sizeof(FurTreelet) == 20 && std::is_trivially_copyable_v<FurTreelet>);
@@ -50,11 +52,16 @@ bool FurPageFile::Writer::commit(const WarningSink& warn) {
   head.box_keys = table.box_keys;
   std::vector<StoredTree> trees;
   for (const FurPagedTree& t : table.trees) {
-    trees.push_back({static_cast<uint32_t>(t.layout),
-                     t.motion_keys,
-                     t.step,
-                     {t.anchor.x, t.anchor.y, t.anchor.z},
-                     t.reach});
+    StoredTree& stored = trees.emplace_back();
+    stored.layout = static_cast<uint32_t>(t.layout);
+    stored.motion_keys = t.motion_keys;
+    stored.step = t.step;
+    stored.reach = t.reach;
+    stored.turned = t.frame.turned ? 1 : 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      stored.anchor[axis] = t.anchor[axis];
+      for (size_t i = 0; i < 3; ++i) stored.axes[i][axis] = t.frame.axes[i][axis];
+    }
   }
   std::vector<float> boxes;
   for (const Box3f& b : table.boxes) {
@@ -95,9 +102,17 @@ FurPageFile::FurPageFile(StoredSections file) : file_(std::move(file)) {
   if (head.size() != 1 || head[0].version != kVersion) refuse(file_);
   table_.box_keys = head[0].box_keys;
   for (const StoredTree& t : values<StoredTree>(pages + 1)) {
-    if (t.layout > static_cast<uint32_t>(FurNodeLayout::kQuantised)) refuse(file_);
-    table_.trees.push_back({static_cast<FurNodeLayout>(t.layout), t.motion_keys, t.step,
-                            V3f(t.anchor[0], t.anchor[1], t.anchor[2]), t.reach});
+    if (t.layout > static_cast<uint32_t>(FurNodeLayout::kQuantised) || t.turned > 1) refuse(file_);
+    FurPagedTree& tree = table_.trees.emplace_back();
+    tree.layout = static_cast<FurNodeLayout>(t.layout);
+    tree.motion_keys = t.motion_keys;
+    tree.step = t.step;
+    tree.reach = t.reach;
+    tree.frame.turned = t.turned == 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      tree.anchor[axis] = t.anchor[axis];
+      for (size_t i = 0; i < 3; ++i) tree.frame.axes[i][axis] = t.axes[i][axis];
+    }
   }
   table_.treelets = values<FurTreelet>(pages + 2);
   const auto boxes = values<float>(pages + 3);

@@ -19,7 +19,7 @@ class Workers;
 class FurPageFile {
  public:
   /// Counts up whenever the same strands would give other pages.
-  static constexpr uint32_t kVersion = 1;
+  static constexpr uint32_t kVersion = 2;
 
   /// Writes an entry, tree by tree; it exists from commit() on. What the file system refuses is told to
   /// commit()'s `warn`.
@@ -52,6 +52,8 @@ class FurPageFile {
   /// Reads one page; `out` is as long as it and aligned to 64 bytes. Throws Error (kInput) when it cannot be
   /// read or is not what was written.
   void read(uint32_t page, std::span<std::byte> out) const;
+  /// Says that a page will be read next: the system may fetch it meanwhile.
+  void expect(uint32_t page) const { file_.expect(page); }
   /// Reads all pages once. Whether they are what was written; otherwise `warn` has been told.
   bool check_all(const Workers& workers, const WarningSink& warn) const;
 

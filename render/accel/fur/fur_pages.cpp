@@ -26,14 +26,18 @@ size_t leaf_size(FurReference leaf, int motion_keys) {
   return leaf.blocks() * (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(motion_keys);
 }
 
-/// From grid units to the scene, outward.
+/// From grid units to those of the scene, outward. Where boxes are turned, rounding may have moved points by
+/// up to 6 units in the last place of the largest.
 Box3f scene_box(const FurPagedTree& tree, const FurBox& box) {
   Box3f result;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    const auto place = [&](float grid) { return double(grid) * tree.step + tree.anchor[axis]; };
-    result.min[axis] = std::nextafter(static_cast<float>(place(box.low[a])), -kInfinity);
-    result.max[axis] = std::nextafter(static_cast<float>(place(box.high[a])), kInfinity);
+    const double anchor =
+        tree.frame.turned ? V3d(tree.frame.axes[a]).dot(V3d(tree.anchor)) : double(tree.anchor[axis]);
+    const double margin = tree.frame.turned ? 0x1p-21 * tree.reach * tree.step : 0;
+    const auto place = [&](float grid) { return double(grid) * tree.step + anchor; };
+    result.min[axis] = std::nextafter(static_cast<float>(place(box.low[a]) - margin), -kInfinity);
+    result.max[axis] = std::nextafter(static_cast<float>(place(box.high[a]) + margin), kInfinity);
   }
   return result;
 }
@@ -45,7 +49,7 @@ bool is_possible(const FurPagedTree& tree) {
   int exponent = 0;
   return layout && tree.motion_keys >= 1 && tree.motion_keys <= 64 && tree.step > 0 &&
          std::isnormal(tree.step) && std::frexp(tree.step, &exponent) == 0.5f && is_finite(tree.anchor) &&
-         tree.reach >= 0 && std::isfinite(tree.reach);
+         tree.reach >= 0 && std::isfinite(tree.reach) && tree.frame.is_possible();
 }
 
 }  // namespace
@@ -133,6 +137,15 @@ class FurCutter::Subtrees {
     }
     return result;
   }
+  /// Of all children.
+  std::vector<FurBox> boxes(uint32_t n) const {
+    std::vector<FurBox> result(keys);
+    for (size_t i = 0; i < 4 && !child(n, i).is_none(); ++i) {
+      const std::vector<FurBox> of_child = boxes(n, i);
+      for (size_t key = 0; key < keys; ++key) result[key].extend(of_child[key]);
+    }
+    return result;
+  }
 
   const FurTreeView& view;
   const size_t node_bytes, keys;
@@ -148,12 +161,12 @@ FurCutter::~FurCutter() = default;
 
 void FurCutter::add(const FurTree& tree) {
   const FurTreeView& view = tree.view();
-  PELAGE_CHECK(!view.frame.turned);
-  table_.trees.push_back({view.layout, view.motion_keys, view.step, view.anchor, view.reach});
+  table_.trees.push_back({view.layout, view.motion_keys, view.step, view.anchor, view.reach, view.frame});
   moves_ = moves_ || view.motion_keys > 1;
   if (!view.nodes) return;
   const Subtrees subtrees(tree);
-  const std::vector<FurBox> whole(subtrees.keys, tree.box());
+  std::vector<FurBox> whole(subtrees.keys, tree.box());
+  if (view.frame.turned) whole = subtrees.boxes(0);
   place(subtrees, 0, whole);
 }
 
@@ -265,7 +278,7 @@ FurTreeView treelet_view(const FurPagedTree& tree, const FurTreelet& treelet, co
           tree.step,
           tree.anchor,
           tree.reach,
-          {}};
+          tree.frame};
 }
 
 bool is_possible_treelet(const FurTreeView& view, const FurTreelet& treelet) {

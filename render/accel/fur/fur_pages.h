@@ -20,6 +20,7 @@ struct FurPagedTree {
   float step = 1;
   V3f anchor{0};
   float reach = 0;
+  FurFrame frame;
 };
 
 /// A part of a fur tree that is a fur tree by itself, and where it stands: nodes (the root first) and then
@@ -37,14 +38,16 @@ struct FurPageTable {
   std::vector<FurPagedTree> trees;
   std::vector<FurTreelet> treelets;
   int box_keys = 1;
-  std::vector<Box3f> boxes;  ///< scene space, by treelet and key; two keys stand at shutter open and close
+  /// By treelet and key, in scene units along the axes of its tree's frame: FurFrame of points of the scene.
+  /// Two keys stand at shutter open and close.
+  std::vector<Box3f> boxes;
   std::vector<uint32_t> page_bytes;
 
   uint64_t total_page_bytes() const;
   uint32_t largest_page() const;
   /// What this object holds.
   size_t bytes() const;
-  /// Whether all numbers fit together: pages, trees and offsets exist, boxes are finite.
+  /// Whether all numbers fit together: pages, trees and offsets exist, boxes are finite, axes are axes.
   bool is_possible() const;
 };
 

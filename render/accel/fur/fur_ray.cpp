@@ -34,7 +34,7 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   if (!(largest(origin) <= FurGrid::kReach)) return false;
   direction = d;
   inverse[3] = near_origin[3] = far_origin[3] = 0;
-  stands_ = Stands::kNowhere;
+  stands_ = false;
   begin(tree, ray, from);
 
   const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
@@ -80,7 +80,7 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
   near = ray.near * grid;
   far = ray.far * grid;
   start = from;
-  if (tree.frame.turned || stands_ != Stands::kAlongGrid) stand_in(tree.frame);
+  if (!stands_ || !(frame_ == tree.frame)) stand_in(tree.frame);
   // Turning rounds boxes and rays by a few units more.
   const float reach = slab_reach_ + tree.reach;
   const float doubt = (tree.frame.turned ? 2 * kDoubt : kDoubt) * reach;
@@ -93,7 +93,8 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
 }
 
 void FurRay::stand_in(const FurFrame& frame) {
-  stands_ = frame.turned ? Stands::kTurned : Stands::kAlongGrid;
+  stands_ = true;
+  frame_ = frame;
   slab_origin_ = frame.turned ? frame(origin) : origin;
   slab_reach_ = largest(slab_origin_);
   const V3f d = frame.turned ? frame(direction) : direction;

@@ -45,8 +45,8 @@ struct FurRay {
   void begin(const FurTreeView& tree, const Ray& ray, const FurStart& from);
   void stand_in(const FurFrame& frame);
 
-  enum class Stands : uint8_t { kNowhere, kAlongGrid, kTurned };
-  Stands stands_ = Stands::kNowhere;
+  bool stands_ = false;  // in frame_
+  FurFrame frame_;
   V3f slab_origin_;
   float slab_reach_ = 0;  // its largest coordinate
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur/paged_fur.h"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <mutex>
-#include <tuple>
+#include <optional>
 
 #include "base/page_block.h"
 #include "base/parallel.h"
@@ -14,7 +16,7 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostWaiting = 64;  // treelets of one ray whose pages are not resident
+constexpr size_t kMostAbsent = 64;  // treelets of one ray whose pages are not resident
 
 bool is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
@@ -22,15 +24,48 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum) && !std::isnan(ray.far);
 }
 
-std::vector<ChunkBounds> treelet_bounds(const FurPageTable& table) {
+/// That of all trees, or the scene's.
+FurFrame frame_of(const FurPageTable& table) {
+  if (table.treelets.empty()) return {};
+  const FurFrame& frame = table.trees[table.treelets[0].tree].frame;
+  const auto has_another = [&](const FurTreelet& t) { return !(table.trees[t.tree].frame == frame); };
+  return std::any_of(table.treelets.begin(), table.treelets.end(), has_another) ? FurFrame() : frame;
+}
+
+Box3f unturned(const FurFrame& frame, const Box3f& box) {
+  const FurBox grid = frame.unturned({{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
+  return {V3f(grid.low[0], grid.low[1], grid.low[2]), V3f(grid.high[0], grid.high[1], grid.high[2])};
+}
+
+std::vector<ChunkBounds> treelet_bounds(const FurPageTable& table, const FurFrame& frame) {
   const auto keys = static_cast<size_t>(table.box_keys);
   std::vector<ChunkBounds> bounds(table.treelets.size());
   for (size_t i = 0; i < bounds.size(); ++i) {
     bounds[i].keys = table.box_keys;
-    const auto first = table.boxes.begin() + static_cast<std::ptrdiff_t>(i * keys);
-    bounds[i].boxes.assign(first, first + static_cast<std::ptrdiff_t>(keys));
+    const FurFrame& own = table.trees[table.treelets[i].tree].frame;
+    for (size_t key = 0; key < keys; ++key) {
+      const Box3f& box = table.boxes[i * keys + key];
+      bounds[i].boxes.push_back(own == frame ? box : unturned(own, box));
+    }
   }
   return bounds;
+}
+
+V3f turned(const FurFrame& frame, const V3f& v) {
+  V3f result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    result[static_cast<int>(axis)] = static_cast<float>(V3d(frame.axes[axis]).dot(V3d(v)));
+  }
+  return result;
+}
+
+PagedFurStart start_of(std::span<const PagedFurStart> starts, size_t i) {
+  return starts.empty() ? PagedFurStart() : starts[i];
+}
+
+size_t waiting_bytes(const FurPageTable& table, const PagedFurOptions& options) {
+  return static_cast<size_t>(options.threads) *
+         WaitingRays::bytes(table.page_bytes.size(), options.waiting_rays);
 }
 
 }  // namespace
@@ -96,25 +131,41 @@ class PagedFur::Pages final : public Grower {
 PagedFur::PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger,
                    const Workers& workers)
     : file_(std::move(file)),
-      tree_(std::make_unique<ChunkTree>(treelet_bounds(file_.table()), workers)),
-      fixed_bytes_(file_.bytes() + tree_->bytes()),
+      frame_(frame_of(file_.table())),
+      tree_(std::make_unique<ChunkTree>(treelet_bounds(file_.table(), frame_), workers)),
+      fixed_bytes_(file_.bytes() + tree_->bytes() + waiting_bytes(file_.table(), options)),
       charge_(ledger, MemoryTag::kChunks, static_cast<int64_t>(fixed_bytes_)),
       pages_(std::make_unique<Pages>(file_, options)),
       residency_(std::make_unique<Residency>(*pages_, table().page_bytes.size(), options.threads,
                                              MemoryBudget{options.memory_limit}, ledger,
-                                             MemoryTag::kChunks)) {}
+                                             MemoryTag::kChunks)) {
+  for (int thread = 0; thread < options.threads; ++thread) {
+    waiting_.emplace_back(table().page_bytes.size(), options.waiting_rays);
+  }
+}
 
 PagedFur::~PagedFur() = default;
 
-uint64_t PagedFur::bytes_for(const FurPageFile& file, double share, const Workers& workers) {
-  const size_t pages = file.table().page_bytes.size();
-  const size_t index = Residency::index_bytes(pages, workers.thread_count());
+uint64_t PagedFur::bytes_for(const FurPageFile& file, double share, const PagedFurOptions& options,
+                             const Workers& workers) {
+  const FurPageTable& table = file.table();
+  const size_t pages = table.page_bytes.size();
+  const size_t index = Residency::index_bytes(pages, options.threads);
   const auto frames = static_cast<size_t>(std::ceil(share * static_cast<double>(pages)));
-  return file.bytes() + ChunkTree(treelet_bounds(file.table()), workers).bytes() + index +
-         frames * Pages::held_bytes(file.table().largest_page());
+  return file.bytes() + ChunkTree(treelet_bounds(table, frame_of(table)), workers).bytes() +
+         waiting_bytes(table, options) + index + frames * Pages::held_bytes(table.largest_page());
 }
 
 uint64_t PagedFur::bytes_read() const { return pages_->bytes_read(); }
+
+ChunkWalk PagedFur::walk(const Ray& ray, ChunkWalk::Order order) const {
+  if (!frame_.turned) return {*tree_, ray, order};
+  // Turned in double precision: of what boxes are allowed to be wrong by that is one part more in 16.
+  Ray here = ray;
+  here.origin = turned(frame_, ray.origin);
+  here.direction = turned(frame_, ray.direction);
+  return {*tree_, here, order};
+}
 
 template <class Query>
 bool PagedFur::visit(uint32_t treelet, Query& query, int thread, PagedFurCounts& counts) const {
@@ -129,175 +180,201 @@ bool PagedFur::visit(uint32_t treelet, Query& query, int thread, PagedFurCounts&
 
 PagedFurHit PagedFur::closest(const Ray& ray, const PagedFurStart& start, int thread,
                               PagedFurCounts& counts) const {
-  if (!is_finite(ray)) return {};
-  Nearest query(ray, start);
-  ChunkWalk walk(*tree_, ray, Nearest::kOrder);
+  PagedFurHit best;
+  if (!is_finite(ray)) return best;
+  Nearest query(ray, start, best);
+  ChunkWalk way = walk(ray, Nearest::kOrder);
   uint32_t treelet = 0;
   float entry = 0;
-  while (walk.next(query.far(), treelet, entry)) {
+  while (way.next(query.far(), treelet, entry)) {
     visit(treelet, query, thread, counts);
   }
-  counts.box_tests += walk.box_tests();
-  return query.best;
+  counts.box_tests += way.box_tests();
+  return best;
 }
 
 bool PagedFur::occluded(const Ray& ray, const PagedFurStart& start, int thread,
                         PagedFurCounts& counts) const {
+  uint8_t hit = 0;
   if (!is_finite(ray)) return false;
-  Any query(ray, start);
-  ChunkWalk walk(*tree_, ray, Any::kOrder);
-  uint32_t waiting[kMostWaiting];
-  size_t waits = 0;
+  Any query(ray, start, hit);
+  ChunkWalk way = walk(ray, Any::kOrder);
+  uint32_t absent[kMostAbsent];
+  size_t count = 0;
   uint32_t treelet = 0;
   float entry = 0;
-  while (!query.hit && walk.next(query.far(), treelet, entry)) {
-    if (waits < kMostWaiting && !is_resident(treelet)) {
-      waiting[waits++] = treelet;
+  while (!hit && way.next(query.far(), treelet, entry)) {
+    if (count < kMostAbsent && !is_resident(treelet)) {
+      absent[count++] = treelet;
       continue;
     }
     visit(treelet, query, thread, counts);
   }
-  for (size_t i = 0; i < waits && !query.hit; ++i) visit(waiting[i], query, thread, counts);
-  counts.box_tests += walk.box_tests();
-  return query.hit;
+  for (size_t i = 0; i < count && !hit; ++i) visit(absent[i], query, thread, counts);
+  counts.box_tests += way.box_tests();
+  return hit != 0;
 }
 
-/// Rays that wait for pages. Of each ray the treelets that it may meet are known from the beginning, front to
-/// back or in the order that suits it.
+/// Many rays of one thread on their way.
+template <class Query>
 class PagedFur::Batch {
  public:
-  Batch(const PagedFur& fur, int thread, PagedFurCounts& counts)
-      : fur_(fur), thread_(thread), counts_(counts), waiting_(fur.table().page_bytes.size()) {}
+  using Answer = typename Query::Answer;
 
-  template <class Query>
-  void run(std::vector<Query>& queries) {
-    plans_.resize(queries.size());
-    for (uint32_t i = 0; i < queries.size(); ++i) {
-      plan(queries[i], i);
-      go_on(queries[i], i);
-    }
-    // In rounds: all pages for which rays wait, those first that are resident meanwhile, then the ones that
-    // most rays wait for. Rays that go on join the queues of pages to come.
-    std::vector<Turn> round;
-    while (!pages_.empty()) {
-      round.clear();
-      // Looked at once each: other threads read and drop pages meanwhile, and an order must not change while
-      // it is sorted by.
-      for (const uint32_t page : pages_) {
-        round.emplace_back(!fur_.residency_->is_resident(page), ~waiting_[page].size(), page);
-      }
-      pages_.clear();
-      std::sort(round.begin(), round.end());
-      for (const auto& [absent, fewness, page] : round) {
-        std::vector<uint32_t> rays;
-        rays.swap(waiting_[page]);
-        for (const uint32_t ray : rays) {
-          visit_next(queries[ray], ray);
-          go_on(queries[ray], ray);
+  Batch(const PagedFur& fur, std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
+        std::span<Answer> answers, PagedFurCounts& counts)
+      : fur_(fur),
+        rays_(rays),
+        starts_(starts),
+        answers_(answers),
+        thread_(thread),
+        counts_(counts),
+        waiting_(fur.waiting_[static_cast<size_t>(thread)]) {}
+
+  void run() {
+    try {
+      size_t ray = 0;
+      std::optional<uint32_t> page;
+      while (true) {
+        while (ray < rays_.size() && !waiting_.is_full()) set_out(ray++);
+        if (waiting_.is_empty()) return;
+        if (!page) page = waiting_.fullest();
+        uint32_t slot = waiting_.release(*page);
+        for (bool is_read = false; slot != WaitingRays::kNone; is_read = true) {
+          const uint32_t after = waiting_[slot].next;
+          go_on(slot);
+          if (!is_read) page = expect_next();
+          slot = after;
         }
       }
+    } catch (...) {
+      waiting_.clear();
+      throw;
     }
   }
 
  private:
-  using Turn = std::tuple<bool, size_t, uint32_t>;  // not resident, the less the more wait, page
-  struct Step {
-    float entry;
-    uint32_t treelet;
-  };
-  struct Plan {
-    uint32_t next = 0, end = 0;  // in steps_
-    bool done = false;
-  };
+  using Ahead = WaitingRays::Ahead;
+  using Step = WaitingRays::Step;
 
-  template <class Query>
-  void plan(const Query& query, uint32_t i) {
-    Plan& plan = plans_[i];
-    plan.next = plan.end = static_cast<uint32_t>(steps_.size());
-    if (!is_finite(query.ray)) return;
-    ChunkWalk walk(*fur_.tree_, query.ray, Query::kOrder);
-    Step step{};
-    while (walk.next(query.far(), step.treelet, step.entry)) steps_.push_back(step);
-    counts_.box_tests += walk.box_tests();
-    plan.end = static_cast<uint32_t>(steps_.size());
-    if (Query::kNearestFirst) {
-      std::sort(steps_.begin() + plan.next, steps_.end(), [](const Step& a, const Step& b) {
-        return a.entry != b.entry ? a.entry < b.entry : a.treelet < b.treelet;
-      });
-    }
+  Query query(size_t i) { return {rays_[i], start_of(starts_, i), answers_[i]}; }
+  bool is_resident(uint32_t treelet) const { return fur_.is_resident(treelet); }
+
+  /// The page after this one, which the system fetches while rays go through this one.
+  std::optional<uint32_t> expect_next() const {
+    if (waiting_.is_empty()) return {};
+    const uint32_t page = waiting_.fullest();
+    if (!fur_.residency_->is_resident(page)) fur_.file_.expect(page);
+    return page;
   }
 
-  template <class Query>
-  void visit_next(Query& query, uint32_t i) {
-    Plan& plan = plans_[i];
-    const Step& step = steps_[plan.next++];
-    if (step.entry > query.far()) {
-      plan.next = plan.end;
+  /// Through what is resident, as a ray does alone. What is left when it comes to something that is not, is
+  /// kept for later.
+  void set_out(size_t i) {
+    answers_[i] = {};
+    if (!is_finite(rays_[i])) return;
+    Query asks = query(i);
+    Ahead ahead;
+    if (!look(asks, ahead, [&](const Step& step) {
+          if (Query::kNearestFirst && !ahead.is_empty()) return true;
+          return !is_resident(step.treelet);
+        }))
       return;
-    }
-    if (!fur_.visit(step.treelet, query, thread_, counts_)) plan.next = plan.end;
+    if (ahead.is_empty()) return;
+    const uint32_t slot = waiting_.begin();
+    WaitingRays::Ray& ray = waiting_[slot];
+    ray.number = static_cast<uint32_t>(i);
+    ray.sees_all = !ahead.is_full();
+    ray.ahead = ahead;
+    wait(slot);
   }
 
-  /// Through all that is resident; then the ray waits.
-  template <class Query>
-  void go_on(Query& query, uint32_t i) {
-    Plan& plan = plans_[i];
-    while (plan.next < plan.end) {
-      // What only has to be met may be met anywhere: what is resident comes first.
-      if (!Query::kNearestFirst) bring_resident_forward(plan);
-      if (steps_[plan.next].entry > query.far()) return;
-      const uint32_t treelet = steps_[plan.next].treelet;
-      if (!fur_.is_resident(treelet)) {
-        const uint32_t page = fur_.table().treelets[treelet].page;
-        if (waiting_[page].empty()) pages_.push_back(page);
-        waiting_[page].push_back(i);
-        return;
+  /// Goes through the treelets in the ray's way. Those that `is_for_later` go into `ahead` as far as there is
+  /// room, the others are visited. False when the ray has its answer.
+  template <class IsForLater>
+  bool look(Query& asks, Ahead& ahead, const IsForLater& is_for_later) {
+    ChunkWalk way = fur_.walk(asks.ray, Query::kOrder);
+    Step step;
+    bool open = true;
+    while (open) {
+      // What the walk comes to in order and behind a full list would not be kept.
+      const bool no_farther = Query::kNearestFirst && ahead.is_full();
+      const float far = no_farther ? std::min(asks.far(), ahead.back().entry) : asks.far();
+      if (!way.next(far, step.treelet, step.entry)) break;
+      if (is_for_later(step)) {
+        ahead.add(step);
+      } else {
+        open = fur_.visit(step.treelet, asks, thread_, counts_);
       }
-      visit_next(query, i);
     }
+    counts_.box_tests += way.box_tests();
+    return open;
   }
 
-  void bring_resident_forward(const Plan& plan) {
-    for (uint32_t k = plan.next; k < plan.end; ++k) {
-      if (!fur_.is_resident(steps_[k].treelet)) continue;
-      std::swap(steps_[k], steps_[plan.next]);
-      return;
+  void wait(uint32_t slot) {
+    waiting_.wait(slot, fur_.table().treelets[waiting_[slot].ahead.front().treelet].page);
+  }
+
+  /// The page that the ray waits for is read if need be, and the ray goes through all that is resident.
+  void go_on(uint32_t slot) {
+    WaitingRays::Ray& ray = waiting_[slot];
+    Query asks = query(ray.number);
+    const auto resident = [&](uint32_t treelet) { return is_resident(treelet); };
+    do {
+      const uint32_t treelet = ray.ahead.front().treelet;
+      ray.ahead.pop();
+      if (!fur_.visit(treelet, asks, thread_, counts_)) break;
+      if (ray.ahead.is_empty() && !look_further(ray, asks)) break;
+      // What only has to be met may be met anywhere.
+      if (!Query::kNearestFirst) ray.ahead.bring_forward(resident);
+      if (ray.ahead.front().entry > asks.far()) break;
+      if (!is_resident(ray.ahead.front().treelet)) return wait(slot);
+    } while (true);
+    waiting_.end(slot);
+  }
+
+  /// What comes after all that was ahead. False if there is nothing.
+  bool look_further(WaitingRays::Ray& ray, Query& asks) {
+    if (ray.sees_all) return false;
+    const Step last = ray.ahead.last();
+    ray.ahead.clear();
+    ChunkWalk way = fur_.walk(asks.ray, Query::kOrder);
+    Step step;
+    while (way.next(ray.ahead.is_full() ? std::min(asks.far(), ray.ahead.back().entry) : asks.far(),
+                    step.treelet, step.entry)) {
+      if (last < step) ray.ahead.add(step);
     }
+    counts_.box_tests += way.box_tests();
+    ray.sees_all = !ray.ahead.is_full();
+    return !ray.ahead.is_empty();
   }
 
   const PagedFur& fur_;
+  const std::span<const Ray> rays_;
+  const std::span<const PagedFurStart> starts_;
+  const std::span<Answer> answers_;
   const int thread_;
   PagedFurCounts& counts_;
-  std::vector<Plan> plans_;
-  std::vector<Step> steps_;
-  std::vector<std::vector<uint32_t>> waiting_;  // rays, by page
-  std::vector<uint32_t> pages_;                 // that rays wait for, each once
+  WaitingRays& waiting_;
 };
-
-namespace {
-
-PagedFurStart start_of(std::span<const PagedFurStart> starts, size_t i) {
-  return starts.empty() ? PagedFurStart() : starts[i];
-}
-
-}  // namespace
 
 void PagedFur::closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                        std::span<PagedFurHit> hits, PagedFurCounts& counts) const {
-  std::vector<Nearest> queries;
-  queries.reserve(rays.size());
-  for (size_t i = 0; i < rays.size(); ++i) queries.emplace_back(rays[i], start_of(starts, i));
-  Batch(*this, thread, counts).run(queries);
-  for (size_t i = 0; i < rays.size(); ++i) hits[i] = queries[i].best;
+  if (!rays_may_wait()) {
+    for (size_t i = 0; i < rays.size(); ++i) hits[i] = closest(rays[i], start_of(starts, i), thread, counts);
+    return;
+  }
+  Batch<Nearest>(*this, rays, starts, thread, hits, counts).run();
 }
 
 void PagedFur::occluded(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                         std::span<uint8_t> answers, PagedFurCounts& counts) const {
-  std::vector<Any> queries;
-  queries.reserve(rays.size());
-  for (size_t i = 0; i < rays.size(); ++i) queries.emplace_back(rays[i], start_of(starts, i));
-  Batch(*this, thread, counts).run(queries);
-  for (size_t i = 0; i < rays.size(); ++i) answers[i] = queries[i].hit ? 1 : 0;
+  if (!rays_may_wait()) {
+    for (size_t i = 0; i < rays.size(); ++i)
+      answers[i] = occluded(rays[i], start_of(starts, i), thread, counts) ? 1 : 0;
+    return;
+  }
+  Batch<Any>(*this, rays, starts, thread, answers, counts).run();
 }
 
 }  // namespace pelage

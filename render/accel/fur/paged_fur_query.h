@@ -5,49 +5,61 @@
 #include <cmath>
 #include <limits>
 
+#include "render/accel/fur/fur_ray.h"
 #include "render/accel/fur/paged_fur.h"
 
-// What a ray asks of one treelet after the other.
 namespace pelage {
 
+/// Of one ray what it asks of one treelet after the other, as long as it need not wait.
 struct PagedFur::Nearest {
-  Nearest(const Ray& of, const PagedFurStart& from) : ray(of), start(from) {}
-
+  using Answer = PagedFurHit;
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kFrontToBack;
   static constexpr bool kNearestFirst = true;
+
+  /// `so_far` is made better.
+  Nearest(const Ray& of, const PagedFurStart& from, PagedFurHit& so_far)
+      : ray(of), start(from), best(so_far) {}
+
   /// As far as something can still stand before what there is: as near, too.
   float far() const {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     return best ? std::min(ray.far, std::nextafter(best.hit.distance, kInfinity)) : ray.far;
   }
+  /// False when nothing more need be asked.
   bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
     Ray shorter = ray;
     shorter.far = far();
-    const PagedFurHit found{
-        closest_fur(view, shorter, tree == start.tree ? start.start : FurStart(), nullptr, tests), tree};
+    const FurRay* prepared = rays.prepare(view, shorter, tree == start.tree ? start.start : FurStart());
+    if (!prepared) return true;
+    const PagedFurHit found{closest_fur(view, *prepared, nullptr, tests), tree};
     if (found && (!best || found.stands_before(best))) best = found;
     return true;
   }
 
-  Ray ray;
-  PagedFurStart start;
-  PagedFurHit best;
+  const Ray& ray;
+  const PagedFurStart start;
+  PagedFurHit& best;
+  FurRays rays;
 };
 
 struct PagedFur::Any {
-  Any(const Ray& of, const PagedFurStart& from) : ray(of), start(from) {}
-
+  using Answer = uint8_t;
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kLongestFirst;
   static constexpr bool kNearestFirst = false;
+
+  Any(const Ray& of, const PagedFurStart& from, uint8_t& answer) : ray(of), start(from), hit(answer) {}
+
   float far() const { return ray.far; }
   bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
-    hit = fur_occludes(view, ray, tree == start.tree ? start.start : FurStart(), nullptr, tests);
-    return !hit;
+    const FurRay* prepared = rays.prepare(view, ray, tree == start.tree ? start.start : FurStart());
+    if (prepared && fur_occludes(view, *prepared, nullptr, tests)) hit = 1;
+    return hit == 0;
   }
 
-  Ray ray;
-  PagedFurStart start;
-  bool hit = false;
+  const Ray& ray;
+  const PagedFurStart start;
+  uint8_t& hit;
+  FurRays rays;
 };
 
 }  // namespace pelage
