@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kPasses = 2, kPagedPasses = 1;  // that are timed, after one that is not
 constexpr size_t kGrain = 1024;               // rays
-constexpr uint64_t kWaitingShare = 8;         // of a budget rays that wait have one part in so many
+constexpr uint64_t kWaitingShare = 4;         // of a budget rays that wait have one part in so many
 constexpr int kTessellationRate = 8;          // that the renderer asks of Embree
 
 /// Sums of one range.

@@ -33,9 +33,9 @@ constexpr const char* kPaging =
     "A budget of p % of its size is for everything: the table, the tree over the pages' boxes, rays that "
     "wait "
     "and the pages themselves; 100 % holds all pages beside the others. Alone: a ray waits for each page. "
-    "Together: up to 4,096 rays a thread, but not more than an eighth of the budget holds at 64 bytes each, "
-    "wait in the queues of the pages that they need next; pages are read for all their rays at once, each "
-    "while rays go through the one before.";
+    "Together: up to 16,384 rays, but not more than a quarter of the budget holds at 64 bytes each, wait in "
+    "the queues of the pages that they need next; a page is read for all its rays at once, while others go "
+    "through the one before.";
 
 struct Kind {
   const char *id, *title;

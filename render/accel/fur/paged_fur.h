@@ -45,7 +45,7 @@ struct PagedFurOptions {
   uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
   /// Of each thread, how many rays may wait for pages at once. What they hold, 64 bytes each, is taken and
   /// charged from the beginning. 0: every ray waits alone, for one page after the other.
-  size_t waiting_rays = size_t(1) << 12;
+  size_t waiting_rays = size_t(1) << 14;
   bool poison = false;  ///< pages are overwritten when they are dropped, for tests
 };
 
