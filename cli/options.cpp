@@ -138,6 +138,10 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   trace->add_option("--share", options.trace_share, "Memory of paged fur over the size of its tree")
       ->check(CLI::PositiveNumber)
       ->type_name("SHARE");
+  trace->add_option("--kinds", options.trace_kinds, "Rays to trace: camera,gather,sorted,shadow,deep")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("KINDS");
   trace->add_option("--rays", options.rays, "Rays of each kind that 'prepare' makes, at most")
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N");

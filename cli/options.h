@@ -62,6 +62,7 @@ struct Options {
   int rays = 1 << 17;                    ///< measure accel, trace: of each kind, at most
   std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()
   double trace_share = 1;                ///< trace: memory of `paged` over the size of its tree
+  std::vector<std::string> trace_kinds;  ///< trace: of rays; empty: all
 
   std::vector<std::string> models;  ///< compare: --models; empty: all
 

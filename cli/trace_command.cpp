@@ -41,7 +41,8 @@ void write_result(const std::string& path, const LabResult& result, const Run& r
 
 int run_trace(const Options& options) {
   Run run(options);
-  const LabVariant variant{LabVariant::parse(options.trace_variant), options.trace_share};
+  const LabVariant variant{LabVariant::parse(options.trace_variant), options.trace_share,
+                           options.trace_kinds};
   const ContentStore store(options.output);
   LabResult result;
   if (variant.kind == LabVariant::Kind::kPrepare) {

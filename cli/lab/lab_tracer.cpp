@@ -248,9 +248,28 @@ LabVariant::Kind LabVariant::parse(const std::string& name) {
   return static_cast<Kind>(found - names().begin());
 }
 
+namespace {
+
+std::vector<LabRays> rays_of(const ContentStore& store, const std::vector<std::string>& kinds) {
+  std::vector<LabRays> sets = load_lab_rays(store);
+  if (kinds.empty()) return sets;
+  std::vector<LabRays> chosen;
+  std::vector<std::string> names;
+  for (const LabRays& set : sets) names.push_back(set.name);
+  for (const std::string& kind : kinds) {
+    const auto found = std::find(names.begin(), names.end(), kind);
+    if (found == names.end())
+      throw Error(ErrorKind::kArguments, "there are no rays '" + kind + "'" + did_you_mean(kind, names));
+    chosen.push_back(std::move(sets[static_cast<size_t>(found - names.begin())]));
+  }
+  return chosen;
+}
+
+}  // namespace
+
 LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, const Workers& workers,
                          Progress& progress) {
-  const std::vector<LabRays> sets = load_lab_rays(store);
+  const std::vector<LabRays> sets = rays_of(store, variant.kinds);
   // Pages have all that paged fur needs.
   const LabFur fur = variant.kind == LabVariant::Kind::kPaged ? LabFur() : load_lab_fur(store);
   progress.begin("trace", 1);

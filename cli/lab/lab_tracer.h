@@ -24,6 +24,7 @@ struct LabVariant {
   Kind kind = Kind::kFur64;
   /// Of kPaged: memory over the size of the tree. 1: enough to hold all of it, beside what is always held.
   double share = 1;
+  std::vector<std::string> kinds;  ///< of rays that are traced; empty: all
 
   static const std::vector<std::string>& names();
   /// Throws Error (kArguments) with the nearest name.
@@ -52,7 +53,8 @@ struct LabResult {
 };
 
 /// Builds a variant over the fur of a folder and traces its rays. Throws Error; kMemory when a share of the
-/// tree's size is not enough for its table and a page per thread.
+/// tree's size is not enough for its table and a page per thread; kArguments when there are no rays of a
+/// kind.
 LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, const Workers& workers,
                          Progress& progress);
 

@@ -73,8 +73,8 @@ class PagedFur {
 
   /// The same for many rays at once. A ray that comes to a page which is not resident waits, and others go
   /// on; when as many wait as may, or all, the page that most of them wait for is read, for all of those.
-  /// Every ray still visits its treelets in the order in which it would alone: front to back, or, where
-  /// anything in its way will do, what is resident first. `starts` is empty or as long as `rays`, and so are
+  /// Every ray visits its treelets front to back, or, where anything in its way will do, what is resident
+  /// first, as it does alone. `starts` is empty or as long as `rays`, and so are
   /// the answers, which are the same.
   void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
