@@ -186,7 +186,7 @@ TEST(FurPages, of_several_trees_follow_each_other) {
 }
 
 TEST(FurPages, of_axes_that_are_none_are_not_possible) {
-  const GroomShape combed = groom_shapes()[12];
+  const GroomShape combed = groom_shapes()[11];
   const Strands strands = random_groom(combed, 50, 3);
   const FurTree tree(SnappedStrands(strands, FurGrid(combed.width)),
                      fur_options(FurNodeLayout::kQuantised, FurTurn::kWhereItPays));

@@ -146,11 +146,12 @@ TEST_P(FurTreeOf, holds_together_wherever_it_stands) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(grooms, FurTreeOf, testing::ValuesIn(groom_shapes()), [](const auto& of) {
-  std::string name = of.param.name;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(grooms, FurTreeOf, testing::ValuesIn(groom_shapes_at_any_distance()),
+                         [](const auto& of) {
+                           std::string name = of.param.name;
+                           std::replace(name.begin(), name.end(), ' ', '_');
+                           return name;
+                         });
 
 TEST(FurTree, is_the_same_every_time) {
   const Strands strands = random_groom(groom_shapes()[1], 500, 1);

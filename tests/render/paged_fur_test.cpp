@@ -128,10 +128,7 @@ TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
     ASSERT_TRUE(same_hit(hits[i].hit, q.closest[i])) << i;
     alone.closest(q.rays[i], q.starts[i], 0, alone_counts);
   }
-  // Millions of units away many boxes are entered at equal distances, and the order says nothing.
-  if (GetParam().name != "very far away") {
-    EXPECT_LE(counts.treelet_visits, alone_counts.treelet_visits);
-  }
+  EXPECT_LE(counts.treelet_visits, alone_counts.treelet_visits);
   EXPECT_LT(together.counts().expansions, alone.counts().expansions);
   EXPECT_LE(ledger.peak(MemoryTag::kChunks), static_cast<int64_t>(options.memory_limit));
   std::vector<uint8_t> answers(kRays);
@@ -187,7 +184,7 @@ TEST_P(PagedFurOf, holds_nothing_that_is_not_charged) {
 
 /// Two trees that are turned differently, and one that is not.
 TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
-  const GroomShape shape = groom_shapes()[0], combed = groom_shapes()[12];
+  const GroomShape shape = groom_shapes()[0], combed = groom_shapes()[11];
   const GroomShape* shapes[] = {&shape, &combed, &shape};
   TemporaryFolder folder;
   const ContentStore store(folder.path());
@@ -227,7 +224,7 @@ TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
 }
 
 TEST(PagedFur, answers_alike_for_any_number_of_threads) {
-  const GroomShape shape = groom_shapes()[12];
+  const GroomShape shape = groom_shapes()[11];
   StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurTurn::kAlways);
   const Queries q = queries(shape, groom);
   for (const int threads : {2, 5}) {
