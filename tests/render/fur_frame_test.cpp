@@ -55,6 +55,32 @@ TEST(FurFrame, is_that_of_the_grid_where_no_other_is_much_better) {
   EXPECT_FALSE(frame_of(random_groom(moving, 50, 1), FurTurn::kAlways).turned);
 }
 
+TEST(FurFrame, is_told_by_all_parts_of_strands_however_many_segments_they_have) {
+  const V3f direction = V3f(1, 1, 1).normalized();
+  const auto half_combed = [&](uint32_t segments, bool roots) {
+    TestRandom random(5);
+    StrandArrays a;
+    a.basis = CurveBasis::kLinear;
+    a.first_point.push_back(0);
+    for (uint32_t s = 0; s < 1024; ++s) {
+      V3f p = random.unit3();
+      for (uint32_t i = 0; i <= segments; ++i) {
+        a.points.insert(a.points.end(), {p.x, p.y, p.z, 0.01f});
+        const V3f disorder = random.direction();
+        p += 0.2f * ((i == 0) == roots ? direction : disorder);
+      }
+      a.first_point.push_back(a.first_point.back() + segments + 1);
+      a.ids.push_back(s);
+    }
+    return Strands(std::move(a));
+  };
+  // Whoever looks at every n-th segment of so many sees first ones only.
+  for (uint32_t segments : {7u, 8u, 14u}) {
+    EXPECT_FALSE(frame_of(half_combed(segments, true)).turned) << segments;
+    EXPECT_TRUE(frame_of(half_combed(segments, false)).turned) << segments;
+  }
+}
+
 TEST(FurFrame, boxes_along_the_grid_hold_those_that_are_turned) {
   TestRandom random(4);
   for (int i = 0; i < 200; ++i) {

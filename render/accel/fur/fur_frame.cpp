@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/hash.h"
 #include "render/accel/fur/fur_node.h"
 
 namespace pelage {
@@ -20,12 +21,15 @@ constexpr double kWorth = 0.7;
 
 using Samples = std::vector<SnappedSegment>;
 
+/// One segment of every so many, chosen by hash: at even steps strands of as many segments would show the
+/// same one each, of their roots say, which are combed where nothing else is.
 Samples samples_of(const SnappedStrands& strands) {
   Samples samples;
-  const uint32_t count = strands.segment_count();
-  const uint32_t every = std::max(1u, count / kSamples);
-  samples.reserve(count / every + 1);
-  for (uint32_t number = 0; number < count; number += every) {
+  const uint64_t count = strands.segment_count(), most = std::min<uint64_t>(count, kSamples);
+  samples.reserve(most);
+  for (uint64_t i = 0; i < most; ++i) {
+    const uint64_t first = i * count / most, end = (i + 1) * count / most;
+    const auto number = static_cast<uint32_t>(first + hash64(i, random_use("fur frame")) % (end - first));
     const SnappedSegment segment = strands.segment(strands.locate(number), 0);
     if (SnappedStrands::is_drawable(segment)) samples.push_back(segment);
   }
