@@ -200,8 +200,7 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       continue;
     }
     if (!s.growing) {
-      if (const auto raised = raised_.find(slot); raised != raised_.end())
-        needed = std::max(needed, raised->second);
+      needed = static_cast<int64_t>(grower_.reserve_bytes(slot));  // more, if growing it gave no unit
       Victims victims;
       const Room room = reserve(needed, victims);
       if (room == Room::kGranted) {
@@ -254,7 +253,6 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   if (!grown.unit) {
     PELAGE_CHECK(bytes > reserved);
     charge(-reserved);
-    raised_[slot] = bytes;
     changed_.notify_all();
     return nullptr;
   }

@@ -46,8 +46,9 @@ class Grower {
   /// For messages: what the slot is of, or nothing.
   virtual std::string name(uint32_t) const { return {}; }
   /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw. Where
-  /// it turns out that the slot takes more than was reserved, it gives no unit and says in `bytes` how much:
-  /// it is called again when so much is reserved, and holds nothing until then.
+  /// it turns out that the slot takes more than was reserved, it gives no unit and says in `bytes` how much,
+  /// which reserve_bytes() says from then on: it is called again when so much is reserved, and holds nothing
+  /// until then.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
@@ -206,7 +207,6 @@ class Residency {
   ClockRing clock_;                  // slots with a unit; this and the following: guarded by mutex_
   GrowthTurns turns_;
   std::map<uint32_t, std::exception_ptr> failures_;
-  std::map<uint32_t, int64_t> raised_;  // what slots take at most that gave no unit
   int growing_ = 0;
   int64_t held_ = 0;  // charged for units and reservations
   ResidencyCounts counts_;

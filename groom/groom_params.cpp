@@ -83,11 +83,13 @@ const Schema<GroomParams>& GroomParams::schema() {
                "What shapes the strands, in this order; every strand begins straight, one scene unit long"});
     s.key(
         "leaf_strands", &GroomParams::leaf_strands,
-        {.help = "Most strands that are grown together; changes no pixel. By default 8000, or the quarter of "
-                 "it and so on of which some thousand fit render.memory; coats with a cache always 8000",
+        {.help =
+             "Most strands that are grown together; changes no pixel. By default 500 with "
+             "render.bvh.file; else 8000, or 2000, 500 or 125, so few that 400 chunks of 80 bytes a control "
+             "point fit render.memory where all fur may not; 8000 for coats with a cache or from a file",
          .min = 1,
          .max = 1e6,
-         .default_text = "8000, 2000, 500 or 125"});
+         .default_text = "8000 or fewer"});
     s.key("cache", &GroomParams::cache, {.help = "Keeps what frozen operators do", .default_text = "none"});
     return s;
   }();

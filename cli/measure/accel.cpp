@@ -31,8 +31,8 @@ constexpr const char* kPaging =
     "Paged fur is the quantised tree cut into pages of 128 KiB, in a file. Pages are read when a ray needs "
     "them, by explicit reads that leave nothing in the system's cache, and dropped when memory asks for it. "
     "A budget of p % of its size is for everything: the table, the tree over the pages' boxes, rays that "
-    "wait "
-    "and the pages themselves; 100 % holds all pages beside the others. Alone: a ray waits for each page. "
+    "wait and the pages themselves; 100 % holds all pages beside the others. Alone: a ray waits for each "
+    "page. "
     "Together: up to 16,384 rays, but not more than a quarter of the budget holds at 64 bytes each, wait in "
     "the queues of the pages that they need next; a page is read for all its rays at once, while others go "
     "through the one before.";

@@ -30,6 +30,16 @@ Variant limited(const std::string& id, const std::string& title, const std::stri
   return {id, title, "render", {"--set", "render.memory=" + memory, "--sample-memory", "0.01"}};
 }
 
+/// As large as the scene's own limit has them, in all rows: otherwise chunks would follow the row's.
+std::vector<std::string> same_chunks(const SceneDescription& scene) {
+  std::vector<std::string> arguments;
+  for (const auto& [name, position, groom] : scene.grooms.items) {
+    arguments.push_back("--set");
+    arguments.push_back(fmt::format("grooms.{}.leaf_strands={}", name, groom.leaf_size()));
+  }
+  return arguments;
+}
+
 // What a refusal says would do: "...; 120M would do".
 double least_bytes(const Outcome& refused) {
   const std::string text = refused.error();
@@ -55,7 +65,8 @@ class Sweep {
   Sweep(const SceneDescription& scene, const MeasureSetup& setup, ProgressDisplay& display)
       : display_(display),
         runner_(setup, display, 2 + std::size(kShares) + 2),
-        cache_arguments_(CacheFolders(scene, setup.folder).arguments("residency")) {}
+        cache_arguments_(CacheFolders(scene, setup.folder).arguments("residency")),
+        chunk_arguments_(same_chunks(scene)) {}
 
   void run() {
     Variant warm_up = limited("warm-up", "warm-up", kUnlimited);
@@ -97,14 +108,15 @@ class Sweep {
 
  private:
   void add(Variant variant, const Budget& budget) {
-    variant.arguments.insert(variant.arguments.end(), cache_arguments_.begin(), cache_arguments_.end());
+    for (const auto& more : {cache_arguments_, chunk_arguments_})
+      variant.arguments.insert(variant.arguments.end(), more.begin(), more.end());
     outcomes.push_back(runner_.run(variant));
     budgets.push_back(budget);
   }
 
   ProgressDisplay& display_;
   VariantRunner runner_;
-  std::vector<std::string> cache_arguments_;
+  std::vector<std::string> cache_arguments_, chunk_arguments_;
 };
 
 Cell same_pixels(const VariantRunner& runner, const Outcome& unlimited, const Outcome& outcome) {

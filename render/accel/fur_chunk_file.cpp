@@ -162,9 +162,10 @@ std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, const WarningSink& 
   } catch (const Error& error) {
     lost_[chunk].store(true, std::memory_order_relaxed);
     if (is_damaged_.exchange(true)) return nullptr;
-    std::error_code ignored;
-    std::filesystem::remove(file_.path(), ignored);
-    warn(std::string(error.what()) + "; grown instead, and made again by the next run");
+    std::error_code why;
+    std::filesystem::remove(file_.path(), why);
+    warn(std::string(error.what()) + "; grown instead" +
+         (why ? "; the file cannot be removed: " + why.message() : ", and made again by the next run"));
     return nullptr;
   }
   chunks_read_.fetch_add(1, std::memory_order_relaxed);

@@ -52,8 +52,8 @@ class FurChunkFile {
   /// At least what reading a chunk holds at any moment, and what the chunk holds afterwards.
   size_t bytes_bound(uint32_t chunk) const;
   /// `pool` as FurTreeOptions. Null when the chunk cannot be read or is not what was written: then it is
-  /// lost, the file is no longer found, so that it will be made again, and `warn` has been told, once for all
-  /// chunks.
+  /// lost, the file is removed, so that it will be made again, or `warn` is told why it cannot be; it is told
+  /// once for all chunks.
   std::unique_ptr<FurChunk> read(uint32_t chunk, const WarningSink& warn, PagePool* pool = nullptr) const;
 
   /// What this object holds.

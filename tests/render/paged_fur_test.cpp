@@ -256,6 +256,30 @@ TEST(PagedFur, answers_alike_for_any_number_of_threads) {
   }
 }
 
+// Each thread has a queue of its own: that another's is full makes no ray of this one go alone.
+TEST(PagedFur, lets_rays_of_every_thread_wait) {
+  const GroomShape shape = groom_shapes()[0];
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurTurn::kNever);
+  const Queries q = queries(shape, groom);
+  constexpr int kThreads = 3;
+  const auto faults = [&](size_t waiting_rays) {
+    MemoryLedger ledger;
+    PagedFurOptions options = budget(groom, 0.1, kThreads);
+    options.waiting_rays = waiting_rays;
+    const Workers workers(kThreads);
+    const PagedFur fur(groom.open(), options, ledger, workers);
+    std::atomic<int> worker{0};
+    workers.for_each(kThreads, 1, [&](WorkRange) {
+      const FlushDenormals flush;
+      PagedFurCounts counts;
+      std::vector<PagedFurHit> hits(q.rays.size());
+      fur.closest(q.rays, q.starts, worker.fetch_add(1), hits, counts);
+    });
+    return fur.counts().expansions;
+  };
+  EXPECT_LT(2 * faults(16), faults(0));
+}
+
 TEST(PagedFur, refuses_a_budget_without_a_page_per_thread) {
   StoredGroom groom(groom_shapes()[0], kStrands, FurNodeLayout::kQuantised);
   MemoryLedger ledger;

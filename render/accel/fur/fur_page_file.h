@@ -19,7 +19,7 @@ class Workers;
 class FurPageFile {
  public:
   /// Counts up whenever the same strands would give other pages.
-  static constexpr uint32_t kVersion = 2;
+  static constexpr uint32_t kVersion = 3;
 
   /// Writes an entry, tree by tree; it exists from commit() on. What the file system refuses is told to
   /// commit()'s `warn`.

@@ -8,7 +8,7 @@ namespace pelage {
 namespace {
 
 // What rounding may move a box by, relative to the largest number that goes in: 32 units in the last place,
-// of which slabs and hits each take less than half. Points in ray space that floats make are off by less than
+// of which slabs take less than half. Points in ray space that floats make are off by less than
 // 35, turned frames (in which numbers may be smaller by the root of 3) included.
 constexpr float kDoubt = 0x1p-19f;
 constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite

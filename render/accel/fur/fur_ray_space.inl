@@ -28,7 +28,8 @@ HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& fla
 }
 
 /// One Bezier point of all curves as the ray sees it: a function of the ray and the point, so that it is the
-/// same for both segments at a joint. Rounded once: a product of two floats fits a double.
+/// same for both segments at a joint. Rounded once where nothing moves: a product of two floats fits a
+/// double.
 template <class Curves>
 HWY_INLINE void flatten_point(const Curves& curves, const FurRay& ray, size_t point, V& x, V& y) {
   const hn::Rebind<float, Doubles> floats;

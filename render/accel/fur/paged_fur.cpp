@@ -131,6 +131,7 @@ class PagedFur::Pages final : public Grower {
 PagedFur::PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger,
                    const Workers& workers)
     : file_(std::move(file)),
+      waiting_rays_(options.waiting_rays),
       frame_(frame_of(file_.table())),
       tree_(std::make_unique<ChunkTree>(treelet_bounds(file_.table(), frame_), workers)),
       fixed_bytes_(file_.bytes() + tree_->bytes() + waiting_bytes(file_.table(), options)),

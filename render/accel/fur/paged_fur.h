@@ -99,11 +99,12 @@ class PagedFur {
   /// What asks for one ray: the treelet is visited, its page is pinned meanwhile. False ends the ray.
   template <class Query>
   bool visit(uint32_t treelet, Query& query, int thread, PagedFurCounts& counts) const;
-  bool rays_may_wait() const { return !waiting_.empty() && !waiting_[0].is_full(); }
+  bool rays_may_wait() const { return waiting_rays_ > 0; }
   bool is_resident(uint32_t treelet) const { return residency_->is_resident(table().treelets[treelet].page); }
 
   const FurPageFile file_;
-  const FurFrame frame_;  // in which tree_ stands
+  const size_t waiting_rays_;  // of each thread
+  const FurFrame frame_;       // in which tree_ stands
   std::unique_ptr<ChunkTree> tree_;
   size_t fixed_bytes_ = 0;
   MemoryCharge charge_;
