@@ -45,18 +45,7 @@ int64_t MemoryLedger::peak(MemoryTag tag) const {
   return accounts_[static_cast<size_t>(tag)].peak.load(std::memory_order_relaxed);
 }
 
-bool MemoryLedger::is_budgeted(MemoryTag tag) {
-  switch (tag) {
-    case MemoryTag::kChunks:
-    case MemoryTag::kSkins:
-    case MemoryTag::kOperatorCache:
-    case MemoryTag::kReflectionCache:
-    case MemoryTag::kFilm:
-      return true;
-    default:
-      return false;
-  }
-}
+bool MemoryLedger::is_budgeted(MemoryTag tag) { return tag != MemoryTag::kLibraries; }
 
 int64_t MemoryLedger::budgeted() const {
   int64_t bytes = 0;

@@ -28,10 +28,15 @@ class MemoryLedger {
   void charge(MemoryTag tag, int64_t bytes);
   int64_t current(MemoryTag tag) const;
   int64_t peak(MemoryTag tag) const;
-  /// Whether `render.memory` covers a tag: chunks, skins, caches and film (law 5).
+  /// Whether `render.memory` covers a tag: all but the libraries (law 5).
   static bool is_budgeted(MemoryTag tag);
   /// Bytes in use of what `render.memory` covers.
   int64_t budgeted() const;
+
+  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger
+  /// only remembers it: who makes something asks first (base/memory_budget.h).
+  void set_limit(uint64_t bytes) { limit_ = static_cast<int64_t>(bytes); }
+  int64_t limit() const { return limit_; }
 
  private:
   struct Account {
@@ -39,6 +44,7 @@ class MemoryLedger {
     std::atomic<int64_t> peak{0};
   };
   std::array<Account, static_cast<size_t>(MemoryTag::kCount)> accounts_;
+  int64_t limit_ = 0;
 };
 
 /// Holds a charge for as long as it lives. A default-constructed one holds nothing.

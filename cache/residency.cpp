@@ -9,28 +9,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 
 namespace pelage {
 namespace {
-
-std::string size_text(int64_t bytes) {
-  if (bytes < 1 << 20) return fmt::format("{:.1f} KiB", static_cast<double>(bytes) / (1 << 10));
-  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
-}
-
-/// What the ledger holds of the budget: "30.0 MiB are taken (skins 20.0 MiB, film 10.0 MiB)".
-std::string taken_text(const MemoryLedger& ledger) {
-  std::string parts;
-  for (int i = 0; i < static_cast<int>(MemoryTag::kCount); ++i) {
-    const auto tag = static_cast<MemoryTag>(i);
-    if (!MemoryLedger::is_budgeted(tag) || ledger.current(tag) == 0) continue;
-    parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", memory_tag_name(tag),
-                         size_text(ledger.current(tag)));
-  }
-  return fmt::format("{} are taken{}", size_text(ledger.budgeted()), parts.empty() ? "" : " (" + parts + ")");
-}
 
 /// " (walker.coat)".
 std::string of_text(const std::string& name) { return name.empty() ? "" : " (of " + name + ")"; }
@@ -72,8 +56,9 @@ void Residency::refuse_small_budget() const {
   throw Error(
       ErrorKind::kMemory,
       fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; {}M would do",
-                  size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
-                  of_text(grower_.name(which)), size_text(static_cast<int64_t>(largest)), (least >> 20) + 1));
+                  memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
+                  of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)),
+                  (least >> 20) + 1));
 }
 
 Residency::~Residency() {
@@ -286,8 +271,8 @@ void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
   const char* remedy = keeps_all_ ? "; with bounds other than none not everything is held at once" : "";
   throw Error(ErrorKind::kMemory,
               fmt::format("render.memory ({}) is used up: {}, and a chunk{} of {} is needed{}",
-                          size_text(static_cast<int64_t>(budget_.limit)), taken_text(ledger_),
-                          of_text(grower_.name(slot)), size_text(needed), remedy));
+                          memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
+                          of_text(grower_.name(slot)), memory_text(needed), remedy));
 }
 
 void Residency::grow_all(const Workers& workers, Progress& progress) {

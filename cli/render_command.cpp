@@ -86,6 +86,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
 int run_render(const Options& options) {
   Run run(options);
   const SceneDescription scene = load_scene(options.input, options.overrides);
+  run.ledger().set_limit(scene.render.memory.bytes);
   const std::string output = output_name(options, scene.frames);
   if (std::filesystem::path(output).extension() != ".exr") {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");

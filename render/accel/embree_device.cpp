@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/heap.h"
-#include "render/memory_budget.h"
+#include "base/memory_budget.h"
 
 namespace pelage {
 namespace {
@@ -46,7 +46,8 @@ void EmbreeDevice::rethrow() const {
   std::lock_guard lock(mutex_);
   if (code_ == RTC_ERROR_NONE) return;
   if (over_limit_) {
-    throw Error(ErrorKind::kMemory, budget_text("the tree over the geometry", memory_limit_));
+    throw Error(ErrorKind::kMemory, fmt::format("the tree over the geometry does not fit render.memory ({})",
+                                                memory_text(static_cast<int64_t>(memory_limit_))));
   }
   if (code_ == RTC_ERROR_OUT_OF_MEMORY)
     throw Error(ErrorKind::kMemory, "out of memory while building the tree");

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/memory_budget.h"
 #include "base/parallel.h"
-#include "render/memory_budget.h"
 #include "render/path/strand_fields.h"
 
 namespace pelage {
@@ -53,7 +53,7 @@ void FrameChunks::divide_skins(const Workers& workers, MemoryLedger& ledger) {
   size_t largest = 0;
   for (const SkinPart& part : scene_.skins) largest = std::max(largest, part.skin->making_bytes({}));
   const uint64_t limit = scene_.render.memory.bytes;
-  require_room(ledger, limit, static_cast<int64_t>(largest), "the largest skin, posed to be divided,");
+  require_room(ledger, static_cast<int64_t>(largest), "the largest skin, posed to be divided");
   const size_t at_once = std::min(static_cast<size_t>(workers.thread_count()), scene_.skins.size());
   const bool fit = limit == 0 ||
                    ledger.budgeted() + static_cast<int64_t>(at_once * largest) <= static_cast<int64_t>(limit);

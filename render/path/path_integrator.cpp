@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "base/memory_budget.h"
 #include "base/stopwatch.h"
-#include "render/memory_budget.h"
 #include "render/path/frame_geometry.h"
 #include "render/path/frame_loop.h"
 #include "render/path/sample_schedule.h"
@@ -43,8 +43,8 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
                          MemoryLedger& ledger, Statistics& statistics, const PathOptions& options) {
   const Stopwatch clock;
   const FilmLayers layers = film_layers(scene);
-  require_room(ledger, scene.render.memory.bytes,
-               Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
+  ledger.set_limit(scene.render.memory.bytes);
+  require_room(ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
   FrameResult result{Film(scene.image.width, scene.image.height, layers, ledger)};
   const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
   result.partial = geometry == nullptr;
