@@ -33,11 +33,10 @@ function(pelage_library name)
           FILES_MATCHING PATTERN "*.h")
 endfunction()
 
-# pelage_test(ROOM SOURCES ... [DEPS rooms...] [LIBS dep...] [LABELS ...])
-# One test program per room; every TEST in it becomes a test of CTest's own.
-function(pelage_test room)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS;LABELS" ${ARGN})
-  set(target test_${room})
+# One test program. Every TEST in it becomes a test of CTest's own; with a sanitizer, where every start of a program
+# costs more than most tests, CTest runs it in a few shards.
+function(pelage_test_program target room label)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
   list(TRANSFORM ARG_DEPS PREPEND pelage_)
   list(TRANSFORM ARG_LIBS PREPEND pelage::dep_)
@@ -47,9 +46,47 @@ function(pelage_test room)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_precompile_headers(${target} REUSE_FROM pelage_test_headers)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
-  gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES
-                       DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
-                       PROPERTIES LABELS "${room};${ARG_LABELS}" TIMEOUT 900)
+  if(NOT PELAGE_SANITIZE)
+    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES
+                         DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
+                         PROPERTIES LABELS "${room};${label}" TIMEOUT 900)
+    return()
+  endif()
+  list(LENGTH ARG_SOURCES shards)
+  math(EXPR shards "(${shards} + 9) / 10")
+  math(EXPR last "${shards} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${room}.${shard} COMMAND ${target} --gtest_brief=1)
+    set_tests_properties(${room}.${shard} PROPERTIES LABELS "${room};${label}" TIMEOUT 1800
+                         ENVIRONMENT "GTEST_TOTAL_SHARDS=${shards};GTEST_SHARD_INDEX=${shard}")
+  endforeach()
+endfunction()
+
+# pelage_test(ROOM [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [DEPS rooms...] [LIBS dep...]
+#             [LABEL unit|slow])
+# The tests of a room. A source belongs to one of three lists, and so to the builds that can find something in it:
+#   SOURCES     what one thread computes: release and the address sanitizer
+#   THREADED    what several threads share: these two and the thread sanitizer
+#   STATISTICS  means and distributions of many samples (label `stat`): release alone; single evaluations of the same
+#               code are among the others
+# SUPPORT is compiled into every program of the room.
+function(pelage_test room)
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;DEPS;LIBS" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL unit)
+  endif()
+  set(sources ${ARG_THREADED})
+  if(NOT PELAGE_SANITIZE MATCHES "thread")
+    list(APPEND sources ${ARG_SOURCES})
+  endif()
+  if(sources)
+    pelage_test_program(test_${room} ${room} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} DEPS ${ARG_DEPS}
+                        LIBS ${ARG_LIBS})
+  endif()
+  if(ARG_STATISTICS AND NOT PELAGE_SANITIZE)
+    pelage_test_program(test_${room}_statistics ${room} stat SOURCES ${ARG_STATISTICS} ${ARG_SUPPORT} DEPS ${ARG_DEPS}
+                        LIBS ${ARG_LIBS})
+  endif()
 endfunction()
 
 # pelage_bench(ROOM SOURCES ... DEPS rooms... [LIBS dep...]): one Google Benchmark program per room.

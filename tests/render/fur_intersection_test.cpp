@@ -10,6 +10,7 @@
 #include "tests/render/fur_grooms.h"
 #include "tests/render/fur_truth.h"
 #include "tests/soak.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -67,7 +68,7 @@ TEST_P(FurIntersection, is_that_of_ribbons_in_double_precision) {
   const SnappedStrands snapped(strands, FurGrid(shape.width, shape.centre));
   const FurTree tree(snapped, {});
   TestRandom random(2);
-  const uint64_t begin = soak_begin(), rays = begin + 1500 * soak_scale();
+  const uint64_t begin = soak_begin(), rays = begin + repetitions(1500) * soak_scale();
   uint64_t hits = 0, edges = 0;
   for (uint64_t i = 0; i < rays; ++i) {
     const Ray ray = ray_at_groom(shape, strands, random, i);

@@ -9,12 +9,13 @@
 #include "render/accel/flush_denormals.h"
 #include "render/accel/fur/fur_leaf.h"
 #include "tests/render/fur_grooms.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kStrands = 300;
-constexpr uint64_t kRays = 2500;
+constexpr uint64_t kRays = repetitions(2500);
 
 FurTreeOptions options_of(FurNodeLayout layout, float cuts = 0, float node_cost = 1,
                           FurTurn turn = FurTurn::kNever) {

@@ -13,12 +13,13 @@
 #include "render/accel/flush_denormals.h"
 #include "tests/render/fur_paging.h"
 #include "tests/support/allocation_meter.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kStrands = 300;
-constexpr uint64_t kRays = 500;
+constexpr uint64_t kRays = repetitions(500);
 
 /// A page for each of `threads` and `share` of the rest.
 PagedFurOptions budget(StoredGroom& groom, double share, int threads, size_t waiting_rays = 100) {

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""memory_test.py PELAGE: a render stays within render.memory, or is refused before it begins.
+
+What the kernel counts as this process's own pages (heap, stacks), less those of a process that has done nothing yet,
+is at most render.memory plus the modules' share (the ledger's tag `libraries`), plus a tenth. Pages of mapped files, the
+code of shared libraries among them, can be dropped at any moment and are not counted.
+"""
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PELAGE = sys.argv.pop(1)
+MIB = 1 << 20
+LIMIT = 64 * MIB
+SOAKS = {"colony.yaml", "colony_100.yaml", "half_billion.yaml"}  # minutes each; colony_small is one of them in little
+
+SCENE = """pelage: 1
+camera: {{position: [0, 6, 12], look_at: [0, 0, 0]}}
+image: {{width: 64, height: 36}}
+skins: {{patch: {{mesh: {patch}}}}}
+grooms: {{coat: {groom}}}
+materials: {{m: {{model: lambert}}, f: {{model: cone-shell, color: [0.5, 0.4, 0.3]}}}}
+characters: {{a: {{parts: [{{skin: patch, material: m, grooms: {{coat: f}}}}]}}}}
+{more}
+lights: {{sky: {{type: environment}}}}
+render: {{samples: 1}}
+"""
+
+
+def grown(strands, points=8, operator=""):
+    return (f"{{skin: patch, strands: {strands}, points: {points}, "
+            f"operators: [{{length: {{value: 0.5}}}}, {operator}{{width: {{root: 0.01, tip: 0.002}}}}]}}")
+
+
+# Scenes that once took hundreds of times their budget: the groom, and what else the scene holds.
+HOSTILE = {
+    "clump centres": (grown(20000, 20, "{clump: {spacing: 0.0022}}, "), ""),
+    "five million follicles": (grown(5_000_000), ""),
+    "a hundred million follicles": (grown(100_000_000), ""),
+    "long strands": (grown(100_000, 1024), ""),
+    "a million animals": (grown(1000), "crowds: {c: {of: [a], count: 1000000, area: {type: rectangle, size: [9000, 9000]}}}"),
+}
+
+
+def hair_file(path, strands, points):
+    """Straight strands in Cem Yuksel's format."""
+    header = struct.pack("<4sIIIIfffff", b"HAIR", strands, strands * points, 2, points - 1, 0.01, 0, 0.5, 0.4, 0.3)
+    with open(path, "wb") as file:
+        file.write(header + bytes(128 - len(header)))
+        for strand in range(strands):
+            x, z = strand % 100 / 50 - 1, strand // 100 % 100 / 50 - 1
+            file.write(b"".join(struct.pack("<3f", x, p / points, z) for p in range(points)))
+
+
+class Memory(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def render(self, scene, *overrides, limit=LIMIT):
+        stats = self.folder / "stats.json"
+        command = [PELAGE, "render", scene, "-o", self.folder / "x.exr", "--quiet", "--stats", stats,
+                   "--memory", f"{limit // MIB}M"]
+        for override in overrides:
+            command += ["--set", override]
+        run = subprocess.run(command, capture_output=True, text=True, timeout=250)
+        if run.returncode == 4:
+            self.assertRegex(run.stderr, r"needs .*render\.memory|render\.memory .*needs")
+            self.assertNotIn("0.0 MiB", run.stderr)
+            return run.stderr
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        seen = json.loads(stats.read_text())
+        own = seen["peak_anonymous_bytes"] - seen["baseline_anonymous_bytes"]
+        self.assertLessEqual(own, 1.1 * (limit + seen["memory_bytes"]["libraries"]), json.dumps(seen["memory_bytes"]))
+        return ""
+
+    def scene(self, groom, more=""):
+        file = self.folder / "scene.yaml"
+        file.write_text(SCENE.format(patch=ROOT / "examples" / "patch.obj", groom=groom, more=more))
+        return file
+
+    def test_examples(self):
+        scenes = [path for path in sorted((ROOT / "examples").glob("*.yaml")) if path.name not in SOAKS]
+        for path in scenes:
+            with self.subTest(scene=path.name):
+                self.render(path, "image.width=96", "image.height=54", "render.samples=1", "frames=1")
+
+    def test_scenes_that_do_not_fit(self):
+        for name, (groom, more) in HOSTILE.items():
+            with self.subTest(case=name):
+                self.render(self.scene(groom, more))
+
+    def test_one_long_imported_strand(self):
+        hair_file(self.folder / "long.hair", 1, 60_000)
+        self.render(self.scene("{strands_file: long.hair}"))
+
+    def test_many_imported_strands(self):
+        hair_file(self.folder / "many.hair", 100_000, 8)
+        self.render(self.scene("{strands_file: many.hair}"))
+
+
+if __name__ == "__main__":
+    unittest.main()
