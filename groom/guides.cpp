@@ -158,6 +158,9 @@ StrandReach Guides::reach_after(const StrandReach& before) const {
   return after;
 }
 
-size_t Guides::bytes() const { return guides_->bytes() + near_.bytes() + covered_.bytes(); }
+size_t Guides::bytes() const {
+  // A coat that is read from a cache does not prepare the operators that made it.
+  return (guides_ ? guides_->bytes() : 0) + near_.bytes() + covered_.bytes();
+}
 
 }  // namespace pelage

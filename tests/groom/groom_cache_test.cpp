@@ -126,6 +126,47 @@ TEST_F(GroomCacheTest, LengthScalesStrandsAboutTheirRootsAndNotTheirWidths) {
   }
 }
 
+/// Straight guides on the normals of the ball.
+void write_guides(const std::filesystem::path& file, const LimitSurface& rest, float length) {
+  StrandArrays arrays;
+  arrays.first_point.push_back(0);
+  for (uint32_t face = 0; face < rest.topology().face_count(); ++face) {
+    const Frame frame = rest.frame(face, 0.5f, 0.5f);
+    const V3f root = rest.evaluate(face, 0.5f, 0.5f).position;
+    for (int p = 0; p < 4; ++p) {
+      const V3f point = root + frame.normal * (length * static_cast<float>(p) / 3);
+      arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
+    }
+    arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
+    arrays.ids.push_back(face);
+  }
+  write_strands(file, Strands(std::move(arrays)));
+}
+
+TEST_F(GroomCacheTest, GuidesAreNotReadWhenTheCacheHasTheirCoatAndMakeItStaleWhenTheyChange) {
+  const auto file = folder_.path() / "guides.hair";
+  for (const char* freeze : {"length", "guides"}) {
+    const Coat coat{"- guides: {file: " + file.string() + "}\n- length: {value: 1}\n", freeze};
+    write_guides(file, *rest_, 0.5f);
+    const auto cold = bits(*make(coat), at_rest());
+    const auto warm = make(coat);
+    EXPECT_TRUE(warm->cache_report()->fresh);
+    EXPECT_EQ(cold, bits(*warm, at_rest()));
+
+    write_guides(file, *rest_, 0.7f);
+    const auto changed = make(coat);
+    EXPECT_FALSE(changed->cache_report()->fresh);
+    EXPECT_TRUE(
+        changed->cache_report()->summary().starts_with("stale from guides on (contents of guides.hair"))
+        << changed->cache_report()->summary();
+    const auto other = bits(*changed, at_rest());
+    EXPECT_NE(cold, other);
+    std::filesystem::remove_all(cache());
+    EXPECT_EQ(other, bits(*make(coat), at_rest()));
+    std::filesystem::remove_all(cache());
+  }
+}
+
 TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   const auto with = [](const std::string& amount, const std::string& amplitude) {
     return Coat{"- length: {value: 0.5}\n- comb: {direction: [0, -1, 0]}\n- clump: {spacing: 0.3, amount: " +
