@@ -132,8 +132,7 @@ int run_grow(const Options& options) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
   }
   const int frame = scene.frames.frames.front();
-  const auto assets =
-      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // What opening, filling and growing caches took is a stage of its own.
   double cache_s = 0;
   for (const auto& [name, groom] : assets->grooms) {
@@ -158,8 +157,7 @@ int run_grow(const Options& options) {
     require_kept(*assets, options);
     return 0;
   }
-  World world =
-      run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
+  World world = run.stage("pose", [&] { return compose(scene, *assets, frame, run.job()); });
   run.statistics().strands_described = world.strands_described;
   run.statistics().strands_unique = world.strands_unique;
   run.statistics().characters = world.characters;

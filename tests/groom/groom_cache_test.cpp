@@ -126,15 +126,15 @@ TEST_F(GroomCacheTest, LengthScalesStrandsAboutTheirRootsAndNotTheirWidths) {
   }
 }
 
-/// Straight guides on the normals of the ball.
-void write_guides(const std::filesystem::path& file, const LimitSurface& rest, float length) {
+/// Straight guides on the ball that lean away from its normals.
+void write_guides(const std::filesystem::path& file, const LimitSurface& rest, float lean) {
   StrandArrays arrays;
   arrays.first_point.push_back(0);
   for (uint32_t face = 0; face < rest.topology().face_count(); ++face) {
     const Frame frame = rest.frame(face, 0.5f, 0.5f);
     const V3f root = rest.evaluate(face, 0.5f, 0.5f).position;
     for (int p = 0; p < 4; ++p) {
-      const V3f point = root + frame.normal * (length * static_cast<float>(p) / 3);
+      const V3f point = root + (frame.normal + frame.tangent * lean) * (static_cast<float>(p) / 3);
       arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
     }
     arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
@@ -239,11 +239,9 @@ TEST_F(GroomCacheTest, GrowingStopsWhenTheUserSaysSo) {
     bool cancelled() const override { return leaves > 2; }
     std::atomic<int> leaves{0};
   } progress;
-  GroomCacheHooks hooks;
-  hooks.progress = &progress;
   const Coat coat{"- length: {value: 0.5}\n- frizz: {}\n", "frizz", 2000, 50};
   try {
-    Groom::create("coat", params_of(coat), rest_, textures_, Workers(2), ledger_, hooks);
+    Groom::create("coat", params_of(coat), rest_, textures_, Job{workers_, ledger_, progress});
     ADD_FAILURE() << "grown to the end";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kStopped);
@@ -281,12 +279,12 @@ TEST_F(GroomCacheTest, ImportedStrandsKeepTheirGapsAndTheirPointCounts) {
     const PosedSkin skin =
         on_skin ? PosedSkin{{&pose, 1}, {}, 1.2f, {}} : PosedSkin{{}, {}, 1.2f, {&turn, 1}};
     params.cache.reset();
-    const auto plain = all(*Groom::create("i", params, rest, textures_, workers_, ledger_), skin);
+    const auto plain = all(*Groom::create("i", params, rest, textures_, job_), skin);
     params.cache.emplace();
     params.cache->directory.path = cache();
     params.cache->freeze.name = "length";
-    const auto cold = Groom::create("i", params, rest, textures_, workers_, ledger_);
-    const auto warm = Groom::create("i", params, rest, textures_, workers_, ledger_);
+    const auto cold = Groom::create("i", params, rest, textures_, job_);
+    const auto warm = Groom::create("i", params, rest, textures_, job_);
     EXPECT_TRUE(warm->cache_report()->fresh);
     EXPECT_EQ(bits(*cold, skin), bits(*warm, skin));
     const auto cached = all(*warm, skin);
