@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/parallel.h"
+#include "base/job.h"
 #include "groom/skin_binding.h"
 
 namespace pelage {
@@ -29,7 +29,8 @@ StrandFile read_file_of(const GroomParams& params) {
 
 }  // namespace
 
-ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest, const Workers& workers)
+ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
+                                 const std::string& owner, const Job& job)
     : file_(read_file_of(params)) {
   const Strands& strands = file_.strands;
   const size_t count = strands.strand_count();
@@ -37,8 +38,8 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   std::vector<V3f> positions(count);
   for (size_t i = 0; i < count; ++i) positions[i] = strands.point(strands.first_point(i));
   if (rest) {
-    const SkinBinding binding(*rest, workers);
-    workers.for_each(count, 256, [&](WorkRange range) {
+    const SkinBinding binding(*rest, job);
+    job.for_each(count, 256, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         roots[i] = binding.nearest(positions[i]);
         positions[i] = rest->evaluate(roots[i].face, roots[i].u, roots[i].v).position;
@@ -47,7 +48,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   }
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
-  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), place_);
+  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);
 
   for (const FollicleTree::Leaf& leaf : follicles_.leaves()) {
     StrandReach reach{0, 0, 0, std::numbers::pi_v<float>, 1};

@@ -14,7 +14,8 @@ namespace pelage {
 class ImportedStrands {
  public:
   /// Throws Error (kInput) when the file cannot be read. `rest` may be null.
-  ImportedStrands(const GroomParams& params, const LimitSurface* rest, const Workers& workers);
+  ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
+                  const Job& job);
 
   const FollicleTree& follicles() const { return follicles_; }
   CurveBasis basis() const { return file_.strands.basis(); }

@@ -13,6 +13,7 @@
 #include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -36,7 +37,7 @@ class GroomTest : public OperatorTest {
     GroomParams params = scene_text::read<GroomParams>("skin: ball\nstrands: " + std::to_string(strands) +
                                                        "\nleaf_strands: " + std::to_string(leaf));
     params.operators = scene_text::read<OperatorList>(operators);
-    return Groom::create("coat", params, rest_, textures_, Workers(threads), ledger_);
+    return Groom::create("coat", params, rest_, textures_, QuietJob(threads, ledger_));
   }
 
   /// The ball turned, moved and bent a little.
@@ -215,7 +216,7 @@ TEST_F(GroomTest, CombinationsThatMakeNoSenseAreRefused) {
   const auto refused = [&](const std::string& text, std::shared_ptr<const LimitSurface> rest) {
     const auto params = scene_text::read<GroomParams>(text);
     try {
-      Groom::create("coat", params, std::move(rest), textures_, workers_, ledger_);
+      Groom::create("coat", params, std::move(rest), textures_, job_);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
       return std::string(error.what());
@@ -267,7 +268,7 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   write_strands(path, expected);
   GroomParams params = scene_text::read<GroomParams>("skin: ball\nleaf_strands: 60");
   params.strands_file = {path, {}};
-  const auto imported = Groom::create("imported", params, rest_, textures_, workers_, ledger_);
+  const auto imported = Groom::create("imported", params, rest_, textures_, job_);
   ASSERT_EQ(imported->follicles().size(), 400u);
   EXPECT_GT(imported->follicles().leaves().size(), 5u);
   for (size_t leaf = 0; leaf < imported->follicles().leaves().size(); ++leaf) {
@@ -292,7 +293,7 @@ TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {
   write_strands(path, expected);
   GroomParams params;
   params.strands_file = {path, {}};
-  const auto free = Groom::create("free", params, nullptr, textures_, workers_, ledger_);
+  const auto free = Groom::create("free", params, nullptr, textures_, job_);
   const Strands still = free->grow(0, {});
   EXPECT_FALSE(still.has_roots());
   M44f transform;
