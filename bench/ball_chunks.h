@@ -15,6 +15,9 @@ class BallChunks final : public ChunkGrower {
  public:
   BallChunks(const BumpyBall& ball, size_t chunk_strands);
   ChunkContents grow(uint32_t chunk) const override { return contents_[chunk]; }
+  bool is_skin(uint32_t chunk) const override {
+    return std::holds_alternative<SkinMesh>(contents_[chunk].geometry);
+  }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t) const override;
   const std::vector<ChunkContents>& contents() const { return contents_; }

@@ -35,6 +35,7 @@ class FurballChunks final : public ChunkGrower {
     }
   }
   ChunkContents grow(uint32_t chunk) const override { return {FurContents{chunks_[chunk], {}}, 0}; }
+  bool is_skin(uint32_t) const override { return false; }
   ChunkCounts counts(uint32_t chunk) const override {
     ChunkCounts n;
     n.strands = chunks_[chunk].strand_count();

@@ -57,7 +57,7 @@ class ChunkAccel::Growth final : public Grower {
     size_t bytes = bounds.size() * (sizeof(known_[0]) + sizeof(learned_[0]) + sizeof(build_pages_[0]));
     for (uint32_t chunk = 0; chunk < bounds.size(); ++chunk) {
       const ChunkCounts counts = grower.counts(chunk);
-      if (stands_in_fur_tree(counts)) {
+      if (belongs_in_fur_tree(chunk)) {
         known_[chunk].margin = grid(chunk).margin(widest_radius(bounds[chunk]));
         widen(bounds[chunk], known_[chunk].margin);
         known_[chunk].in_fur_tree = true;
@@ -83,7 +83,7 @@ class ChunkAccel::Growth final : public Grower {
     if (is_stored(slot)) return options_.file->bytes_bound(slot);
     ChunkCounts counts = grower_.counts(slot);
     const size_t build_peak = kPage * size_t(build_pages_[slot].load(std::memory_order_relaxed));
-    const bool fur = stands_in_fur_tree(counts);
+    const bool fur = in_fur_tree(slot);
     if (build_peak > 0)
       return fur ? FurChunk::bytes_bound(counts, build_peak) : EmbreeChunk::bytes_bound(counts, build_peak);
     if (fur) return FurChunk::bytes_bound(counts, fur_);
@@ -110,7 +110,7 @@ class ChunkAccel::Growth final : public Grower {
     ChunkContents contents = grower_.grow(slot);
     std::unique_ptr<ChunkGeometry> unit;
     ChunkBounds bounds;
-    if (stands_in_fur_tree(grower_.counts(slot))) {
+    if (in_fur_tree(slot)) {
       auto fur = std::make_unique<FurChunk>(std::move(contents), slot, grid(slot), fur_);
       if (learns) bounds = fur->part_bounds(options_.eager ? 1 : part_count(fur->segment_count()));
       unit = std::move(fur);
@@ -145,9 +145,9 @@ class ChunkAccel::Growth final : public Grower {
     learned_[slot].store(std::make_unique<const PartBoxes>(bounds).release(), std::memory_order_release);
   }
   bool is_stored(uint32_t slot) const { return options_.file && !options_.eager && options_.file->has(slot); }
-  bool stands_in_fur_tree(const ChunkCounts& counts) const {
+  bool belongs_in_fur_tree(uint32_t slot) const {
     return options_.kind == AccelKind::kFur && options_.chunk.shape == CurveShape::kFlat &&
-           counts.vertices == 0;
+           !grower_.is_skin(slot);
   }
   FurGrid grid(uint32_t slot) const {
     const StrandScale scale = grower_.scale(slot);

@@ -37,12 +37,14 @@ struct ChunkCounts {
   size_t growth_bytes = 0;  ///< what growing holds beside the contents, dropped when it is done
 };
 
-/// Makes the contents of chunks. Thread safety: both members may be called from many threads at once.
+/// Makes the contents of chunks. Thread safety: all members may be called from many threads at once.
 class ChunkGrower {
  public:
   virtual ~ChunkGrower() = default;
   /// Same chunk, same contents. By the calling thread alone; may throw.
   virtual ChunkContents grow(uint32_t chunk) const = 0;
+  /// Whether grow() gives a skin, not fur. Counts do not tell: a skin of holes has no vertices.
+  virtual bool is_skin(uint32_t chunk) const = 0;
   /// Upper bounds, without growing.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
   /// For messages: what the chunk is a part of, or nothing.

@@ -94,7 +94,7 @@ void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t 
 }
 
 ChunkContents FrameChunks::grow(uint32_t chunk) const {
-  if (chunk >= leaves_.size()) {
+  if (is_skin(chunk)) {
     const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
     return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
   }
@@ -112,7 +112,7 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
 
 ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   ChunkCounts counts;
-  if (chunk >= leaves_.size()) {
+  if (is_skin(chunk)) {
     const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
     counts.vertices = piece.piece.vertices;
     counts.triangles = piece.piece.triangles;
@@ -131,12 +131,12 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
 }
 
 StrandScale FrameChunks::scale(uint32_t chunk) const {
-  return chunk < leaves_.size() ? scales_[coats_[chunk]] : StrandScale{};
+  return is_skin(chunk) ? StrandScale{} : scales_[coats_[chunk]];
 }
 
 std::string FrameChunks::name(uint32_t chunk) const {
-  return chunk < leaves_.size() ? scene_.fur[parts_[chunk]].name
-                                : scene_.skins[pieces_[chunk - leaves_.size()].skin].name;
+  return is_skin(chunk) ? scene_.skins[pieces_[chunk - leaves_.size()].skin].name
+                        : scene_.fur[parts_[chunk]].name;
 }
 
 bool FrameChunks::opaque() const {

@@ -26,6 +26,7 @@ class FrameChunks final : public ChunkGrower {
   FrameChunks(const RenderScene& scene, const Workers& workers, MemoryLedger& ledger);
 
   ChunkContents grow(uint32_t chunk) const override;
+  bool is_skin(uint32_t chunk) const override { return chunk >= leaves_.size(); }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
   /// That of its coat or skin: "walker.under".

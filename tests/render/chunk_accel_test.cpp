@@ -62,6 +62,31 @@ TEST_F(ChunkAccelTest, EqualDistancesAreDecidedByStrandIdAcrossChunks) {
   }
 }
 
+// A mesh whose faces are all holes is a skin without triangles, not fur.
+TEST_F(ChunkAccelTest, SkinsWithoutTrianglesAreSkins) {
+  for (const AccelKind kind : {AccelKind::kEmbree, AccelKind::kFur}) {
+    for (const bool eager : {false, true}) {
+      for (const bool alone : {false, true}) {
+        TestChunks chunks;
+        chunks.add_skin(SkinMesh{}, 0);
+        if (!alone) chunks.add_fur(ladder(2), 0);
+        ChunkAccelOptions options;
+        options.kind = kind;
+        options.eager = eager;
+        // As those of a skin: around the control points, whatever is visible.
+        std::vector<ChunkBounds> bounds(chunks.contents.size());
+        for (ChunkBounds& box : bounds) box.boxes = {Box3f(V3f(-1), V3f(8, 1, 2))};
+        const auto accel = make(chunks, std::move(bounds), options);
+        TraceThread thread;
+        const Hit hit = accel->closest(along_z(1.5f), thread);
+        EXPECT_EQ(hit.kind, alone ? HitKind::kNone : HitKind::kStrand);
+        EXPECT_EQ(accel->transmittance(along_z(1.5f), thread), alone ? 1 : 0);
+        EXPECT_FALSE(accel->closest(along_z(20), thread));
+      }
+    }
+  }
+}
+
 TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
   RandomChunkOptions o;
   o.chunks = 40;

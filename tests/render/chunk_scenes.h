@@ -25,6 +25,9 @@ class TestChunks final : public ChunkGrower {
     if (chunk == fails_at) throw std::runtime_error("no hair today");
     return contents[chunk];
   }
+  bool is_skin(uint32_t chunk) const override {
+    return std::holds_alternative<SkinMesh>(contents[chunk].geometry);
+  }
   ChunkCounts counts(uint32_t chunk) const override {
     ChunkCounts n;
     if (const auto* fur = std::get_if<FurContents>(&contents[chunk].geometry)) {
