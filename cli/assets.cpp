@@ -71,7 +71,7 @@ std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene)
 
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
                                     MemoryLedger& ledger, const GroomCacheHooks& hooks) {
-  auto assets = std::make_unique<Assets>(ledger);
+  auto assets = std::make_unique<Assets>(ledger, hooks.progress);
   SharedTopologies topologies;
   for (const auto& [name, position, params] : scene.skins.items) {
     const Assets::Skin& skin =
