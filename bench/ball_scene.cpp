@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/ball_chunks.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "procedurals/fixed.h"
 #include "render/light/light_params.h"
 

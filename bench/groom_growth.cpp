@@ -19,7 +19,7 @@
 #include "groom/color.h"
 #include "groom/groom.h"
 #include "image/field_nodes.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
 #include "tests/support/quiet_job.h"

@@ -11,7 +11,7 @@
 #include "bench/yardstick.h"
 #include "geom/curve_bounds.h"
 #include "groom/groom.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "procedurals/segment_parts.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"

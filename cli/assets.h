@@ -13,7 +13,7 @@
 #include "geom/limit_surface.h"
 #include "geom/pose_sequence.h"
 #include "groom/groom.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 
 namespace pelage {
 
@@ -25,7 +25,7 @@ struct Assets {
     std::optional<PoseSequence> poses;
   };
 
-  explicit Assets(MemoryLedger& ledger) : textures(ledger) {}
+  explicit Assets(MemoryLedger& ledger, Progress* progress = nullptr) : textures(ledger, progress) {}
 
   TextureLibrary textures;
   std::map<std::string, Skin> skins;

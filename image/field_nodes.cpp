@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -65,19 +66,13 @@ std::shared_ptr<const Field::Node> MapNode::with_textures(TextureLibrary& textur
   // A single channel is data (lengths, masks), which nobody stores with a display's curve.
   const bool is_data = form.channel && form.space == ColorSpace::kAuto;
   loaded->texture = textures.load(form.map, is_data ? ColorSpace::kLinear : form.space);
-  const Image& image = loaded->texture->image();
-  loaded->channel = channel_index(form.channel.value_or(MapChannel::kR), image.channels);
+  const int channels = loaded->texture->channels();
+  loaded->channel = channel_index(form.channel.value_or(MapChannel::kR), channels);
   if (loaded->channel < 0) {
     throw Error(ErrorKind::kInput, form.map.position,
-                fmt::format("{}: has no channel 'a', only {}", form.map.path.string(), image.channels));
+                fmt::format("{}: has no channel 'a', only {}", form.map.path.string(), channels));
   }
-  loaded->lowest = kInfinity;
-  loaded->highest = -kInfinity;
-  const size_t stride = static_cast<size_t>(image.channels);
-  for (size_t i = static_cast<size_t>(loaded->channel); i < image.pixels.size(); i += stride) {
-    loaded->lowest = std::min(loaded->lowest, image.pixels[i]);
-    loaded->highest = std::max(loaded->highest, image.pixels[i]);
-  }
+  std::tie(loaded->lowest, loaded->highest) = loaded->texture->range(loaded->channel);
   return loaded;
 }
 

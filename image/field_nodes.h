@@ -9,7 +9,7 @@
 
 #include "base/value_readers.h"
 #include "image/field.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 
 // The forms of a field behind image/field.h, and the blocks of the scene file that state them.
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
@@ -15,8 +16,8 @@ namespace {
 
 constexpr int kLargestSide = 1 << 16;
 constexpr int kMostChannels = 4;
-constexpr size_t kStripFloats = size_t(1) << 20;
-constexpr size_t kMostStripFloats = size_t(1) << 26;
+constexpr size_t kStripValues = size_t(1) << 18;
+constexpr size_t kMostStripValues = size_t(1) << 26;
 
 /// The library's messages may have several lines.
 std::string one_line(std::string text) {
@@ -36,6 +37,12 @@ void configure() {
     return true;
   }();
   static_cast<void>(done);
+}
+
+int kind_of(OIIO::TypeDesc type) {
+  if (type == OIIO::TypeDesc::UINT8) return PELAGE_TEXEL_U8;
+  if (type == OIIO::TypeDesc::UINT16) return PELAGE_TEXEL_U16;
+  return type == OIIO::TypeDesc::HALF ? PELAGE_TEXEL_HALF : PELAGE_TEXEL_FLOAT;
 }
 
 class Source {
@@ -58,8 +65,15 @@ class Source {
       throw std::runtime_error("claims to have " + std::to_string(spec.width) + " x " +
                                std::to_string(spec.height) + " pixels, at most 65536 a side are accepted");
     }
-    const bool is_integer = !spec.format.is_floating_point();
-    return {spec.width, spec.height, std::min(spec.nchannels, kMostChannels), is_integer ? 1 : 0};
+    PelageImageInfo info{};
+    info.width = spec.width;
+    info.height = spec.height;
+    info.channels = std::min(spec.nchannels, kMostChannels);
+    info.kind = kind_of(type());
+    info.is_integer = spec.format.is_floating_point() ? 0 : 1;
+    const auto strip = static_cast<int64_t>(strip_rows(info)) * info.width * info.channels;
+    info.working_bytes = decoder_bytes() + strip * static_cast<int64_t>(type().size());
+    return info;
   }
 
   /// Hands over strips of rows; false when the sink has had enough.
@@ -67,27 +81,67 @@ class Source {
     const OIIO::ImageSpec& spec = input_->spec();
     const size_t row = static_cast<size_t>(info.width) * static_cast<size_t>(info.channels);
     const bool tiled = spec.tile_width > 0;
-    const int rows = tiled ? spec.tile_height : static_cast<int>(std::max<size_t>(kStripFloats / row, 1));
-    if (row * static_cast<size_t>(std::min(rows, info.height)) > kMostStripFloats) {
+    const int rows = strip_rows(info);
+    if (row * static_cast<size_t>(std::min(rows, info.height)) > kMostStripValues) {
       throw std::runtime_error("has tiles that are too large");
     }
-    std::vector<float> strip;
+    const OIIO::TypeDesc values = type();
+    std::vector<char> strip;
     for (int y = 0; y < info.height; y += rows) {
       const int end = std::min(y + rows, info.height);
-      strip.resize(row * static_cast<size_t>(end - y));
+      strip.resize(row * static_cast<size_t>(end - y) * values.size());
       const int top = spec.y + y, bottom = spec.y + end;
-      const bool good = tiled
-                            ? input_->read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, spec.z,
-                                                 spec.z + 1, 0, info.channels, OIIO::TypeFloat, strip.data())
-                            : input_->read_scanlines(0, 0, top, bottom, spec.z, 0, info.channels,
-                                                     OIIO::TypeFloat, strip.data());
+      const bool good =
+          tiled ? input_->read_tiles(0, 0, spec.x, spec.x + spec.width, top, bottom, spec.z, spec.z + 1, 0,
+                                     info.channels, values, strip.data())
+                : input_->read_scanlines(0, 0, top, bottom, spec.z, 0, info.channels, values, strip.data());
       if (!good) throw std::runtime_error(one_line(input_->geterror()));
-      if (sink.rows(sink.context, strip.data(), strip.size()) != 0) return false;
+      if (sink.rows(sink.context, strip.data(), end - y) != 0) return false;
     }
     return true;
   }
 
  private:
+  /// The type that values are handed over in: the stored one where that is among those of the border.
+  OIIO::TypeDesc type() const {
+    const OIIO::ImageSpec& spec = input_->spec();
+    const bool is_known = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16 ||
+                          spec.format == OIIO::TypeDesc::HALF;
+    return is_known && spec.channelformats.empty() ? spec.format : OIIO::TypeDesc(OIIO::TypeDesc::FLOAT);
+  }
+
+  bool is_format(std::string_view name) const { return input_->format_name() == name; }
+  int exr_block_rows() const {
+    return input_->spec().get_string_attribute("compression").substr(0, 4) == "dwab" ? 256 : 32;
+  }
+
+  int strip_rows(const PelageImageInfo& info) const {
+    const size_t row = static_cast<size_t>(info.width) * static_cast<size_t>(info.channels);
+    const OIIO::ImageSpec& spec = input_->spec();
+    if (spec.tile_width > 0) return spec.tile_height;
+    int rows = static_cast<int>(std::max<size_t>(kStripValues / row, 1));
+    // OpenEXR decodes blocks of rows; a strip that ends within one makes it decode the block again.
+    if (is_format("openexr")) rows = (rows + exr_block_rows() - 1) / exr_block_rows() * exr_block_rows();
+    return std::min(rows, info.height);
+  }
+
+  /// What the library and those behind it allocate while they decode. Few formats are read row by row.
+  int64_t decoder_bytes() const {
+    const OIIO::ImageSpec& spec = input_->spec();
+    const auto row = static_cast<int64_t>(spec.scanline_bytes(true));
+    int64_t rows = spec.height;
+    if (spec.tile_width > 0) {
+      rows = spec.tile_height;
+    } else if (is_format("png") || is_format("jpeg") || is_format("hdr") || is_format("pnm")) {
+      rows = 1;
+    } else if (is_format("openexr")) {
+      rows = 3 * exr_block_rows();
+    } else if (is_format("tiff")) {
+      rows = 2 * std::min(spec.get_int_attribute("tiff:RowsPerStrip", spec.height), spec.height);
+    }
+    return row * rows;
+  }
+
   std::unique_ptr<OIIO::ImageInput> input_;
 };
 

@@ -1,61 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <map>
 #include <memory>
-#include <mutex>
+#include <utility>
 
-#include "base/error.h"
-#include "base/ledger.h"
-#include "base/value_readers.h"
+#include "base/vector.h"
 #include "image/image.h"
+#include "image/texel_decoder.h"
+#include "image/texel_store.h"
 
 namespace pelage {
 
-/// How stored values become linear ones.
-enum class ColorSpace { kAuto, kLinear, kSrgb };
-template <>
-struct EnumNames<ColorSpace> {
-  static constexpr const char* names[] = {"auto", "linear", "srgb"};
-};
-
 /// An image looked up by texture coordinates: u to the right, v up, (0, 0) the lower left corner, repeated.
+/// Lookups give the same values whether the texels are in memory or in tiles, and throw Error (kFailed) when
+/// tiles cannot be read back. Immutable. Thread safety: const members may be called from any thread.
 class Texture {
  public:
-  explicit Texture(Image image) : image_(std::move(image)) {}
-  const Image& image() const { return image_; }
+  /// With `srgb`, all channels but alpha are decoded, before they are filtered.
+  Texture(std::shared_ptr<const TexelStore> texels, bool srgb);
+  /// Floats, taken as they are.
+  explicit Texture(const Image& image);
+
+  int width() const { return texels_->layout().width; }
+  int height() const { return texels_->layout().height; }
+  int channels() const { return texels_->layout().channels; }
+  /// Lowest and highest value of a channel.
+  std::pair<float, float> range(int channel) const;
+
   /// Bilinear lookup of one channel / of the first three (one channel is spread to three).
   float channel(float u, float v, int channel) const;
   Rgb color(float u, float v) const;
 
- private:
-  Image image_;
-};
+  /// The colours of a rectangle of texels inside the image, row after row from the top.
+  void colors(int x, int y, int width, int height, Rgb* to) const;
+  Rgb texel(int x, int y) const;
 
-/// Reads images of any format that OpenImageIO knows, through a module that is loaded when the first image is
-/// asked for (linking it would cost every start 0.3 s and 130 MB). One copy per file and colour space.
-/// Thread safety: all members may be called from any thread.
-class TextureLibrary {
- public:
-  explicit TextureLibrary(MemoryLedger& ledger);
-  ~TextureLibrary();
-
-  /// Throws Error (kInput) at `asset.position` naming the file when it is missing or cannot be read: never
-  /// black.
-  std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
+  /// Beside the texels, which several textures may share.
+  size_t bytes() const { return decode_.bytes(); }
 
  private:
-  struct Reader;
-  struct Entry {
-    std::shared_ptr<const Texture> texture;
-    MemoryCharge charge;
-  };
-  MemoryLedger& ledger_;
-  std::mutex mutex_;  // guards the rest
-  std::unique_ptr<Reader> reader_;
-  MemoryCharge library_charge_;
-  std::map<std::pair<std::filesystem::path, ColorSpace>, Entry> entries_;
+  struct Tap;
+  class Corners;
+  static Tap tap(float coordinate, int size);
+  Rgb decoded(const std::byte* texel) const;
+
+  std::shared_ptr<const TexelStore> texels_;
+  TexelDecoder decode_;
 };
 
 }  // namespace pelage

@@ -1,168 +1,239 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "image/texture_library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
-#include <system_error>
 
-#include "base/file.h"
+#include <Imath/half.h>
+#include <fmt/format.h>
+
+#include "base/memory_budget.h"
 #include "base/memory_sample.h"
-#include "base/module.h"
-#include "image/exr_check.h"
-#include "image/reader_module.h"
-#include "image/texture.h"
+#include "image/image_file_check.h"
+#include "image/image_reader.h"
 #include "image/truncation.h"
 
 namespace pelage {
 namespace {
 
-float from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+/// Shares of the ledger's limit.
+constexpr int64_t kInMemoryShare = 4, kTileCacheShare = 8;
+/// Reading a larger image may take a second, and is shown.
+constexpr int64_t kLargeImage = int64_t(16) << 20;
+/// What an image claims up to here is reserved at once, more only when it is there.
+constexpr size_t kReservedAtOnce = size_t(1) << 30;
 
-/// All but the alpha of grey + alpha and of RGBA.
-void decode_srgb(Image& image) {
-  const int colors = image.channels == 2 || image.channels == 4 ? image.channels - 1 : image.channels;
-  for (size_t i = 0; i < image.pixels.size(); i += static_cast<size_t>(image.channels)) {
-    for (int c = 0; c < colors; ++c) {
-      float& v = image.pixels[i + static_cast<size_t>(c)];
-      v = from_srgb(v);
-    }
-  }
+bool has_room(const MemoryLedger& ledger, int64_t bytes) {
+  return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
 }
 
-[[noreturn]] void fail(const AssetPath& asset, const std::string& reason) {
-  throw Error(ErrorKind::kInput, asset.position, asset.path.string() + ": " + reason);
+/// An error of the ledger or the disk, at the place in the scene that names the file.
+[[noreturn]] void rethrow_at(const AssetPath& asset, const Error& error) {
+  const std::string& message = error.problems().front().message;
+  const std::string file = asset.path.string();
+  throw Error(error.kind(), asset.position, message.starts_with(file) ? message : file + ": " + message);
 }
 
-/// What no image library says clearly.
-void check_is_readable(const AssetPath& asset) {
-  std::error_code error;
-  const auto status = std::filesystem::status(asset.path, error);
-  if (!std::filesystem::exists(status)) fail(asset, "there is no such file");
-  if (!std::filesystem::is_regular_file(status)) fail(asset, "is not a regular file");
-  std::ifstream stream(asset.path, std::ios::binary);
-  std::string beginning(64, '\0');
-  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  if (stream.gcount() == 0) fail(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
-  if (beginning.starts_with("version https://git-lfs"))
-    fail(asset, "is a git-lfs pointer, not the image itself");
-  const bool ends_with_marker = beginning.starts_with("\x89PNG") || beginning.starts_with("\xff\xd8\xff");
-  if (ends_with_marker && is_cut_short(read_file(asset.path))) fail(asset, "is cut short");
-  if (beginning.starts_with("v/1\x01")) {
-    try {
-      check_exr_headers(asset.path);
-    } catch (const Error& damage) {
-      fail(asset, damage.problems().front().message);
-    }
+/// Widens `range` by the values of one channel, `count` texels from `values` on. Returns the first texel
+/// whose value is not finite, or `count`.
+template <class Value, class IsFinite>
+size_t scan_channel(const std::byte* values, size_t count, size_t step, TexelKind kind, IsFinite is_finite,
+                    NumberRange& range) {
+  const auto value = [&](size_t i) {
+    Value v;
+    std::memcpy(&v, values + i * step, sizeof v);
+    return v;
+  };
+  Value low = value(0), high = low;
+  for (size_t i = 0; i < count; ++i) {
+    const Value v = value(i);
+    if (!is_finite(v)) return i;
+    low = std::min(low, v);
+    high = std::max(high, v);
   }
+  range.first = std::min(range.first, stored_number(reinterpret_cast<const std::byte*>(&low), kind));
+  range.second = std::max(range.second, stored_number(reinterpret_cast<const std::byte*>(&high), kind));
+  return count;
 }
 
-/// An image on its way out of the module. Grows as rows arrive, so that a damaged file costs what it holds,
-/// not what it claims to hold.
-struct Decoded {
-  Image image;
-  bool is_integer = false;
-  bool out_of_memory = false;
-
-  static int begin(void* context, const PelageImageInfo* info) {
-    Decoded& d = *static_cast<Decoded*>(context);
-    d.image.width = info->width;
-    d.image.height = info->height;
-    d.image.channels = info->channels;
-    d.is_integer = info->is_integer != 0;
-    return 0;
-  }
-  static int rows(void* context, const float* pixels, size_t count) {
-    Decoded& d = *static_cast<Decoded*>(context);
-    std::vector<float>& all = d.image.pixels;
-    const size_t total = static_cast<size_t>(d.image.width) * static_cast<size_t>(d.image.height) *
-                         static_cast<size_t>(d.image.channels);
-    try {
-      if (all.size() + count > all.capacity()) {
-        all.reserve(std::min(total, std::max(all.size() + count, 2 * all.capacity())));
-      }
-      all.insert(all.end(), pixels, pixels + count);
-    } catch (const std::bad_alloc&) {
-      d.out_of_memory = true;
-      return 1;
+/// Number of the first texel with a value that is not finite, or `count`. Widens the ranges of the channels.
+size_t scan(const std::byte* texels, size_t count, const TexelLayout& layout,
+            std::vector<NumberRange>& ranges) {
+  const size_t step = layout.texel_bytes();
+  const auto always = [](auto) { return true; };
+  size_t first = count;
+  for (int c = 0; c < layout.channels; ++c) {
+    const std::byte* values = texels + static_cast<size_t>(c) * value_bytes(layout.kind);
+    NumberRange& range = ranges[static_cast<size_t>(c)];
+    size_t good = count;
+    if (layout.kind == TexelKind::kU8) {
+      good = scan_channel<uint8_t>(values, count, step, layout.kind, always, range);
+    } else if (layout.kind == TexelKind::kU16) {
+      good = scan_channel<uint16_t>(values, count, step, layout.kind, always, range);
+    } else if (layout.kind == TexelKind::kHalf) {
+      good = scan_channel<Imath::half>(
+          values, count, step, layout.kind, [](Imath::half v) { return v.isFinite(); }, range);
+    } else {
+      good = scan_channel<float>(
+          values, count, step, layout.kind, [](float v) { return std::isfinite(v); }, range);
     }
-    return 0;
+    first = std::min(first, good);
   }
-};
-
-Decoded read_image(decltype(&pelage_read_image) read, const AssetPath& asset) {
-  Decoded decoded;
-  const PelageImageSink sink{&decoded, Decoded::begin, Decoded::rows};
-  char message[512] = "";
-  if (read(asset.path.c_str(), &sink, message, sizeof message) != 0) {
-    if (decoded.out_of_memory) {
-      throw Error(ErrorKind::kMemory, asset.position, asset.path.string() + ": does not fit in memory");
-    }
-    fail(asset, message);
-  }
-  return decoded;
-}
-
-void check_is_finite(const AssetPath& asset, const Image& image) {
-  const auto bad =
-      std::find_if(image.pixels.begin(), image.pixels.end(), [](float v) { return !std::isfinite(v); });
-  if (bad == image.pixels.end()) return;
-  const size_t pixel = static_cast<size_t>(bad - image.pixels.begin()) / static_cast<size_t>(image.channels);
-  const size_t width = static_cast<size_t>(image.width);
-  fail(asset, "holds a value that is not finite at pixel " + std::to_string(pixel % width) + ", " +
-                  std::to_string(pixel / width));
+  return first;
 }
 
 }  // namespace
 
-struct TextureLibrary::Reader {
-  Reader() : module("pelage_image_reader") {
-    using Version = decltype(&pelage_image_reader_version);
-    const int version = reinterpret_cast<Version>(module.symbol("pelage_image_reader_version"))();
-    if (version != PELAGE_IMAGE_READER_VERSION) {
-      throw Error(ErrorKind::kFailed, "module pelage_image_reader is of another version of Pelage");
-    }
-    read = reinterpret_cast<decltype(read)>(module.symbol("pelage_read_image"));
+/// One image on its way in: decides where it will be, checks its values, keeps its rows.
+class TextureLibrary::Intake final : public ImageSink {
+ public:
+  Intake(TextureLibrary& library, const AssetPath& asset) : library_(library), asset_(asset) {}
+  ~Intake() override {
+    if (is_shown_) library_.progress_->end();
   }
 
-  Module module;
-  decltype(&pelage_read_image) read = nullptr;
+  void begin(const ImageHeader& header) override {
+    header_ = header;
+    const TexelLayout& layout = header_.layout;
+    ranges_.assign(static_cast<size_t>(layout.channels), {HUGE_VALF, -HUGE_VALF});
+    const auto bytes = static_cast<int64_t>(layout.bytes());
+    int64_t working = header_.working_bytes;
+    const MemoryLedger& ledger = library_.ledger_;
+    const int64_t limit = ledger.limit();
+    const bool in_share = limit == 0 || library_.in_memory_ + bytes <= limit / kInMemoryShare;
+    const std::string size =
+        fmt::format("{}: {} x {} texels", asset_.path.string(), layout.width, layout.height);
+    if (in_share && has_room(ledger, bytes + working)) {
+      stored_.charge = reserve(library_.ledger_, MemoryTag::kTextures, bytes, size);
+      texels_.reserve(std::min(layout.bytes(), kReservedAtOnce));
+    } else {
+      cache_ = library_.tile_cache();
+      tiles_ = std::make_unique<TileFile>(layout);
+      working += static_cast<int64_t>(TileFile::buffer_bytes(layout));
+    }
+    working_ = reserve(library_.ledger_, MemoryTag::kTextures, working, size + ", to read them");
+    is_shown_ = library_.progress_ && bytes >= kLargeImage;
+    if (is_shown_) {
+      library_.progress_->begin("read " + asset_.path.filename().string(), layout.height);
+    }
+  }
+
+  void rows(const std::byte* rows, int count) override {
+    library_.check_stop();
+    const TexelLayout& layout = header_.layout;
+    const auto width = static_cast<size_t>(layout.width);
+    const size_t texels = static_cast<size_t>(count) * width;
+    if (const size_t pixel = scan(rows, texels, layout, ranges_); pixel < texels) {
+      fail_image(asset_, fmt::format("holds a value that is not finite at pixel {}, {}", pixel % width,
+                                     static_cast<size_t>(rows_) + pixel / width));
+    }
+    if (tiles_) {
+      tiles_->add_rows(rows, count);
+    } else {
+      const size_t bytes = static_cast<size_t>(count) * layout.row_bytes();
+      if (texels_.size() + bytes > texels_.capacity()) {
+        texels_.reserve(std::min(layout.bytes(), std::max(texels_.size() + bytes, 2 * texels_.capacity())));
+      }
+      texels_.insert(texels_.end(), rows, rows + bytes);
+    }
+    rows_ += count;
+    if (is_shown_) library_.progress_->advance(count);
+  }
+
+  Stored finish() {
+    if (rows_ != header_.layout.height) fail_image(asset_, "is cut short");
+    stored_.is_integer = header_.is_integer;
+    if (tiles_) {
+      stored_.texels = cache_->store(asset_.path.string(), header_.layout, ranges_, std::move(tiles_));
+    } else {
+      library_.in_memory_ += static_cast<int64_t>(header_.layout.bytes());
+      stored_.texels = std::make_shared<TexelsInMemory>(header_.layout, ranges_, std::move(texels_));
+    }
+    return std::move(stored_);
+  }
+
+ private:
+  TextureLibrary& library_;
+  const AssetPath& asset_;
+  ImageHeader header_;
+  std::vector<NumberRange> ranges_;
+  Stored stored_;
+  MemoryCharge working_;
+  std::shared_ptr<TileCache> cache_;
+  std::unique_ptr<TileFile> tiles_;
+  std::vector<std::byte> texels_;
+  int rows_ = 0;
+  bool is_shown_ = false;
 };
 
-TextureLibrary::TextureLibrary(MemoryLedger& ledger) : ledger_(ledger) {}
+TextureLibrary::TextureLibrary(MemoryLedger& ledger, Progress* progress)
+    : ledger_(ledger), progress_(progress) {}
 TextureLibrary::~TextureLibrary() = default;
+
+void TextureLibrary::check_stop() const {
+  if (progress_ && progress_->cancelled())
+    throw Error(ErrorKind::kStopped, "stopped before a picture was begun");
+}
+
+const ImageReader& TextureLibrary::reader() {
+  if (!reader_) {
+    // Pages of the files themselves are shared and can be dropped: no ledger counts them.
+    const int64_t before = resident_memory().anonymous;
+    reader_ = std::make_unique<ImageReader>();
+    const int64_t cost = std::max<int64_t>(resident_memory().anonymous - before, 0);
+    library_charge_ = MemoryCharge(ledger_, MemoryTag::kLibraries, cost);
+  }
+  return *reader_;
+}
+
+std::shared_ptr<TileCache> TextureLibrary::tile_cache() {
+  if (!tiles_) {
+    int64_t bytes = std::max(TileCache::kSmallest, ledger_.limit() / kTileCacheShare);
+    if (!has_room(ledger_, bytes)) bytes = TileCache::kSmallest;
+    MemoryCharge charge = reserve(ledger_, MemoryTag::kTextures, bytes, "the cache of texture tiles");
+    tiles_ = std::make_shared<TileCache>(reader(), bytes);
+    tiles_charge_ = std::move(charge);
+  }
+  return tiles_;
+}
+
+const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
+                                                     const std::filesystem::path& path) {
+  if (const auto found = stored_.find(path); found != stored_.end()) return found->second;
+  check_image_file(asset);
+  Intake intake(*this, asset);
+  try {
+    // Before the file is opened: a progressive JPEG is decoded then.
+    std::ifstream stream(asset.path, std::ios::binary);
+    const MemoryCharge whole =
+        reserve(ledger_, MemoryTag::kTextures, interlaced_bytes(stream),
+                asset.path.string() + ": is progressive or interlaced, and decoded as a whole");
+    const std::string damage = reader().read(asset.path, intake);
+    if (!damage.empty()) fail_image(asset, damage);
+    return stored_.emplace(path, intake.finish()).first->second;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::kMemory, asset.position, asset.path.string() + ": does not fit in memory");
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kStopped) throw;
+    rethrow_at(asset, error);
+  }
+}
 
 std::shared_ptr<const Texture> TextureLibrary::load(const AssetPath& asset, ColorSpace space) {
   const std::filesystem::path path = std::filesystem::absolute(asset.path).lexically_normal();
   const std::lock_guard lock(mutex_);
-  if (const auto found = entries_.find({path, space}); found != entries_.end()) return found->second.texture;
-  check_is_readable(asset);
-  if (!reader_) {
-    // Pages of the files themselves are shared and can be dropped: no ledger counts them.
-    const int64_t before = resident_memory().anonymous;
-    reader_ = std::make_unique<Reader>();
-    const int64_t cost = std::max<int64_t>(resident_memory().anonymous - before, 0);
-    library_charge_ = MemoryCharge(ledger_, MemoryTag::kLibraries, cost);
+  const Stored& file = stored(asset, path);
+  const bool srgb = space == ColorSpace::kSrgb || (space == ColorSpace::kAuto && file.is_integer);
+  Entry& entry = entries_[{path, srgb}];
+  if (!entry.texture) {
+    auto texture = std::make_shared<const Texture>(file.texels, srgb);
+    entry.charge = MemoryCharge(ledger_, MemoryTag::kTextures, static_cast<int64_t>(texture->bytes()));
+    entry.texture = std::move(texture);
   }
-
-  Decoded decoded = read_image(reader_->read, asset);
-  check_is_finite(asset, decoded.image);
-  const bool decode = space == ColorSpace::kSrgb || (space == ColorSpace::kAuto && decoded.is_integer);
-  if (decode) decode_srgb(decoded.image);
-
-  // `auto` is one of the other two, and shares its copy.
-  Entry entry;
-  const ColorSpace stored_as = decode ? ColorSpace::kSrgb : ColorSpace::kLinear;
-  if (const auto same = entries_.find({path, stored_as}); same != entries_.end()) {
-    entry.texture = same->second.texture;
-  } else {
-    entry.texture = std::make_shared<const Texture>(std::move(decoded.image));
-    const size_t bytes = entry.texture->image().bytes();
-    entry.charge = MemoryCharge(ledger_, MemoryTag::kTextures, static_cast<int64_t>(bytes));
-  }
-  const std::shared_ptr<const Texture> texture = entry.texture;
-  if (space == ColorSpace::kAuto) entries_.try_emplace({path, stored_as}, Entry{texture, {}});
-  entries_.emplace(std::pair(path, space), std::move(entry));
-  return texture;
+  return entry.texture;
 }
 
 }  // namespace pelage

@@ -84,8 +84,8 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key(
         "memory", &RenderParams::memory,
-        {.help = "Limit for strands, trees, skins, caches and film together: what is over it is dropped and "
-                 "grown again when needed; less than the largest chunk takes is an error"});
+        {.help = "Limit for strands, trees, skins, textures, caches and film together: what is over it is dropped "
+                 "and grown or read again when needed; less than the largest chunk takes is an error"});
     s.key("bvh", &RenderParams::bvh, {.help = "Trees that are kept between runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "

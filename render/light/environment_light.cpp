@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/memory_budget.h"
 #include "render/sampling/warp.h"
 
 namespace pelage {
@@ -19,22 +22,24 @@ EnvironmentLight::EnvironmentLight(std::string name, const Rgb& radiance, bool v
 
 EnvironmentLight::EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture,
                                    const Rgb& factor, const M33f& to_world, bool visible,
-                                   MemoryLedger& ledger)
+                                   MemoryLedger& ledger, const std::function<void()>& check_stop)
     : name_(std::move(name)),
-      texture_(std::move(texture)),
       radiance_(factor),
       to_world_(to_world),
-      map_(std::make_unique<EnvironmentMap>(texture_->image(), factor)),
+      charge_(reserve(ledger, MemoryTag::kTextures,
+                      static_cast<int64_t>(EnvironmentMap::bytes_for(texture->width(), texture->height())),
+                      fmt::format("light '{}': the distribution of its {} x {} texels", name_,
+                                  texture->width(), texture->height()))),
+      map_(std::make_unique<EnvironmentMap>(std::move(texture), factor, check_stop)),
       importance_(static_cast<float>(map_->power())),
-      visible_(visible),
-      charge_(ledger, MemoryTag::kTextures, static_cast<int64_t>(map_->bytes())) {}
+      visible_(visible) {}
 
 std::optional<LightSample> EnvironmentLight::sample(const V3f&, const V2f& u) const {
   if (!(importance_ > 0.0f)) return std::nullopt;
   if (!map_) return LightSample{uniform_direction(u), kInfinity, radiance_, 1.0f / (4.0f * kPi)};
   const EnvironmentMap::Draw draw = map_->sample(u);
-  return LightSample{draw.direction * to_world_, kInfinity, map_->radiance(draw.texel),
-                     map_->pdf(draw.texel)};
+  const Rgb radiance = map_->radiance(draw.texel);
+  return LightSample{draw.direction * to_world_, kInfinity, radiance, map_->pdf(radiance)};
 }
 
 float EnvironmentLight::pdf(const V3f&, const V3f& direction) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "base/ledger.h"
@@ -16,9 +17,11 @@ class EnvironmentLight final : public Light {
  public:
   EnvironmentLight(std::string name, const Rgb& radiance, bool visible);
   /// `to_world` is the rotation from the space of EnvironmentMap. Throws Error (kInput) for images that
-  /// cannot be used.
+  /// cannot be used, Error (kMemory) when the distribution does not fit into the ledger's limit. `check_stop`
+  /// is called often and may throw.
   EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture, const Rgb& factor,
-                   const M33f& to_world, bool visible, MemoryLedger& ledger);
+                   const M33f& to_world, bool visible, MemoryLedger& ledger,
+                   const std::function<void()>& check_stop = {});
 
   const std::string& name() const override { return name_; }
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
@@ -31,13 +34,12 @@ class EnvironmentLight final : public Light {
   V3f to_map(const V3f& world) const;
 
   std::string name_;
-  std::shared_ptr<const Texture> texture_;
   Rgb radiance_;                               ///< of the constant environment
   M33f to_world_;                              ///< for row vectors, as all Imath matrices
+  MemoryCharge charge_;                        ///< of the map
   std::unique_ptr<const EnvironmentMap> map_;  ///< none when constant
   float importance_;
   bool visible_;
-  MemoryCharge charge_;
 };
 
 /// Rotation about x, then y, then z, by degrees, for row vectors.

@@ -2,6 +2,7 @@
 #include "render/light/environment_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,46 +16,80 @@ namespace pelage {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
+/// Texels a side that are read at a time: the largest cell, and a tile of textures that are kept in tiles.
+constexpr int kBlock = 64;
 
-void check_image(const Image& image) {
-  if (image.width < 1 || image.height < 1 || image.channels < 1) {
-    throw Error(ErrorKind::kInput, "the environment image is empty");
+int divided_up(int a, int b) { return (a + b - 1) / b; }
+
+bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
+
+/// One of a few entries in proportion to their weights, which are not all zero. `rest` is where in [0, 1)
+/// `u` lies within it.
+struct FewDraw {
+  int index = 0;
+  float rest = 0;
+};
+FewDraw draw_of_few(const double* weights, int count, float u) {
+  double total = 0;
+  for (int i = 0; i < count; ++i) total += weights[i];
+  double left = static_cast<double>(u) * total;
+  FewDraw draw;
+  for (int i = 0; i < count; ++i) {
+    if (!(weights[i] > 0)) continue;
+    draw = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
+    if (left < weights[i]) break;
+    left -= weights[i];  // the last one takes what rounding leaves over
   }
-  const int channels = image.channels < 3 ? 1 : 3;
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const float* pixel = image.at(x, y);
-      for (int c = 0; c < channels; ++c) {
-        if (!std::isfinite(pixel[c])) {
-          throw Error(ErrorKind::kInput, "the environment image is not finite at pixel " + std::to_string(x) +
-                                             ", " + std::to_string(y));
-        }
-      }
-    }
-  }
+  return draw;
 }
 
 }  // namespace
 
-EnvironmentMap::EnvironmentMap(const Image& image, const Rgb& factor) : image_(image), factor_(factor) {
-  check_image(image);
-  const size_t width = image.width, height = image.height;
-  row_cosine_.resize(height + 1);
-  for (size_t y = 0; y <= height; ++y) {
+int EnvironmentMap::cell_side(int width, int height, int64_t most_cells) {
+  int side = 1;
+  while (side < kBlock && int64_t(divided_up(width, side)) * divided_up(height, side) > most_cells) side *= 2;
+  return side;
+}
+
+size_t EnvironmentMap::bytes(int width, int height, int cell) {
+  const auto columns = static_cast<size_t>(divided_up(width, cell));
+  const auto rows = static_cast<size_t>(divided_up(height, cell));
+  return (static_cast<size_t>(height) + 1) * sizeof(double) + (rows + columns * rows) * sizeof(float) +
+         (guide_size(rows) + guide_size(columns) * rows) * sizeof(uint32_t);
+}
+
+size_t EnvironmentMap::bytes_for(int width, int height, int64_t most_cells) {
+  return bytes(width, height, cell_side(width, height, most_cells));
+}
+
+EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& factor,
+                               const std::function<void()>& check_stop, int64_t most_cells)
+    : image_(std::move(image)), factor_(factor) {
+  const int width = image_->width(), height = image_->height();
+  if (width < 1 || height < 1 || image_->channels() < 1) {
+    throw Error(ErrorKind::kInput, "the environment image is empty");
+  }
+  cell_ = cell_side(width, height, most_cells);
+  columns_ = divided_up(width, cell_);
+  rows_ = divided_up(height, cell_);
+  row_cosine_.resize(static_cast<size_t>(height) + 1);
+  for (size_t y = 0; y < row_cosine_.size(); ++y) {
     row_cosine_[y] = std::cos(kPiD * static_cast<double>(y) / static_cast<double>(height));
   }
-  row_cdf_.resize(height);
-  row_guide_.resize(guide_size(height));
-  column_cdf_.resize(width * height);
-  column_guide_size_ = guide_size(width);
-  column_guide_.resize(column_guide_size_ * height);
-  for (size_t y = 0; y < height; ++y) {
-    const std::span<float> row(&column_cdf_[y * width], width);
-    for (size_t x = 0; x < width; ++x) {
-      row[x] = luminance(radiance({static_cast<int>(x), static_cast<int>(y)}));
-    }
-    const double sum = make_guided_cdf(row, {&column_guide_[y * column_guide_size_], column_guide_size_});
-    const double power = sum * texel_solid_angle(static_cast<int>(y));
+  const auto columns = static_cast<size_t>(columns_), rows = static_cast<size_t>(rows_);
+  row_cdf_.resize(rows);
+  row_guide_.resize(guide_size(rows));
+  column_cdf_.resize(columns * rows);
+  column_guide_size_ = guide_size(columns);
+  column_guide_.resize(column_guide_size_ * rows);
+  for (int y = 0; y < height; y += kBlock) measure_band(y, check_stop);
+  for (size_t y = 0; y < rows; ++y) {
+    const double sum = make_guided_cdf({&column_cdf_[y * columns], columns},
+                                       {&column_guide_[y * column_guide_size_], column_guide_size_});
+    const int top = static_cast<int>(y) * cell_, bottom = std::min(top + cell_, height);
+    double solid_angle = 0;  // of a column of texels in the cells
+    for (int row = top; row < bottom; ++row) solid_angle += texel_solid_angle(row);
+    const double power = sum * solid_angle;
     row_cdf_[y] = static_cast<float>(power);
     power_ += power;
   }
@@ -62,36 +97,88 @@ EnvironmentMap::EnvironmentMap(const Image& image, const Rgb& factor) : image_(i
   inverse_power_ = power_ > 0 ? static_cast<float>(1 / power_) : 0.0f;
 }
 
+/// Leaves in column_cdf_ what each cell of kBlock rows of texels shines: the sum over its columns of the
+/// luminance, averaged over solid angle.
+void EnvironmentMap::measure_band(int row, const std::function<void()>& check_stop) {
+  const int height = std::min(kBlock, image_->height() - row);
+  std::vector<double> weights(static_cast<size_t>(height));  // of rows within their cells
+  for (int y = 0; y < height; ++y) {
+    const int top = (row + y) / cell_ * cell_, bottom = std::min(top + cell_, image_->height());
+    double solid_angle = 0;
+    for (int i = top; i < bottom; ++i) solid_angle += texel_solid_angle(i);
+    weights[static_cast<size_t>(y)] = texel_solid_angle(row + y) / solid_angle;
+  }
+  std::vector<Rgb> block(size_t(kBlock) * kBlock);
+  std::vector<double> sums;
+  for (int x = 0; x < image_->width(); x += kBlock) {
+    if (check_stop) check_stop();
+    const int width = std::min(kBlock, image_->width() - x);
+    image_->colors(x, row, width, height, block.data());
+    const int across = divided_up(width, cell_);
+    sums.assign(static_cast<size_t>(across) * static_cast<size_t>(divided_up(height, cell_)), 0);
+    for (int i = 0; i < width * height; ++i) {
+      const int tx = i % width, ty = i / width;
+      const Rgb& color = block[static_cast<size_t>(i)];
+      if (!is_finite(color)) {
+        throw Error(ErrorKind::kInput, "the environment image is not finite at pixel " +
+                                           std::to_string(x + tx) + ", " + std::to_string(row + ty));
+      }
+      sums[static_cast<size_t>(ty / cell_ * across + tx / cell_)] +=
+          static_cast<double>(luminance(shown(color))) * weights[static_cast<size_t>(ty)];
+    }
+    for (int i = 0; i < static_cast<int>(sums.size()); ++i) {
+      const size_t at = static_cast<size_t>(row / cell_ + i / across) * static_cast<size_t>(columns_) +
+                        static_cast<size_t>(x / cell_ + i % across);
+      column_cdf_[at] = static_cast<float>(sums[static_cast<size_t>(i)]);
+    }
+  }
+}
+
 double EnvironmentMap::texel_solid_angle(int row) const {
-  return 2 * kPiD / image_.width * (row_cosine_[row] - row_cosine_[row + 1]);
+  return 2 * kPiD / image_->width() * (row_cosine_[row] - row_cosine_[row + 1]);
 }
 
-size_t EnvironmentMap::bytes() const {
-  return row_cosine_.size() * sizeof(double) + (row_cdf_.size() + column_cdf_.size()) * sizeof(float) +
-         (row_guide_.size() + column_guide_.size()) * sizeof(uint32_t);
-}
-
-Rgb EnvironmentMap::radiance(Texel texel) const {
-  const float* pixel = image_.at(texel.x, texel.y);
+Rgb EnvironmentMap::shown(const Rgb& stored) const {
   const auto positive = [](float v) { return std::max(0.0f, v); };
-  if (image_.channels < 3) return factor_ * positive(pixel[0]);
-  return factor_ * Rgb(positive(pixel[0]), positive(pixel[1]), positive(pixel[2]));
+  return factor_ * Rgb(positive(stored.x), positive(stored.y), positive(stored.z));
+}
+
+/// A texel of a cell in proportion to what it shines: its row first, then itself.
+EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, const V2f& rest) const {
+  const int x = static_cast<int>(column) * cell_, y = static_cast<int>(row) * cell_;
+  if (cell_ == 1) return {{x, y}, rest};
+  const int width = std::min(cell_, image_->width() - x), height = std::min(cell_, image_->height() - y);
+  std::array<Rgb, size_t(kBlock) * kBlock> colors;
+  image_->colors(x, y, width, height, colors.data());
+  std::array<double, kBlock> by_row{}, in_row{};
+  const auto weight = [&](int i, int j) {
+    return static_cast<double>(luminance(shown(colors[static_cast<size_t>(j * width + i)])));
+  };
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) by_row[static_cast<size_t>(j)] += weight(i, j);
+    by_row[static_cast<size_t>(j)] *= texel_solid_angle(y + j);
+  }
+  const FewDraw drawn_row = draw_of_few(by_row.data(), height, rest.y);
+  for (int i = 0; i < width; ++i) in_row[static_cast<size_t>(i)] = weight(i, drawn_row.index);
+  const FewDraw drawn_column = draw_of_few(in_row.data(), width, rest.x);
+  return {{x + drawn_column.index, y + drawn_row.index}, {drawn_column.rest, drawn_row.rest}};
 }
 
 EnvironmentMap::Draw EnvironmentMap::sample(const V2f& u) const {
   const GuidedDraw row = draw_guided(row_cdf_, row_guide_, u.y);
-  const size_t width = image_.width;
+  const auto columns = static_cast<size_t>(columns_);
   const GuidedDraw column =
-      draw_guided({&column_cdf_[row.index * width], width},
+      draw_guided({&column_cdf_[row.index * columns], columns},
                   {&column_guide_[row.index * column_guide_size_], column_guide_size_}, u.x);
-  const double top = row_cosine_[row.index], bottom = row_cosine_[row.index + 1];
-  const double cosine = top + row.rest * (bottom - top);
+  const auto [texel, rest] = place_in_cell(column.index, row.index, {column.rest, row.rest});
+  const double top = row_cosine_[texel.y], bottom = row_cosine_[texel.y + 1];
+  const double cosine = top + rest.y * (bottom - top);
   const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-  const double turn = (static_cast<double>(column.index) + column.rest) / static_cast<double>(width) - 0.5;
+  const double turn = (static_cast<double>(texel.x) + rest.x) / static_cast<double>(image_->width()) - 0.5;
   const double phi = 2 * kPiD * turn;
   return {V3f(static_cast<float>(sine * std::sin(phi)), static_cast<float>(cosine),
               static_cast<float>(-sine * std::cos(phi))),
-          {static_cast<int>(column.index), static_cast<int>(row.index)}};
+          texel};
 }
 
 EnvironmentMap::Texel EnvironmentMap::texel_of(const V3f& direction) const {
@@ -101,7 +188,7 @@ EnvironmentMap::Texel EnvironmentMap::texel_of(const V3f& direction) const {
   const auto cell = [](float place, int count) {
     return std::clamp(static_cast<int>(place * static_cast<float>(count)), 0, count - 1);
   };
-  return {cell(turn, image_.width), cell(polar, image_.height)};
+  return {cell(turn, image_->width()), cell(polar, image_->height())};
 }
 
 }  // namespace pelage

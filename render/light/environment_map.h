@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "base/vector.h"
-#include "image/image.h"
+#include "image/texture.h"
 
 namespace pelage {
 
@@ -13,14 +15,20 @@ namespace pelage {
 ///
 /// Space of the image: +y up (row 0), the centre column along -z, +x to its right. Radiance is constant in
 /// each texel, and texels are sampled uniformly over their exact solid angle, so that density and radiance
-/// are proportional everywhere, poles included: nothing that shines has density zero. One float per texel and
-/// a guide of one number per 16 texels are kept. Immutable; thread safe.
+/// are proportional everywhere, poles included: nothing that shines has density zero.
+///
+/// The distribution has at most kMostCells cells, whatever the size of the image: of larger images, a cell is
+/// a square of texels, and the texel within it is drawn by looking at all of them. Of a cell, one float and a
+/// sixteenth of a number are kept. Immutable; thread safe.
 class EnvironmentMap {
  public:
-  /// The image must outlive the map: its first three channels (or its only one) times `factor` are the
-  /// radiance. Negative values count as black. Throws Error (kInput) for an empty image and for values that
-  /// are not finite.
-  EnvironmentMap(const Image& image, const Rgb& factor);
+  static constexpr int64_t kMostCells = int64_t(1) << 21;
+
+  /// The first three channels (or the only one) of `image` times `factor` are the radiance. Negative values
+  /// count as black. `check_stop` is called often and may throw. Throws Error (kInput) for an empty image and
+  /// for values that are not finite.
+  EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& factor,
+                 const std::function<void()>& check_stop = {}, int64_t most_cells = kMostCells);
 
   struct Texel {
     int x, y;
@@ -32,25 +40,43 @@ class EnvironmentMap {
   /// Nothing may be drawn from a black map.
   Draw sample(const V2f& u) const;
   Texel texel_of(const V3f& direction) const;
-  Rgb radiance(Texel texel) const;
-  /// Density of sample() per solid angle anywhere in the texel.
-  float pdf(Texel texel) const { return luminance(radiance(texel)) * inverse_power_; }
+  Rgb radiance(Texel texel) const { return shown(image_->texel(texel.x, texel.y)); }
+  /// Density of sample() per solid angle anywhere in a texel of this radiance.
+  float pdf(const Rgb& radiance) const { return luminance(radiance) * inverse_power_; }
+  float pdf(Texel texel) const { return pdf(radiance(texel)); }
   /// Integral of luminance over the sphere.
   double power() const { return power_; }
   /// Solid angle of each texel of a row.
   double texel_solid_angle(int row) const;
-  size_t bytes() const;
+  /// Memory beside the image.
+  size_t bytes() const { return bytes(image_->width(), image_->height(), cell_); }
+  /// The same, of an image that is yet to be used.
+  static size_t bytes_for(int width, int height, int64_t most_cells = kMostCells);
 
  private:
-  const Image& image_;
+  /// A texel, and where in it.
+  struct Place {
+    Texel texel;
+    V2f rest;
+  };
+  static int cell_side(int width, int height, int64_t most_cells);
+  static size_t bytes(int width, int height, int cell);
+  Rgb shown(const Rgb& stored) const;
+  void measure_band(int row, const std::function<void()>& check_stop);
+  Place place_in_cell(size_t column, size_t row, const V2f& rest) const;
+
+  std::shared_ptr<const Texture> image_;
   Rgb factor_;
+  int cell_ = 1;     ///< texels a side, a power of two
+  int columns_ = 0;  ///< of cells
+  int rows_ = 0;
   double power_ = 0;
   float inverse_power_ = 0;
-  std::vector<double>
-      row_cosine_;              ///< of the polar angle at the upper edge of each row, and at the lowest edge
-  std::vector<float> row_cdf_;  ///< inclusive
+  std::vector<double> row_cosine_;  ///< of the polar angle at the upper edge of each row of texels, and at
+                                    ///< the lowest edge
+  std::vector<float> row_cdf_;  ///< of cells, inclusive
   std::vector<uint32_t> row_guide_;
-  std::vector<float> column_cdf_;  ///< inclusive, row after row
+  std::vector<float> column_cdf_;  ///< of cells, inclusive, row after row
   std::vector<uint32_t> column_guide_;
   size_t column_guide_size_ = 0;  ///< per row
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "render/light/environment_light.h"
 #include "render/light/light_params.h"
 #include "render/light/rectangle_light.h"
@@ -50,8 +50,10 @@ struct LightMaker {
     if (p.file.empty()) return std::make_unique<EnvironmentLight>(name, factor, p.visible);
     try {
       return std::make_unique<EnvironmentLight>(name, textures.load(p.file, ColorSpace::kAuto), factor,
-                                                rotation_xyz(p.rotate), p.visible, ledger);
+                                                rotation_xyz(p.rotate), p.visible, ledger,
+                                                [this] { textures.check_stop(); });
     } catch (const Error& error) {
+      if (error.kind() == ErrorKind::kStopped) throw;
       std::vector<Problem> problems = error.problems();
       for (Problem& problem : problems) {
         if (problem.position.file.empty()) {

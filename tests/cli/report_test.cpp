@@ -16,7 +16,7 @@
 #include "cli/report/report_html.h"
 #include "cli/report/report_json.h"
 #include "cli/report/svg.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 
 namespace pelage {
 namespace {

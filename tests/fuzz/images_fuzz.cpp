@@ -4,7 +4,7 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "image/exr.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/fuzz/fuzz_targets.h"
 
 namespace pelage {
@@ -15,10 +15,9 @@ void feed_texture(const std::filesystem::path& path) {
   TextureLibrary library(ledger);
   try {
     const auto texture = library.load({path, {"scene.yaml", 1, 1}});
-    const Image& image = texture->image();
-    PELAGE_CHECK(image.width > 0 && image.height > 0 && image.channels > 0);
-    PELAGE_CHECK(image.pixels.size() == static_cast<size_t>(image.width) * static_cast<size_t>(image.height) *
-                                            static_cast<size_t>(image.channels));
+    PELAGE_CHECK(texture->width() > 0 && texture->height() > 0 && texture->channels() > 0);
+    PELAGE_CHECK(std::isfinite(texture->texel(texture->width() - 1, texture->height() - 1).x));
+    PELAGE_CHECK(texture->range(0).first <= texture->range(0).second);
     PELAGE_CHECK(std::isfinite(texture->color(0.3f, 0.7f).x));
   } catch (const Error& error) {
     PELAGE_CHECK(error.kind() == ErrorKind::kInput);

@@ -15,7 +15,7 @@
 #include "groom/operator_stack.h"
 #include "groom/rotation.h"
 #include "groom/strand_batch.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 
 namespace pelage {

@@ -9,7 +9,7 @@
 #include "geom/io/obj_file.h"
 #include "geom/io/strand_file.h"
 #include "groom/groom.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/groom/scene_text.h"
 #include "tests/support/data.h"
 #include "tests/support/quiet_job.h"

@@ -7,7 +7,7 @@
 
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "procedurals/fur.h"
 #include "procedurals/strand_nature.h"
 #include "tests/groom/shapes.h"

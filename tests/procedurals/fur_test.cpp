@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "geom/curve_bounds.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
 #include "tests/support/quiet_job.h"

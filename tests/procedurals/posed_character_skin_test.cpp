@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "groom/groom.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "tests/groom/shapes.h"
 #include "tests/support/quiet_job.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "procedurals/fur.h"
 #include "tests/groom/random_stacks.h"
 #include "tests/groom/shapes.h"

@@ -70,9 +70,11 @@ TEST(GuidedCdf, NothingButZerosIsUniform) {
   EXPECT_EQ(cdf, (std::vector<float>{0.25f, 0.5f, 0.75f, 1}));
 }
 
+std::shared_ptr<const Texture> textured(const Image& image) { return std::make_shared<const Texture>(image); }
+
 TEST(EnvironmentMap, IsOrientedAsStated) {
   Image image = make_image(8, 4, 1);
-  const EnvironmentMap map(image, Rgb(1));
+  const EnvironmentMap map(textured(image), Rgb(1));
   const auto texel = [&](V3f w) { return map.texel_of(w.normalized()); };
   EXPECT_EQ(texel({0, 1, 0}).y, 0);
   EXPECT_EQ(texel({0, -1, 0}).y, 3);
@@ -85,7 +87,7 @@ TEST(EnvironmentMap, IsOrientedAsStated) {
 
 TEST(EnvironmentMap, DrawsTexelsInProportionUniformlyInside) {
   const Image image = speckled(40, 24);
-  const EnvironmentMap map(image, Rgb(1, 2, 0.5f));
+  const EnvironmentMap map(textured(image), Rgb(1, 2, 0.5f));
   // Counts by texel and quarter of texel.
   std::vector<double> observed(40 * 24 * 4, 0.0), expected(40 * 24 * 4, 0.0);
   TestRandom random(2);
@@ -120,7 +122,7 @@ TEST(EnvironmentMap, DrawsTexelsInProportionUniformlyInside) {
 
 TEST(EnvironmentMap, TexelSolidAnglesCoverTheSphere) {
   const Image image = make_image(37, 19, 1);
-  const EnvironmentMap map(image, Rgb(1));
+  const EnvironmentMap map(textured(image), Rgb(1));
   double sum = 0;
   for (int y = 0; y < 19; ++y) sum += 37 * map.texel_solid_angle(y);
   EXPECT_NEAR(sum, 4 * kPiD, 1e-12);
@@ -131,7 +133,7 @@ TEST(EnvironmentMap, SingleTexelsAreFoundEvenAtThePoles) {
   for (int row : {0, 16, 31}) {
     Image image = make_image(64, 32);
     image.at(10, row)[1] = 5000;
-    const EnvironmentMap map(image, Rgb(1));
+    const EnvironmentMap map(textured(image), Rgb(1));
     TestRandom random(3);
     for (int i = 0; i < 2000; ++i) {
       const EnvironmentMap::Draw draw = map.sample(random.unit2());
@@ -143,12 +145,77 @@ TEST(EnvironmentMap, SingleTexelsAreFoundEvenAtThePoles) {
   }
 }
 
+// Of images with more texels than a map has cells, the same must hold as of others: the density is that of a
+// distribution of texels, and what is drawn follows it.
+TEST(EnvironmentMap, CellsOfManyTexelsChangeNoDensity) {
+  Image image = speckled(53, 29);  // cells at the edges are cut off
+  image.at(17, 3)[1] = 4000;       // a sun
+  const auto texture = textured(image);
+  const EnvironmentMap full(texture, Rgb(1, 2, 0.5f));
+  for (int64_t cells : {800, 100, 9, 1}) {
+    const EnvironmentMap map(texture, Rgb(1, 2, 0.5f), {}, cells);
+    EXPECT_LT(map.bytes(), full.bytes());
+    EXPECT_NEAR(map.power() / full.power(), 1, 1e-6);
+    TestRandom random(11);
+    constexpr int kCount = 200000;
+    std::vector<int> drawn(static_cast<size_t>(image.width * image.height));
+    int different = 0;
+    for (int i = 0; i < kCount; ++i) {
+      const EnvironmentMap::Draw draw = map.sample(random.unit2());
+      ASSERT_GT(map.pdf(draw.texel), 0);
+      ASSERT_NEAR(map.pdf(draw.texel) / full.pdf(draw.texel), 1, 1e-5);
+      ++drawn[static_cast<size_t>(draw.texel.y * image.width + draw.texel.x)];
+      const EnvironmentMap::Texel found = map.texel_of(draw.direction);
+      different += found.x != draw.texel.x || found.y != draw.texel.y;
+    }
+    EXPECT_LE(different, 40) << "rounding at edges of texels only";
+    double chi = 0;
+    int dof = -1;
+    for (int y = 0; y < image.height; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        const double expected = full.pdf({x, y}) * full.texel_solid_angle(y) * kCount;
+        const int count = drawn[static_cast<size_t>(y * image.width + x)];
+        if (expected < 5) continue;
+        chi += (count - expected) * (count - expected) / expected;
+        ++dof;
+      }
+    }
+    ASSERT_GT(dof, 50);
+    // Five standard deviations of the distribution of chi-square.
+    EXPECT_LT(chi, dof + 5 * std::sqrt(2.0 * dof)) << cells;
+  }
+}
+
+TEST(EnvironmentMap, StopsWhileItIsMade) {
+  int calls = 0;
+  const auto stop = [&] {
+    if (++calls == 3) throw Error(ErrorKind::kStopped, "stop");
+  };
+  EXPECT_THROW(EnvironmentMap(textured(speckled(300, 200)), Rgb(1), stop), Error);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(EnvironmentLight, RefusesADistributionThatDoesNotFit) {
+  MemoryLedger ledger;
+  ledger.set_limit(1000);
+  try {
+    EnvironmentLight("sky", textured(speckled(64, 32)), Rgb(1), M33f(), true, ledger);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_EQ(std::string(error.what()).find("light 'sky': the distribution of its 64 x 32 texels: needs "),
+              0u)
+        << error.what();
+  }
+  EXPECT_EQ(ledger.current(MemoryTag::kTextures), 0);
+}
+
 TEST(EnvironmentLight, SamplesCarryTheWholePower) {
   MemoryLedger ledger;
   const auto texture = std::make_shared<const Texture>(speckled(64, 32));
   const EnvironmentLight light("sky", texture, Rgb(0.5f), rotation_xyz({20, 130, -40}), true, ledger);
   EXPECT_GT(ledger.current(MemoryTag::kTextures), 64 * 32 * 4);
-  const EnvironmentMap map(texture->image(), Rgb(0.5f));
+  const EnvironmentMap map(texture, Rgb(0.5f));
   TestRandom random(8);
   int different = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -255,7 +322,7 @@ TEST(EnvironmentLight, BlackNegativeAndBrokenImages) {
 
 TEST(EnvironmentLight, OneChannelIsGrey) {
   Image image{4, 2, 1, std::vector<float>(8, 0.25f)};
-  const EnvironmentMap map(image, Rgb(1, 2, 4));
+  const EnvironmentMap map(textured(image), Rgb(1, 2, 4));
   EXPECT_EQ(map.radiance({1, 1}), Rgb(0.25f, 0.5f, 1));
 }
 

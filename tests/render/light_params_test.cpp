@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "render/light/environment_map.h"
 #include "render/surface/material.h"
 #include "tests/render/random.h"
@@ -90,10 +90,10 @@ TEST(LightParams, RealStudiosAreSampledAtFullResolution) {
     MemoryLedger ledger;
     TextureLibrary textures(ledger);
     const auto texture = textures.load({path, {}});
-    const EnvironmentMap map(texture->image(), Rgb(2));
+    const EnvironmentMap map(texture, Rgb(2));
     double sum = 0;
-    for (int y = 0; y < texture->image().height; ++y) {
-      for (int x = 0; x < texture->image().width; ++x) {
+    for (int y = 0; y < texture->height(); ++y) {
+      for (int x = 0; x < texture->width(); ++x) {
         const float pdf = map.pdf({x, y});
         sum += pdf * map.texel_solid_angle(y);
         ASSERT_EQ(pdf > 0, luminance(map.radiance({x, y})) > 0);

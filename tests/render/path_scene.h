@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "image/texture.h"
+#include "image/texture_library.h"
 #include "procedurals/fixed.h"
 #include "render/light/light_params.h"
 #include "render/path/path_integrator.h"

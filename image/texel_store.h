@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "image/texel_layout.h"
+
+namespace pelage {
+
+/// The lowest and highest number of a channel (stored_number).
+using NumberRange = std::pair<float, float>;
+
+/// The texels of one image as its file stores them, in memory or in tiles of which only some are. Immutable.
+/// Thread safety: const members may be called from any thread.
+class TexelStore {
+ public:
+  virtual ~TexelStore() = default;
+  const TexelLayout& layout() const { return layout_; }
+  const NumberRange& range(int channel) const { return ranges_[static_cast<size_t>(channel)]; }
+  /// All texels, row after row from the top; null for tiles.
+  const std::byte* in_memory() const { return in_memory_; }
+  /// Copies a rectangle that lies inside the image to `to`, row after row. Throws Error (kFailed) when tiles
+  /// cannot be read back.
+  virtual void read(int x, int y, int width, int height, std::byte* to) const = 0;
+
+ protected:
+  TexelStore(const TexelLayout& layout, std::vector<NumberRange> ranges)
+      : layout_(layout), ranges_(std::move(ranges)) {}
+  void set_in_memory(const std::byte* texels) { in_memory_ = texels; }
+
+ private:
+  TexelLayout layout_;
+  std::vector<NumberRange> ranges_;
+  const std::byte* in_memory_ = nullptr;
+};
+
+/// Every texel in memory.
+class TexelsInMemory final : public TexelStore {
+ public:
+  TexelsInMemory(const TexelLayout& layout, std::vector<NumberRange> ranges, std::vector<std::byte> texels);
+  void read(int x, int y, int width, int height, std::byte* to) const override;
+
+ private:
+  std::vector<std::byte> texels_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "base/error.h"
+#include "base/ledger.h"
+#include "base/progress.h"
+#include "base/value_readers.h"
+#include "image/texture.h"
+
+namespace pelage {
+
+class ImageReader;
+class TileCache;
+
+/// How stored values become linear ones.
+enum class ColorSpace { kAuto, kLinear, kSrgb };
+template <>
+struct EnumNames<ColorSpace> {
+  static constexpr const char* names[] = {"auto", "linear", "srgb"};
+};
+
+/// Reads images of any format that OpenImageIO knows, through a module that is loaded when the first image is
+/// asked for (linking it would cost every start 0.3 s and 130 MB). One copy of the texels per file, in the
+/// type that the file stores.
+///
+/// Under the ledger's limit, images are kept in memory while all of them together take at most a quarter of
+/// it. Others become a temporary file of tiles, of which a cache of an eighth of the limit holds those that
+/// were looked up lately. Both give the same values. Thread safety: all members may be called from any
+/// thread.
+class TextureLibrary {
+ public:
+  /// `progress` shows the reading of large images and may stop it. Both outlive the library.
+  explicit TextureLibrary(MemoryLedger& ledger, Progress* progress = nullptr);
+  ~TextureLibrary();
+
+  /// Throws at `asset.position`, naming the file: Error (kInput) when it is missing or cannot be read (never
+  /// black), Error (kMemory) before anything is read when it does not fit into the ledger's limit; Error
+  /// (kStopped) once the user has asked to stop.
+  std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
+
+  /// Throws Error (kStopped) once the user has asked to stop.
+  void check_stop() const;
+
+ private:
+  class Intake;
+  struct Stored {
+    std::shared_ptr<const TexelStore> texels;
+    bool is_integer = false;
+    MemoryCharge charge;
+  };
+  struct Entry {
+    std::shared_ptr<const Texture> texture;
+    MemoryCharge charge;
+  };
+  const Stored& stored(const AssetPath& asset, const std::filesystem::path& path);
+  const ImageReader& reader();
+  std::shared_ptr<TileCache> tile_cache();
+
+  MemoryLedger& ledger_;
+  Progress* progress_;
+  std::mutex mutex_;  // guards the rest
+  std::unique_ptr<ImageReader> reader_;
+  MemoryCharge library_charge_;
+  std::shared_ptr<TileCache> tiles_;
+  MemoryCharge tiles_charge_;
+  int64_t in_memory_ = 0;  // bytes of all images that are whole in memory
+  std::map<std::filesystem::path, Stored> stored_;
+  std::map<std::pair<std::filesystem::path, bool>, Entry> entries_;  // by file and whether sRGB is decoded
+};
+
+}  // namespace pelage
