@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/assets.h"
 
+#include "cli/map_check.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 
@@ -79,6 +80,7 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
     assets->charges.emplace_back(ledger, MemoryTag::kSkins,
                                  static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
   }
+  check_maps(scene, assets->skins);
   for (const auto& topology : topologies) {
     assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
   }

@@ -37,6 +37,9 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
   const SkinBinding binding(*context.rest, context.workers);
+  if (binding.empty())
+    throw Error(ErrorKind::kInput, source.file.position,
+                "guides need a skin to stand on: every face of this one is a hole");
   for (size_t g = 0; g < count; ++g) {
     const std::vector<V3f> points = resample_strand(file.strands, g, points_);
     const RootAddress root = binding.nearest(points[0] * source.scale + source.translate);
