@@ -64,9 +64,16 @@ struct KeyInfo {
 /// One parameter as it stands: "levels[0].amount", "{map: fur/amount.png, channel: r}", and the files whose
 /// contents it stands for.
 struct ParameterText {
+  /// An image that is looked up by texture coordinates, and where the scene names it.
+  struct Map {
+    std::filesystem::path file;
+    SourcePosition position;
+  };
+
   std::string key;
   std::string text;
   std::vector<std::filesystem::path> files = {};
+  std::vector<Map> maps = {};  ///< those of `files` that are maps
 };
 
 /// "0 .. 1", "> 0", or "" when unlimited.
@@ -98,6 +105,8 @@ class SchemaInfo {
 ///   static std::vector<const SchemaInfo*> blocks();
 ///   // Adds the files whose contents belong to the value.
 ///   static void add_files(const T&, std::vector<std::filesystem::path>&);
+///   // Adds the images that the value looks up by texture coordinates.
+///   static void add_maps(const T&, std::vector<ParameterText::Map>&);
 ///   // For values that print() does not state in full.
 ///   static void describe(const T&, const std::string& key, std::vector<ParameterText>& out);
 template <class T, class Enable = void>
@@ -121,6 +130,8 @@ void describe_value(const T& value, const std::string& key, std::vector<Paramete
     PELAGE_CHECK(one.text != "{}");  // print() of a map or a variant says nothing of what it holds
     if constexpr (requires { ValueReader<T>::add_files(value, one.files); })
       ValueReader<T>::add_files(value, one.files);
+    if constexpr (requires { ValueReader<T>::add_maps(value, one.maps); })
+      ValueReader<T>::add_maps(value, one.maps);
     out.push_back(std::move(one));
   }
 }

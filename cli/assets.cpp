@@ -6,6 +6,7 @@
 #include "base/memory_budget.h"
 #include "cli/crowds.h"
 #include "cli/drawn_characters.h"
+#include "cli/map_check.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 
@@ -90,6 +91,7 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
     assets->charges.emplace_back(ledger, MemoryTag::kSkins,
                                  static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
   }
+  check_maps(scene, assets->skins);
   for (const auto& topology : topologies) {
     assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
   }

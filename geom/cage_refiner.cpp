@@ -44,6 +44,8 @@ class CageChecker {
     for (size_t face = 0; face < mesh_.face_sizes.size(); first += mesh_.face_sizes[face], ++face) {
       check_face(face, std::span(mesh_.face_vertices).subspan(first, mesh_.face_sizes[face]), valence);
     }
+    // Without subdivision nothing grows with the valence of a vertex.
+    if (scheme_ == SubdivisionScheme::kNone) valence.clear();
     check_weights(valence);
     for (size_t v = 0; v < valence.size(); ++v) {
       if (valence[v] > SurfaceTopology::kMaxValence) {
@@ -57,8 +59,8 @@ class CageChecker {
     }
   }
 
-  /// About 200 bytes are needed for the square of each of these numbers: a file of megabytes could ask for
-  /// terabytes.
+  /// Subdivision needs about 200 bytes for the square of each of these numbers, and cutting a polygon may
+  /// take as many steps: a file of megabytes could ask for terabytes.
   void check_weights(const std::vector<uint32_t>& valence) {
     constexpr uint64_t kFew = 16, kMostSquares = 10'000'000;
     uint64_t squares = 0;
@@ -150,10 +152,12 @@ Sdc::SchemeType scheme_type(SubdivisionScheme scheme) {
 
 }  // namespace
 
+void check_cage(const ControlMesh& mesh, SubdivisionScheme scheme, const std::string& source) {
+  CageChecker(mesh, scheme, source).check();
+}
+
 std::unique_ptr<Far::TopologyRefiner> make_refiner(const ControlMesh& mesh, SubdivisionScheme scheme,
                                                    BoundaryRule boundary, const std::string& source) {
-  CageChecker(mesh, scheme, source).check();
-
   const std::vector<int> sizes(mesh.face_sizes.begin(), mesh.face_sizes.end());
   const std::vector<int> vertices(mesh.face_vertices.begin(), mesh.face_vertices.end());
   std::vector<int> crease_vertices, corner_vertices;

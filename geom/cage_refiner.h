@@ -12,8 +12,11 @@
 
 namespace pelage {
 
-/// The unrefined topology of a cage. Throws Error (kInput) with `source` and every reason why it cannot be
-/// subdivided (SurfaceTopology::create). Holes are not passed on: they stop no surface around them.
+/// Throws Error (kInput) with `source` and every reason why a cage has no surface (SurfaceTopology::create).
+void check_cage(const ControlMesh& mesh, SubdivisionScheme scheme, const std::string& source);
+
+/// The unrefined topology of a cage that has been checked. Throws Error (kInput) with `source` when the
+/// library does not take it. Holes are not passed on: they stop no surface around them.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const ControlMesh& mesh,
                                                                SubdivisionScheme scheme,
                                                                BoundaryRule boundary,

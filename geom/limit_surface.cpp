@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "base/check.h"
+#include "geom/flat_topology.h"
 #include "geom/four_lanes.h"
 #include "geom/surface_topology_impl.h"
 
@@ -51,17 +52,28 @@ Frame frame_around(const V3f& normal, const V3f& along) {
   return {V3f(tangent), V3f(n.cross(tangent)), normal};
 }
 
+/// `along` may point anywhere.
+Frame smooth_frame(const V3f& normal, const V3f& along) {
+  const V3d n(normal), a(along);
+  const V3d flat = a - n * n.dot(a);
+  const bool clear = flat.length() > kFlatSine * a.length() && std::isfinite(flat.length());
+  const V3d tangent = clear ? flat.normalized() : across(n);
+  return {V3f(tangent), V3f(n.cross(tangent)), normal};
+}
+
 }  // namespace
 
 SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes() const {
   const size_t points = impl_->rules.point_count();
+  if (impl_->flat) return {sizeof(LimitSurface) + (points * 6 + 1) * sizeof(float), 0};
   return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float), PointRules::making_bytes(points)};
 }
 
 SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes(std::span<const uint32_t> faces) const {
   const PointBlocks blocks = impl_->points_of(faces);
   const size_t points = blocks.point_count();
-  return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float) + blocks.place.size() * sizeof(uint32_t),
+  return {sizeof(LimitSurface) + (points * (impl_->flat ? 6 : 3) + 1) * sizeof(float) +
+              blocks.place.size() * sizeof(uint32_t),
           // Points, which of them are wanted, and those that are still to be seen to.
           PointRules::making_bytes(points) + blocks.wanted.size() * sizeof(uint16_t) +
               2 * points * sizeof(uint32_t)};
@@ -75,6 +87,11 @@ LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std:
   for (size_t i = 0; i < positions.size(); ++i) {
     const V3f p = positions[i] - origin_;
     std::copy_n(&p.x, 3, &points_[i * 3]);
+  }
+  if (impl.flat) {
+    normals_.resize(positions.size() * 3);
+    for (uint32_t i = 0; i < positions.size(); ++i) set_normal(i, positions);
+    return;
   }
   impl.rules.apply(points_.data());
 }
@@ -91,8 +108,18 @@ LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std:
     const V3f p = positions[i] - origin_;
     std::copy_n(&p.x, 3, &points_[blocks[i] * 3]);
   }
-  impl.rules.apply(points_.data(), blocks);
+  if (!impl.flat) impl.rules.apply(points_.data(), blocks);
   blocks_ = std::move(blocks.place);
+  if (!impl.flat) return;
+  normals_.resize(points_.size() - 1);
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    if (blocks.wanted[i / PointBlocks::kSize] >> i % PointBlocks::kSize & 1) set_normal(i, positions);
+  }
+}
+
+void LimitSurface::set_normal(uint32_t vertex, std::span<const V3f> positions) {
+  const V3f normal = flat_vertex_normal(topology_->impl(), positions, vertex);
+  std::copy_n(&normal.x, 3, &normals_[place_of(static_cast<int>(vertex)) * 3]);
 }
 
 void LimitSurface::measure(std::span<const V3f> positions) {
@@ -117,6 +144,7 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
     u /= u + v;
     v = 1 - u;
   }
+  if (impl.flat) return evaluate_flat(face, u, v);
   const Far::PatchTable::PatchHandle* handle = impl.patch_map->FindPatch(static_cast<int>(face), u, v);
   PELAGE_CHECK(handle);
   float weights[20], du_weights[20], dv_weights[20];
@@ -141,7 +169,27 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   return result;
 }
 
+SurfacePoint LimitSurface::evaluate_flat(uint32_t face, float u, float v) const {
+  const std::vector<uint32_t>& corner_vertex = topology_->impl().cage.corner_vertex;
+  PELAGE_CHECK(face < topology_->face_count());
+  V3f p[3], n[3];
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t at = 3 * place_of(static_cast<int>(corner_vertex[3 * size_t(face) + i]));
+    p[i] = V3f(points_[at], points_[at + 1], points_[at + 2]);
+    n[i] = V3f(normals_[at], normals_[at + 1], normals_[at + 2]);
+  }
+  SurfacePoint result;
+  result.du = p[1] - p[0];
+  result.dv = p[2] - p[0];
+  result.position = p[0] + u * result.du + v * result.dv + origin_;
+  const V3f normal = (1 - u - v) * n[0] + u * n[1] + v * n[2];
+  // Normals of vertices may cancel out between them.
+  if (normal.length2() > 1e-6f) result.smooth_normal = normal.normalized();
+  return result;
+}
+
 Frame LimitSurface::frame_of(const SurfacePoint& point) {
+  if (point.smooth_normal != V3f(0)) return smooth_frame(point.smooth_normal, point.du);
   V3f normal;
   if (normal_of(point.du, point.dv, normal)) return frame_around(normal, point.du);
   // No plane, perhaps a line.
@@ -153,6 +201,7 @@ Frame LimitSurface::frame_of(const SurfacePoint& point) {
 }
 
 Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, float v) const {
+  if (here.smooth_normal != V3f(0)) return frame_of(here);
   V3f normal;
   if (normal_of(here.du, here.dv, normal)) return frame_around(normal, here.du);
   const float middle = topology_->impl().triangular ? 1.0f / 3 : 0.5f;
@@ -179,7 +228,8 @@ ContentHash LimitSurface::hash() const {
 }
 
 size_t LimitSurface::bytes() const {
-  return sizeof(*this) + points_.capacity() * sizeof(float) + blocks_.capacity() * sizeof(uint32_t);
+  return sizeof(*this) + (points_.capacity() + normals_.capacity()) * sizeof(float) +
+         blocks_.capacity() * sizeof(uint32_t);
 }
 
 }  // namespace pelage

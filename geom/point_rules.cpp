@@ -25,9 +25,10 @@ void store(const Point& p, float* out) {
 template <class At>
 Point sum(const PointRules& rules, size_t made, const std::vector<Point>& all, const At& at) {
   Point sum{};
-  for (uint32_t term = rules.first_term[made]; term < rules.first_term[made + 1]; ++term) {
-    const Point& p = all[at(rules.source[term])];
-    const double w = rules.weight[term];
+  const PointRules::Terms terms = rules.terms(made);
+  for (uint32_t term = 0; term < terms.count; ++term) {
+    const Point& p = all[at(terms.source[term])];
+    const double w = terms.weight[term];
     sum.xy += p.xy * Pair{w, w};
     sum.z += p.z * Pair{w, w};
   }
@@ -44,6 +45,14 @@ void for_each_point(const PointBlocks& blocks, const Body& body) {
 }
 
 }  // namespace
+
+PointRules::Terms PointRules::terms(size_t made) const {
+  const uint32_t first = first_term[made], count = first_term[made + 1] - first;
+  if (first + count <= source.size()) return {source.data() + first, weight.data() + first, count};
+  const size_t local = first - source.size();
+  // Indices of the library are not negative.
+  return {reinterpret_cast<const uint32_t*>(local_source) + local, local_weight + local, count};
+}
 
 void PointRules::apply(float* points) const {
   std::vector<Point> all(point_count());
@@ -88,7 +97,11 @@ PointBlocks SurfaceTopology::Impl::points_of(std::span<const uint32_t> faces) co
     if (point >= rules.control_count) open.push_back(point - rules.control_count);
   };
   for (uint32_t face : faces) {
-    PELAGE_CHECK(face + 1 < first_patch.size());
+    PELAGE_CHECK(face < cage_face.size());
+    if (flat) {
+      for (uint32_t corner = 0; corner < 3; ++corner) want(cage.corner_vertex[3 * face + corner]);
+      continue;
+    }
     for (uint32_t i = first_patch[face]; i < first_patch[face + 1]; ++i) {
       for (int vertex : patches->GetPatchVertices(face_patches[i])) want(static_cast<uint32_t>(vertex));
     }
@@ -96,8 +109,8 @@ PointBlocks SurfaceTopology::Impl::points_of(std::span<const uint32_t> faces) co
   while (!open.empty()) {
     const uint32_t made = open.back();
     open.pop_back();
-    for (uint32_t term = rules.first_term[made]; term < rules.first_term[made + 1]; ++term)
-      want(rules.source[term]);
+    const PointRules::Terms terms = rules.terms(made);
+    for (uint32_t term = 0; term < terms.count; ++term) want(terms.source[term]);
   }
   for (size_t block = 0; block < all; ++block) {
     if (blocks.wanted[block]) blocks.place[block] = blocks.count++;

@@ -105,7 +105,7 @@ std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<co
   };
   std::vector<bool> touched(topology.control_count());
   for (const uint32_t face : faces) {
-    for (const uint32_t vertex : corners(topology.cage_face(face))) touched[vertex] = true;
+    for (const uint32_t vertex : corners(topology.impl().cage_face[face])) touched[vertex] = true;
   }
   std::vector<uint32_t> around;
   for (uint32_t face = 0; face < cage.face_count(); ++face) {
@@ -120,7 +120,7 @@ std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<con
   const CageConnectivity& cage = topology.impl().cage;
   std::vector<uint32_t> vertices;
   for (const uint32_t face : around) {
-    const uint32_t whole = topology.cage_face(face);
+    const uint32_t whole = topology.impl().cage_face[face];
     vertices.insert(vertices.end(), cage.corner_vertex.begin() + cage.first_corner[whole],
                     cage.corner_vertex.begin() + cage.first_corner[whole + 1]);
   }

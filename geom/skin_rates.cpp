@@ -43,6 +43,8 @@ void set_rates(SkinLattice& lattice, std::span<const LimitSurface> keys, const V
   for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &keys[0].topology());
   const size_t end = std::min(options.end_rated_key, keys.size());
   PELAGE_CHECK(options.first_rated_key < end);
+  // Flat triangles need no division, however near they are.
+  if (keys[0].topology().impl().flat) return;
   const auto rated = keys.subspan(options.first_rated_key, end - options.first_rated_key);
   std::vector<SkinLattice::Line>& lines = lattice.lines();
   workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {

@@ -9,18 +9,24 @@
 
 #include "base/error.h"
 #include "geom/cage_refiner.h"
+#include "geom/flat_topology.h"
 #include "geom/surface_topology_impl.h"
 
 namespace pelage {
 
 namespace {
 
-// Levels of refinement around creases and corners, and around smooth extraordinary vertices. Semi-sharp
-// creases are resolved up to the first. What is left at the second is a Gregory patch, which on the cages of
-// the tests stays within 1e-4 of their size from the limit surface; a level more takes 40 % more memory and
-// leaves a third of that.
+// Levels of refinement around creases and corners. Semi-sharp creases are resolved up to here.
 constexpr int kSharpLevels = 6;
-constexpr int kSmoothLevels = 3;
+
+// Levels around smooth extraordinary vertices. What is left at the last is a Gregory patch, which with three
+// levels stays within 1e-4 of the size of the cages of the tests from the limit surface; a level more leaves
+// a third of that. The faces of dense cages are so small a part of the whole that fewer levels do as much;
+// around each triangle three levels take 33 kB while they are made, two 17 and one 7.
+int smooth_levels(const ControlMesh& mesh) {
+  constexpr size_t kTwo = 6000;
+  return mesh.face_count() > SurfaceTopology::kDenseFaces ? 1 : mesh.face_count() > kTwo ? 2 : 3;
+}
 
 template <class T>
 size_t heap_bytes(const std::vector<T>& values) {
@@ -28,30 +34,28 @@ size_t heap_bytes(const std::vector<T>& values) {
 }
 
 ContentHash hash_cage(const ControlMesh& mesh, SubdivisionScheme scheme, BoundaryRule boundary) {
-  std::vector<uint32_t> words{static_cast<uint32_t>(scheme), static_cast<uint32_t>(boundary),
-                              mesh.chaikin_creases, mesh.smooth_triangles,
-                              static_cast<uint32_t>(mesh.positions.size())};
-  const auto number = [&](float value) { words.push_back(std::bit_cast<uint32_t>(value)); };
+  ContentHasher hasher;
+  const auto add = [&](const auto& values) { hasher.add_bytes(std::as_bytes(std::span(values))); };
+  const auto word = [&](size_t value) { hasher.add(static_cast<uint32_t>(value)); };
   const auto list = [&](const std::vector<uint32_t>& values) {
-    words.push_back(static_cast<uint32_t>(values.size()));
-    words.insert(words.end(), values.begin(), values.end());
+    word(values.size());
+    add(values);
   };
+  word(static_cast<size_t>(scheme));
+  word(static_cast<size_t>(boundary));
+  word(mesh.chaikin_creases);
+  word(mesh.smooth_triangles);
+  word(mesh.positions.size());
   list(mesh.face_sizes);
   list(mesh.face_vertices);
   list(mesh.face_uv);
   list(mesh.holes);
-  words.push_back(static_cast<uint32_t>(mesh.uv.size()));
-  for (const V2f& uv : mesh.uv) number(uv.x), number(uv.y);
-  words.push_back(static_cast<uint32_t>(mesh.creases.size()));
-  for (const ControlMesh::Crease& c : mesh.creases) {
-    words.insert(words.end(), {c.a, c.b});
-    number(c.sharpness);
-  }
-  for (const ControlMesh::Corner& c : mesh.corners) {
-    words.push_back(c.vertex);
-    number(c.sharpness);
-  }
-  return content_hash(std::as_bytes(std::span(words)));
+  word(mesh.uv.size());
+  add(mesh.uv);
+  word(mesh.creases.size());
+  add(mesh.creases);
+  add(mesh.corners);
+  return hasher.digest();
 }
 
 CageConnectivity connect(const Far::TopologyRefiner& refiner, SubdivisionScheme scheme) {
@@ -182,7 +186,7 @@ void sort_patches(SurfaceTopology::Impl& impl) {
 using Stencils = Far::StencilTableReal<float>;
 using StencilsFactory = Far::StencilTableFactoryReal<float>;
 
-/// Appends `count` stencils, whose sources count from point `origin`, and whose terms begin at `term`.
+/// The stencils from `first`, whose sources count from point `origin`, after the terms of those before.
 void append_rules(const Stencils& stencils, size_t first, size_t count, uint32_t origin, size_t& term,
                   PointRules& rules) {
   for (size_t i = first; i < first + count; ++i) {
@@ -197,16 +201,16 @@ void append_rules(const Stencils& stencils, size_t first, size_t count, uint32_t
 PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable& patches) {
   PointRules rules;
   rules.control_count = static_cast<uint32_t>(refiner.GetLevel(0).GetNumVertices());
-  rules.first_term.push_back(0);
   // Not multiplied out: the stencils of a level take their points from the level before it, counted from its
   // start.
   StencilsFactory::Options options;
   options.factorizeIntermediateLevels = false;
   const std::unique_ptr<const Stencils> refined(StencilsFactory::Create(refiner, options));
   const Stencils* local = patches.GetLocalPointStencilTable<float>();
-  const size_t terms = refined->GetWeights().size() + (local ? local->GetWeights().size() : 0);
-  rules.source.reserve(terms);
-  rules.weight.reserve(terms);
+  rules.first_term.reserve(1 + refined->GetSizes().size() + (local ? local->GetSizes().size() : 0));
+  rules.first_term.push_back(0);
+  rules.source.reserve(refined->GetWeights().size());
+  rules.weight.reserve(refined->GetWeights().size());
   size_t first = 0, term = 0;
   uint32_t origin = 0;
   for (int level = 1; level < refiner.GetNumLevels(); ++level) {
@@ -216,8 +220,11 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
     origin += static_cast<uint32_t>(refiner.GetLevel(level - 1).GetNumVertices());
   }
   if (local) {
-    term = 0;
-    append_rules(*local, 0, static_cast<size_t>(local->GetNumStencils()), 0, term, rules);
+    // The patches keep these terms anyway.
+    rules.local_source = local->GetControlIndices().data();
+    rules.local_weight = local->GetWeights().data();
+    for (const int size : local->GetSizes())
+      rules.first_term.push_back(rules.first_term.back() + static_cast<uint32_t>(size));
   }
   return rules;
 }
@@ -237,12 +244,17 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
                                                                SubdivisionScheme scheme,
                                                                BoundaryRule boundary,
                                                                const std::string& source) {
-  const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(mesh, scheme, boundary, source);
-
+  check_cage(mesh, scheme, source);
   auto impl = std::make_unique<Impl>();
-  impl->triangular = scheme == SubdivisionScheme::kLoop;
   impl->control_count = static_cast<uint32_t>(mesh.positions.size());
   impl->hash = hash_cage(mesh, scheme, boundary);
+  if (scheme == SubdivisionScheme::kNone) {
+    fill_flat_topology(
+        mesh, [] {}, *impl);
+    return std::shared_ptr<const SurfaceTopology>(new SurfaceTopology(std::move(impl)));
+  }
+  const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(mesh, scheme, boundary, source);
+  impl->triangular = scheme == SubdivisionScheme::kLoop;
   impl->cage = connect(*refiner, scheme);
   fill_ptex_faces(*impl, refiner->GetLevel(0), mesh);
 
@@ -252,7 +264,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   options.generateVaryingTables = false;
   options.generateLegacySharpCornerPatches = false;
   Far::TopologyRefiner::AdaptiveOptions levels = options.GetRefineAdaptiveOptions();
-  levels.SetSecondaryLevel(kSmoothLevels);
+  levels.SetSecondaryLevel(smooth_levels(mesh));
   refiner->RefineAdaptive(levels);
   impl->patches.reset(Far::PatchTableFactory::Create(*refiner, options));
   impl->patch_map.emplace(*impl->patches);
@@ -265,7 +277,9 @@ bool SurfaceTopology::is_triangular() const { return impl_->triangular; }
 uint32_t SurfaceTopology::face_count() const { return static_cast<uint32_t>(impl_->cage_face.size()); }
 uint32_t SurfaceTopology::control_count() const { return impl_->control_count; }
 bool SurfaceTopology::is_hole(uint32_t face) const { return impl_->hole[face] != 0; }
-uint32_t SurfaceTopology::cage_face(uint32_t face) const { return impl_->cage_face[face]; }
+uint32_t SurfaceTopology::cage_face(uint32_t face) const {
+  return impl_->polygon.empty() ? impl_->cage_face[face] : impl_->polygon[face];
+}
 ContentHash SurfaceTopology::hash() const { return impl_->hash; }
 
 int SurfaceTopology::neighbour(uint32_t face, int edge) const {
@@ -281,15 +295,21 @@ V2f SurfaceTopology::texture_coordinates(uint32_t face, float u, float v) const 
 
 size_t SurfaceTopology::bytes() const {
   const Impl& i = *impl_;
+  size_t bytes = sizeof(Impl) + i.cage.bytes() + heap_bytes(i.cage_face) + heap_bytes(i.hole) +
+                 heap_bytes(i.part) + heap_bytes(i.neighbours) + heap_bytes(i.uv) + heap_bytes(i.polygon) +
+                 heap_bytes(i.first_use) + heap_bytes(i.uses);
+  if (i.flat) return bytes;
   const Far::PatchTable& patches = *i.patches;
   const size_t patch_count = patches.GetPatchParamTable().size();
-  size_t bytes = sizeof(Impl) + i.cage.bytes() + heap_bytes(i.cage_face) + heap_bytes(i.hole) +
-                 heap_bytes(i.part) + heap_bytes(i.neighbours) + heap_bytes(i.uv);
   bytes +=
       patches.GetPatchControlVerticesTable().size() * sizeof(int) + patch_count * sizeof(Far::PatchParam);
   // The map: a handle per patch, and a third as many tree nodes as patches beside one per ptex face.
   bytes += patch_count * sizeof(Far::PatchTable::PatchHandle) + (patch_count / 3 + i.cage_face.size()) * 16;
   bytes += heap_bytes(i.first_patch) + heap_bytes(i.face_patches);
+  if (const Stencils* local = patches.GetLocalPointStencilTable<float>()) {
+    bytes += heap_bytes(local->GetSizes()) + heap_bytes(local->GetOffsets()) +
+             heap_bytes(local->GetControlIndices()) + heap_bytes(local->GetWeights());
+  }
   bytes += i.rules.bytes();
   return bytes;
 }

@@ -53,9 +53,20 @@ struct PointBlocks {
 /// points, costs a fraction of the memory and does not grow with the square of a pole's valence.
 struct PointRules {
   uint32_t control_count = 0;
-  std::vector<uint32_t> first_term;  ///< made_count() + 1 entries
-  std::vector<uint32_t> source;      ///< of each term: number of the point, control points first
-  std::vector<float> weight;
+  /// One of the weighted sums.
+  struct Terms {
+    const uint32_t* source;  ///< of each term: number of the point, control points first
+    const float* weight;
+    uint32_t count;
+  };
+
+  std::vector<uint32_t> first_term;   ///< made_count() + 1 entries
+  std::vector<uint32_t> source;       ///< of the terms of refined points, which come first
+  std::vector<float> weight;          ///< the same
+  const int* local_source = nullptr;  ///< of the terms behind them, in the patches
+  const float* local_weight = nullptr;
+
+  Terms terms(size_t made) const;
 
   size_t made_count() const { return first_term.size() - 1; }
   size_t point_count() const { return control_count + made_count(); }
@@ -70,7 +81,8 @@ struct PointRules {
 };
 
 struct SurfaceTopology::Impl {
-  bool triangular = false;  // Loop: ptex faces are triangles
+  bool triangular = false;  // Loop and none: ptex faces are triangles
+  bool flat = false;        // none: the triangles themselves, without patches; each is a face of `cage`
   uint32_t control_count = 0;
   ContentHash hash;
   CageConnectivity cage;
@@ -82,6 +94,12 @@ struct SurfaceTopology::Impl {
   std::vector<int32_t> neighbours;
   std::vector<V2f> uv;  // empty when the cage has none
 
+  // Of flat triangles.
+  std::vector<uint32_t> polygon;    // face of the mesh that each is cut from; empty when it is itself one
+  std::vector<uint32_t> first_use;  // per vertex, and one more: its corners among `uses`
+  std::vector<uint32_t> uses;       // corners of triangles, counted through, ascending for each vertex
+
+  // Of the others.
   std::unique_ptr<const Far::PatchTable> patches;
   std::optional<Far::PatchMap> patch_map;
   std::vector<uint32_t> first_patch;  ///< face_count + 1 entries: patches of a ptex face

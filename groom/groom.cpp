@@ -60,6 +60,8 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
     if (!has_skin) refuse("needs a skin to grow on, or a strands_file");
     if (!params.strands && !params.density)
       refuse("needs strands (how many) or density (how many per square unit)");
+  } else if (params.attach == Attachment::kSkin && !has_skin) {
+    refuse("follows no skin: attach: skin needs a skin beside the strands_file");
   } else if (params.strands || params.density) {
     refuse("has its strands from a file: neither strands nor density may be given");
   }
@@ -87,6 +89,11 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->role = params.role;
   impl->source.rest = std::move(rest);
   impl->source.points = params.points;
+  if (!params.strands_file.empty()) {
+    // Strands that do not follow the skin grow as on none.
+    impl->source.imported.emplace(params, impl->source.rest.get(), "groom '" + name + "'", job);
+    if (impl->source.imported->stands_free()) impl->source.rest = nullptr;
+  }
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
   if (stack.needs_closest_point() && !impl->source.rest) {
@@ -106,8 +113,6 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .add(params.cache ? params.cache->freeze.name : std::string())
                    .digest();
 
-  if (!params.strands_file.empty())
-    impl->source.imported.emplace(params, impl->source.rest.get(), context.owner, job);
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {

@@ -35,6 +35,8 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
   describe(params.strands_file, "strands_file", strands);
   describe(params.basis, "basis", strands);
   describe(params.default_width, "default_width", strands);
+  // Of strands that follow no skin, `rest` is null.
+  describe(params.attach, "attach", strands);
   for (const auto& op : stack.operators()) {
     if (!op->restricts_coverage()) continue;
     for (ParameterText& parameter : op->parameters()) {

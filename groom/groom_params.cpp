@@ -57,9 +57,15 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("skin", &GroomParams::skin,
           {.help = "Skin that it grows on", .default_text = "none: strands_file alone"});
     s.key("strands_file", &GroomParams::strands_file,
-          {.help = "Strands made elsewhere (.hair, .tfx), in the rest space of the skin; on a skin each "
-                   "follows the nearest point of it",
+          {.help = "Strands made elsewhere (.hair, .tfx), in the rest space of the skin. On a skin "
+                   "each follows the nearest point of it and keeps its distance, see attach",
            .default_text = "none"});
+    s.key(
+        "attach", &GroomParams::attach,
+        {.help = "Whether the strands of strands_file follow the skin. skin: they do. none: they stay where "
+                 "the file puts them and move with the character alone, as without a skin. auto: they "
+                 "follow the skin, unless half of them begin farther from it than a tenth of its "
+                 "diagonal; then as none, with a warning"});
     s.key("basis", &GroomParams::basis,
           {.help = "What the points of strands_file mean", .default_text = "what the file says"});
     s.key("default_width", &GroomParams::default_width,

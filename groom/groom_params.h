@@ -6,6 +6,7 @@
 
 #include "base/value_readers.h"
 #include "geom/strands.h"
+#include "groom/attachment.h"
 #include "groom/curve_basis_names.h"
 #include "groom/follicles.h"
 #include "groom/operator_list.h"
@@ -22,10 +23,11 @@ struct GroomCacheParams {
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  NameReference skin;                  ///< name of a skin; empty for an imported groom
-  AssetPath strands_file;              ///< curves made elsewhere, instead of follicles
-  std::optional<CurveBasis> basis;     ///< of strands_file
-  std::optional<float> default_width;  ///< of strands_file
+  NameReference skin;                     ///< name of a skin; empty for an imported groom
+  AssetPath strands_file;                 ///< curves made elsewhere, instead of follicles
+  std::optional<CurveBasis> basis;        ///< of strands_file
+  std::optional<float> default_width;     ///< of strands_file
+  Attachment attach = Attachment::kAuto;  ///< of strands_file
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
   std::optional<Field> density;  ///< with strands: relative; without: strands per square unit

@@ -49,6 +49,9 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
   const SkinBinding binding(*context.rest, job);
+  if (binding.empty())
+    throw Error(ErrorKind::kInput, source.file.position,
+                "guides need a skin to stand on: every face of this one is a hole");
   for (size_t g = 0; g < count; ++g) {
     if (g % 256 == 0) job.check_stop();
     const std::vector<V3f> points = resample_strand(file.strands, g, points_);

@@ -29,6 +29,40 @@ StrandFile read_file_of(const GroomParams& params) {
 
 }  // namespace
 
+bool ImportedStrands::bind(const GroomParams& params, const LimitSurface& rest, const Job& job,
+                           std::vector<V3f>& positions, std::vector<RootAddress>& roots) const {
+  if (params.attach == Attachment::kNone) return false;
+  const SkinBinding binding(rest, job);
+  const auto stay = [&](const std::string& why) {
+    job.progress.warn(
+        to_string(params.strands_file.position) + ": the strands of " +
+        params.strands_file.path.filename().string() + " " + why +
+        "; they stay where the file puts them and do not follow the skin (attach: skin makes them follow "
+        "it; attach: none is what this file gets, without the warning)");
+    return false;
+  };
+  if (binding.empty()) {
+    if (params.attach == Attachment::kAuto) return stay("find no face to follow: all of the skin are holes");
+    throw Error(ErrorKind::kInput, params.strands_file.position,
+                "attach: skin needs a skin to follow: every face of this one is a hole");
+  }
+  std::vector<RootAddress> found(positions.size());
+  std::vector<V3f> places(positions.size());
+  std::vector<float> gaps(positions.size());
+  job.for_each(positions.size(), 256, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      found[i] = binding.nearest(positions[i]);
+      places[i] = rest.evaluate(found[i].face, found[i].u, found[i].v).position;
+      gaps[i] = (places[i] - positions[i]).length();
+    }
+  });
+  const SkinGaps all = SkinGaps::of(gaps, rest.control_bounds());
+  if (params.attach == Attachment::kAuto && all.far()) return stay(all.describe(params.skin.name));
+  positions = std::move(places);
+  roots = std::move(found);
+  return true;
+}
+
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
     : file_(read_file_of(params)) {
@@ -37,15 +71,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   std::vector<RootAddress> roots(count);
   std::vector<V3f> positions(count);
   for (size_t i = 0; i < count; ++i) positions[i] = strands.point(strands.first_point(i));
-  if (rest) {
-    const SkinBinding binding(*rest, job);
-    job.for_each(count, 256, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i) {
-        roots[i] = binding.nearest(positions[i]);
-        positions[i] = rest->evaluate(roots[i].face, roots[i].u, roots[i].v).position;
-      }
-    });
-  }
+  free_ = !rest || !bind(params, *rest, job, positions, roots);
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
   follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/content_store.h"
 #include "geom/io/strand_file.h"
 #include "groom/follicles.h"
 #include "groom/groom_params.h"
@@ -14,10 +15,13 @@ namespace pelage {
 class ImportedStrands {
  public:
   /// Throws Error (kInput) when the file cannot be read. `rest` may be null.
+  /// The job's progress is warned of strands that are too far from the skin to follow it.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 
   const FollicleTree& follicles() const { return follicles_; }
+  /// Whether the strands follow no skin.
+  bool stands_free() const { return free_; }
   CurveBasis basis() const { return file_.strands.basis(); }
   const StrandRepairs& repairs() const { return file_.repairs; }
   int strand_points(size_t follicle) const {
@@ -44,7 +48,13 @@ class ImportedStrands {
   }
 
  private:
+  /// Finds the place on the skin of every strand that begins at `positions`, and moves these there. False,
+  /// with nothing changed, when the strands are not to follow the skin.
+  bool bind(const GroomParams& params, const LimitSurface& rest, const Job& job, std::vector<V3f>& positions,
+            std::vector<RootAddress>& roots) const;
+
   StrandFile file_;
+  bool free_ = true;
   FollicleTree follicles_;
   std::vector<uint32_t> place_;     // in the file's strands, of each follicle
   std::vector<StrandReach> reach_;  // per leaf

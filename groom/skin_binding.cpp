@@ -62,6 +62,8 @@ SkinBinding::SkinBinding(const LimitSurface& rest, const Job& job)
     : impl_(std::make_unique<Impl>(tessellate_evenly(rest, job), job)) {}
 SkinBinding::~SkinBinding() = default;
 
+bool SkinBinding::empty() const { return impl_->mesh.triangle_count() == 0; }
+
 RootAddress SkinBinding::nearest(const V3f& point) const {
   ClosestPoint closest;
   const bool found = impl_->tree.closest(point, std::numeric_limits<float>::infinity(), closest);

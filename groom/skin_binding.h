@@ -19,7 +19,9 @@ class SkinBinding {
   SkinBinding(const LimitSurface& rest, const Job& job);
   ~SkinBinding();
 
-  /// Ptex address of the nearest place.
+  /// Whether there is no place to be near to: every face of the skin is a hole.
+  bool empty() const;
+  /// Ptex address of the nearest place. Not of an empty skin.
   RootAddress nearest(const V3f& point) const;
 
  private:

@@ -44,10 +44,10 @@ std::vector<std::string> Field::attribute_names() const {
 
 std::span<const Field> Field::factors() const { return node_->factors_of(); }
 
-std::vector<std::filesystem::path> Field::files() const {
-  std::vector<std::filesystem::path> files;
-  node_->collect_files(files);
-  return files;
+std::vector<AssetPath> Field::maps() const {
+  std::vector<AssetPath> maps;
+  node_->collect_maps(maps);
+  return maps;
 }
 
 Field Field::with_textures(TextureLibrary& textures) const {

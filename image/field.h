@@ -70,8 +70,8 @@ class Field {
 
   /// What a product multiplies, in order; nothing of other fields.
   std::span<const Field> factors() const;
-  /// The files of its maps.
-  std::vector<std::filesystem::path> files() const;
+  /// Its maps, which are looked up by texture coordinates, each with its place in the scene.
+  std::vector<AssetPath> maps() const;
 
   /// The same field with its maps read. Throws Error (kInput) at the place in the scene where a map is named.
   Field with_textures(TextureLibrary& textures) const;
@@ -90,7 +90,10 @@ struct ValueReader<Field> {
   static std::string type_name() { return "field"; }
   static std::string print(const Field& field);
   static void add_files(const Field& field, std::vector<std::filesystem::path>& files) {
-    for (std::filesystem::path& file : field.files()) files.push_back(std::move(file));
+    for (const AssetPath& map : field.maps()) files.push_back(map.path);
+  }
+  static void add_maps(const Field& field, std::vector<ParameterText::Map>& maps) {
+    for (const AssetPath& map : field.maps()) maps.push_back({map.path, map.position});
   }
   static std::vector<const SchemaInfo*> blocks();
 };

@@ -43,9 +43,7 @@ struct MapNode final : Field::Node {
     if (form.space != ColorSpace::kAuto) text += ", space: " + ValueReader<ColorSpace>::print(form.space);
     return text + "}";
   }
-  void collect_files(std::vector<std::filesystem::path>& files) const override {
-    files.push_back(form.map.path);
-  }
+  void collect_maps(std::vector<AssetPath>& maps) const override { maps.push_back(form.map); }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override;
 
   MapForm form;
@@ -209,8 +207,8 @@ struct ProductNode final : Field::Node {
     for (const Field& factor : factors) factor.node().collect_attributes(names);
   }
   std::span<const Field> factors_of() const override { return factors; }
-  void collect_files(std::vector<std::filesystem::path>& files) const override {
-    for (const Field& factor : factors) factor.node().collect_files(files);
+  void collect_maps(std::vector<AssetPath>& maps) const override {
+    for (const Field& factor : factors) factor.node().collect_maps(maps);
   }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override {
     auto loaded = std::make_shared<ProductNode>(factors);
@@ -238,9 +236,7 @@ struct ClampNode final : Field::Node {
   void collect_attributes(std::vector<std::string>& names) const override {
     field.node().collect_attributes(names);
   }
-  void collect_files(std::vector<std::filesystem::path>& files) const override {
-    field.node().collect_files(files);
-  }
+  void collect_maps(std::vector<AssetPath>& maps) const override { field.node().collect_maps(maps); }
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override {
     return std::make_shared<ClampNode>(field.with_textures(textures), low, high);
   }

@@ -24,7 +24,7 @@ struct Field::Node {
   virtual std::string print() const = 0;
   virtual void collect_attributes(std::vector<std::string>&) const {}
   virtual std::span<const Field> factors_of() const { return {}; }
-  virtual void collect_files(std::vector<std::filesystem::path>&) const {}
+  virtual void collect_maps(std::vector<AssetPath>&) const {}
   /// The node with its maps read, or nullptr when it has none to read.
   virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
 };

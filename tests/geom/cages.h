@@ -81,6 +81,51 @@ inline ControlMesh grid_cage(uint32_t nx, uint32_t ny) {
   return mesh;
 }
 
+/// A dense mesh as scans are: 2 n (n - 1) triangles of a bumpy sphere, six around most vertices.
+inline float bump(const V3f& direction) {
+  return 1 +
+         0.05f * std::sin(9 * direction.x) * std::sin(8 * direction.y + 1) * std::sin(7 * direction.z + 2);
+}
+inline ControlMesh bumpy_sphere(uint32_t n) {
+  std::vector<V3f> p{{0, 0, 1}};
+  for (uint32_t row = 1; row < n; ++row) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const double down = M_PI * row / n, around = 2 * M_PI * (i + 0.5 * row) / n;
+      p.emplace_back(
+          V3d(std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down)));
+    }
+  }
+  p.emplace_back(0.0f, 0.0f, -1.0f);
+  for (V3f& position : p) position *= bump(position);
+  std::vector<std::vector<uint32_t>> faces;
+  const auto at = [&](uint32_t row, uint32_t i) { return 1 + (row - 1) * n + i % n; };
+  for (uint32_t i = 0; i < n; ++i) {
+    faces.push_back({0, at(1, i), at(1, i + 1)});
+    for (uint32_t row = 1; row + 1 < n; ++row) {
+      faces.push_back({at(row, i), at(row + 1, i), at(row, i + 1)});
+      faces.push_back({at(row, i + 1), at(row + 1, i), at(row + 1, i + 1)});
+    }
+    faces.push_back({at(n - 1, i), static_cast<uint32_t>(p.size() - 1), at(n - 1, i + 1)});
+  }
+  return make_cage(p, faces);
+}
+/// Of the surface that bumpy_sphere() lies on, by differences.
+inline V3f bumpy_normal(const V3f& position) {
+  const V3d out = V3d(position).normalized();
+  V3d gradient = out;
+  const auto value = [](V3d at) {
+    const V3d d = at.normalized();
+    return 0.05 * std::sin(9 * d.x) * std::sin(8 * d.y + 1) * std::sin(7 * d.z + 2);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    V3d a = out, b = out;
+    a[axis] += 1e-5;
+    b[axis] -= 1e-5;
+    gradient[axis] -= (value(a) - value(b)) / 2e-5 / (1 + value(out));
+  }
+  return V3f(gradient.normalized());
+}
+
 /// Eight triangles around the origin.
 inline ControlMesh octahedron_cage() {
   return make_cage({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},

@@ -116,6 +116,26 @@ TEST(LimitSurface, NormalsEqualTheLimitOfUniformRefinement) {
   }
 }
 
+// Fewer levels isolate the extraordinary vertices of dense cages: what that loses is measured by the size of
+// the cage, as a picture shows it.
+TEST(LimitSurface, DenseCagesStayNearTheLimit) {
+  for (const uint32_t n : {56u, 102u}) {
+    const ControlMesh cage = bumpy_sphere(n);
+    ASSERT_GT(cage.face_count(), n == 56 ? 6000u : SurfaceTopology::kDenseFaces);
+    const LimitSurface surface = surface_of(cage);
+    const double size = surface.control_bounds().size().length();
+    double most = 0, most_angle = 0;
+    for (const LimitVertex& vertex : uniform_limit(cage, kCatmull, kCorners, n == 56 ? 3 : 2)) {
+      const Frame frame = surface.frame(vertex.face, vertex.u, vertex.v);
+      const V3d off = V3d(surface.evaluate(vertex.face, vertex.u, vertex.v).position) - vertex.position;
+      most = std::max(most, std::abs(off.dot(vertex.normal.normalized())));
+      most_angle = std::max(most_angle, angle_between(V3d(frame.normal), vertex.normal));
+    }
+    EXPECT_LT(most, 1e-5 * size) << n;
+    EXPECT_LT(most_angle, 1e-2) << n;
+  }
+}
+
 TEST(LimitSurface, RegularPartsAreBicubicBSplines) {
   const uint32_t nu = 7, nv = 5;
   const ControlMesh cage = shaken(torus_cage(nu, nv));
@@ -481,7 +501,9 @@ TEST(SurfaceTopology, SurvivesAnyCage) {
     ControlMesh cage = make_cage(p, faces);
     if (trial % 2) cage.corners = {{cage.face_vertices[0], 3}};
     try {
-      const LimitSurface surface = surface_of(cage, trial % 5 == 0 ? SubdivisionScheme::kBilinear : kCatmull);
+      const LimitSurface surface = surface_of(cage, trial % 5 == 0   ? SubdivisionScheme::kBilinear
+                                                    : trial % 5 == 1 ? SubdivisionScheme::kNone
+                                                                     : kCatmull);
       ++accepted;
       for (uint32_t face = 0; face < surface.topology().face_count(); ++face) {
         expect_frame(

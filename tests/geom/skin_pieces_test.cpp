@@ -113,6 +113,11 @@ TEST(SkinPieces, OfTriangularCages) {
   expect_pieces_of_the_whole(octahedron_cage(), SubdivisionScheme::kLoop, 50);
 }
 
+TEST(SkinPieces, OfFlatTriangles) {
+  expect_pieces_of_the_whole(bumpy_sphere(16), SubdivisionScheme::kNone, 1000);
+  expect_pieces_of_the_whole(prism_cage(9), SubdivisionScheme::kNone, 50);
+}
+
 TEST(SkinPieces, AreMuchAlikeInSize) {
   const ControlMesh cage = torus_cage(40, 24);
   const LimitSurface surface(

@@ -99,6 +99,7 @@ TEST(Tessellation, ClosedSkinsStayClosed) {
       {"poles", poles_cage(13), SubdivisionScheme::kCatmullClark},
       {"loop", octahedron_cage(), SubdivisionScheme::kLoop},
       {"bilinear", prism_cage(5), SubdivisionScheme::kBilinear},
+      {"none", bumpy_sphere(9), SubdivisionScheme::kNone},
   };
   for (const Case& c : cases) {
     SCOPED_TRACE(c.name);

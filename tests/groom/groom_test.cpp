@@ -10,6 +10,7 @@
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
 #include "geom/tessellation.h"
+#include "tests/geom/cages.h"
 #include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
@@ -283,6 +284,68 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
       }
     }
   }
+}
+
+// A file in another unit or of another character is drawn where it is, and somebody says so.
+TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
+  const TemporaryFolder folder;
+  const auto original = grow_coat("- length: {value: 0.4}\n- width:\n", 60, 400);
+  const Strands near = original->grow(0, {{rest_.get(), 1}, {}, 1, {}});
+  const float size = rest_->control_bounds().size().length();
+  for (const float away : {0.05f * size, 100.0f}) {
+    const auto path = folder.path() / "coat.hair";
+    StrandArrays moved = near.arrays();
+    for (size_t i = 0; i < moved.points.size(); i += 4) moved.points[i] += away;
+    const Strands in_file(std::move(moved));
+    write_strands(path, in_file);
+    for (const char* attach : {"auto", "skin", "none"}) {
+      GroomParams params = scene_text::read<GroomParams>(std::string("skin: ball\nattach: ") + attach);
+      params.strands_file = {path, {"scene.yaml", 7, 3}};
+      std::vector<std::string> warnings;
+      GroomCacheHooks hooks;
+      hooks.warn = [&](const std::string& line) { warnings.push_back(line); };
+      const auto groom = Groom::create("g", params, rest_, textures_, workers_, ledger_, hooks);
+      const bool is_far = away == 100 && *attach == 'a';
+      EXPECT_EQ(groom->grows_on_skin(), *attach != 'n' && !is_far) << away << attach;
+      ASSERT_EQ(warnings.size(), is_far ? 1u : 0u) << away << attach;
+      if (is_far) {
+        EXPECT_EQ(warnings[0].find("scene.yaml:7:3: the strands of coat.hair begin 9"), 0u) << warnings[0];
+        EXPECT_NE(warnings[0].find("units from skin 'ball', which is"), std::string::npos) << warnings[0];
+      }
+      // At rest all of them lie where the file puts them.
+      const PosedSkin rest =
+          groom->grows_on_skin() ? PosedSkin{{rest_.get(), 1}, {}, 1, {}} : PosedSkin{{}, {}, 1, {}};
+      const Strands strands = groom->grow(0, rest);
+      ASSERT_EQ(strands.point_count(), in_file.point_count());
+      for (size_t s = 0; s < strands.strand_count(); ++s) {
+        for (size_t p = 0; p < 8; ++p) {
+          EXPECT_LT((strands.point(8 * s + p) - in_file.point(8 * strands.id(s) + p)).length(), 1e-4f);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(GroomTest, StrandsOfAFileNeedAFaceToFollow) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "coat.hair";
+  write_strands(path, grow_coat("- length:\n- width:\n", 20, 400)->grow(0, {{rest_.get(), 1}, {}, 1, {}}));
+  ControlMesh holes = cube_cage();
+  holes.holes = {0, 1, 2, 3, 4, 5};
+  const auto rest = std::make_shared<const LimitSurface>(
+      SurfaceTopology::create(holes, SubdivisionScheme::kCatmullClark, BoundaryRule::kEdgeAndCorner, "test"),
+      holes.positions);
+  GroomParams params = scene_text::read<GroomParams>("skin: ball");
+  params.strands_file = {path, {"scene.yaml", 7, 3}};
+  EXPECT_FALSE(Groom::create("g", params, rest, textures_, workers_, ledger_)->grows_on_skin());
+  params.attach = Attachment::kSkin;
+  try {
+    Groom::create("g", params, rest, textures_, workers_, ledger_);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.problems().front().position.line, 7);
+  }
+  EXPECT_THROW(Groom::create("g", params, nullptr, textures_, workers_, ledger_), Error);
 }
 
 TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/value_readers.h"
+#include "base/vector.h"
+
+namespace pelage {
+
+/// Whether the strands of a file follow the skin of their groom.
+enum class Attachment { kAuto, kSkin, kNone };
+template <>
+struct EnumNames<Attachment> {
+  static constexpr const char* names[] = {"auto", "skin", "none"};
+};
+
+/// How far the strands of a file begin from a skin.
+struct SkinGaps {
+  float least = 0, median = 0, most = 0;
+  float skin_size = 0;  ///< diagonal of the skin's box
+
+  /// `gaps`: one per strand; reordered.
+  static SkinGaps of(std::vector<float>& gaps, const Box3f& skin);
+
+  /// Fraction of the skin's size. Hair that was made for a skin begins on it or a little above or below; a
+  /// file in another unit, or of another character, begins farther away than this.
+  static constexpr float kNear = 0.1f;
+  /// Whether at least half of the strands begin farther away than kNear.
+  bool far() const { return median > kNear * skin_size; }
+  /// "begin 97 to 103 units from skin 'rat', which is 5.2 units across"
+  std::string describe(const std::string& skin) const;
+};
+
+}  // namespace pelage
