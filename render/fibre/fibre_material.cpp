@@ -27,6 +27,16 @@ bool is_far(const MaterialParams& params) {
       params);
 }
 
+std::optional<float> index_of(const MaterialParams& params) {
+  return std::visit(
+      []<class P>(const P& p) -> std::optional<float> {
+        if constexpr (std::is_base_of_v<MedullaParams, P>) return p.optics().eta;
+        if constexpr (requires { p.eta; }) return p.eta;
+        return std::nullopt;
+      },
+      params);
+}
+
 bool absorbs_as_given(const MedullaParams& params) {
   const YanOptics optics = params.optics();
   return optics.sigma_ca && optics.sigma_ma;
@@ -85,7 +95,7 @@ FibreMaterial::Model FibreMaterial::make(const MaterialParams& params) {
 }
 
 FibreMaterial::FibreMaterial(const MaterialParams& params, const Workers& workers)
-    : model_(make(params)), far_field_(is_far(params)) {
+    : model_(make(params)), far_field_(is_far(params)), eta_(index_of(params)) {
   if (!takes_coat_color(params)) return;
   coat_color_ = fibre_params(params)->coat_color;
   if (coat_color_) return;
@@ -98,6 +108,13 @@ FibreMaterial::FibreMaterial(const MaterialParams& params, const Workers& worker
         return at_absorbing(point, Rgb(t)).sample(u);
       },
       workers);
+}
+
+float FibreMaterial::farther(const FibrePoint& point) const {
+  if (!eta_) return 0;
+  const FibreFrame frame(point.tangents[0], point.wo);
+  const FibreCrossing crossing(*eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), point.h);
+  return -crossing.leg() * frame.sin_theta_o() / *eta_;
 }
 
 FibreBsdf FibreMaterial::at(const FibrePoint& point) const {

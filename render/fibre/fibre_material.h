@@ -33,6 +33,10 @@ class FibreMaterial {
   /// Refers to this material.
   FibreBsdf at(const FibrePoint& point) const;
 
+  /// Where most light leaves a fibre that it met at `point`: so many radii farther along the tangent. It goes
+  /// through, or is reflected where it is where the model is opaque.
+  float farther(const FibrePoint& point) const;
+
   /// The cone-shell model, whose lobes take their tangents from places of their own; null for all others.
   const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
   /// Whether FibrePoint::h should be drawn anew for each point, uniformly, in place of that of the hit.
@@ -55,6 +59,7 @@ class FibreMaterial {
   Model model_;
   std::shared_ptr<const CoatColor> coat_color_;
   bool far_field_;
+  std::optional<float> eta_;  // index of refraction; none: opaque
 };
 
 }  // namespace pelage

@@ -15,12 +15,14 @@ struct LightSample {
   float distance = 0;  ///< infinity for an environment
   Rgb radiance{0};
   float pdf = 0;  ///< per solid angle, of this light alone (the choice of the light not included)
+  V3f normal{0};  ///< of the light at that point, unit, to either side; null for an environment
 };
 
 /// Where a ray meets a light.
 struct LightHit {
   float distance = std::numeric_limits<float>::infinity();
   Rgb radiance{0};
+  V3f normal{0};  ///< as in LightSample
 };
 
 /// An emitter with an area. World space. Immutable. Thread safety: const members from any thread.

@@ -45,7 +45,7 @@ std::optional<LightSample> RectangleLight::sample(const V3f& from, const V2f& u)
   const V3f y = static_cast<float>(local.y / distance) * shape_.y;
   const V3f z = static_cast<float>(local.z / distance) * normal_;
   return LightSample{x + y + z, static_cast<float>(distance), radiance_,
-                     static_cast<float>(seen.pdf(distance))};
+                     static_cast<float>(seen.pdf(distance)), normal_};
 }
 
 float RectangleLight::pdf(const V3f& from, const V3f& direction) const {
@@ -64,7 +64,7 @@ std::optional<LightHit> RectangleLight::intersect(const V3f& from, const V3f& di
       !(std::abs(on_plane.dot(shape_.y)) <= shape_.half_size.y)) {
     return std::nullopt;
   }
-  return LightHit{distance, radiance_};
+  return LightHit{distance, radiance_, normal_};
 }
 
 float RectangleLight::importance(const V3f& from, const V3f& tangent) const {

@@ -38,7 +38,7 @@ std::optional<LightSample> SphereLight::sample(const V3f& from, const V2f& u) co
     const V3f direction = uniform_direction(u);
     const std::optional<LightHit> hit = intersect(from, direction);
     if (!hit) return std::nullopt;
-    return LightSample{direction, hit->distance, radiance_, 1.0f / (4.0f * kPi)};
+    return LightSample{direction, hit->distance, radiance_, 1.0f / (4.0f * kPi), hit->normal};
   }
   const float height = cone_height(radius_ * radius_ / distance2);
   const float drop = u.x * height;  // 1 - cos of the angle to the axis
@@ -51,8 +51,9 @@ std::optional<LightSample> SphereLight::sample(const V3f& from, const V2f& u) co
   const float phi = 2.0f * kPi * u.y;
   const V3f direction = (1.0f - drop) * axis + (sine * std::cos(phi)) * x + (sine * std::sin(phi)) * y;
   const float half_chord = std::sqrt(std::max(0.0f, radius_ * radius_ - distance2 * sin2));
-  return LightSample{direction, center_distance * (1.0f - drop) - half_chord, radiance_,
-                     1.0f / (2.0f * kPi * height)};
+  const float distance = center_distance * (1.0f - drop) - half_chord;
+  return LightSample{direction, distance, radiance_, 1.0f / (2.0f * kPi * height),
+                     (distance * direction - to_center).normalized()};
 }
 
 float SphereLight::pdf(const V3f& from, const V3f& direction) const {
@@ -70,10 +71,12 @@ std::optional<LightHit> SphereLight::intersect(const V3f& from, const V3f& direc
   const float chord2 = radius_ * radius_ - beside.dot(beside);
   if (!(chord2 >= 0.0f)) {
     // Rounding may put a point inside the sphere beside its own chord.
-    return inside ? std::optional<LightHit>({std::max(0.0f, along), radiance_}) : std::nullopt;
+    if (!inside) return std::nullopt;
+    return LightHit{std::max(0.0f, along), radiance_, -beside.normalized()};
   }
   const float half_chord = std::sqrt(chord2);
-  return LightHit{std::max(0.0f, inside ? along + half_chord : along - half_chord), radiance_};
+  const float distance = std::max(0.0f, inside ? along + half_chord : along - half_chord);
+  return LightHit{distance, radiance_, (distance * direction - to_center).normalized()};
 }
 
 float SphereLight::importance(const V3f& from, const V3f& tangent) const {

@@ -35,6 +35,18 @@ std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
 }
 
+// Farthest place along a fibre where a ray is taken to have entered that passes the axis here, over the
+// radius. Beyond 83 degrees the fibre is no cylinder for so long.
+constexpr float kFarthestEntry = 8;
+
+/// How far along the tangent from where a ray is nearest to the axis it has met a fibre's surface, over the
+/// radius.
+float entry_place(const FibrePoint& at, float h) {
+  const FibreFrame frame(at.tangents[0], at.wo);
+  const float slant = frame.sin_theta_o() / frame.cos_theta_o();
+  return std::clamp(std::sqrt(std::max(0.0f, 1 - h * h)) * slant, -kFarthestEntry, kFarthestEntry);
+}
+
 // How far above the skin light starts that leaves it beside the hit, over the way to there: facets stand out
 // of the surface that they stand for.
 constexpr float kSkinRise = 0.08f;
@@ -157,7 +169,15 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
     return {point.position, point.tangent, point.radius / lod->gain(share), deputy.away, deputy.meets_own,
             at.h,           bsdf};
   }
-  return {point.position, point.tangent, point.radius, ray.origin + hit.distance * ray.direction, at.h, bsdf};
+  // Flat strands are met where the ray is nearest to the axis, round ones where it enters.
+  const float entry = scene_.render.curves == CurveShape::kFlat ? entry_place(at, hit.v) : 0.0f;
+  return {point.position,
+          point.tangent,
+          point.radius,
+          ray.origin + hit.distance * ray.direction,
+          at.h,
+          bsdf,
+          point.radius * (entry + fibre.material.farther(at))};
 }
 
 Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,

@@ -171,8 +171,10 @@ std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, con
                                                   const Path& path) const {
   const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
-  const auto sample = scene_.lights.light(choice.light).sample(point.position(), {choice.remapped, u.y});
-  if (!sample || !(sample->pdf > 0)) return std::nullopt;
+  const auto seen = scene_.lights.light(choice.light).sample(point.position(), {choice.remapped, u.y});
+  if (!seen || !(seen->pdf > 0)) return std::nullopt;
+  const auto sample = point.exit().toward(*seen);
+  if (!sample) return std::nullopt;
   LightPoint result;
   result.light = choice.light;
   result.direction = sample->direction;
@@ -201,17 +203,18 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
   if (through > 0) path.add_scattered(to.light, to.value, to.arriving * (through * factor));
 }
 
-/// Lights along a ray drawn from the lobes of the current vertex, seen from `from` as light sampling sees
-/// them, in front of `distance`. With `shadowed`, what lies between has yet to be found out.
-void PathTracer::gather_lights(const V3f& from, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
-                               Path& path) const {
+/// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
+/// `shadowed`, what lies between has yet to be found out.
+void PathTracer::gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
+                               bool shadowed, Path& path) const {
+  const V3f from = point.exit().origin(ray.direction);
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights.light(i);
     const auto hit = light.intersect(from, ray.direction);
     if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
     float weight = 1;
     if (options_.direct == DirectLight::kBoth) {
-      const float pdf = path.scratch.light_probabilities[i] * light.pdf(from, ray.direction);
+      const float pdf = path.scratch.light_probabilities[i] * point.exit().pdf(light, ray.direction, *hit);
       weight = power_weight(lobe_pdf, competing_pdf(pdf, hit->distance));
     }
     if (shadowed) {
@@ -246,7 +249,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ray.time = path.time;
   if (!point.meets_own()) ray.start = path.hit.start;
   if (last) {
-    gather_lights(point.position(), ray, ray.far, value.pdf, true, path);
+    gather_lights(point, ray, ray.far, value.pdf, true, path);
     return false;
   }
   float survived = 1;
@@ -261,7 +264,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ++path.scratch.rays.indirect;
   const Hit hit = accel_.closest(ray, path.scratch.thread);
   if (options_.direct != DirectLight::kLightsOnly) {
-    gather_lights(point.position(), ray, hit.distance, value.pdf * survived, false, path);
+    gather_lights(point, ray, hit.distance, value.pdf * survived, false, path);
   }
   path.ray = ray;
   path.hit = hit;

@@ -75,7 +75,7 @@ class PathTracer {
   std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const Path& path) const;
   void shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const;
   bool sample_lobes(const ScatterPoint& point, Path& path) const;
-  void gather_lights(const V3f& from, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
+  void gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
                      Path& path) const;
 
   const RenderScene& scene_;

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "render/fibre/fibre_bsdf.h"
+#include "render/path/exit_circle.h"
 #include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
 
@@ -17,10 +18,11 @@ namespace pelage {
 class ScatterPoint {
  public:
   /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface; `h` across it, as
-  /// the fibre's model was told.
+  /// the fibre's model was told. Most light leaves it at the point of the axis that is `farther` along the
+  /// tangent.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
-               const FibreBsdf& bsdf)
-      : position_(axis), tangent_(tangent), surface_(hit), radius_(radius), h_(h), bsdf_(bsdf) {}
+               const FibreBsdf& bsdf, float farther = 0)
+      : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
   /// The same of a strand that stands for many: light leaves one of them, which is `away` from it; the strand
   /// itself may be in its way (`meets_own`).
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool meets_own, float h,
@@ -30,14 +32,16 @@ class ScatterPoint {
   }
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
-      : position_(position), surface_(start), bsdf_(bsdf) {}
+      : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
   ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
-      : position_(position), surface_(start), bsdf_(bsdf) {}
+      : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
 
-  /// Where light sampling looks from.
-  const V3f& position() const { return position_; }
+  /// Where light sampling looks from, before exit() says on which lines light gets there.
+  const V3f& position() const { return exit_.center; }
   /// Unit tangent of a fibre, the null vector on a skin.
-  const V3f& tangent() const { return tangent_; }
+  const V3f& tangent() const { return exit_.tangent; }
+  /// Where light leaves, as near lights see it; a point on a skin.
+  const ExitCircle& exit() const { return exit_; }
 
   /// Whether rays that start here may meet the strand that was hit, near this place too.
   bool meets_own() const { return meets_own_; }
@@ -54,22 +58,20 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
-  /// Origin of a ray towards `wi`. Light enters a fibre at one place of its circle and leaves it at another:
-  /// a smooth cylinder keeps the distance h at which light passes its axis, whatever the number of
-  /// reflections inside. So the ray begins where a line along `wi` at that distance leaves the circle: at the
-  /// hit for the mirror image in its normal, on the far side for light that goes through, and never under the
-  /// surface of the fibre, which does not shadow itself. Light that meets a fibre evenly across its width
-  /// leaves it so.
+  /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never under
+  /// the surface of the fibre, which does not shadow itself. Light that meets a fibre evenly across its width
+  /// leaves it so. The circle is about the hit's own place along the fibre, so that a bent fibre does not
+  /// cover it.
   V3f start(const V3f& wi) const {
-    if (radius_ == 0) return surface_;
-    const V3f side = wi - wi.dot(tangent_) * tangent_;
+    const float radius = exit_.radius;
+    if (radius == 0) return surface_;
+    const V3f side = wi - wi.dot(tangent()) * tangent();
     const float length2 = side.length2();
     if (length2 < 1e-6f) return surface_;
-    const V3f out = side / std::sqrt(length2);
-    const V3f from_axis = std::sqrt(std::max(0.0f, 1 - h_ * h_)) * out + h_ * tangent_.cross(out);
+    const V3f from_axis = exit_.outside(side / std::sqrt(length2));
     // Far from the origin a few units in the last place are more than a thousandth of a thin fibre.
     const float largest = std::max({std::abs(position_.x), std::abs(position_.y), std::abs(position_.z)});
-    return position_ + (kJustOutside * radius_ + 0x1p-21f * largest) * from_axis;
+    return position_ + (kJustOutside * radius + 0x1p-21f * largest) * from_axis;
   }
 
  private:
@@ -87,10 +89,8 @@ class ScatterPoint {
   }
 
   V3f position_;
-  V3f tangent_{0};
   V3f surface_;
-  float radius_ = 0;
-  float h_ = 0;
+  ExitCircle exit_;
   bool meets_own_ = false;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };

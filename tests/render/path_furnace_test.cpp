@@ -224,14 +224,14 @@ TEST(PathClosedForm, ASphereLightBesideAFibre) {
   for (float slant : {0.0f, 0.5f, 1.0f}) {
     PathScene scene(16, 16);
     const V3f axis(std::sin(slant), std::cos(slant), 0);
-    scene.add_fur(one_strand({-9.0f * axis, -3.0f * axis, 3.0f * axis, 9.0f * axis}, 0.2f),
+    scene.add_fur(one_strand({-9.0f * axis, -3.0f * axis, 3.0f * axis, 9.0f * axis}, 0.002f),
                   diffuse_fibre(Rgb(0.8f)));
     SphereLightParams lamp;
     lamp.position = V3f(100, 0, 0);
     lamp.radius = 2;
     lamp.radiance = Rgb(1000);
     scene.add_light("lamp", lamp);
-    scene.camera.fov = 0.5f;
+    scene.camera.fov = 0.005f;
     const PictureMean picture = picture_mean(scene.run().film);
     const double solid_angle = 2 * kPi * (1 - std::sqrt(1 - 0.0004));
     const double expected = 0.8 * std::cos(slant) / (kPi * kPi) * 1000 * solid_angle;

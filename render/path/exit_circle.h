@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/vector.h"
+#include "render/light/light.h"
+
+namespace pelage {
+
+/// Where light leaves a fibre: a circle about `center` across the unit `tangent`, on lines that pass the axis
+/// at the distance h * radius. A smooth cylinder keeps that distance, however often light is reflected
+/// inside, and h has the sign of the fibre's frame. So the direction decides the place on the circle: the hit
+/// itself for the mirror image in its normal, the far side for light that goes through.
+///
+/// A near light is seen from that place, not from the axis: what the axis sees differs by the order of
+/// radius / distance.
+struct ExitCircle {
+  V3f center{0};
+  V3f tangent{0};
+  float radius = 0;  ///< 0: a point
+  float h = 0;
+
+  /// Place on the circle over the radius, from its center, of light that leaves along `out`, a unit vector
+  /// across the fibre.
+  V3f outside(const V3f& out) const { return cos_gamma() * out + h * tangent.cross(out); }
+  float cos_gamma() const { return std::sqrt(std::max(0.0f, 1 - h * h)); }
+
+  /// Origin of the line along `wi`.
+  V3f origin(const V3f& wi) const {
+    const V3f side = wi - wi.dot(tangent) * tangent;
+    const float length2 = side.length2();
+    if (radius == 0 || length2 < 1e-6f) return center;
+    return center + radius * outside(side / std::sqrt(length2));
+  }
+
+  /// A sample of a light as seen from the center, made one of the line that ends at the same point of the
+  /// light: direction, distance, and density per solid angle of directions of lines. Nothing where no line
+  /// of the fibre gets there from that side of the light.
+  std::optional<LightSample> toward(const LightSample& seen) const {
+    if (radius == 0 || std::isinf(seen.distance)) return seen;
+    const V3f to = seen.distance * seen.direction;
+    const float along = to.dot(tangent);
+    const V3f across = to - along * tangent;
+    const float rho2 = across.length2(), offset = h * radius;
+    if (!(rho2 > radius * radius)) return std::nullopt;
+    // The line meets the cross-section through the light at `to` and is tangent to a circle of |offset|.
+    const float from_nearest = std::sqrt(rho2 - offset * offset);
+    const V3f out = (from_nearest * across - offset * tangent.cross(across)) / rho2;
+    const float way = from_nearest - radius * cos_gamma();
+    LightSample sample = seen;
+    sample.direction = way * out + along * tangent;
+    sample.distance = sample.direction.length();
+    sample.direction /= sample.distance;
+    const float cosine = sample.direction.dot(seen.normal);
+    if (!(cosine * seen.direction.dot(seen.normal) > 0)) return std::nullopt;
+    sample.pdf = line_pdf(seen, sample.direction, sample.distance);
+    return sample;
+  }
+
+  /// Density of toward() for the line along `wi`, which meets the light at `hit`.
+  float pdf(const Light& light, const V3f& wi, const LightHit& hit) const {
+    if (radius == 0 || std::isinf(hit.distance)) return light.pdf(center, wi);
+    LightSample seen;
+    seen.direction = origin(wi) + hit.distance * wi - center;
+    seen.distance = seen.direction.length();
+    seen.direction /= seen.distance;
+    seen.normal = hit.normal;
+    seen.pdf = light.pdf(center, seen.direction);
+    return seen.pdf > 0 ? line_pdf(seen, wi, hit.distance) : 0.0f;
+  }
+
+ private:
+  /// Density per solid angle of lines of what is `seen` from the center, for the line along `wi` that ends at
+  /// the same point of the light after `distance`. Lines spread less than those from a point do: their
+  /// azimuths begin on the circle, so that between two of them an area is from_nearest / way of the latter.
+  float line_pdf(const LightSample& seen, const V3f& wi, float distance) const {
+    const float way = distance * (wi - wi.dot(tangent) * tangent).length();
+    if (!(way > 0)) return seen.pdf;
+    const float spread = 1 + radius * cos_gamma() / way;
+    const float by_area = std::abs(seen.direction.dot(seen.normal)) / (seen.distance * seen.distance);
+    return seen.pdf * by_area * distance * distance * spread / std::abs(wi.dot(seen.normal));
+  }
+};
+
+}  // namespace pelage
