@@ -96,9 +96,10 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
     assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger, hooks);
   }
-  const WarningSink warn = hooks.warn ? hooks.warn : [](const std::string&) {};
+  NoProgress unseen;
+  const Job job{workers, ledger, hooks.progress ? *hooks.progress : unseen};
   for (const auto& [name, position, params] : scene.materials.items) {
-    assets->materials.push_back(with_tables(with_textures(params, assets->textures), workers, warn));
+    assets->materials.push_back(with_tables(with_textures(params, assets->textures), job));
   }
   return assets;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "geom/io/strand_file.h"
 #include "geom/limit_surface.h"
+#include "groom/named_strands.h"
 #include "groom/resample.h"
 #include "groom/skin_binding.h"
 
@@ -32,7 +32,7 @@ float median_spacing(const std::vector<V3f>& roots) {
 }  // namespace
 
 GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : points_(context.points) {
-  const StrandFile file = read_strands(source.file.path, {source.basis, 1.0f});
+  const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
   const size_t count = file.strands.strand_count();
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
