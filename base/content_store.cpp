@@ -5,17 +5,21 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <thread>
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/shared_folders.h"
 #include "base/stored_file_format.h"
+#include "base/temporary_file.h"
 
 namespace pelage {
 
@@ -24,11 +28,17 @@ namespace format = stored_file_format;
 namespace {
 
 /// Writing a time costs more than reading it, and nobody asks for minutes.
-void mark_used(const std::filesystem::path& path) {
-  std::error_code failed;
-  const auto now = std::filesystem::file_time_type::clock::now();
-  const auto before = std::filesystem::last_write_time(path, failed);
-  if (!failed && now - before > std::chrono::hours(1)) std::filesystem::last_write_time(path, now, failed);
+void mark_used(const OpenFile& file) {
+  struct stat info {};
+  if (::fstat(file.descriptor(), &info) == 0 && std::time(nullptr) - info.st_mtime > 3600)
+    ::futimens(file.descriptor(), nullptr);
+}
+
+/// How long nothing has written or used a file that is no link.
+std::optional<std::chrono::seconds> unused_for(const std::filesystem::path& path) {
+  struct stat info {};
+  if (::lstat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
+  return std::chrono::seconds(std::time(nullptr) - info.st_mtime);
 }
 
 /// Whether a file has the name of an entry: kind, '-', 32 hexadecimal digits, ending.
@@ -45,20 +55,30 @@ std::filesystem::path ContentStore::file(const std::string& kind, const ContentH
   return folder_ / (kind + "-" + to_string(key) + format::kEnding);
 }
 
+bool ContentStore::trusts(uid_t owner) const {
+  return owner == ::geteuid() || owner == 0 || is_shared_folder(folder_);
+}
+
 template <class File>
 std::optional<File> ContentStore::open_as(const std::string& kind, const ContentHash& key,
                                           const WarningSink& warn) const {
   const std::filesystem::path path = file(kind, key);
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  const std::filesystem::file_status status = std::filesystem::symlink_status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) return {};
   try {
-    File stored(path);
+    OpenFile file(path, OpenFile::Links::kRefuse);
+    if (!trusts(file.owner())) {
+      warn(fmt::format("{}: made by another user; made again (see {} for folders that are shared)",
+                       path.string(), kSharedCachesVariable));
+      return {};
+    }
+    mark_used(file);
+    File stored(std::move(file));
     if (stored.kind() != kind || stored.key() != key) {
       warn(path.string() + ": holds something else than its name says; made again");
       return {};
     }
-    mark_used(path);
     return stored;
   } catch (const Error& e) {
     // Removed by another process between the question and the opening: as good as never there.
@@ -80,7 +100,7 @@ std::optional<StoredSections> ContentStore::open_sections(const std::string& kin
 ContentStore::Writer::Writer(const std::filesystem::path& path, const std::string& kind,
                              const ContentHash& key) {
   PELAGE_CHECK(kind.size() <= sizeof(format::Header::kind));
-  attempt([&] { file_.emplace(path); });
+  attempt([&] { file_.emplace(path, Links::kReplace); });
   format::Header header;
   std::memcpy(header.kind, kind.data(), kind.size());
   header.key_low = key.low;
@@ -171,8 +191,9 @@ ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash
     }
     struct stat held {
     }, named{};
-    const bool current = mine && ::fstat(descriptor, &held) == 0 && ::stat(lock.path_.c_str(), &named) == 0 &&
-                         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+    const bool current = mine && ::fstat(descriptor, &held) == 0 &&
+                         ::lstat(lock.path_.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
+                         held.st_dev == named.st_dev;
     if (current) {
       lock.descriptor_ = descriptor;
       return lock;
@@ -185,9 +206,9 @@ ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash
 ContentStore::Removed ContentStore::remove_unused(const std::filesystem::path& file,
                                                   std::chrono::seconds age) {
   if (!is_entry_name(file.filename().string())) return {};
+  const auto unused = unused_for(file);
+  if (!unused || *unused <= age) return {};
   std::error_code failed;
-  const auto used = std::filesystem::last_write_time(file, failed);
-  if (failed || std::filesystem::file_time_type::clock::now() - used <= age) return {};
   const uint64_t bytes = std::filesystem::file_size(file, failed);
   if (failed || !std::filesystem::remove(file, failed)) return {};
   return {1, bytes};
@@ -214,17 +235,20 @@ ContentStore::Removed ContentStore::prune(std::chrono::seconds age,
 }
 
 void ContentStore::sweep(std::chrono::seconds age) const {
+  sweep_temporaries(folder_);
   std::error_code error;
-  const auto now = std::filesystem::file_time_type::clock::now();
+  std::vector<std::filesystem::path> old;
   for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
        at.increment(error)) {
     const std::string name = at->path().filename().string();
+    // Temporary files may be of a machine that still writes them.
+    if (name.starts_with(kTemporaryPrefix)) continue;
     if (!name.starts_with('.') || !(name.ends_with(format::kEnding) || name.ends_with(format::kLockEnding)))
       continue;
-    std::error_code gone;
-    const auto written = std::filesystem::last_write_time(at->path(), gone);
-    if (!gone && now - written > age) std::filesystem::remove(at->path(), gone);
+    const auto unused = unused_for(at->path());
+    if (unused && *unused > age) old.push_back(at->path());
   }
+  for (const std::filesystem::path& path : old) std::filesystem::remove(path, error);
 }
 
 }  // namespace pelage

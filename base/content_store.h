@@ -26,7 +26,8 @@ using WarningSink = std::function<void(const std::string& line)>;
 class StoredFile {
  public:
   /// Reads and checks a file by itself, whatever its name. Throws Error (kInput) that says what is wrong.
-  explicit StoredFile(const std::filesystem::path& path);
+  explicit StoredFile(const std::filesystem::path& path) : StoredFile(OpenFile(path)) {}
+  explicit StoredFile(const OpenFile& file);
 
   const std::string& kind() const { return kind_; }
   const ContentHash& key() const { return key_; }
@@ -48,9 +49,12 @@ bool is_stored_file(const std::filesystem::path& path);
 ///
 /// A file appears whole or not at all, and a reader believes only one that is of this format, of the kind and
 /// key that it asked for, as long as it says, and whose every section has its checksum (law 6). Everything
-/// else counts as absent, with one warning. Nothing here throws for what the file system does: a store that
-/// cannot be written is one that remembers nothing. `kind` is of lower-case letters, digits and '-', at most
-/// 16 characters. Thread safety: const members may be called from any thread and by many processes.
+/// else counts as absent, with one warning. A symbolic link is never followed, neither to read nor to write
+/// (the folder itself may be one), and a file of another user counts as absent too, unless that user is root
+/// or the folder is shared by name (is_shared_folder()). Nothing here throws for what the file system does: a
+/// store that cannot be written is one that remembers nothing. `kind` is of lower-case letters, digits and
+/// '-', at most 16 characters. Thread safety: const members may be called from any thread and by many
+/// processes.
 class ContentStore {
  public:
   /// The folder need not exist.
@@ -124,7 +128,8 @@ class ContentStore {
       const std::function<bool()>& cancelled = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
-  /// Removes what processes that were killed have left half-written, if it has not been touched for `age`.
+  /// Removes what processes that were killed have left half-written: their temporary files
+  /// (sweep_temporaries()), and locks that have not been touched for `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
 
   /// What nothing has used for so long goes whenever something is stored.
@@ -141,6 +146,7 @@ class ContentStore {
   static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:
+  bool trusts(uid_t owner) const;
   template <class File>
   std::optional<File> open_as(const std::string& kind, const ContentHash& key, const WarningSink& warn) const;
 

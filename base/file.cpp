@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/temporary_file.h"
 
 namespace pelage {
 
@@ -23,15 +24,6 @@ std::string reason() { return std::strerror(errno); }
 
 [[noreturn]] void fail_write(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::kFailed, {path.string(), 0, 0}, "cannot write: " + why);
-}
-
-// A rename would put a file where a device, a pipe or a link stood: links are followed, the others refused.
-void replace_only_files(std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return;
-  if (!std::filesystem::is_regular_file(status)) fail_write(path, "it is not a regular file");
-  if (std::filesystem::is_symlink(path, error)) path = std::filesystem::canonical(path);
 }
 
 struct Descriptor {
@@ -67,20 +59,49 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
   return contents;
 }
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
-  replace_only_files(path_);
+std::filesystem::path target_of_links(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  const std::filesystem::path named = path;
+  std::error_code error;
+  for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)); ++i) {
+    if (i == kMostLinks) fail_write(named, "too many symbolic links");
+    const std::filesystem::path target = std::filesystem::read_symlink(path, error);
+    if (error) fail_write(named, error.message());
+    path = path.parent_path() / target;  // an absolute target replaces the whole
+  }
+  return path;
+}
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  struct stat one {
+  }, other{};
+  if (::stat(a.c_str(), &one) == 0 && ::stat(b.c_str(), &other) == 0)
+    return one.st_ino == other.st_ino && one.st_dev == other.st_dev;
+  std::error_code error_a, error_b;
+  const auto place_a =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(target_of_links(a)), error_a);
+  const auto place_b =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(target_of_links(b)), error_b);
+  return !error_a && !error_b && place_a == place_b;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path path, Links links) : named_(std::move(path)) {
+  path_ = links == Links::kFollow ? target_of_links(named_) : named_;
+  if (path_.filename().empty()) fail_write(named_, "it names no file");
+  struct stat old {};
+  const bool replaces = ::lstat(path_.c_str(), &old) == 0;
+  if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode))
+    fail_write(named_, S_ISDIR(old.st_mode) ? "it is a folder" : "it is not a regular file");
   std::error_code ignored;
   if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
-  // Beside the target, so that the rename stays on one file system; the ending is kept for libraries that
-  // look at it.
-  std::string pattern =
-      path_.parent_path() / ("." + path_.stem().string() + ".XXXXXX" + path_.extension().string());
-  descriptor_ = ::mkostemps(pattern.data(), static_cast<int>(path_.extension().string().size()), O_CLOEXEC);
-  if (descriptor_ < 0) fail_write(path_, reason());
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(descriptor_, 0666 & ~mask);
-  temporary_ = pattern;
+  TemporaryFile file = create_temporary(path_);
+  if (file.descriptor < 0) fail_write(named_, reason());
+  descriptor_ = file.descriptor;
+  temporary_ = std::move(file.path);
+  if (links == Links::kReplace || !replaces) return;
+  // Whoever may not give files away keeps the new one.
+  [[maybe_unused]] const int given = ::fchown(descriptor_, old.st_uid, old.st_gid);
+  ::fchmod(descriptor_, old.st_mode & 0777);
 }
 
 AtomicFile::~AtomicFile() {
@@ -92,8 +113,18 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_write(path_, reason());
+    if (n < 0) fail_write(named_, reason());
     bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+}
+
+void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail_write(named_, reason());
+    bytes = bytes.subspan(static_cast<size_t>(n));
+    offset += static_cast<uint64_t>(n);
   }
 }
 
@@ -101,8 +132,8 @@ void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(te
 
 void AtomicFile::commit() {
   // fsync also reaches what a library wrote through temporary_path(): it is the same file.
-  if (::fsync(descriptor_) != 0 && errno != EINVAL) fail_write(path_, reason());
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(path_, reason());
+  if (::fsync(descriptor_) != 0 && errno != EINVAL) fail_write(named_, reason());
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(named_, reason());
   temporary_.clear();
 }
 

@@ -3,35 +3,23 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <utility>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "base/error.h"
 
 namespace pelage {
 
-MappedFile::MappedFile(const std::filesystem::path& path) {
-  const auto fail = [&](int descriptor, const std::string& why) {
-    if (descriptor >= 0) ::close(descriptor);
-    throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "cannot read: " + why);
-  };
-  // Without O_NONBLOCK a pipe would wait for its writer.
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) fail(descriptor, std::strerror(errno));
-  struct stat info {};
-  if (::fstat(descriptor, &info) != 0) fail(descriptor, std::strerror(errno));
-  if (!S_ISREG(info.st_mode)) fail(descriptor, "it is not a regular file");
-  const auto size = static_cast<size_t>(info.st_size);
-  if (size > 0) {
-    void* at = ::mmap(nullptr, size, PROT_READ, MAP_SHARED, descriptor, 0);
-    if (at == MAP_FAILED) fail(descriptor, std::strerror(errno));
-    bytes_ = {static_cast<const std::byte*>(at), size};
+MappedFile::MappedFile(const OpenFile& file) {
+  if (file.bytes() == 0) return;
+  void* at = ::mmap(nullptr, file.bytes(), PROT_READ, MAP_SHARED, file.descriptor(), 0);
+  if (at == MAP_FAILED) {
+    throw Error(ErrorKind::kInput, {file.path().string(), 0, 0},
+                std::string("cannot read: ") + std::strerror(errno));
   }
-  ::close(descriptor);
+  bytes_ = {static_cast<const std::byte*>(at), file.bytes()};
 }
 
 MappedFile::~MappedFile() {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <span>
 
+#include "base/open_file.h"
+
 namespace pelage {
 
 /// A whole file in the address space, read only. Its pages come from the file when they are touched and may
@@ -14,7 +16,9 @@ class MappedFile {
  public:
   MappedFile() = default;
   /// Throws Error (kInput) when `path` cannot be read or is not a regular file.
-  explicit MappedFile(const std::filesystem::path& path);
+  explicit MappedFile(const std::filesystem::path& path) : MappedFile(OpenFile(path)) {}
+  /// Throws Error (kInput) when the system cannot map it.
+  explicit MappedFile(const OpenFile& file);
   ~MappedFile();
   MappedFile(MappedFile&& other) noexcept;
   MappedFile& operator=(MappedFile&& other) noexcept;

@@ -10,7 +10,8 @@ namespace pelage {
 
 namespace format = stored_file_format;
 
-StoredFile::StoredFile(const std::filesystem::path& path) : file_(path) {
+StoredFile::StoredFile(const OpenFile& file) : file_(file) {
+  const std::filesystem::path& path = file.path();
   const std::span<const std::byte> bytes = file_.bytes();
   const StoredFileLayout layout =
       StoredFileLayout::read(path, bytes.size(), [&](uint64_t offset, std::span<std::byte> out) {

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <utility>
 
+#include "base/open_file.h"
 #include "base/stored_file_layout.h"
 
 namespace pelage {
@@ -18,17 +20,15 @@ namespace pelage {
 class StoredSections {
  public:
   /// Reads and checks header and table. Throws Error (kInput) that says what is wrong.
-  explicit StoredSections(std::filesystem::path path);
-  ~StoredSections();
-  StoredSections(StoredSections&& other) noexcept;
-  StoredSections& operator=(StoredSections&& other) noexcept;
+  explicit StoredSections(std::filesystem::path path) : StoredSections(OpenFile(std::move(path))) {}
+  explicit StoredSections(OpenFile file);
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return file_.path(); }
   const std::string& kind() const { return layout_.kind; }
   const ContentHash& key() const { return layout_.key; }
   size_t section_count() const { return layout_.sections.size(); }
   uint64_t section_bytes(size_t i) const { return layout_.sections[i].bytes; }
-  uint64_t file_bytes() const { return file_bytes_; }
+  uint64_t file_bytes() const { return file_.bytes(); }
   /// What this object holds.
   size_t bytes() const { return layout_.sections.capacity() * sizeof(layout_.sections[0]); }
 
@@ -42,9 +42,7 @@ class StoredSections {
  private:
   void read_at(uint64_t offset, std::span<std::byte> out) const;
 
-  std::filesystem::path path_;
-  int descriptor_ = -1;
-  uint64_t file_bytes_ = 0;
+  OpenFile file_;
   StoredFileLayout layout_;
 };
 

@@ -114,10 +114,9 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
     assets->grooms[name] = Groom::create(name, params, rest, assets->textures, job);
   }
-  const WarningSink warn = [&job](const std::string& line) { job.progress.warn(line); };
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();
-    assets->materials.push_back(with_tables(with_textures(params, assets->textures), job.workers, warn));
+    assets->materials.push_back(with_tables(with_textures(params, assets->textures), job));
   }
   return assets;
 }

@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "base/job.h"
+#include "base/progress_stage.h"
 #include "cli/commands.h"
 #include "cli/compare/comparison.h"
 #include "cli/compare/contact_sheet.h"
 #include "cli/compare/light_side.h"
 #include "cli/measure/machine.h"
 #include "cli/measure/process.h"
+#include "cli/output_files.h"
 #include "cli/report/png.h"
 #include "cli/report/report_csv.h"
 #include "cli/report/report_html.h"
@@ -30,22 +33,22 @@ void write_whole(const std::filesystem::path& path, const std::string& bytes) {
 /// The materials of a scene under each model in turn.
 class ModelMaterials {
  public:
-  ModelMaterials(std::vector<MaterialParams> materials, std::filesystem::path tables, const Workers& workers)
-      : materials_(std::move(materials)), tables_(std::move(tables)), workers_(workers) {}
+  ModelMaterials(std::vector<MaterialParams> materials, std::filesystem::path tables, const Job& job)
+      : materials_(std::move(materials)), tables_(std::move(tables)), job_(job) {}
 
   void choose(const std::string& model) {
     LambertCylinderParams white;
     white.color = Field(Rgb(1));
     white_ = with_fibre_model(white, model);
     if (auto* yan = std::get_if<YanParams>(&white_)) yan->tables.path = tables_;
-    white_ = with_tables(white_, workers_, [](const std::string&) {});
+    white_ = with_tables(white_, job_);
   }
   std::vector<MaterialParams> in_color() const {
     std::vector<MaterialParams> all;
     for (const MaterialParams& material : materials_) {
       const FibreParams* looks = fibre_params(material);
       if (!looks || material.index() == white_.index()) {
-        all.push_back(looks ? with_tables(material, workers_, [](const std::string&) {}) : material);
+        all.push_back(looks ? with_tables(material, job_) : material);
       } else {
         all.push_back(white_);
         std::visit(
@@ -73,7 +76,7 @@ class ModelMaterials {
  private:
   std::vector<MaterialParams> materials_;
   std::filesystem::path tables_;
-  const Workers& workers_;
+  const Job& job_;
   MaterialParams white_;
 };
 
@@ -86,37 +89,43 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
   throw Error(ErrorKind::kInput, input + ": no character of this scene has fur to compare models on");
 }
 
+/// Adds what there is to say of one model. Throws Error (kStopped) once the user wants to stop.
+void compare_model(const std::string& model, const SceneDescription& scene, const Job& job,
+                   ModelMaterials& materials, FrameComparer& comparer, Comparison& comparison) {
+  materials.choose(model);
+  for (const LightSide& side : kLightSides) {
+    const auto lights = lights_from(side, scene.camera, scene.frames.frames.front());
+    ComparedFrame frame = comparer.render(materials.in_color(), lights, model, side.name);
+    job.check_stop();
+    job.progress.advance(1);
+    job.progress.note(fmt::format("{}, light from the {}: {:.1f} CPU s, relMSE {:.3f}, mean luminance {:.3f}",
+                                  model, side.name, frame.cpu_s, frame.noise, frame.luminance));
+    comparison.frames.push_back(std::move(frame));
+  }
+  const double furnace = comparer.furnace(materials.in_white());
+  job.check_stop();
+  comparison.furnace[model] = furnace;
+  job.progress.advance(1);
+  comparison.fibres.push_back(compare_single_fibre(model, materials.white(), job));
+  job.progress.advance(1);
+}
+
 /// One model after the other until all are done or the user wants to stop.
 Comparison compare(const Options& options, const SceneDescription& scene, Assets& assets, Run& run,
                    const std::filesystem::path& folder) {
   const std::vector<std::string>& models = options.models.empty() ? fibre_model_names() : options.models;
-  ModelMaterials materials(assets.materials, folder / "tables", run.workers());
+  const Job job{run.workers(), run.ledger(), run.display()};
+  ModelMaterials materials(assets.materials, folder / "tables", job);
   FrameComparer comparer(scene, assets, run);
   Comparison comparison;
-  ProgressDisplay& display = run.display();
   // The furnace and the single fibre count as a picture each.
-  display.begin("compare", static_cast<double>(models.size() * (kLightSides.size() + 2)));
-  for (const std::string& model : models) {
-    materials.choose(model);
-    for (const LightSide& side : kLightSides) {
-      if (display.cancelled()) break;
-      const auto lights = lights_from(side, scene.camera, scene.frames.frames.front());
-      ComparedFrame frame = comparer.render(materials.in_color(), lights, model, side.name);
-      if (display.cancelled()) break;
-      display.advance(1);
-      display.note(fmt::format("{}, light from the {}: {:.1f} CPU s, relMSE {:.3f}, mean luminance {:.3f}",
-                               model, side.name, frame.cpu_s, frame.noise, frame.luminance));
-      comparison.frames.push_back(std::move(frame));
-    }
-    if (display.cancelled()) break;
-    const double furnace = comparer.furnace(materials.in_white());
-    if (display.cancelled()) break;
-    comparison.furnace[model] = furnace;
-    display.advance(1);
-    comparison.fibres.push_back(compare_single_fibre(model, materials.white(), run.workers()));
-    display.advance(1);
+  const ProgressStage stage(run.display(), "compare",
+                            static_cast<double>(models.size() * (kLightSides.size() + 2)));
+  try {
+    for (const std::string& model : models) compare_model(model, scene, job, materials, comparer, comparison);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kStopped) throw;
   }
-  display.end();
   return comparison;
 }
 
@@ -126,6 +135,7 @@ int run_compare(const Options& options) {
   Run run(options);
   const SceneDescription scene = load_scene(options.input, options.overrides);
   check_fur(scene, options.input);
+  check_stats(options, scene.files);
   const std::filesystem::path folder = options.output.empty()
                                            ? std::filesystem::path(options.input).stem().string() + "_compare"
                                            : options.output;
@@ -157,7 +167,7 @@ int run_compare(const Options& options) {
     std::cout << (folder / "report.html").string() << "\n";
   }
   run.finish(options);
-  return interrupted ? kInterruptedExitCode : 0;
+  return interrupted ? SignalGuard::exit_code() : 0;
 }
 
 }  // namespace pelage

@@ -11,6 +11,7 @@
 #include "cli/compose.h"
 #include "cli/counted.h"
 #include "cli/grow_boxes.h"
+#include "cli/output_files.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
@@ -131,6 +132,11 @@ int run_grow(const Options& options) {
   if (!options.output.empty() && !is_strand_file(options.output)) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
   }
+  check_stats(options, scene.files);
+  if (!options.output.empty()) {
+    check_stats(options, {options.output});
+    prepare_output(options.output);
+  }
   const int frame = scene.frames.frames.front();
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // What opening, filling and growing caches took is a stage of its own.
@@ -149,7 +155,7 @@ int run_grow(const Options& options) {
   }
   if (options.prune) prune_caches(*assets);
   if (options.output.empty() && options.groom.empty() && !grow_boxes(scene, *assets, run)) {
-    return kInterruptedExitCode;
+    return SignalGuard::exit_code();
   }
   // What a cache holds needs no pose; strands are made for those who ask for them.
   if (all_cached && options.output.empty()) {
@@ -172,7 +178,7 @@ int run_grow(const Options& options) {
     if (options.output.empty() && (assets->grooms.at(groom)->cache_report() || !seen.insert(groom).second))
       continue;
     Growth growth = grow(part, run);
-    if (run.display().cancelled()) return kInterruptedExitCode;
+    if (run.display().cancelled()) return SignalGuard::exit_code();
     report(part.name, growth, run.workers().thread_count());
     run.statistics().strands_generated += static_cast<int64_t>(growth.strands);
     run.statistics().chunks += static_cast<int64_t>(growth.leaves.size());

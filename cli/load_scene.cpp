@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "cli/leaf_sizes.h"
 #include "cli/scene_schema.h"
+#include "image/exr_file.h"
 #include "scene/document_hash.h"
 
 namespace pelage {
@@ -62,6 +64,32 @@ std::vector<Problem> in_file_order(std::vector<Problem> problems) {
   return problems;
 }
 
+// Whether a groom says how many strands it has, once.
+void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
+  const bool counted = groom.value.strands || groom.value.density,
+             from_file = !groom.value.strands_file.empty();
+  if (!counted && !from_file && !groom.value.skin.name.empty()) {
+    problems.add(groom.position, "groom " + quote(groom.name) +
+                                     " needs `strands` (how many) or `density` (how many per square unit)");
+  } else if (counted && from_file) {
+    problems.add(groom.position, "groom " + quote(groom.name) +
+                                     " has its strands from a file: `strands` and `density` mean nothing");
+  }
+}
+
+// Names that reach layers of a picture, which it would cut at a zero byte or at its longest, and mix then.
+void check_layer_name(const std::string& what, const std::string& name, const SourcePosition& position,
+                      Problems& problems) {
+  constexpr size_t kLongestName = kLongestExrName - 15;  // which is enough for ".secondary.R"
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (name.size() > kLongestName) {
+    problems.add(position, fmt::format("the name of {} {} has {} bytes, at most {} are accepted", what,
+                                       quote(name), name.size(), kLongestName));
+  } else if (std::any_of(name.begin(), name.end(), is_control)) {
+    problems.add(position, "the name of " + what + " " + quote(name) + " has a control character in it");
+  }
+}
+
 void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& item, Problems& problems) {
   const CrowdParams& crowd = item.value;
   const auto refuse = [&](const std::string& why) {
@@ -82,6 +110,7 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     } else if (groom.strands_file.empty()) {
       problems.add(position, "groom " + quote(name) + " needs a skin to grow on, or a strands_file");
     }
+    check_strands({name, position, groom}, problems);
     if (const std::optional<Problem> problem = check_freeze(groom))
       problems.add(problem->position, problem->message);
   }
@@ -95,6 +124,10 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     }
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
+  for (const auto& light : scene.lights.items)
+    check_layer_name("light", light.name, light.position, problems);
+  for (const auto& groom : scene.grooms.items)
+    check_layer_name("groom", groom.name, groom.position, problems);
 }
 
 namespace {
@@ -104,6 +137,23 @@ void check_shutter(const SceneDescription& scene, const Value& document, Problem
   problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
 }
 
+void collect_files(const Value& value, std::set<std::string>& files) {
+  if (value.position().line > 0) files.insert(value.position().file);  // a flag has no lines
+  if (value.is_map()) {
+    for (const Value::Entry& entry : value.entries()) collect_files(entry.value, files);
+  }
+  if (value.is_list()) {
+    for (const Value& item : value.items()) collect_files(item, files);
+  }
+}
+
+/// The scene file, and those from which some value has come.
+std::vector<std::filesystem::path> files_of(const Value& document, const std::filesystem::path& path) {
+  std::set<std::string> files{path.string()};
+  collect_files(document, files);
+  return {files.begin(), files.end()};
+}
+
 }  // namespace
 
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
@@ -111,6 +161,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   SceneDescription scene;
   if (const std::optional<Value> document = load_document(path, overrides, problems)) {
     const ContentHash hash = document_hash(*document);
+    scene.files = files_of(*document, path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // A name that is missing because its block could not be read would be blamed twice.
     if (SceneDescription::schema().read(*document, scene, problems)) {

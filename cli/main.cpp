@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <new>
+
+#include <unistd.h>
 
 #include "base/heap.h"
 #include "cli/commands.h"
 #include "cli/report_error.h"
+#include "cli/signals.h"
+#include "cli/standard_output.h"
 
 namespace {
 
@@ -52,12 +58,20 @@ int run_command_line(int argc, char** argv) {
   }
 }
 
+// What was printed but did not arrive is a failure too. Who stops reading (head) has what he wants to know.
+int after_output(int code, int failure) {
+  if (failure == 0 || code != 0) return code;
+  if (failure != EPIPE)
+    std::fprintf(stderr, "pelage: error: cannot write to standard output: %s\n", std::strerror(failure));
+  return pelage::exit_code(pelage::ErrorKind::kFailed);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  pelage::prepare_process();
   pelage::keep_heap_small();
+  pelage::StandardOutput output(STDOUT_FILENO);
   const int code = run_command_line(argc, argv);
-  // What was printed but did not arrive (a full disk) is a failure too.
-  if (code == 0 && (!std::cout.flush() || std::fflush(stdout) != 0)) return 1;
-  return code;
+  return after_output(code, output.finish());
 }

@@ -134,7 +134,7 @@ int run_measure(const Options& options) {
   write_whole(setup.folder / "report.html", report_html(report));
   write_figures(setup.folder / "figures", report);
   std::cout << (setup.folder / "report.html").string() << "\n";
-  if (interrupted) return kInterruptedExitCode;
+  if (interrupted) return SignalGuard::exit_code();
   // A refused budget, or one so small that it takes too long, is an answer where budgets are the question;
   // everything else that did not end well is not.
   const bool budgets =

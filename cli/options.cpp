@@ -246,6 +246,15 @@ std::string command_name(const CLI::App& app) {
   fail("the arguments were not understood; see 'pelage --help'");
 }
 
+// An empty name, as of a shell variable that is not set, would otherwise mean the default.
+void check_file_names(const CLI::App& app) {
+  for (const char* name : {"--output", "--stats"}) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (!option || option->count() == 0 || !option->results().back().empty()) continue;
+    fail(std::string(option->check_name("-o") ? "-o" : name) + ": expected a name, got an empty one");
+  }
+}
+
 ProgressStyle parse_progress(const Texts& texts) {
   if (texts.quiet) return ProgressStyle::kQuiet;
   if (texts.progress.empty()) return ProgressStyle::kAuto;
@@ -352,6 +361,7 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
     std::replace(message.begin(), message.end(), '\n', ' ');
     fail(message + (chosen == &app ? "; see 'pelage --help'" : "; see 'pelage " + arguments[0] + " --help'"));
   }
+  check_file_names(*chosen);
   options.command = command_names().at(arguments[0]);
   interpret(texts, options);
   return options;

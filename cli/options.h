@@ -35,7 +35,7 @@ inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"}
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
   kBar,    ///< one line that is drawn again and again, with the time left
-  kPlain,  ///< a line per percent
+  kPlain,  ///< a line now and then, for logs
   kJson,   ///< a JSON object per percent
   kQuiet,  ///< nothing
 };

@@ -7,6 +7,7 @@
 
 #include "cli/counted.h"
 #include "cli/frames.h"
+#include "cli/output_files.h"
 
 namespace pelage {
 namespace {
@@ -34,14 +35,20 @@ int run_post_frames(const Options& options, const PostWork& work) {
   const FrameList frames = options.frames.empty() ? FrameList() : parse_frames(options.frames);
   check_names(options, frames);
   Run run(options);
-  for (const int frame : frames.frames) {
-    const bool numbered = !options.frames.empty();
-    const std::string input = numbered ? frame_file_name(options.input, frame) : options.input;
-    const std::string output = numbered ? frame_file_name(options.output, frame) : options.output;
+  const auto name_of = [&](const std::string& pattern, int frame) {
+    return options.frames.empty() ? pattern : frame_file_name(pattern, frame);
+  };
+  for (const int frame : frames.frames)
+    check_stats(options, {name_of(options.input, frame), name_of(options.output, frame)});
+  prepare_output(name_of(options.output, frames.frames.front()));
+  for (size_t i = 0; i < frames.frames.size(); ++i) {
+    const int frame = frames.frames[i];
+    run.display().frame(frame, i + 1, frames.frames.size());
+    const std::string input = name_of(options.input, frame), output = name_of(options.output, frame);
     const double began = run.seconds();
     const PostReport report = work(input, output, run);
     for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
-    if (report.cancelled) return kInterruptedExitCode;
+    if (report.cancelled) return SignalGuard::exit_code();
     run.statistics().stages_s["post"] += run.seconds() - began;
     run.display().note(fmt::format("{}  {} x {}, up to {:.1f} pixels, {}, {}", output, report.window.width(),
                                    report.window.height(), report.longest, counted(report.steps, "step"),

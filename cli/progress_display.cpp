@@ -2,6 +2,7 @@
 #include "cli/progress_display.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +17,8 @@ namespace pelage {
 namespace {
 
 constexpr double kSteps = 1000;  // at most this many looks at the clock per stage
-constexpr auto kRedrawInterval = std::chrono::milliseconds(100);
+constexpr double kRedraw_s = 0.1;
+constexpr double kFirstLine_s = 10, kNextLine_s = 30, kShortStage_s = 1;  // of lines
 constexpr int kNarrowestBar = 10;
 constexpr int kWidestBar = 40;
 
@@ -25,6 +27,9 @@ ProgressTarget standard_error() {
   target.write = [](std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
+  };
+  target.seconds = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
   winsize size{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) target.columns = size.ws_col;
@@ -38,6 +43,11 @@ ProgressStyle resolve(ProgressStyle style) {
   if (style != ProgressStyle::kAuto) return style;
   return ::isatty(STDERR_FILENO) ? ProgressStyle::kBar : ProgressStyle::kPlain;
 }
+
+double fraction_of(double done, double total) { return std::clamp(done / total, 0.0, 1.0); }
+
+// The small excess keeps a sum of many rounded amounts from ending at 99 %.
+int percent_of(double fraction) { return static_cast<int>(fraction * 100 + 1e-6); }
 
 }  // namespace
 
@@ -58,39 +68,52 @@ ProgressDisplay::~ProgressDisplay() {
   if (line_open_) target_.write("\n");
 }
 
+void ProgressDisplay::frame(int number, size_t place, size_t count) {
+  const std::lock_guard lock(mutex_);
+  frame_.reset();
+  if (count < 2) return;
+  frame_ = {number, place, count};
+  if (style_ == ProgressStyle::kPlain)
+    target_.write(fmt::format("frame {} of {}: number {}\n", place, count, number));
+}
+
 void ProgressDisplay::begin(std::string_view stage, double total) {
   const std::lock_guard lock(mutex_);
-  stage_ = stage;
-  total_ = total > 0 ? total : 1;
-  began_ = drawn_ = Clock::now();
-  in_stage_ = true;
-  shown_percent_ = -1;
+  if (!stages_.empty()) stages_.back().done = done_.load(std::memory_order_relaxed);
+  Stage next;
+  next.name = stage;
+  next.total = total > 0 ? total : 1;
+  next.began_s = drawn_s_ = target_.seconds();
+  next.due_s = next.began_s + kFirstLine_s;
+  stages_.push_back(std::move(next));
   done_.store(0, std::memory_order_relaxed);
   set_next_step(0);
-  if (style_ == ProgressStyle::kBar) draw(0, false);
+  if (style_ == ProgressStyle::kBar) draw(false);
 }
 
 void ProgressDisplay::advance(double amount) {
   const double done = done_.fetch_add(amount, std::memory_order_relaxed) + amount;
   if (style_ == ProgressStyle::kQuiet || done < next_step_.load(std::memory_order_relaxed)) return;
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock || !in_stage_) return;
+  if (!lock || stages_.empty()) return;
   set_next_step(done);
-  if (Clock::now() - drawn_ >= kRedrawInterval) draw(done, false);
+  if (target_.seconds() - drawn_s_ >= kRedraw_s) draw(false);
 }
 
 void ProgressDisplay::expect(double total) {
   const std::lock_guard lock(mutex_);
-  if (!in_stage_) return;
-  total_ = total > 0 ? total : 1;
+  if (stages_.empty()) return;
+  stages_.back().total = total > 0 ? total : 1;
   set_next_step(done_.load(std::memory_order_relaxed));
 }
 
 void ProgressDisplay::end() {
   const std::lock_guard lock(mutex_);
-  if (!in_stage_) return;
-  in_stage_ = false;
-  if (style_ != ProgressStyle::kQuiet) draw(done_.load(std::memory_order_relaxed), true);
+  if (stages_.empty()) return;
+  if (style_ != ProgressStyle::kQuiet) draw(true);
+  stages_.pop_back();
+  done_.store(stages_.empty() ? 0 : stages_.back().done, std::memory_order_relaxed);
+  if (!stages_.empty()) set_next_step(stages_.back().done);
 }
 
 void ProgressDisplay::note(std::string_view line) {
@@ -112,52 +135,80 @@ void ProgressDisplay::show(std::string_view kind, std::string_view line) {
   }
   target_.write(fmt::format("{}{}\n", line_open_ ? "\r\x1b[K" : "", line));
   line_open_ = false;
-  if (in_stage_ && style_ == ProgressStyle::kBar) draw(done_.load(std::memory_order_relaxed), false);
+  if (!stages_.empty() && style_ == ProgressStyle::kBar) draw(false);
 }
 
 void ProgressDisplay::set_next_step(double done) {
-  const double step = total_ / kSteps;
+  const double step = stages_.back().total / kSteps;
   next_step_.store((std::floor(done / step) + 1) * step, std::memory_order_relaxed);
 }
 
-void ProgressDisplay::draw(double done, bool last) {
-  drawn_ = Clock::now();
-  const double elapsed = std::chrono::duration<double>(drawn_ - began_).count();
-  const double fraction = std::clamp(done / total_, 0.0, 1.0);
-  const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : 0;
-  // The small excess keeps a sum of many rounded amounts from ending at 99 %.
-  const int percent = static_cast<int>(fraction * 100 + 1e-6);
-  if (style_ == ProgressStyle::kBar) {
-    target_.write(last ? fmt::format("\r\x1b[K{}: {:.1f} s\n", stage_, elapsed)
-                       : bar_line(fraction, elapsed));
-    line_open_ = !last;
-    return;
-  }
-  if (percent == shown_percent_ && !last) return;
-  shown_percent_ = percent;
-  if (style_ == ProgressStyle::kPlain) {
-    target_.write(last ? fmt::format("{}: {} %, {:.1f} s\n", stage_, percent, elapsed)
-                       : fmt::format("{}: {} %, {} left\n", stage_, percent, duration_text(left)));
-  } else {
-    nlohmann::ordered_json json{{"stage", stage_}, {"done", fraction}, {"elapsed_s", elapsed}};
-    if (fraction > 0) json["left_s"] = left;
-    json["ended"] = last;
-    target_.write(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+std::string ProgressDisplay::title(const Stage& stage) const {
+  return frame_ ? fmt::format("frame {} of {}, {}", frame_->place, frame_->count, stage.name) : stage.name;
+}
+
+void ProgressDisplay::draw(bool last) {
+  Stage& stage = stages_.back();
+  stage.done = done_.load(std::memory_order_relaxed);
+  drawn_s_ = target_.seconds();
+  stage.left.add(drawn_s_ - stage.began_s, fraction_of(stage.done, stage.total));
+  switch (style_) {
+    case ProgressStyle::kBar:
+      target_.write(last ? fmt::format("\r\x1b[K{}: {:.1f} s\n", title(stage), drawn_s_ - stage.began_s)
+                         : bar_line(stage, drawn_s_));
+      line_open_ = !last;
+      return;
+    case ProgressStyle::kJson:
+      return draw_json(stage, last, drawn_s_);
+    default:
+      return draw_line(stage, last, drawn_s_);
   }
 }
 
-std::string ProgressDisplay::bar_line(double fraction, double elapsed) const {
-  const double left = fraction > 0 ? elapsed * (1 - fraction) / fraction : -1;
-  const std::string tail = fmt::format("{:3} %  {}", static_cast<int>(fraction * 100),
-                                       left >= 0 ? duration_text(left) + " left" : duration_text(elapsed));
-  const int room = target_.columns - 1 - static_cast<int>(stage_.size() + tail.size()) - 6;
+void ProgressDisplay::draw_line(Stage& stage, bool last, double now_s) {
+  const double elapsed_s = now_s - stage.began_s;
+  if (last ? elapsed_s < kShortStage_s : now_s < stage.due_s) return;
+  stage.due_s = now_s + kNextLine_s;
+  const int percent = percent_of(fraction_of(stage.done, stage.total));
+  const std::optional<double> left_s = stage.left.estimate();
+  const std::string tail = last     ? fmt::format("{:.1f} s", elapsed_s)
+                           : left_s ? duration_text(*left_s) + " left"
+                                    : duration_text(elapsed_s) + " so far";
+  target_.write(fmt::format("{}: {} %, {}\n", title(stage), percent, tail));
+}
+
+void ProgressDisplay::draw_json(Stage& stage, bool last, double now_s) {
+  const double fraction = fraction_of(stage.done, stage.total);
+  const int percent = percent_of(fraction);
+  if (percent == stage.shown_percent && !last) return;
+  stage.shown_percent = percent;
+  nlohmann::ordered_json json{
+      {"stage", stage.name}, {"done", fraction}, {"elapsed_s", now_s - stage.began_s}};
+  if (frame_) {
+    json["frame"] = frame_->number;
+    json["frame_place"] = frame_->place;
+    json["frame_count"] = frame_->count;
+  }
+  if (const std::optional<double> left_s = stage.left.estimate()) json["left_s"] = *left_s;
+  json["ended"] = last;
+  target_.write(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+std::string ProgressDisplay::bar_line(const Stage& stage, double now_s) const {
+  const double fraction = fraction_of(stage.done, stage.total);
+  const std::optional<double> left_s = stage.left.estimate();
+  const std::string tail =
+      fmt::format("{:3} %  {}", percent_of(fraction),
+                  left_s ? duration_text(*left_s) + " left" : duration_text(now_s - stage.began_s));
+  const std::string name = title(stage);
+  const int room = target_.columns - 1 - static_cast<int>(name.size() + tail.size()) - 6;
   if (room < kNarrowestBar)
     return fmt::format("\r\x1b[K{}", tail.substr(0, static_cast<size_t>(target_.columns - 1)));
   const int width = std::min(room, kWidestBar);
   const auto full = static_cast<size_t>(std::lround(fraction * width));
   const std::string filled(full, '#');
   const std::string empty(static_cast<size_t>(width) - full, '.');
-  return fmt::format("\r\x1b[K{}  [{}{}{}{}]  {}", stage_, target_.color ? "\x1b[32m" : "", filled,
+  return fmt::format("\r\x1b[K{}  [{}{}{}{}]  {}", name, target_.color ? "\x1b[32m" : "", filled,
                      target_.color ? "\x1b[0m" : "", empty, tail);
 }
 

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "base/file.h"
 #include "base/heap.h"
 #include "base/memory_budget.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
 #include "cli/counted.h"
+#include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/run.h"
 #include "cli/version.h"
@@ -27,8 +27,17 @@ std::string output_name(const Options& options, const FrameList& frames) {
   return frames.frames.size() > 1 ? stem + ".%04d.exr" : stem + ".exr";
 }
 
-// An hour of rendering must not end with "permission denied".
-void check_writable(const std::string& path) { const AtomicFile probe(path); }
+// No file of the run may replace another, and an hour of rendering must not end with "permission denied".
+void check_files(const Options& options, const SceneDescription& scene, const std::string& output) {
+  check_stats(options, scene.files);
+  for (const int frame : scene.frames.frames) {
+    const std::string picture = frame_file_name(output, frame);
+    check_stats(options, {picture});
+    check_replaces_none("-o", picture, scene.files);
+  }
+  prepare_output(frame_file_name(output, scene.frames.frames.front()));
+  if (options.stats) prepare_output(*options.stats);
+}
 
 // "64 samples" of every pixel; "37.5 samples on average".
 std::string samples_text(const FrameResult& result) {
@@ -48,27 +57,10 @@ MemoryCharge reserve_film(const SceneDescription& scene, MemoryLedger& ledger) {
                  fmt::format("the film of {} x {} pixels", scene.image.width, scene.image.height));
 }
 
-// Renders and writes one frame; returns whether all of it was done.
-bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
-  const double began = run.seconds();
-  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
-  run.statistics().strands_described += world.strands_described;
-  run.statistics().strands_unique += world.strands_unique;
-  run.statistics().characters += world.characters;
-  run.statistics().characters_in_frame += world.characters_in_frame;
-  const double posed = run.seconds();
-  const FrameResult result =
-      render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
-
-  if (run.statistics().first_pixel_s == 0) {
-    run.statistics().first_pixel_s = posed + result.first_tile_s;
-  }
-  run.statistics().samples_per_pixel += result.mean_samples / static_cast<double>(scene.frames.frames.size());
-  run.statistics().noise = std::max(run.statistics().noise, result.noise);
-  run.statistics().time_limited |= result.time_limited;
-  const double seconds = run.seconds() - began;
+FrameHeader header_of(const SceneDescription& scene, int frame, const FrameResult& result, double seconds) {
   FrameHeader header;
   header.frame = frame;
+  header.shutter = scene.camera.shutter;
   header.frames_per_second = scene.units.fps;
   header.meters_per_unit = scene.units.meters_per_unit;
   header.seed = scene.render.seed;
@@ -82,14 +74,58 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   header.peak_memory_bytes = peak_rss_bytes();
   header.program_version = version();
   header.scene_hash = scene.hash;
+  return header;
+}
+
+// Adds what a frame took to the numbers of the run.
+void count(const FrameResult& result, double posed_s, double share, Statistics& statistics) {
+  if (statistics.first_pixel_s == 0) statistics.first_pixel_s = posed_s + result.first_tile_s;
+  statistics.samples_per_pixel += result.mean_samples * share;
+  statistics.noise = std::max(statistics.noise, result.noise);
+  statistics.time_limited |= result.time_limited;
+}
+
+void say_nothing_was_written(const std::string& path, Run& run) {
+  run.display().warn(path + ": stopped before the first sample; nothing was written");
+}
+
+// Where a picture goes. One with pixels that have no sample replaces no file that is there: it goes beside
+// it.
+std::string place_of(const FrameResult& result, const std::string& path) {
+  std::error_code ignored;
+  if (result.samples > 0 || !std::filesystem::exists(path, ignored)) return path;
+  return std::filesystem::path(path).replace_extension(".partial.exr").string();
+}
+
+// Renders and writes one frame; returns whether all of it was done.
+bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
+  const double began = run.seconds();
+  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
+  run.statistics().strands_described += world.strands_described;
+  run.statistics().strands_unique += world.strands_unique;
+  run.statistics().characters += world.characters;
+  run.statistics().characters_in_frame += world.characters_in_frame;
+  const double posed = run.seconds();
+  const FrameResult result =
+      render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
+  count(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()), run.statistics());
+  if (result.mean_samples == 0) {
+    say_nothing_was_written(path, run);
+    return false;
+  }
+  const double seconds = run.seconds() - began;
   give_back_heap();  // the chunks of the frame are gone
   const Film& film = result.film;
+  const std::string place = place_of(result, path);
+  if (place != path)
+    run.display().warn(path + ": kept as it was, since some pixels of the new picture have no sample yet");
   run.stage("write", [&] {
     write_exr(
-        path, film.width(), film.height(), exr_attributes(header, world.scene.camera),
+        place, film.width(), film.height(),
+        exr_attributes(header_of(scene, frame, result, seconds), world.scene.camera),
         [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, run.workers(), run.ledger());
   });
-  run.display().note(fmt::format("{}  {} x {}, {}{}, {}", path, scene.image.width, scene.image.height,
+  run.display().note(fmt::format("{}  {} x {}, {}{}, {}", place, scene.image.width, scene.image.height,
                                  samples_text(result), result.partial ? " (partial)" : "",
                                  duration_text(seconds)));
   return !result.partial;
@@ -106,22 +142,30 @@ int run_render(const Options& options) {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");
   }
   check_output_pattern(output, scene.frames);
-  check_writable(frame_file_name(output, scene.frames.frames.front()));
+  check_files(options, scene, output);
 
-  MemoryCharge film = reserve_film(scene, run.ledger());
-  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-  for (const auto& [name, groom] : assets->grooms) {
-    run.statistics().strands_dropped += groom->strands_dropped();
-    run.statistics().strands_repaired += groom->strands_repaired();
-  }
-  film = {};  // each frame makes its own
   bool complete = true;
-  for (int frame : scene.frames.frames) {
-    complete = render_one(scene, *assets, frame, frame_file_name(output, frame), run);
-    if (!complete) break;
+  std::string path = frame_file_name(output, scene.frames.frames.front());
+  try {
+    MemoryCharge film = reserve_film(scene, run.ledger());
+    const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
+    for (const auto& [name, groom] : assets->grooms) {
+      run.statistics().strands_dropped += groom->strands_dropped();
+      run.statistics().strands_repaired += groom->strands_repaired();
+    }
+    film = {};  // each frame makes its own
+    for (size_t i = 0; i < scene.frames.frames.size() && complete; ++i) {
+      path = frame_file_name(output, scene.frames.frames[i]);
+      run.display().frame(scene.frames.frames[i], i + 1, scene.frames.frames.size());
+      complete = render_one(scene, *assets, scene.frames.frames[i], path, run);
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kStopped) throw;
+    say_nothing_was_written(path, run);
+    complete = false;
   }
   run.finish(options);
-  return complete ? 0 : kInterruptedExitCode;
+  return complete ? 0 : SignalGuard::exit_code();
 }
 
 }  // namespace pelage

@@ -18,7 +18,7 @@ int exit_code(ErrorKind kind) {
     case ErrorKind::kMemory:
       return 4;
     case ErrorKind::kStopped:
-      return kInterruptedExitCode;
+      return SignalGuard::exit_code();
   }
   return 1;
 }

@@ -100,6 +100,7 @@ struct SceneDescription {
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< of the document with its overrides, not of the files it names
+  std::vector<std::filesystem::path> files;  ///< that the document was read from: the scene, what it includes
   static const Schema<SceneDescription>& schema();
 };
 

@@ -2,47 +2,82 @@
 #include "cli/signals.h"
 
 #include <atomic>
+#include <cstdint>
 #include <string_view>
 
+#include <fcntl.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace pelage {
 namespace {
 
 // A signal handler can reach nothing but statics.
-std::atomic<bool> g_interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
+std::atomic<int> g_signal{0};  // the first one; 0: none yet
+std::atomic<int64_t> g_heard_ms{0};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
 
-void on_signal(int) {
-  g_interrupted.store(true, std::memory_order_relaxed);
-  constexpr std::string_view kNote = "\npelage: stopping; once more ends at once\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kNote.data(), kNote.size());
+int64_t now_ms() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+/// timeout(1) and batch systems send SIGTERM or SIGHUP to a process and to its group: that is one request.
+constexpr int64_t kOneRequest_ms = 1000;
+
+void on_signal(int signal) {
+  int none = 0;
+  if (g_signal.compare_exchange_strong(none, signal)) {
+    g_heard_ms.store(now_ms());
+    constexpr std::string_view kNote = "\npelage: stopping; once more ends at once\n";
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kNote.data(), kNote.size());
+    return;
+  }
+  if (signal != SIGINT && signal == g_signal.load() && now_ms() - g_heard_ms.load() < kOneRequest_ms) return;
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);  // ends the process when this handler returns
 }
 
 struct sigaction install(int signal) {
+  struct sigaction old {};
+  ::sigaction(signal, nullptr, &old);
+  if (old.sa_handler == SIG_IGN) return old;
   struct sigaction action {};
   action.sa_handler = on_signal;
-  // The handler is gone after the first signal: the second one has its default effect.
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  action.sa_flags = SA_RESTART;
   ::sigemptyset(&action.sa_mask);
-  struct sigaction old {};
-  ::sigaction(signal, &action, &old);
+  ::sigaction(signal, &action, nullptr);
   return old;
 }
 
 }  // namespace
 
 SignalGuard::SignalGuard() {
-  g_interrupted.store(false, std::memory_order_relaxed);
-  old_interrupt_ = install(SIGINT);
-  old_terminate_ = install(SIGTERM);
+  g_signal.store(0);
+  for (size_t i = 0; i < kHandled.size(); ++i) old_[i] = install(kHandled[i]);
 }
 
 SignalGuard::~SignalGuard() {
-  ::sigaction(SIGINT, &old_interrupt_, nullptr);
-  ::sigaction(SIGTERM, &old_terminate_, nullptr);
+  for (size_t i = 0; i < kHandled.size(); ++i) ::sigaction(kHandled[i], &old_[i], nullptr);
 }
 
-bool SignalGuard::interrupted() { return g_interrupted.load(std::memory_order_relaxed); }
+bool SignalGuard::interrupted() { return g_signal.load(std::memory_order_relaxed) != 0; }
+
+int SignalGuard::exit_code() {
+  const int signal = g_signal.load();
+  return 128 + (signal != 0 ? signal : SIGINT);
+}
+
+void prepare_process() {
+  ::signal(SIGXFSZ, SIG_IGN);
+  ::signal(SIGPIPE, SIG_IGN);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    // The lowest free number is that of the stream. Nobody reads messages to a closed standard error; output
+    // was asked for, and must not seem to arrive.
+    [[maybe_unused]] const int opened = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+  }
+}
 
 }  // namespace pelage

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include <signal.h>
 
 namespace pelage {
 
-/// Exit code of a run that was interrupted and left a valid partial file.
-constexpr int kInterruptedExitCode = 130;
-
-/// While it lives, the first SIGINT or SIGTERM only raises a flag, so that a render can write what it has;
-/// the second one ends the process at once. One at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP only raises a flag, so that a render can write what it
+/// has; the second one ends the process at once. Signals that the process was started to ignore (nohup) stay
+/// ignored. One at a time.
 class SignalGuard {
  public:
   SignalGuard();
@@ -19,10 +20,19 @@ class SignalGuard {
 
   /// Thread safety: may be called from any thread, and is cheap.
   static bool interrupted();
+  /// Exit code of a run that was interrupted: 128 and the number of the signal that the last guard saw first
+  /// (130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP); 130 where it saw none.
+  static int exit_code();
+
+  static constexpr std::array kHandled{SIGINT, SIGTERM, SIGHUP};
 
  private:
-  struct sigaction old_interrupt_;
-  struct sigaction old_terminate_;
+  std::array<struct sigaction, kHandled.size()> old_;
 };
+
+/// For the whole process, once, before any thread: a file that may not grow (SIGXFSZ) and a reader that has
+/// left (SIGPIPE) become errors of the write that meets them, and a standard stream that is closed is opened
+/// on nothing, so that no other file gets its number: what is written to a closed output fails.
+void prepare_process();
 
 }  // namespace pelage

@@ -53,7 +53,7 @@ int run_trace(const Options& options) {
   } else {
     result = trace_lab_rays(variant, store, run.workers(), run.display());
   }
-  if (run.display().cancelled()) return kInterruptedExitCode;
+  if (run.display().cancelled()) return SignalGuard::exit_code();
   if (options.stats) write_result(*options.stats, result, run);
   return 0;
 }

@@ -39,7 +39,8 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
                                "the same sources share a folder.");
     s.key("directory", &GroomCacheParams::directory,
           {.help = "Folder; files in it are named by what they were made from, and may be removed at any "
-                   "time, but not written over while a run reads them",
+                   "time, but not written over while a run reads them. Files of other users count as absent, "
+                   "except in folders that the environment variable PELAGE_SHARED_CACHES names",
            .default_text = "cache, in the current folder"});
     s.key(
         "freeze", &GroomCacheParams::freeze,

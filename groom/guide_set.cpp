@@ -7,8 +7,8 @@
 
 #include "base/job.h"
 #include "base/memory_budget.h"
-#include "geom/io/strand_file.h"
 #include "geom/limit_surface.h"
+#include "groom/named_strands.h"
 #include "groom/resample.h"
 #include "groom/skin_binding.h"
 
@@ -44,7 +44,7 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   const MemoryCharge making =
       reserve(job.ledger, MemoryTag::kGrooms, missing ? 0 : kOfFile * static_cast<int64_t>(file_bytes),
               context.owner + ": the guides of " + source.file.path.string());
-  const StrandFile file = read_strands(source.file.path, {source.basis, 1.0f});
+  const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
   const size_t count = file.strands.strand_count();
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");

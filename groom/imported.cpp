@@ -5,26 +5,14 @@
 #include <optional>
 
 #include "base/job.h"
+#include "groom/named_strands.h"
 #include "groom/skin_binding.h"
 
 namespace pelage {
 namespace {
 
 StrandFile read_file_of(const GroomParams& params) {
-  try {
-    return read_strands(params.strands_file.path, {params.basis, params.default_width});
-  } catch (const Error& error) {
-    // Say where the file was named beside what is wrong with it.
-    std::vector<Problem> problems = error.problems();
-    if (!params.strands_file.position.file.empty()) {
-      for (Problem& problem : problems) {
-        const std::string in = to_string(problem.position);
-        problem.message = in.empty() ? problem.message : in + ": " + problem.message;
-        problem.position = params.strands_file.position;
-      }
-    }
-    throw Error(error.kind(), std::move(problems));
-  }
+  return read_named_strands(params.strands_file, {params.basis, params.default_width});
 }
 
 }  // namespace

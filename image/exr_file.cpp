@@ -2,6 +2,8 @@
 #include "image/exr_file.h"
 
 #include <algorithm>
+#include <set>
+#include <stdexcept>
 #include <string_view>
 
 #include <OpenEXR/ImfChannelList.h>
@@ -20,6 +22,7 @@
 #include "image/exr_check.h"
 #include "image/exr_errors.h"
 #include "image/exr_header.h"
+#include "image/exr_stream.h"
 
 namespace pelage {
 namespace {
@@ -85,7 +88,22 @@ bool loses(Imf::Compression compression) {
 constexpr const char* kOfTheFile[] = {"tiles",   "chunkCount", "maxSamplesPerPixel",
                                       "preview", "version",    "type"};
 
+/// The library cuts names at their first zero byte and at its longest, and keeps one channel of each name.
+void check_names(const std::vector<ExrChannelInfo>& channels) {
+  std::set<std::string_view> names;
+  for (const ExrChannelInfo& channel : channels) {
+    const std::string& name = channel.name;
+    const char* why = name.empty()                           ? "has no name"
+                      : name.size() > kLongestExrName        ? "has a name of more than 255 bytes"
+                      : name.find('\0') != std::string::npos ? "has a zero byte in its name"
+                      : !names.insert(name).second           ? "is there twice"
+                                                             : nullptr;
+    if (why) throw std::runtime_error("channel '" + std::string(name.c_str()) + "' " + why);
+  }
+}
+
 Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
+  check_names(part.channels);
   // Built up rather than cut down: the library's erase() loses what it erases.
   Imf::Header header;
   for (auto a = like.begin(); a != like.end(); ++a) {
@@ -154,12 +172,14 @@ struct ExrWriter::File {
   File(const std::filesystem::path& path, const std::vector<Imf::Header>& headers,
        std::vector<ExrPart> described, int team)
       : atomic(path),
-        output(std::make_unique<Imf::MultiPartOutputFile>(atomic.temporary_path().c_str(), headers.data(),
+        stream(atomic),
+        output(std::make_unique<Imf::MultiPartOutputFile>(stream, headers.data(),
                                                           static_cast<int>(headers.size()), false, team)),
         parts(std::move(described)) {
     for (size_t i = 0; i < parts.size(); ++i) buffer_bytes += bytes_of_blocks(headers[i], parts[i], team);
   }
   AtomicFile atomic;
+  ExrStream stream;
   std::unique_ptr<Imf::MultiPartOutputFile> output;
   std::vector<ExrPart> parts;
   std::vector<half> halves;  // one call's half channels, one after the other
@@ -241,6 +261,7 @@ void ExrWriter::commit() {
       PELAGE_CHECK(output.currentScanLine() == file_->parts[i].data.y1);
     }
     file_->output.reset();
+    file_->stream.check();
   });
   file_->atomic.commit();
 }

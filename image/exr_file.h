@@ -21,6 +21,9 @@ struct PixelBox {
   bool operator==(const PixelBox&) const = default;
 };
 
+/// Bytes in the name of a channel or attribute, at most.
+inline constexpr size_t kLongestExrName = 255;
+
 struct ExrChannelInfo {
   std::string name;
   ChannelType type = ChannelType::kHalf;
@@ -86,7 +89,8 @@ struct ExrOutputPart {
 
 /// Writes a file by rows from the top, whole or not at all (law 6). Half channels are rounded to nearest;
 /// what is beyond their range becomes their largest number, infinity stays. `threads`: how many may encode.
-/// Throws Error (kFailed) naming the path. Thread safety: one thread at a time.
+/// Throws Error (kFailed) naming the path, also for channels whose names a file cannot hold apart. Thread
+/// safety: one thread at a time.
 class ExrWriter {
  public:
   /// A new picture, ZIP compressed, with Rec. 709 chromaticities.

@@ -146,7 +146,7 @@ struct NoiseNode final : Field::Node {
 };
 
 struct AttributeNode final : Field::Node {
-  explicit AttributeNode(std::string n) : name(std::move(n)) {}
+  AttributeNode(std::string n, SourcePosition p) : name(std::move(n)), place(std::move(p)) {}
   float value(const FieldPoint& p) const override { return color(p).x; }
   Rgb color(const FieldPoint& p) const override {
     for (const FieldAttribute& attribute : p.attributes) {
@@ -163,8 +163,12 @@ struct AttributeNode final : Field::Node {
   void collect_attributes(std::vector<std::string>& names) const override {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
+  const SourcePosition* place_of_attribute(std::string_view asked) const override {
+    return asked == name ? &place : nullptr;
+  }
 
   std::string name;
+  SourcePosition place;
 };
 
 struct ProductNode final : Field::Node {
@@ -240,6 +244,9 @@ struct ClampNode final : Field::Node {
   std::shared_ptr<const Node> with_textures(TextureLibrary& textures) const override {
     return std::make_shared<ClampNode>(field.with_textures(textures), low, high);
   }
+  const SourcePosition* place_of_attribute(std::string_view asked) const override {
+    return field.node().place_of_attribute(asked);
+  }
 
   Field field;
   float low, high;
@@ -250,7 +257,9 @@ struct ClampNode final : Field::Node {
 Field map_field(MapForm form) { return Field(std::make_shared<MapNode>(std::move(form))); }
 Field ramp_field(Ramp ramp) { return Field(std::make_shared<RampNode>(std::move(ramp))); }
 Field noise_field(Noise noise) { return Field(std::make_shared<NoiseNode>(noise)); }
-Field attribute_field(std::string name) { return Field(std::make_shared<AttributeNode>(std::move(name))); }
+Field attribute_field(std::string name, SourcePosition named_at) {
+  return Field(std::make_shared<AttributeNode>(std::move(name), std::move(named_at)));
+}
 Field product_field(std::vector<Field> factors) {
   return Field(std::make_shared<ProductNode>(std::move(factors)));
 }

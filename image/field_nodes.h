@@ -27,6 +27,13 @@ struct Field::Node {
   virtual void collect_maps(std::vector<AssetPath>&) const {}
   /// The node with its maps read, or nullptr when it has none to read.
   virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
+  /// Where the scene names an attribute that the field reads; nullptr when it reads none of this name.
+  virtual const SourcePosition* place_of_attribute(std::string_view name) const {
+    for (const Field& factor : factors_of()) {
+      if (const SourcePosition* place = factor.node().place_of_attribute(name)) return place;
+    }
+    return nullptr;
+  }
 };
 
 enum class MapChannel { kR, kG, kB, kA };
@@ -78,7 +85,7 @@ struct Noise {
 Field map_field(MapForm form);
 Field ramp_field(Ramp ramp);
 Field noise_field(Noise noise);
-Field attribute_field(std::string name);
+Field attribute_field(std::string name, SourcePosition named_at = {});
 Field product_field(std::vector<Field> factors);
 /// `field`, every channel of which is kept within [low, high].
 Field clamped_field(Field field, float low, float high);

@@ -140,7 +140,7 @@ bool read_attribute(const Value& value, const KeyOptions&, Field& out, Problems&
     problems.add(value.find("attribute")->position(), "expected the name of an attribute, got ''");
     return false;
   }
-  out = attribute_field(std::move(form.attribute));
+  out = attribute_field(std::move(form.attribute), value.find("attribute")->position());
   return true;
 }
 

@@ -2,6 +2,8 @@
 #include "cli/compare/compared_frame.h"
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "cli/compare/light_side.h"
 #include "cli/compose.h"
@@ -16,14 +18,15 @@ bool is_fur(const Film& film, int x, int y) { return film.surface(x, y).id != kN
 /// Stages of single frames would flood the display: it shows the comparison as one.
 class Quietly final : public Progress {
  public:
-  explicit Quietly(const Progress& outer) : outer_(outer) {}
+  explicit Quietly(Progress& outer) : outer_(outer) {}
   void begin(std::string_view, double) override {}
   void advance(double) override {}
   void end() override {}
+  void warn(std::string_view line) override { outer_.warn(line); }
   bool cancelled() const override { return outer_.cancelled(); }
 
  private:
-  const Progress& outer_;
+  Progress& outer_;
 };
 
 double total_rays(const Statistics& statistics) {
@@ -94,17 +97,20 @@ ComparedFrame FrameComparer::render(const std::vector<MaterialParams>& materials
   assets_.materials = materials;
   World world = compose(scene_, assets_, scene_.frames.frames.front(), run_.job());
   Quietly progress(run_.display());
+  std::vector<double> cpu_s;
   const auto half = [&](int64_t seed) {
     world.scene.render.seed = seed;
     Statistics statistics;
-    const double wall = run_.seconds(), cpu = cpu_seconds();
+    const double wall = run_.seconds(), began = cpu_seconds();
     FrameResult result = render_frame(world.scene, run_.workers(), progress, run_.ledger(), statistics);
     frame.wall_s += run_.seconds() - wall;
-    frame.cpu_s += cpu_seconds() - cpu;
+    cpu_s.push_back(cpu_seconds() - began);
     frame.rays += total_rays(statistics);
     return std::move(result.film);
   };
   const Film first = half(2 * scene_.render.seed), second = half(2 * scene_.render.seed + 1);
+  frame.cpu_s = cpu_s[0] + cpu_s[1];
+  frame.cpu_spread = std::abs(cpu_s[0] - cpu_s[1]) / std::max(cpu_s[0], cpu_s[1]);
   measure(first, second, frame);
   frame.picture = mean_picture(first, second);
   return frame;

@@ -14,10 +14,11 @@ namespace pelage {
 struct ComparedFrame {
   std::string model, light;
   double wall_s = 0, cpu_s = 0;
-  double rays = 0;       ///< of all kinds
-  double fur_share = 0;  ///< of the pixels
-  double luminance = 0;  ///< mean over the pixels whose front-most surface is a strand
-  double noise = 0;      ///< relMSE there, by the difference of two halves of the samples
+  double cpu_spread = 0;  ///< what its two halves differ by in CPU time, over the longer one
+  double rays = 0;        ///< of all kinds
+  double fur_share = 0;   ///< of the pixels
+  double luminance = 0;   ///< mean over the pixels whose front-most surface is a strand
+  double noise = 0;       ///< relMSE there, by the difference of two halves of the samples
   Picture picture;
 };
 

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "cli/compare/contact_sheet.h"
+#include "cli/counted.h"
 
 namespace pelage {
 namespace {
@@ -29,6 +31,7 @@ Table frame_table(const std::vector<ComparedFrame>& frames) {
   table.columns = {{"model", "model"},
                    {"light", "light"},
                    {"cpu_s", "CPU time", Quantity::kSeconds},
+                   {"cpu_spread", "halves differ by", Quantity::kPercent},
                    {"wall_s", "wall time", Quantity::kSeconds},
                    {"rays", "rays", Quantity::kCount},
                    {"rays_per_cpu_s", "rays per CPU second", Quantity::kRate},
@@ -44,8 +47,8 @@ Table frame_table(const std::vector<ComparedFrame>& frames) {
   const std::map<std::string, double> times = equal_times(frames);
   for (const ComparedFrame& f : frames) {
     const auto reference = chiang.find(f.light);
-    table.rows.push_back({Text{f.model}, Text{f.light}, f.cpu_s, f.wall_s, f.rays, f.rays / f.cpu_s, f.noise,
-                          f.noise * f.cpu_s / times.at(f.light), f.luminance,
+    table.rows.push_back({Text{f.model}, Text{f.light}, f.cpu_s, f.cpu_spread, f.wall_s, f.rays,
+                          f.rays / f.cpu_s, f.noise, f.noise * f.cpu_s / times.at(f.light), f.luminance,
                           reference == chiang.end() ? NAN : f.luminance / reference->second, f.fur_share});
   }
   return table;
@@ -97,23 +100,31 @@ BarPlot bars(const std::vector<ComparedFrame>& frames, const char* label, Quanti
   return plot;
 }
 
+/// "darkest, 0.91 times as bright as that of chiang", without the ratio where it is chiang itself.
+std::string extreme_text(const char* what, const ComparedFrame& frame, const ComparedFrame& chiang) {
+  if (frame.model == chiang.model) return what;
+  return fmt::format("{}, {:.2f} times as bright as that of {}", what, frame.luminance / chiang.luminance,
+                     chiang.model);
+}
+
 std::string findings(const Comparison& comparison) {
+  std::set<std::string> models;
+  for (const ComparedFrame& f : comparison.frames) models.insert(f.model);
+  std::string text = fmt::format("{} of {}.", counted(std::ssize(comparison.frames), "picture"),
+                                 counted(std::ssize(models), "model"));
   const auto chiang = std::find_if(comparison.frames.begin(), comparison.frames.end(),
                                    [](const ComparedFrame& f) { return f.model == "chiang"; });
-  std::string text =
-      fmt::format("{} pictures of {} models. ", comparison.frames.size(), comparison.fibres.size());
-  if (chiang == comparison.frames.end()) return text;
-  double least = 1e30, most = 0;
-  std::string least_of, most_of;
+  if (chiang == comparison.frames.end() || models.size() < 2) return text;
+  const ComparedFrame *darkest = &*chiang, *brightest = &*chiang;
   for (const ComparedFrame& f : comparison.frames) {
-    if (f.light != chiang->light || f.cpu_s <= 0) continue;
-    if (f.luminance < least) least = f.luminance, least_of = f.model;
-    if (f.luminance > most) most = f.luminance, most_of = f.model;
+    if (f.light != chiang->light) continue;
+    if (f.luminance < darkest->luminance) darkest = &f;
+    if (f.luminance > brightest->luminance) brightest = &f;
   }
-  return text + fmt::format(
-                    "In light from the {} the fur of {} is the darkest, {:.2f} times as bright as that of "
-                    "chiang, and that of {} the brightest, {:.2f} times.",
-                    chiang->light, least_of, least / chiang->luminance, most_of, most / chiang->luminance);
+  if (darkest == brightest) return text;
+  return text + fmt::format(" In light from the {} the fur of {} is the {}; that of {} is the {}.",
+                            chiang->light, darkest->model, extreme_text("darkest", *darkest, *chiang),
+                            brightest->model, extreme_text("brightest", *brightest, *chiang));
 }
 
 }  // namespace

@@ -20,6 +20,19 @@ int place_of(std::vector<std::string>& names, const std::string& name) {
   return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
+std::string title_of(const std::string& light) { return "light: " + light; }
+std::string figures_of(const ComparedFrame& frame) { return fmt::format("{:.1f} CPU s", frame.cpu_s); }
+
+/// How wide a column must be so that no title reaches into the next, with names of this size.
+int titles_width(const std::vector<ComparedFrame>& frames, int size) {
+  int width = 0;
+  for (const ComparedFrame& frame : frames) {
+    width = std::max({width, Canvas::text_width(title_of(frame.light), size),
+                      Canvas::text_width(frame.model, size) + Canvas::text_width(figures_of(frame), 1) + 12});
+  }
+  return width;
+}
+
 }  // namespace
 
 Picture contact_sheet(const std::vector<ComparedFrame>& frames) {
@@ -29,27 +42,28 @@ Picture contact_sheet(const std::vector<ComparedFrame>& frames) {
     place_of(lights, frame.light);
   }
   const int width = frames.front().picture.width, height = frames.front().picture.height;
+  const int size = titles_width(frames, 2) <= width ? 2 : 1;
+  const int column = std::max(width, titles_width(frames, size)) + kGap;
   const int row = height + kLabel + kGap;
-  Canvas canvas(static_cast<int>(lights.size()) * (width + kGap) + kGap,
+  Canvas canvas(static_cast<int>(lights.size()) * column + kGap,
                 kHeader + static_cast<int>(models.size()) * row + kGap, kGround);
   for (size_t i = 0; i < lights.size(); ++i) {
-    const std::string text = "light: " + lights[i];
-    const int x = kGap + static_cast<int>(i) * (width + kGap);
-    canvas.text(x + (width - Canvas::text_width(text)) / 2, 10, text, kInk);
+    const std::string text = title_of(lights[i]);
+    const int x = kGap + static_cast<int>(i) * column;
+    canvas.text(x + std::max(0, width - Canvas::text_width(text, size)) / 2, 10, text, kInk, size);
   }
   for (size_t m = 0; m < models.size(); ++m) {
-    for (size_t i = 0; i < lights.size(); ++i) {
-      canvas.fill(kGap + static_cast<int>(i) * (width + kGap), kHeader + static_cast<int>(m) * row + kLabel,
-                  width, height, kEmpty);
-    }
-    canvas.text(kGap + 2, kHeader + static_cast<int>(m) * row + 6, models[m], kInk);
+    const int y = kHeader + static_cast<int>(m) * row;
+    for (size_t i = 0; i < lights.size(); ++i)
+      canvas.fill(kGap + static_cast<int>(i) * column, y + kLabel, width, height, kEmpty);
+    canvas.text(kGap + 2, y + 6, models[m], kInk, size);
   }
   for (const ComparedFrame& frame : frames) {
-    const int x = kGap + place_of(lights, frame.light) * (width + kGap);
+    const int x = kGap + place_of(lights, frame.light) * column;
     const int y = kHeader + place_of(models, frame.model) * row;
     canvas.draw(x, y + kLabel, frame.picture);
-    const std::string figures = fmt::format("{:.1f} CPU s", frame.cpu_s);
-    canvas.text(x + width - Canvas::text_width(figures, 1) - 4, y + 12, figures, kFaint, 1);
+    const std::string figures = figures_of(frame);
+    canvas.text(x + column - kGap - Canvas::text_width(figures, 1) - 4, y + 12, figures, kFaint, 1);
   }
   return canvas.picture();
 }

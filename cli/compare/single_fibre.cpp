@@ -93,19 +93,19 @@ double SingleFibre::inclination_distance() const {
   return total_variation(by_model.by_sine(), traced.by_sine());
 }
 
-SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material,
-                                 const Workers& workers) {
+SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material, const Job& job) {
   SingleFibre fibre;
   fibre.model = model;
   const FibreOracle oracle = fibre_oracle(material, SingleFibre::kAbsorption),
                     white = fibre_oracle(material, 0);
   fibre.opaque = oracle.opaque;
-  workers.for_each(4, 1, [&](const WorkRange& range) {
+  const auto look = [&] { job.check_stop(); };
+  job.for_each(4, 1, [&](const WorkRange& range) {
     for (size_t i = range.begin; i < range.end; ++i) {
-      if (i == 0) fibre.by_model = oracle.model(SingleFibre::kInclination, kPaths);
-      if (i == 1) fibre.traced = oracle.trace(SingleFibre::kInclination, kPaths);
-      if (i == 2) fibre.white_across = white.model(0, kPaths).total();
-      if (i == 3) fibre.white_slanted = white.model(1, kPaths).total();
+      if (i == 0) fibre.by_model = oracle.model(SingleFibre::kInclination, kPaths, look);
+      if (i == 1) fibre.traced = oracle.trace(SingleFibre::kInclination, kPaths, look);
+      if (i == 2) fibre.white_across = white.model(0, kPaths, look).total();
+      if (i == 3) fibre.white_slanted = white.model(1, kPaths, look).total();
     }
   });
   return fibre;

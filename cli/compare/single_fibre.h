@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.h"
+#include "base/job.h"
 #include "cli/report/report.h"
 #include "render/fibre/fibre_oracle.h"
 
@@ -27,8 +27,7 @@ struct SingleFibre {
 };
 
 /// The same for any number of threads.
-SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material,
-                                 const Workers& workers);
+SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material, const Job& job);
 
 /// A row per fibre: the map of sin(theta_i) and phi of the model, that of the traced light, and both around
 /// the fibre as a polar plot.

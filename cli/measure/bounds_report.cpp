@@ -10,6 +10,7 @@
 #include "cli/counted.h"
 #include "cli/measure/memory_plots.h"
 #include "cli/measure/outcome_table.h"
+#include "cli/measure/spread.h"
 
 namespace pelage {
 namespace {
@@ -51,10 +52,9 @@ std::string change(double after, double before) {
 // "1.03 times the CPU time", or why that number says nothing: times of a machine that does other things too
 // differ from run to run.
 std::string time_text(const Outcome& a, const Outcome& b, const std::string& path, const char* name) {
-  const double ratio = a.number(path) / b.number(path);
   const bool known = a.runs.size() > 1 && b.runs.size() > 1;
   const bool apart = !known || a.least(path) > b.most(path) || a.most(path) < b.least(path);
-  return fmt::format("{:.2f} times the {}{}", ratio, name,
+  return fmt::format("{} times the {}{}", spread_text(ratio_of(a, b, path)), name,
                      apart ? "" : " (less than what runs of the same strategy differ by)");
 }
 
@@ -151,7 +151,8 @@ Section time_section(const Table& data, const std::vector<Outcome>& outcomes) {
       "Time",
       {select(data,
               {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s",
-               "first_pixel_s", "peak_rss_bytes", "lost_pixels", "lost_pixels_share", "largest_difference"},
+               "cpu_most_s", "first_pixel_s", "peak_rss_bytes", "lost_pixels", "lost_pixels_share",
+               "largest_difference"},
               "Cost of each strategy, and what it does to the picture."),
        stage_plot(data, outcomes,
                   "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),
@@ -206,13 +207,13 @@ Section memory_section(const Table& data, const std::vector<Outcome>& outcomes, 
 }
 
 Section switch_section(const Table& data, const BoundsResults& results) {
-  Table table =
-      select(data,
-             {"variant", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s", "working_set_bytes",
-              "bytes_per_strand", "memory_chunks_bytes", "memory_skins_bytes", "peak_rss_bytes",
-              "relative_bounds_area", "box_tests_per_ray", "lost_pixels", "largest_difference"},
-             "What each saving is worth: everything on (exact), then with one of them switched off or "
-             "on. All rows read warm caches.");
+  Table table = select(
+      data,
+      {"variant", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s", "cpu_most_s",
+       "working_set_bytes", "bytes_per_strand", "memory_chunks_bytes", "memory_skins_bytes", "peak_rss_bytes",
+       "relative_bounds_area", "box_tests_per_ray", "lost_pixels", "largest_difference"},
+      "What each saving is worth: everything on (exact), then with one of them switched off or "
+      "on. All rows read warm caches.");
   for (Column& column : table.columns) {
     if (column.key == "lost_pixels") column.title = "pixels that differ";
   }

@@ -230,8 +230,8 @@ void add_detail(const LodSweep& sweep, Report& report) {
            "lets the others be as thin as they are. Other hairs: the same coats, of another seed, in "
            "full."}}});
   Table details = select(report.data,
-                         {"variant", "wall_s", "cpu_s", "hairs", "hairs_share", "working_set_bytes",
-                          "set_share", "cpu_share", "rel_mse", "bias"},
+                         {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "hairs", "hairs_share",
+                          "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},
                          "By place and idea; each place twice.");
   Table table = details;
   table.rows.clear();

@@ -85,6 +85,7 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
   add("cpu_least_s", "least CPU", Quantity::kSeconds,
       [](const Outcome& o) -> Cell { return o.least("cpu_s"); });
+  add("cpu_most_s", "most CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.most("cpu_s"); });
   number("first_pixel_s", "first pixel", Quantity::kSeconds, "first_pixel_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
   number("peak_anonymous_bytes", "peak anonymous", Quantity::kBytes, "peak_anonymous_bytes");

@@ -12,6 +12,7 @@
 #include "cli/measure/memory_plots.h"
 #include "cli/measure/outcome_table.h"
 #include "cli/measure/picture_difference.h"
+#include "cli/measure/spread.h"
 
 namespace pelage {
 namespace {
@@ -175,17 +176,19 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
   add_column(data, {"message", "message", Quantity::kRatio}, outcomes,
              [](const Outcome& o) -> Cell { return Text{o.error()}; });
 
-  double smallest = NAN, slowdown = NAN;
+  double smallest = NAN;
+  const Outcome* tightest = nullptr;
   for (size_t i = 2; i < outcomes.size(); ++i) {
     if (!outcomes[i].succeeded() || !(std::isnan(smallest) || sweep.budgets[i].bytes < smallest)) continue;
     smallest = sweep.budgets[i].bytes;
-    slowdown = outcomes[i].number("wall_s") / outcomes[1].number("wall_s");
+    tightest = &outcomes[i];
   }
-  if (std::isfinite(smallest)) {
+  if (tightest) {
     report.abstract = fmt::format(
-        "The smallest budget that was rendered in is {:.1f} MiB; it took {:.2f} times as long as without a "
-        "limit.",
-        smallest / (1 << 20), slowdown);
+        "The smallest budget that was rendered in is {:.1f} MiB; it took {} times the CPU time and {} times "
+        "the wall time that it takes without a limit.",
+        smallest / (1 << 20), spread_text(ratio_of(*tightest, outcomes[1], "cpu_s")),
+        spread_text(ratio_of(*tightest, outcomes[1], "wall_s")));
   }
   report.sections.push_back(
       {"Method",
@@ -212,7 +215,8 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
       "Time and growth",
       {select(shown,
               {"variant", "budget_bytes", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s",
-               "residency_wait_s", "expansions", "reexpansions", "evictions", "peak_rss_bytes", "pixels"},
+               "cpu_least_s", "cpu_most_s", "residency_wait_s", "expansions", "reexpansions", "evictions",
+               "peak_rss_bytes", "pixels"},
               "Cost of each budget."),
        stage_plot(shown, compared,
                   "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),

@@ -156,12 +156,12 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "there are.",
            kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
            sweep.best.all)}}});
-  report.sections.push_back(
-      {"Samples",
-       {select(report.data,
-               {"variant", "wall_s", "cpu_s", "noise", "samples", "surface_samples", "rel_mse", "bias",
-                "gain", "surface_gain", "inverse_surface_share", "inverse_coverage"},
-               "Samples and error.")}});
+  report.sections.push_back({"Samples",
+                             {select(report.data,
+                                     {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "noise",
+                                      "samples", "surface_samples", "rel_mse", "bias", "gain", "surface_gain",
+                                      "inverse_surface_share", "inverse_coverage"},
+                                     "Samples and error.")}});
   return measured;
 }
 

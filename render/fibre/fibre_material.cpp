@@ -61,15 +61,15 @@ Rgb passed(const Rgb& absorption) {
 
 }  // namespace
 
-MaterialParams with_tables(MaterialParams params, const Workers& workers, const WarningSink& warn) {
+MaterialParams with_tables(MaterialParams params, const Job& job) {
   if (auto* yan = std::get_if<YanParams>(&params); yan && !yan->made) {
     const YanOptics optics = yan->optics();
     yan->made = yan->tables.path.empty()
-                    ? MedullaTables::make(optics, workers)
-                    : MedullaTables::find_or_make(optics, ContentStore(yan->tables.path), workers, warn);
+                    ? MedullaTables::make(optics, job)
+                    : MedullaTables::find_or_make(optics, ContentStore(yan->tables.path), job);
   }
   if (takes_coat_color(params)) {
-    auto made = FibreMaterial(params, workers).coat_color();
+    auto made = FibreMaterial(params, job.workers, [&] { job.check_stop(); }).coat_color();
     std::visit(
         [&]<class P>(P& p) {
           if constexpr (std::is_base_of_v<FibreParams, P>) p.coat_color = std::move(made);
@@ -94,13 +94,15 @@ FibreMaterial::Model FibreMaterial::make(const MaterialParams& params) {
       params);
 }
 
-FibreMaterial::FibreMaterial(const MaterialParams& params, const Workers& workers)
+FibreMaterial::FibreMaterial(const MaterialParams& params, const Workers& workers,
+                             const std::function<void()>& look)
     : model_(make(params)), far_field_(is_far(params)), eta_(index_of(params)) {
   if (!takes_coat_color(params)) return;
   coat_color_ = fibre_params(params)->coat_color;
   if (coat_color_) return;
   coat_color_ = std::make_shared<CoatColor>(
-      [this](float t, const TangleHit& hit, const V3f& u) {
+      [this, &look](float t, const TangleHit& hit, const V3f& u) {
+        look();
         FibrePoint point;
         point.tangents.fill(hit.tangent);
         point.wo = hit.wo;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <variant>
 
+#include "base/job.h"
 #include "render/fibre/coat_color.h"
 #include "render/fibre/fibre_bsdf.h"
 #include "render/surface/material.h"
@@ -18,8 +20,8 @@ struct FibrePoint {
 };
 
 /// The parameters with the tables that their model and their colour need found or made: once per run rather
-/// than once per frame. `warn` is told of damaged files.
-MaterialParams with_tables(MaterialParams params, const Workers& workers, const WarningSink& warn);
+/// than once per frame. Throws Error (kStopped) as Job does.
+MaterialParams with_tables(MaterialParams params, const Job& job);
 
 /// A material for fibres: what all its points share, made once. Thread safety: const members may be called
 /// from any thread.
@@ -28,7 +30,10 @@ class FibreMaterial {
   /// Whether the parameters are of a model for fibres.
   static bool is_one(const MaterialParams& params) { return fibre_params(params) != nullptr; }
   /// `params` must be of a model for fibres. Tables that with_tables() has not made are made here.
-  explicit FibreMaterial(const MaterialParams& params, const Workers& workers = Workers::alone());
+  /// `look` is called often meanwhile and may throw.
+  explicit FibreMaterial(
+      const MaterialParams& params, const Workers& workers = Workers::alone(),
+      const std::function<void()>& look = [] {});
 
   /// Refers to this material.
   FibreBsdf at(const FibrePoint& point) const;

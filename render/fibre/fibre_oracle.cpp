@@ -12,6 +12,7 @@
 namespace pelage {
 namespace {
 
+constexpr int kBetweenLooks = 256;  // paths
 constexpr float kDegree = kPi / 180;
 /// About as rough as the physical models by default.
 constexpr float kOpaqueBlur = 10 * kDegree;
@@ -135,7 +136,7 @@ double total_variation(const std::vector<double>& a, const std::vector<double>& 
   return 0.5 * sum;
 }
 
-FibreHistogram FibreOracle::model(float theta_o, int samples) const {
+FibreHistogram FibreOracle::model(float theta_o, int samples, const Look& look) const {
   const FibreMaterial material(params);
   FibrePoint point;
   point.tangents.fill(V3f(1, 0, 0));
@@ -143,6 +144,7 @@ FibreHistogram FibreOracle::model(float theta_o, int samples) const {
   point.color = Rgb(1);
   FibreHistogram histogram;
   for (int i = 0; i < samples; ++i) {
+    if (i % kBetweenLooks == 0) look();
     WalkRandom random(hash64(random_use("model histogram"), static_cast<uint64_t>(i)));
     point.h = middle_offset(i, samples);
     const V3f u(random.unit(), random.unit(), random.unit());
@@ -152,11 +154,12 @@ FibreHistogram FibreOracle::model(float theta_o, int samples) const {
   return histogram;
 }
 
-FibreHistogram FibreOracle::trace(float theta_o, int paths) const {
+FibreHistogram FibreOracle::trace(float theta_o, int paths, const Look& look) const {
   std::array<LongitudinalLobe, 3> lobes;
   for (size_t p = 0; p < 3; ++p) lobes[p] = LongitudinalLobe(longitudinal[p] * longitudinal[p]);
   FibreHistogram histogram;
   for (int i = 0; i < paths; ++i) {
+    if (i % kBetweenLooks == 0) look();
     FibrePath path =
         trace_fibre(traced, std::sin(theta_o), middle_offset(i, paths), 1, static_cast<uint64_t>(i));
     if (!path.scattered) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,8 +45,12 @@ struct FibreOracle {
   std::array<float, 3> longitudinal{}, azimuthal{};
   bool opaque = false;  ///< light cannot go through the model: the traced fibre is what it stands for
 
-  FibreHistogram model(float theta_o, int samples) const;
-  FibreHistogram trace(float theta_o, int paths) const;
+  /// `look` is called now and then meanwhile, and may throw.
+  using Look = std::function<void()>;
+  FibreHistogram model(
+      float theta_o, int samples, const Look& look = [] {}) const;
+  FibreHistogram trace(
+      float theta_o, int paths, const Look& look = [] {}) const;
 };
 
 /// For a fibre material that absorbs so much per radius, or an opaque one that is as bright as a clear fibre

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/progress_stage.h"
 #include "render/fibre/fibre_tracer.h"
 
 namespace pelage {
@@ -40,10 +41,12 @@ void accumulate(std::array<float, N>& cells) {
   cells[N - 1] = 1;
 }
 
-Node make_node(const TracedFibre& fibre, float theta, float h, uint64_t seed, int paths) {
+Node make_node(const TracedFibre& fibre, float theta, float h, uint64_t seed, int paths, const Job& job) {
+  constexpr int kBetweenLooks = 64;  // paths
   Node node{};
   std::vector<FibrePath> scattered;
   for (int k = 0; k < paths; ++k) {
+    if (k % kBetweenLooks == 0) job.check_stop();
     const FibrePath path = trace_fibre(fibre, std::sin(theta), h, seed, static_cast<uint64_t>(k));
     if (!path.scattered) continue;
     scattered.push_back(path);
@@ -75,32 +78,40 @@ float place_at(const std::array<float, N>& cumulative, float xi) {
 
 }  // namespace
 
-std::shared_ptr<const MedullaTables> MedullaTables::make(const YanOptics& o, const Workers& workers,
-                                                         int paths) {
+std::shared_ptr<const MedullaTables> MedullaTables::make(const YanOptics& o, const Job& job, int paths) {
   auto tables = std::make_shared<MedullaTables>();
   tables->nodes_.resize(static_cast<size_t>(kInclinations) * kOffsets);
   const TracedFibre fibre{o.eta, o.layers, o.kappa, o.sigma_ms, o.g};
-  workers.for_each(tables->nodes_.size(), 1, [&](const WorkRange& range) {
+  const ProgressStage stage(job.progress, "tables of a medulla", static_cast<double>(tables->nodes_.size()));
+  job.for_each(tables->nodes_.size(), 1, [&](const WorkRange& range) {
     for (size_t i = range.begin; i < range.end; ++i) {
       const auto inclination = static_cast<float>(i / kOffsets), offset = static_cast<float>(i % kOffsets);
       tables->nodes_[i] = make_node(fibre, kSteepest * inclination / (kInclinations - 1),
-                                    (offset + 0.5f) / kOffsets, i, paths);
+                                    (offset + 0.5f) / kOffsets, i, paths, job);
+      job.progress.advance(1);
     }
   });
   return tables;
 }
 
+std::shared_ptr<const MedullaTables> MedullaTables::make(const YanOptics& o, const Workers& workers,
+                                                         int paths) {
+  MemoryLedger ledger;
+  NoProgress progress;
+  return make(o, Job{workers, ledger, progress}, paths);
+}
+
 std::shared_ptr<const MedullaTables> MedullaTables::find_or_make(const YanOptics& optics,
-                                                                 const ContentStore& store,
-                                                                 const Workers& workers,
-                                                                 const WarningSink& warn, int paths) {
+                                                                 const ContentStore& store, const Job& job,
+                                                                 int paths) {
+  const WarningSink warn = [&](const std::string& line) { job.progress.warn(line); };
   const ContentHash key = key_of(optics, paths);
   const size_t bytes = static_cast<size_t>(kInclinations) * kOffsets * sizeof(Node);
   const auto stored = [&](const WarningSink& tell) -> std::shared_ptr<const MedullaTables> {
     const std::optional<StoredFile> file = store.open(kKind, key, tell);
     if (!file) return nullptr;
     if (file->section_count() != 1 || file->section(0).size() != bytes) {
-      tell(store.file(kKind, key).string() + ": not tables of a medulla; made anew");
+      tell(store.file(kKind, key).string() + ": not tables of a medulla; made again");
       return nullptr;
     }
     auto tables = std::make_shared<MedullaTables>();
@@ -109,9 +120,9 @@ std::shared_ptr<const MedullaTables> MedullaTables::find_or_make(const YanOptics
     return tables;
   };
   if (auto found = stored(warn)) return found;
-  const ContentStore::Lock lock = store.lock(kKind, key);
+  const ContentStore::Lock lock = store.lock(kKind, key, [&] { return job.progress.cancelled(); });
   if (auto found = stored([](const std::string&) {})) return found;  // made while we waited
-  std::shared_ptr<const MedullaTables> made = make(optics, workers, paths);
+  std::shared_ptr<const MedullaTables> made = make(optics, job, paths);
   const std::span<const std::byte> section = std::as_bytes(made->nodes());
   store.store(kKind, key, std::span(&section, 1), warn);
   return made;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/content_store.h"
+#include "base/job.h"
 #include "base/parallel.h"
 #include "render/fibre/medulla_bsdf.h"
 #include "render/fibre/path_lengths.h"
@@ -25,12 +26,15 @@ class MedullaTables {
   static constexpr int kAzimuths = 72, kSines = 40;        ///< cells of phi and of sin(theta_i)
   static constexpr int kPaths = 40000;                     ///< from each node
 
+  /// Takes seconds; throws Error (kStopped) as Job does.
+  static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Job& job,
+                                                   int paths = kPaths);
+  /// The same to its end, unseen.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Workers& workers,
                                                    int paths = kPaths);
-  /// From `store`, or made and stored there; a damaged file is told of and made anew.
+  /// From `store`, or made and stored there; the user is warned of a damaged file, and it is made again.
   static std::shared_ptr<const MedullaTables> find_or_make(const YanOptics& optics, const ContentStore& store,
-                                                           const Workers& workers, const WarningSink& warn,
-                                                           int paths = kPaths);
+                                                           const Job& job, int paths = kPaths);
 
   /// Cumulative distributions of one node, and the lengths that its light has travelled. Light comes from
   /// above the normal plane (theta_o >= 0) at h >= 0.

@@ -8,6 +8,9 @@ ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
   attributes["worldToCamera"] = camera.world_to_camera();
   attributes["worldToNDC"] = camera.world_to_ndc();
   attributes["framesPerSecond"] = static_cast<float>(header.frames_per_second);
+  attributes["expTime"] =
+      static_cast<float>(double{header.shutter.y - header.shutter.x} / header.frames_per_second);
+  attributes["pelage:shutter"] = header.shutter;
   attributes["pelage:frame"] = static_cast<float>(header.frame);
   attributes["pelage:metersPerUnit"] = static_cast<float>(header.meters_per_unit);
   attributes["pelage:seed"] = std::to_string(header.seed);

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "base/vector.h"
 #include "image/exr.h"
 #include "render/camera/camera.h"
 
@@ -13,6 +14,7 @@ namespace pelage {
 /// What the header of a picture says beside its pixels.
 struct FrameHeader {
   double frame = 1;
+  V2f shutter{0, 0};  ///< when it opens and closes, in frames around the frame
   double frames_per_second = 24;
   double meters_per_unit = 0.01;
   int64_t seed = 0;
@@ -27,8 +29,8 @@ struct FrameHeader {
   std::string scene_hash;  ///< of all that the picture was made from
 };
 
-/// The EXR attributes of a frame: the standard ones (worldToCamera, worldToNDC, framesPerSecond) and, under
-/// "pelage:", the rest.
+/// The EXR attributes of a frame: the standard ones (worldToCamera, worldToNDC, framesPerSecond, and expTime,
+/// seconds that the shutter is open) and, under "pelage:", the rest.
 ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera);
 
 }  // namespace pelage

@@ -50,7 +50,10 @@ FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline
         out_of_time = true;
         return;
       }
-      trace(tiles[i], goal, scratch_[static_cast<size_t>(range.worker)]);
+      if (!trace(tiles[i], goal, scratch_[static_cast<size_t>(range.worker)])) {
+        cancelled = true;
+        return;
+      }
       double none = 0;
       if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
     }
@@ -59,27 +62,37 @@ FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline
   return out_of_time ? End::kOutOfTime : End::kDone;
 }
 
-void FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) {
+bool FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) {
   const double began = clock_.seconds();
-  int64_t traced = 0, rejected = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
-      uint32_t& given = given_[pixel];
-      for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
-        traced += until - given;
-        for (; given < until; ++given) {
-          tracer_.trace(x, y, given, scratch);
-          if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected;
-        }
-      }
+  int64_t traced = 0;
+  bool stopped = false;
+  for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
+    for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
+      uint32_t& given =
+          given_[static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x)];
+      const uint32_t before = given;
+      stopped = !trace_pixel(x, y, goal, given, scratch);
+      traced += given - before;
     }
   }
-  rejected_ += rejected;
   TileCost& cost = costs_[tile_of(tile.x0, tile.y0)];
   cost.seconds += clock_.seconds() - began;
   cost.samples += static_cast<double>(traced);
   progress_.advance(static_cast<double>(traced));
+  return !stopped;
+}
+
+bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch) {
+  constexpr uint32_t kBetweenLooks = 16;  // samples: a tile of many takes minutes
+  const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+  for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
+    for (; given < until; ++given) {
+      if (given % kBetweenLooks == 0 && progress_.cancelled()) return false;
+      tracer_.trace(x, y, given, scratch);
+      if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
+    }
+  }
+  return true;
 }
 
 size_t FrameLoop::tile_of(int x, int y) const {

@@ -54,7 +54,9 @@ class FrameLoop {
   struct TileCost {
     double seconds = 0, samples = 0;
   };
-  void trace(const Tile& tile, const Goal& goal, PathScratch& scratch);
+  /// False when it was cancelled in the middle.
+  bool trace(const Tile& tile, const Goal& goal, PathScratch& scratch);
+  bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch);
   size_t tile_of(int x, int y) const;
 
   const PathTracer& tracer_;

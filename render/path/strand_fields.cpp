@@ -5,6 +5,8 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/nearest_name.h"
+#include "image/field_nodes.h"
 
 namespace pelage {
 namespace {
@@ -56,6 +58,11 @@ StrandPlace place_of_point(const Strands& strands, size_t strand, uint32_t i) {
           static_cast<float>(joint) / static_cast<float>(segments)};
 }
 
+SourcePosition place_of(const Field& field, const std::string& attribute) {
+  const SourcePosition* place = field.node().place_of_attribute(attribute);
+  return place ? *place : SourcePosition{};
+}
+
 }  // namespace
 
 std::vector<const StrandAttribute*> find_attributes(const Field& field, const Strands& strands,
@@ -64,11 +71,14 @@ std::vector<const StrandAttribute*> find_attributes(const Field& field, const St
   for (const std::string& name : field.attribute_names()) {
     const StrandAttribute* attribute = strands.find_attribute(name);
     if (!attribute) {
-      throw Error(ErrorKind::kInput,
-                  part + ": its material reads the attribute '" + name + "', which the strands lack");
+      std::vector<std::string> known;
+      for (const StrandAttribute& other : strands.attributes()) known.push_back(other.name);
+      throw Error(ErrorKind::kInput, place_of(field, name),
+                  "the strands of " + part + " have no attribute " + quote(name) +
+                      (known.empty() ? "; they have none" : suggest(name, known)));
     }
     if (attribute->components > 4 || found.size() == kMaxFieldAttributes) {
-      throw Error(ErrorKind::kInput,
+      throw Error(ErrorKind::kInput, place_of(field, name),
                   part + ": its material reads too many attributes, or one of more than 4 components");
     }
     found.push_back(attribute);

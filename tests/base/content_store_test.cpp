@@ -235,6 +235,76 @@ TEST(ContentStore, OneComputesWhileTheOthersWait) {
   EXPECT_EQ(entries(folder.path()), 1u) << "no lock is left";
 }
 
+TEST(ContentStore, NeitherReadsNorWritesThroughALink) {
+  const TemporaryFolder folder;
+  const auto precious = folder.path() / "precious", elsewhere = folder.path() / "elsewhere";
+  const ContentStore store(folder.path() / "cache"), other(elsewhere);
+  Warnings warnings;
+  ASSERT_TRUE(store_texts(other, {"of another store"}, warnings));
+  std::filesystem::create_directory(store.folder());
+  // Of this very kind and key, so that a reader that follows would believe it.
+  std::filesystem::create_symlink(other.file("test", kKey), store.file("test", kKey));
+  EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+  EXPECT_FALSE(store.open_sections("test", kKey, warnings.sink()));
+  ASSERT_EQ(warnings.lines.size(), 2u);
+  EXPECT_NE(warnings.lines[0].find("symbolic link"), std::string::npos) << warnings.lines[0];
+
+  std::ofstream(precious) << "precious";
+  std::filesystem::remove(store.file("test", kKey));
+  std::filesystem::create_symlink(precious, store.file("test", kKey));
+  EXPECT_TRUE(store_texts(store, {"new"}, warnings));
+  EXPECT_EQ(read_file(precious), "precious");
+  const auto stored = store.open("test", kKey, warnings.sink());
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(text(stored->section(0)), "new");
+
+  // The age that counts is that of the link; nothing behind it goes.
+  std::filesystem::remove(store.file("test", kKey));
+  std::filesystem::create_symlink(precious, store.file("test", kKey));
+  store.prune(std::chrono::seconds(-1));
+  EXPECT_EQ(read_file(precious), "precious");
+}
+
+TEST(ContentStore, TheFolderMayBeALink) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "disk");
+  std::filesystem::create_symlink("disk", folder.path() / "cache");
+  const ContentStore store(folder.path() / "cache");
+  Warnings warnings;
+  EXPECT_TRUE(store_texts(store, {"text"}, warnings));
+  EXPECT_TRUE(store.open("test", kKey, warnings.sink()));
+  EXPECT_TRUE(warnings.lines.empty());
+}
+
+TEST(ContentStore, BelievesOtherUsersOnlyInFoldersThatAreSharedByName) {
+  const TemporaryFolder folder;
+  const ContentStore store(folder.path() / "farm" / "cache");
+  Warnings warnings;
+  ASSERT_TRUE(store_texts(store, {"by another"}, warnings));
+  if (::chown(store.file("test", kKey).c_str(), 12345, 12345) != 0)
+    GTEST_SKIP() << "only root can make a file of another user";
+  EXPECT_FALSE(store.open("test", kKey, warnings.sink()));
+  EXPECT_FALSE(store.open_sections("test", kKey, warnings.sink()));
+  ASSERT_EQ(warnings.lines.size(), 2u);
+  EXPECT_NE(warnings.lines[0].find("PELAGE_SHARED_CACHES"), std::string::npos) << warnings.lines[0];
+
+  const auto opens_with = [&](const std::string& shared) {
+    ::setenv("PELAGE_SHARED_CACHES", shared.c_str(), 1);
+    const bool opens = store.open("test", kKey, warnings.sink()).has_value();
+    ::unsetenv("PELAGE_SHARED_CACHES");
+    return opens;
+  };
+  EXPECT_TRUE(opens_with(store.folder()));
+  EXPECT_TRUE(opens_with("/nowhere:" + (folder.path() / "farm" / ".").string()));
+  EXPECT_FALSE(opens_with(""));
+  EXPECT_FALSE(opens_with(":"));
+  EXPECT_FALSE(opens_with(folder.path() / "far"));
+
+  // Its own, in place of the other's.
+  EXPECT_TRUE(store_texts(store, {"mine"}, warnings));
+  EXPECT_TRUE(store.open("test", kKey, warnings.sink()));
+}
+
 TEST(MappedFile, HoldsEveryByteAndRefusesWhatIsNoFile) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "f";

@@ -85,6 +85,84 @@ TEST(AtomicFile, FollowsLinksAndLeavesWhatIsNoFileAlone) {
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
+TEST(AtomicFile, FollowsALinkToAFileThatIsNotThereYet) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "disk");
+  std::filesystem::create_symlink("disk/one", folder.path() / "two");
+  std::filesystem::create_symlink(folder.path() / "two", folder.path() / "three");
+  {
+    AtomicFile file(folder.path() / "three");
+    file.write("text");
+    file.commit();
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "two"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "three"));
+  EXPECT_EQ(read_file(folder.path() / "disk" / "one"), "text");
+
+  std::filesystem::create_symlink("circle", folder.path() / "circle");
+  EXPECT_EQ(error_of([&] { AtomicFile(folder.path() / "circle"); }).kind(), ErrorKind::kFailed);
+}
+
+TEST(AtomicFile, ReplacesALinkWhereItIsToldTo) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "target", link = folder.path() / "link";
+  std::ofstream(target) << "precious";
+  std::filesystem::create_symlink(target, link);
+  AtomicFile file(link, Links::kReplace);
+  file.write("new");
+  file.commit();
+  EXPECT_FALSE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(read_file(link), "new");
+  EXPECT_EQ(read_file(target), "precious");
+}
+
+TEST(AtomicFile, KeepsTheModeOfWhatItReplaces) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "out.exr", link = folder.path() / "link";
+  std::filesystem::create_symlink(path, link);
+  for (const mode_t mode : {0640, 0600, 0444}) {
+    std::ofstream(path) << "old";
+    ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+    AtomicFile file(link);
+    file.write("new");
+    file.commit();
+    struct stat info {};
+    ASSERT_EQ(::stat(path.c_str(), &info), 0);
+    EXPECT_EQ(info.st_mode & 07777, mode);
+    std::filesystem::remove(path);
+  }
+}
+
+TEST(AtomicFile, NamesNearlyAsLongAsFileSystemsAllowAreWritten) {
+  const TemporaryFolder folder;
+  for (const std::string& name :
+       {std::string(255, 'a'), std::string(251, 'a') + ".exr", "a." + std::string(253, 'b')}) {
+    AtomicFile file(folder.path() / name);
+    file.write("text");
+    file.commit();
+    EXPECT_EQ(read_file(folder.path() / name), "text");
+  }
+}
+
+TEST(SameFile, BySpellingAndByLinkAndBeforeItIsThere) {
+  const TemporaryFolder folder;
+  const auto a = folder.path() / "a", b = folder.path() / "b", none = folder.path() / "none";
+  std::ofstream(a) << "a";
+  std::ofstream(b) << "b";
+  EXPECT_TRUE(same_file(a, folder.path() / "." / "a"));
+  EXPECT_FALSE(same_file(a, b));
+  EXPECT_FALSE(same_file(a, none));
+  std::filesystem::create_hard_link(a, folder.path() / "hard");
+  EXPECT_TRUE(same_file(a, folder.path() / "hard"));
+  std::filesystem::create_symlink("a", folder.path() / "soft");
+  EXPECT_TRUE(same_file(folder.path() / "soft", a));
+  std::filesystem::create_symlink("none", folder.path() / "to none");
+  EXPECT_TRUE(same_file(folder.path() / "to none", none));
+  EXPECT_TRUE(same_file(none, folder.path() / "x" / ".." / "none"));
+  EXPECT_TRUE(same_file("not there", "./not there"));
+  EXPECT_FALSE(same_file("not there", "not here"));
+}
+
 TEST(AtomicFile, AppearsWholeAtCommitAndReplacesWhatWasThere) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "new" / "folders" / "out.exr";

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/compare/comparison.h"
 #include "cli/compare/contact_sheet.h"
 #include "cli/compare/light_side.h"
 #include "cli/compare/single_fibre.h"
@@ -51,6 +52,65 @@ TEST(Compare, WritesASheetATableAndAReport) {
   EXPECT_EQ(json.at("runs").size(), 2u);
 }
 
+TEST(Compare, NoModelIsComparedWithItself) {
+  const auto frame = [](const char* model, double luminance) {
+    ComparedFrame f;
+    f.model = model;
+    f.light = "front";
+    f.cpu_s = 1;
+    f.luminance = luminance;
+    f.picture = {"", 8, 8, 3, std::vector<unsigned char>(192)};
+    return f;
+  };
+  const auto abstract = [&](std::vector<ComparedFrame> frames) {
+    Comparison comparison;
+    comparison.frames = std::move(frames);
+    return comparison_report(comparison, SceneDescription()).abstract;
+  };
+  EXPECT_EQ(abstract({frame("chiang", 1)}), "1 picture of 1 model.");
+  EXPECT_EQ(abstract({frame("chiang", 1), frame("yan", 0.5)}),
+            "2 pictures of 2 models. In light from the front the fur of yan is the darkest, 0.50 times as "
+            "bright as that of chiang; that of chiang is the brightest.");
+  EXPECT_EQ(abstract({frame("marschner", 2), frame("chiang", 1)}),
+            "2 pictures of 2 models. In light from the front the fur of chiang is the darkest; that of "
+            "marschner is the brightest, 2.00 times as bright as that of chiang.");
+  EXPECT_EQ(abstract({frame("yan", 1), frame("yan-fast", 2)}), "2 pictures of 2 models.");
+}
+
+TEST(ContactSheet, TitlesOfSmallPicturesDoNotOverlap) {
+  // Small pictures in two columns: what is drawn for the right one must not depend on the left one's titles.
+  const auto frame = [](const char* model, const char* light, int width) {
+    ComparedFrame f;
+    f.model = model;
+    f.light = light;
+    f.cpu_s = 123.4;
+    f.picture = {"", width, 8, 3, std::vector<unsigned char>(static_cast<size_t>(24 * width))};
+    return f;
+  };
+  for (const int width : {8, 64, 160, 400}) {
+    const Picture both =
+        contact_sheet({frame("lambert-cylinder", "front", width), frame("lambert-cylinder", "side", width)});
+    const Picture one = contact_sheet({frame("lambert-cylinder", "front", width)});
+    ASSERT_EQ(both.height, one.height);
+    ASSERT_LE(one.width, both.width);
+    // The first column, up to the gap behind it, is the same whether or not there is another.
+    for (int y = 0; y < one.height; ++y) {
+      const auto row = [&](const Picture& p) { return p.pixels.begin() + std::ptrdiff_t{3} * y * p.width; };
+      ASSERT_TRUE(std::equal(row(one), row(one) + 3 * (one.width - 6), row(both))) << width << ", row " << y;
+    }
+    // Name and figures stand apart: a gap of ground between them.
+    int longest_gap = 0, gap = 0;
+    for (int x = 8; x < one.width; ++x) {
+      bool ground = true;
+      for (int y = 36; y < 58; ++y)
+        ground &= one.pixels[static_cast<size_t>(3 * (y * one.width + x))] == one.pixels[0];
+      gap = ground ? gap + 1 : 0;
+      longest_gap = std::max(longest_gap, gap);
+    }
+    EXPECT_GE(longest_gap, 7) << width;
+  }
+}
+
 TEST(Compare, SaysWhatItNeeds) {
   const SmallScene scene;
   Options options = compare_options(scene);
@@ -78,8 +138,11 @@ TEST(LightSide, StandsWhereItSays) {
 
 TEST(SingleFibre, PhysicalModelsAreCloserToTracedLightThanOpaqueOnes) {
   const Workers workers(2);
-  const SingleFibre chiang = compare_single_fibre("chiang", ChiangParams{}, workers),
-                    opaque = compare_single_fibre("lambert-cylinder", LambertCylinderParams{}, workers);
+  MemoryLedger ledger;
+  NoProgress progress;
+  const Job job{workers, ledger, progress};
+  const SingleFibre chiang = compare_single_fibre("chiang", ChiangParams{}, job),
+                    opaque = compare_single_fibre("lambert-cylinder", LambertCylinderParams{}, job);
   EXPECT_LT(chiang.azimuth_distance(), 0.05);
   EXPECT_GT(opaque.azimuth_distance(), 0.5);
   EXPECT_NEAR(chiang.white_across, 1, 1e-3);

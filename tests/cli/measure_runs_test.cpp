@@ -11,6 +11,7 @@
 #include "cli/measure/machine.h"
 #include "cli/measure/picture_difference.h"
 #include "cli/measure/process.h"
+#include "cli/measure/spread.h"
 #include "cli/measure/variant.h"
 
 namespace pelage {
@@ -130,6 +131,21 @@ TEST_F(MeasureRuns, TheMedianRunCounts) {
   EXPECT_EQ(three.typical()->statistics->timeline().size(), 2u);
   EXPECT_EQ(three.typical()->statistics->json().find("timeline"), std::string::npos);
   EXPECT_NE(runs_json({three}).find("\"camera\":4"), std::string::npos);
+}
+
+TEST_F(MeasureRuns, RatiosHaveASpread) {
+  const auto runs = [&](const char* first, const char* second, const char* third) {
+    return outcome(std::string("case $stats in *.2.json) t=") + second + ";; *.3.json) t=" + third +
+                       ";; *) t=" + first + ";; esac\necho '{\"wall_s\": '$t', \"cpu_s\": '$t'}' > $stats",
+                   3);
+  };
+  const Outcome slow = runs("6", "9", "8"), fast = runs("2", "1", "4");
+  const RatioSpread ratio = ratio_of(slow, fast, "cpu_s");
+  EXPECT_EQ(ratio.typical, 4);
+  EXPECT_EQ(ratio.least, 1.5);
+  EXPECT_EQ(ratio.most, 9);
+  EXPECT_EQ(spread_text(ratio), "4.00 (1.50 to 9.00)");
+  EXPECT_EQ(spread_text({2, 2, 2}), "2.00");
 }
 
 TEST(PictureDifference, CountsPixelsOfWhichAnyBitDiffers) {

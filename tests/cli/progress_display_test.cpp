@@ -10,18 +10,20 @@
 namespace pelage {
 namespace {
 
+/// Writes and a clock that a test sets.
 struct Recorder {
   std::vector<std::string> writes;
+  double now_s = 1000;
   ProgressTarget target(int columns = 80, bool color = false) {
-    return {[this](std::string_view text) { writes.emplace_back(text); }, columns, color};
+    return {[this](std::string_view text) { writes.emplace_back(text); }, [this] { return now_s; }, columns,
+            color};
   }
 };
 
-// A stage long enough, in the eyes of the clock, for a few redraws.
-void run_stage(ProgressDisplay& display, int steps = 5) {
+void run_stage(ProgressDisplay& display, Recorder& recorder, int steps = 5, double step_s = 0.11) {
   display.begin("grow", steps);
   for (int i = 0; i < steps; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(110));
+    recorder.now_s += step_s;
     display.advance(1);
   }
   display.end();
@@ -29,33 +31,59 @@ void run_stage(ProgressDisplay& display, int steps = 5) {
 
 const auto kNever = [] { return false; };
 
-TEST(ProgressDisplay, PlainLinesRiseToAHundred) {
+TEST(ProgressDisplay, LinesComeNowAndThenAndAtTheEnd) {
   Recorder recorder;
   ProgressDisplay display(ProgressStyle::kPlain, recorder.target(), kNever);
-  run_stage(display);
-  ASSERT_GE(recorder.writes.size(), 2u);
-  EXPECT_EQ(recorder.writes[0].substr(0, 11), "grow: 20 %,");
-  int before = 0;
-  for (const std::string& line : recorder.writes) {
-    EXPECT_EQ(line.find('\n'), line.size() - 1);
-    const int percent = std::stoi(line.substr(6));
-    EXPECT_GE(percent, before);
-    before = percent;
-  }
-  EXPECT_EQ(before, 100);
+  run_stage(display, recorder, 100);  // 11 s
+  ASSERT_EQ(recorder.writes.size(), 2u);
+  EXPECT_EQ(recorder.writes[0], "grow: 91 %, 0:01 left\n");
+  EXPECT_EQ(recorder.writes[1], "grow: 100 %, 11.0 s\n");
+
+  recorder.writes.clear();
+  run_stage(display, recorder, 360, 1);
+  EXPECT_EQ(recorder.writes.size(), 13u);  // after 10 s, every 30 s to 340 s, and the end
+
+  recorder.writes.clear();
+  run_stage(display, recorder);
+  EXPECT_TRUE(recorder.writes.empty()) << "half a second is not worth a line: " << recorder.writes[0];
+}
+
+TEST(ProgressDisplay, LinesSayWhichFrameOfHowMany) {
+  Recorder recorder;
+  ProgressDisplay display(ProgressStyle::kPlain, recorder.target(), kNever);
+  display.frame(1001, 3, 48);
+  run_stage(display, recorder, 2, 1);
+  display.frame(7, 1, 1);
+  run_stage(display, recorder, 2, 1);
+  EXPECT_EQ(recorder.writes,
+            (std::vector<std::string>{"frame 3 of 48: number 1001\n", "frame 3 of 48, grow: 100 %, 2.0 s\n",
+                                      "grow: 100 %, 2.0 s\n"}));
+}
+
+TEST(ProgressDisplay, AStageGoesOnAfterOneWithinIt) {
+  Recorder recorder;
+  ProgressDisplay display(ProgressStyle::kPlain, recorder.target(), kNever);
+  display.begin("read", 4);
+  display.advance(1);
+  run_stage(display, recorder, 2, 1);
+  recorder.now_s += 5;
+  display.advance(1);
+  display.end();
+  EXPECT_EQ(recorder.writes, (std::vector<std::string>{"grow: 100 %, 2.0 s\n", "read: 50 %, 7.0 s\n"}));
 }
 
 TEST(ProgressDisplay, JsonLinesParse) {
   Recorder recorder;
   ProgressDisplay display(ProgressStyle::kJson, recorder.target(), kNever);
-  run_stage(display, 3);
+  run_stage(display, recorder, 3, 2);
   display.note("a \"note\" \xff");
   ASSERT_GE(recorder.writes.size(), 3u);
   const auto first = nlohmann::json::parse(recorder.writes.front());
   EXPECT_EQ(first.at("stage"), "grow");
   EXPECT_EQ(first.at("ended"), false);
   EXPECT_NEAR(first.at("done").get<double>(), 1.0 / 3, 1e-12);
-  EXPECT_GT(first.at("left_s").get<double>(), 0);
+  EXPECT_FALSE(first.contains("left_s")) << "nobody can tell after two seconds";
+  EXPECT_NEAR(nlohmann::json::parse(recorder.writes[1]).at("left_s").get<double>(), 2, 1e-6);
   const auto last = nlohmann::json::parse(recorder.writes[recorder.writes.size() - 2]);
   EXPECT_EQ(last.at("done"), 1.0);
   EXPECT_EQ(last.at("ended"), true);
@@ -66,7 +94,7 @@ TEST(ProgressDisplay, BarFitsTheTerminal) {
   for (const int columns : {20, 40, 60, 80, 200}) {
     Recorder recorder;
     ProgressDisplay display(ProgressStyle::kBar, recorder.target(columns), kNever);
-    run_stage(display, 2);
+    run_stage(display, recorder, 2);
     for (const std::string& redraw : recorder.writes) {
       ASSERT_EQ(redraw.substr(0, 4), "\r\x1b[K");
       EXPECT_LT(redraw.size() - 4, static_cast<size_t>(columns)) << redraw;
@@ -79,14 +107,14 @@ TEST(ProgressDisplay, BarFitsTheTerminal) {
 TEST(ProgressDisplay, ColourOnlyWhereWanted) {
   Recorder recorder;
   ProgressDisplay display(ProgressStyle::kBar, recorder.target(80, true), kNever);
-  run_stage(display, 2);
+  run_stage(display, recorder, 2);
   EXPECT_NE(recorder.writes.front().find("\x1b[32m"), std::string::npos);
 }
 
 TEST(ProgressDisplay, QuietSaysNothing) {
   Recorder recorder;
   ProgressDisplay display(ProgressStyle::kQuiet, recorder.target(), kNever);
-  run_stage(display, 2);
+  run_stage(display, recorder, 2);
   display.note("nothing");
   EXPECT_TRUE(recorder.writes.empty());
 }

@@ -44,6 +44,8 @@ TEST_F(RenderCommandTest, WritesLayersHeaderAndStatistics) {
     EXPECT_TRUE(image.attributes.contains(name)) << name;
   }
   EXPECT_EQ(std::get<int>(image.attributes.at("pelage:samples")), 4);
+  EXPECT_EQ(std::get<V2f>(image.attributes.at("pelage:shutter")), V2f(-0.25f, 0.25f));
+  EXPECT_FLOAT_EQ(std::get<float>(image.attributes.at("expTime")), 0.5f / 24);
 
   const auto stats = nlohmann::json::parse(read_file(*o.stats));
   EXPECT_EQ(stats["strands_described"], 400);
@@ -111,6 +113,42 @@ TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
                      {"grooms.coat.leaf_strands", "100000"}})
                 .find("the largest chunk (of walker.coat) needs"),
             std::string::npos);
+}
+
+TEST_F(RenderCommandTest, AttributesThatStrandsLackAreReportedWhereTheyAreNamed) {
+  scene_.write("colour.yaml", "include: scene.yaml\nmaterials:\n  fur: {color: {attribute: colour}}\n");
+  Options o = options("x.exr");
+  o.input = scene_.path("colour.yaml");
+  try {
+    run_render(o);
+    FAIL() << "rendered";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kInput);
+    const Problem& problem = error.problems().at(0);
+    EXPECT_EQ(to_string(problem.position), o.input + ":3:28");
+    EXPECT_NE(problem.message.find("no attribute 'colour'"), std::string::npos) << problem.message;
+  }
+}
+
+TEST_F(RenderCommandTest, AStrandFileOfAnUnknownKindIsReportedWhereItIsNamed) {
+  scene_.write("guides.abc", "x");
+  scene_.write("guides.yaml",
+               "include: scene.yaml\ngrooms:\n  coat: {operators: [{guides: {file: guides.abc}}]}\n");
+  scene_.write("file.yaml",
+               "include: scene.yaml\ngrooms:\n  more: {strands_file: guides.abc}\ncharacters:\n"
+               "  post: {parts: [{skin: still, material: hide, grooms: {more: fur}}]}\n");
+  for (const auto& [scene, place] : {std::pair("guides.yaml", ":3:38"), std::pair("file.yaml", ":3:24")}) {
+    Options o = options("x.exr");
+    o.input = scene_.path(scene);
+    try {
+      run_render(o);
+      ADD_FAILURE() << "rendered";
+    } catch (const Error& error) {
+      const Problem& problem = error.problems().at(0);
+      EXPECT_EQ(to_string(problem.position), o.input + place);
+      EXPECT_NE(problem.message.find(".hair or .tfx"), std::string::npos) << problem.message;
+    }
+  }
 }
 
 TEST_F(RenderCommandTest, PicturesAreExr) {

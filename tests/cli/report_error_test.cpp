@@ -13,6 +13,7 @@ TEST(ReportError, ExitCodesAreAContract) {
   EXPECT_EQ(exit_code(ErrorKind::kArguments), 2);
   EXPECT_EQ(exit_code(ErrorKind::kInput), 3);
   EXPECT_EQ(exit_code(ErrorKind::kMemory), 4);
+  EXPECT_EQ(exit_code(ErrorKind::kStopped), 130);
 }
 
 TEST(ReportError, ALineEach) {

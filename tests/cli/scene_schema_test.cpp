@@ -105,6 +105,34 @@ TEST_F(SceneSchema, UnknownNamesAreReported) {
             Lines{"s:8:3: groom 'loose' needs a skin to grow on, or a strands_file"});
 }
 
+TEST_F(SceneSchema, GroomsSayOnceHowManyStrandsTheyHave) {
+  EXPECT_EQ(problems(replaced("strands: 1000, ", "")),
+            Lines{"s:7:3: groom 'under' needs `strands` (how many) or `density` (how many per square unit)"});
+  EXPECT_EQ(problems(replaced("{strands_file: a.hair}", "{strands_file: a.hair, density: 5}")),
+            Lines{"s:8:3: groom 'loose' has its strands from a file: `strands` and `density` mean nothing"});
+}
+
+TEST_F(SceneSchema, NamesThatLayersOfAPictureCannotHoldAreRefused) {
+  const auto named = [&](const std::string& name) {
+    return problems(replaced("  key: {type", "  " + name + ": {type"));
+  };
+  const std::string longest(240, 'a');
+  EXPECT_EQ(named(longest), Lines{});
+  EXPECT_EQ(named(longest + "b"), Lines{"s:19:3: the name of light '" + longest.substr(0, 40) +
+                                        "...' has 241 bytes, at most 240 are accepted"});
+  EXPECT_EQ(named("\"key\\0a\""), Lines{"s:19:3: the name of light 'key?a' has a control character in it"});
+  EXPECT_EQ(problems(replaced("  loose: {", "  \"lo\\0se\": {")).front(),
+            "s:8:3: the name of groom 'lo?se' has a control character in it");
+}
+
+TEST_F(SceneSchema, KnowsTheFilesThatItWasReadFrom) {
+  std::ofstream(folder_.path() / "lights.yaml") << "lights: {fill: {type: sphere}}\n";
+  const SceneDescription scene =
+      load("include: lights.yaml\n" + std::string(kScene), {{"render.samples", "3"}});
+  EXPECT_EQ(scene.files,
+            (std::vector<std::filesystem::path>{folder_.path() / "lights.yaml", folder_.path() / "s.yaml"}));
+}
+
 TEST_F(SceneSchema, MaterialsMustFitWhatTheyAreOn) {
   EXPECT_EQ(problems(replaced("material: hide, grooms: {under: fur", "material: fur, grooms: {under: hide")),
             (Lines{"s:15:31: 'fur' is a material for strands, not for skins",

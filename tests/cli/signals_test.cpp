@@ -8,14 +8,33 @@ namespace pelage {
 namespace {
 
 TEST(Signals, TheFirstRaisesAFlag) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const SignalGuard guard;
     EXPECT_FALSE(SignalGuard::interrupted());
     ::raise(signal);
     EXPECT_TRUE(SignalGuard::interrupted());
+    EXPECT_EQ(SignalGuard::exit_code(), 128 + signal);
   }
   const SignalGuard fresh;
   EXPECT_FALSE(SignalGuard::interrupted());
+  EXPECT_EQ(SignalGuard::exit_code(), 130);
+}
+
+TEST(Signals, TheFirstOfSeveralIsTheReason) {
+  const SignalGuard guard;
+  ::raise(SIGTERM);
+  ::raise(SIGTERM);  // sent to a process and to its group
+  EXPECT_EQ(SignalGuard::exit_code(), 143);
+}
+
+TEST(Signals, IgnoredOnesStayIgnored) {
+  ::signal(SIGHUP, SIG_IGN);
+  {
+    const SignalGuard guard;
+    ::raise(SIGHUP);
+    EXPECT_FALSE(SignalGuard::interrupted());
+  }
+  EXPECT_EQ(::signal(SIGHUP, SIG_DFL), SIG_IGN);
 }
 
 TEST(Signals, OldHandlersComeBack) {

@@ -2,10 +2,12 @@
 #include "image/exr.h"
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -55,6 +57,56 @@ std::string message_of(const std::filesystem::path& path) {
   }
   ADD_FAILURE() << "no error";
   return {};
+}
+
+TEST(Exr, ChannelsThatAFileWouldMixAreRefused) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& first, const std::string& second) -> std::string {
+    ExrImage image = example(2, 2);
+    image.channels[0].name = first;
+    image.channels[1].name = second;
+    try {
+      write_exr(folder.path() / "a.exr", image);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+      EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(refusal("key.R", "key.R").find("channel 'key.R' is there twice"), std::string::npos);
+  EXPECT_NE(refusal(std::string("key\0a", 5), std::string("key\0b", 5)).find("zero byte"), std::string::npos);
+  EXPECT_NE(refusal(std::string(256, 'a'), "b").find("255 bytes"), std::string::npos);
+  EXPECT_NE(refusal("", "b").find("no name"), std::string::npos);
+  EXPECT_EQ(refusal(std::string(255, 'a'), std::string(254, 'a')), "");
+  const ExrImage back = read_exr(folder.path() / "a.exr");
+  EXPECT_TRUE(back.find(std::string(255, 'a')) && back.find(std::string(254, 'a')));
+}
+
+TEST(Exr, AFileThatMayNotGrowIsAFailureWhereverItEnds) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.exr";
+  const ExrImage image = example(20, 40);
+  write_exr(path, image);
+  const std::string before = read_file(path);
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old), 0);
+  std::vector<size_t> written;
+  for (size_t size = 0; size < before.size(); size += size < 64 || size + 64 > before.size() ? 1 : 61) {
+    const rlimit cut{size, old.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &cut);
+    try {
+      write_exr(path, image);
+      written.push_back(size);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+    }
+    ::setrlimit(RLIMIT_FSIZE, &old);
+  }
+  ::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_TRUE(written.empty()) << written.front();
+  EXPECT_EQ(read_file(path), before);
 }
 
 TEST(Exr, ComesBackBitForBit) {

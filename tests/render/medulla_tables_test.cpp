@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/fibre/medulla_tables.h"
 
+#include <atomic>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/temporary_folder.h"
 
 namespace pelage {
@@ -41,12 +44,55 @@ TEST(MedullaTables, AreDistributions) {
   }
 }
 
+/// Keeps warnings, and asks to stop once it has been asked so many times.
+class Watcher final : public Progress {
+ public:
+  explicit Watcher(int patience = std::numeric_limits<int>::max()) : left_(patience) {}
+  void begin(std::string_view, double total) override { expected += total; }
+  void advance(double amount) override { done.fetch_add(amount); }
+  void end() override {}
+  void warn(std::string_view line) override { warnings.emplace_back(line); }
+  bool cancelled() const override { return left_.fetch_sub(1) <= 0; }
+
+  double expected = 0;
+  std::atomic<double> done{0};
+  std::vector<std::string> warnings;
+
+ private:
+  mutable std::atomic<int> left_;
+};
+
+TEST(MedullaTables, ShowHowFarTheyAreAndStopInTheMiddle) {
+  const Workers workers(2);
+  MemoryLedger ledger;
+  Watcher patient;
+  MedullaTables::make(YanOptics{}, Job{workers, ledger, patient}, kFew);
+  EXPECT_GT(patient.expected, 100);
+  EXPECT_EQ(patient.done, patient.expected);
+
+  // Asked within the paths of one node, not only between nodes.
+  const TemporaryFolder folder;
+  Watcher hasty(10);
+  try {
+    MedullaTables::find_or_make(YanOptics{}, ContentStore(folder.path()), Job{workers, ledger, hasty});
+    FAIL() << "made";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kStopped);
+  }
+  EXPECT_EQ(hasty.done, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST(MedullaTables, AreKeptAndADamagedFileIsMadeAnew) {
   const TemporaryFolder folder;
   const ContentStore store(folder.path());
-  std::vector<std::string> warnings;
-  const WarningSink warn = [&](const std::string& line) { warnings.push_back(line); };
-  const auto get = [&] { return MedullaTables::find_or_make(YanOptics{}, store, Workers(2), warn, kFew); };
+  const Workers workers(2);
+  MemoryLedger ledger;
+  Watcher progress;
+  const std::vector<std::string>& warnings = progress.warnings;
+  const auto get = [&] {
+    return MedullaTables::find_or_make(YanOptics{}, store, Job{workers, ledger, progress}, kFew);
+  };
   const auto made = get();
   std::filesystem::path file;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {

@@ -114,6 +114,30 @@ class Impatient final : public Progress {
   std::atomic<double> done_{0};
 };
 
+/// Asks to stop when it has been asked so many times since rendering began.
+class Restless final : public Progress {
+ public:
+  void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }
+  void advance(double) override {}
+  void end() override {}
+  bool cancelled() const override { return rendering_ && left_.fetch_sub(1) <= 0; }
+
+ private:
+  std::atomic<bool> rendering_{false};
+  mutable std::atomic<int> left_{10000};
+};
+
+TEST(PathIntegrator, NoSingleTileKeepsItFromStopping) {
+  BusyScene scene;
+  scene.image.width = scene.image.height = 4;
+  scene.render.samples = 1 << 30;  // days
+  Restless progress;
+  const FrameResult partial = scene.run({}, 1, progress);
+  EXPECT_TRUE(partial.partial);
+  EXPECT_GT(partial.samples, 0u);
+  EXPECT_LT(partial.mean_samples, 1 << 20);
+}
+
 TEST(PathIntegrator, AnInterruptedPictureIsAValidOneOfFewerSamples) {
   BusyScene scene;
   const int pixels = scene.image.width * scene.image.height;

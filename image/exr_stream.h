@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <exception>
+
+#include <OpenEXR/ImfIO.h>
+
+#include "base/file.h"
+
+// For the sources of image/ alone.
+
+namespace pelage {
+
+/// Lets OpenEXR write into an AtomicFile without a buffer between, and remembers a failure: the library
+/// writes its table of rows in a destructor, which swallows exceptions.
+class ExrStream final : public Imf::OStream {
+ public:
+  explicit ExrStream(AtomicFile& file) : OStream(file.temporary_path().c_str()), file_(file) {}
+
+  void write(const char bytes[], int count) override;
+  uint64_t tellp() override { return place_; }
+  void seekp(uint64_t place) override { place_ = place; }
+
+  /// Throws what the first failed write threw.
+  void check() const;
+
+ private:
+  AtomicFile& file_;
+  uint64_t place_ = 0;
+  std::exception_ptr failure_;
+};
+
+}  // namespace pelage
