@@ -11,8 +11,8 @@ namespace pelage {
 /// Who owns a piece of memory. The names are those of `memory_bytes` in the statistics.
 enum class MemoryTag {
   kChunks,  ///< grown strands and the trees over them
-  kSkins,   ///< cages, refined control points, tessellations
-  kGrooms,  ///< follicles, guides, clump centres
+  kSkins,   ///< cages, refined control points, tessellations, crowds
+  kGrooms,  ///< follicles, guides, clump centres, places of imported strands
   kOperatorCache,
   kReflectionCache,
   kFilm,
@@ -28,7 +28,8 @@ class MemoryLedger {
   void charge(MemoryTag tag, int64_t bytes);
   int64_t current(MemoryTag tag) const;
   int64_t peak(MemoryTag tag) const;
-  /// Whether `render.memory` covers a tag: all but the libraries (law 5).
+  /// Whether `render.memory` covers a tag: it covers all that is held of a scene and all that making it takes
+  /// for a moment, but neither the libraries nor the program itself (law 5).
   static bool is_budgeted(MemoryTag tag);
   /// Bytes in use of what `render.memory` covers.
   int64_t budgeted() const;

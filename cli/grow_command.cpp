@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <iostream>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
@@ -25,31 +27,47 @@ struct Growth {
   std::vector<Strands> leaves;
   double seconds = 0;
   size_t strands = 0, points = 0, bytes = 0;
+  MemoryCharge charge;
 };
 
-// All leaves of one coat, grown in parallel.
-Growth grow(const FurPart& part, Run& run) {
+int64_t bytes_of(const StrandCounts& n) {
+  const size_t floats = n.points * n.motion_keys * 4 + n.attribute_floats;
+  return static_cast<int64_t>(floats * sizeof(float) + n.strands * (sizeof(uint64_t) + sizeof(uint32_t) +
+                                                                    sizeof(RootAddress) + sizeof(V2f)));
+}
+
+// All leaves of one coat, grown in parallel; kept only to be written, which holds them twice.
+Growth grow(const FurPart& part, bool keep, Run& run) {
   std::vector<std::unique_ptr<Procedural>> leaves;
   for (const auto& procedural : part.procedurals) {
     for (auto& leaf : procedural->split()) leaves.push_back(std::move(leaf));
   }
   Growth growth;
+  if (keep) {
+    int64_t bytes = 0;
+    for (const auto& leaf : leaves) bytes += 2 * bytes_of(leaf->counts());
+    growth.charge =
+        reserve(run.ledger(), MemoryTag::kChunks, bytes, part.name + ": its strands, to be written");
+  }
   growth.leaves.resize(leaves.size());
+  std::atomic<size_t> strands = 0, points = 0, bytes = 0;
   const double began = run.seconds();
   run.display().begin("grow " + part.name, static_cast<double>(leaves.size()));
   run.workers().for_each(leaves.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end && !run.display().cancelled(); ++i) {
-      growth.leaves[i] = leaves[i]->generate();
+      Strands leaf = leaves[i]->generate();
+      strands += leaf.strand_count();
+      points += leaf.point_count();
+      bytes += leaf.bytes();
+      if (keep) growth.leaves[i] = std::move(leaf);
       run.display().advance(1);
     }
   });
   run.display().end();
   growth.seconds = run.seconds() - began;
-  for (const Strands& strands : growth.leaves) {
-    growth.strands += strands.strand_count();
-    growth.points += strands.point_count();
-    growth.bytes += strands.bytes();
-  }
+  growth.strands = strands;
+  growth.points = points;
+  growth.bytes = bytes;
   return growth;
 }
 
@@ -170,6 +188,7 @@ int run_grow(const Options& options) {
   run.statistics().characters_in_frame = world.characters_in_frame;
 
   std::vector<Strands> grown;
+  std::vector<MemoryCharge> charges;
   std::set<std::string> seen;
   for (const FurPart& part : world.scene.fur) {
     const std::string groom = groom_of(part);
@@ -177,13 +196,14 @@ int run_grow(const Options& options) {
     // Without a file to write, it is enough to see each coat once, not on every animal of a crowd.
     if (options.output.empty() && (assets->grooms.at(groom)->cache_report() || !seen.insert(groom).second))
       continue;
-    Growth growth = grow(part, run);
+    Growth growth = grow(part, !options.output.empty(), run);
     if (run.display().cancelled()) return SignalGuard::exit_code();
     report(part.name, growth, run.workers().thread_count());
     run.statistics().strands_generated += static_cast<int64_t>(growth.strands);
     run.statistics().chunks += static_cast<int64_t>(growth.leaves.size());
     run.statistics().expansions += static_cast<int64_t>(growth.leaves.size());
     run.statistics().stages_s["grow"] += growth.seconds;
+    charges.push_back(std::move(growth.charge));
     if (!options.output.empty())
       std::move(growth.leaves.begin(), growth.leaves.end(), std::back_inserter(grown));
   }

@@ -47,6 +47,7 @@ class FrozenCoat {
 
 /// A coat on its way through the frozen operators.
 struct FrozenGrowth {
+  const std::string& owner;  ///< for messages: "groom 'coat'"
   const CoatSource& source;
   OperatorStack& stack;
   const GroomIdentity& identity;
@@ -59,12 +60,15 @@ struct FrozenGrowth {
   struct Result {
     std::vector<std::vector<std::byte>> leaves;
     std::vector<StrandReach> reaches;
-    size_t resumed = 0;  ///< operators whose result stood in the store
+    size_t resumed = 0;   ///< operators whose result stood in the store
+    MemoryCharge charge;  ///< of the leaves
   };
   /// Grows all leaves, from the last operator on whose result the store has, and stores the state behind each
   /// operator that runs, but the last. Prepares the operators that it needs. Throws what they throw, and
-  /// Error (kStopped) when `progress` was cancelled: then nothing is stored.
+  /// Error (kMemory) once the first leaves tell that all of them will not fit, Error (kStopped): then nothing
+  /// is stored.
   Result run(const PrepareContext& context, int leaf_strands) const;
+  void charge_grown(size_t done, Result& result) const;
   /// Whether growth can go on from a layer; then `reaches` are those behind its operator.
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;
 };

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/parallel.h"
+#include "base/memory_budget.h"
 #include "groom/frozen_coat.h"
 #include "groom/frozen_leaf_writer.h"
 #include "groom/strand_layer.h"
@@ -101,6 +101,17 @@ bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& re
   return true;
 }
 
+/// Charges the first `done` leaves; those that are there tell about how much all of them will take.
+void FrozenGrowth::charge_grown(size_t done, Result& result) const {
+  int64_t bytes = 0;
+  for (size_t leaf = 0; leaf < done; ++leaf) bytes += static_cast<int64_t>(result.leaves[leaf].capacity());
+  result.charge = {};
+  const double share = static_cast<double>(done) / static_cast<double>(result.leaves.size());
+  require_room(job.ledger, static_cast<int64_t>(static_cast<double>(bytes) / share),
+               owner + ": growing what its cache keeps");
+  result.charge = MemoryCharge(job.ledger, MemoryTag::kOperatorCache, bytes);
+}
+
 FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_strands) const {
   const size_t leaf_count = source.follicles().leaves().size();
   const auto key = [&](size_t i) { return in_leaves(identity.of_operator(i).hash, leaf_strands); };
@@ -140,6 +151,7 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
         job.progress.advance(1);
       }
     });
+    charge_grown(first + count, result);
     for (const auto& of_leaf : layers) {
       for (size_t i = 0; i < writers.size(); ++i) writers[i]->add(std::span<const std::byte>(of_leaf[i]));
     }

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
 #include "base/job.h"
+#include "base/memory_budget.h"
 #include "groom/groom_impl.h"
 #include "groom/width.h"
 
@@ -113,6 +116,9 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .add(params.cache ? params.cache->freeze.name : std::string())
                    .digest();
 
+  const int most_points = impl->source.imported ? impl->source.imported->most_points() : params.points;
+  require_room(job.ledger, StrandBatch::bytes(most_points, stack.colors().has_value()),
+               fmt::format("{}: growing strands of {} points", context.owner, most_points));
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {

@@ -86,13 +86,15 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
       store_follicles(*store, follicle_key, source.grown, cannot_store);
     }
     if (!frozen) {
-      const FrozenGrowth growth{source, *stack, identity, frozen_end, *store, warn, cannot_store, job};
+      const FrozenGrowth growth{context.owner, source, *stack,       identity, frozen_end,
+                                *store,        warn,   cannot_store, job};
       FrozenGrowth::Result grown = growth.run(context, params.leaf_size());
       report->resumed = grown.resumed;
       if (before) remove_old_layers(*store, *before, now, params.leaf_size());
       report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
       // Read back, so that what is in memory may go.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
+      grown.charge = {};
       if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), job.ledger);
     }
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Imath/ImathBoxAlgo.h>
 
@@ -213,11 +212,8 @@ StrandCounts Groom::counts(size_t leaf, size_t count) const {
       counts.points += points;
       counts.segments += segment_count(source.imported->basis(), points);
     }
-    std::vector<uint32_t> follicles(range.end - range.begin);
-    std::iota(follicles.begin(), follicles.end(), range.begin);
-    for (const StrandAttribute& a : source.imported->attributes(follicles, colors ? "color" : "")) {
-      counts.attribute_floats += a.values.size();
-    }
+    counts.attribute_floats =
+        source.imported->attribute_floats(range.begin, range.end, colors ? "color" : "");
   } else {
     counts.points = counts.strands * static_cast<size_t>(source.points);
     counts.segments = counts.strands * static_cast<size_t>(source.points - 1);

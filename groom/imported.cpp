@@ -2,20 +2,16 @@
 #include "groom/imported.h"
 
 #include <algorithm>
-#include <optional>
+#include <numbers>
+
+#include <fmt/format.h>
 
 #include "base/job.h"
+#include "base/memory_budget.h"
 #include "groom/named_strands.h"
 #include "groom/skin_binding.h"
 
 namespace pelage {
-namespace {
-
-StrandFile read_file_of(const GroomParams& params) {
-  return read_named_strands(params.strands_file, {params.basis, params.default_width});
-}
-
-}  // namespace
 
 bool ImportedStrands::bind(const GroomParams& params, const LimitSurface& rest, const Job& job,
                            std::vector<V3f>& positions, std::vector<RootAddress>& roots) const {
@@ -53,26 +49,63 @@ bool ImportedStrands::bind(const GroomParams& params, const LimitSurface& rest, 
 
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
-    : file_(read_file_of(params)) {
-  const Strands& strands = file_.strands;
-  const size_t count = strands.strand_count();
-  std::vector<RootAddress> roots(count);
-  std::vector<V3f> positions(count);
-  for (size_t i = 0; i < count; ++i) positions[i] = strands.point(strands.first_point(i));
-  free_ = !rest || !bind(params, *rest, job, positions, roots);
+    : reader_(where_named(params.strands_file, [&] {
+        return StrandReader(params.strands_file.path, {params.basis, params.default_width});
+      })) {
+  // Of each strand: first point, root and id in the order of the file; then what is kept, in the order of
+  // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand.
+  // Where the skin may hold them, also the nearest place on it and how far that is.
+  constexpr size_t kMaking = sizeof(V3f) + sizeof(RootAddress) + sizeof(uint32_t);
+  constexpr size_t kKept = sizeof(RootAddress) + 4 * sizeof(uint32_t);
+  constexpr size_t kBinding = sizeof(V3f) + sizeof(RootAddress) + sizeof(float);
+  const size_t of_strand = kMaking + kKept + std::max(rest ? kBinding : 0, sizeof(V3f));
+  const size_t claimed = reader_.strands_in_file();
+  const MemoryCharge making =
+      reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * of_strand),
+              fmt::format("{}: the roots of the {} strands of {}", owner, claimed,
+                          params.strands_file.path.string()));
+  std::vector<V3f> positions;
   std::vector<uint32_t> ids;
-  for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
+  positions.reserve(claimed);
+  ids.reserve(claimed);
+  where_named(params.strands_file, [&] {
+    reader_.scan(job, [&](size_t, const Strands& strands) {
+      for (size_t s = 0; s < strands.strand_count(); ++s) {
+        positions.push_back(strands.point(strands.first_point(s)));
+        ids.push_back(static_cast<uint32_t>(strands.id(s)));
+      }
+    });
+  });
+  const size_t count = positions.size();
+  std::vector<RootAddress> roots(count);
+  free_ = !rest || !bind(params, *rest, job, positions, roots);
   follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);
+  roots = {};
+  ids = {};
+  if (free_) {
+    free_roots_.reserve(count);
+    for (const uint32_t place : place_) free_roots_.push_back(positions[place]);
+  }
+  find_reach(positions, job);
+}
 
-  for (const FollicleTree::Leaf& leaf : follicles_.leaves()) {
-    StrandReach reach{0, 0, 0, std::numbers::pi_v<float>, 1};
-    for (uint32_t f = leaf.begin; f < leaf.end; ++f) {
-      const size_t place = place_[f];
-      const V3f& root = positions[place];
-      V3f previous = strands.point(strands.first_point(place));
+/// `roots`: of all strands, by their numbers. Reads the file from its beginning to its end once more, which
+/// costs less than to look for the strands of each leaf.
+void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job) {
+  std::vector<uint32_t> leaf_of(roots.size());
+  for (uint32_t leaf = 0; leaf < follicles_.leaves().size(); ++leaf) {
+    const FollicleTree::Leaf& range = follicles_.leaves()[leaf];
+    for (uint32_t f = range.begin; f < range.end; ++f) leaf_of[place_[f]] = leaf;
+  }
+  reach_.assign(follicles_.leaves().size(), {0, 0, 0, std::numbers::pi_v<float>, 1});
+  reader_.read_all(job, [&](size_t first, const Strands& strands) {
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      StrandReach& reach = reach_[leaf_of[first + s]];
+      const V3f& root = roots[first + s];
+      V3f previous = strands.point(strands.first_point(s));
       float arc = (previous - root).length();
-      for (uint32_t p = 0; p < strands.strand_points(place); ++p) {
-        const size_t index = strands.first_point(place) + p;
+      for (uint32_t p = 0; p < strands.strand_points(s); ++p) {
+        const size_t index = strands.first_point(s) + p;
         const V3f point = strands.point(index);
         arc += (point - previous).length();
         previous = point;
@@ -80,10 +113,14 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
         reach.radius = std::max(reach.radius, strands.radius(index));
       }
       reach.length = std::max(reach.length, arc);
-      reach.segments = std::max(reach.segments, static_cast<int>(strands.strand_points(place)) - 1);
+      reach.segments = std::max(reach.segments, static_cast<int>(strands.strand_points(s)) - 1);
     }
-    reach_.push_back(reach);
-  }
+  });
+}
+
+/// Of follicles of one leaf.
+Strands ImportedStrands::read(size_t begin, size_t end) const {
+  return reader_.read(std::span(place_).subspan(begin, end - begin));
 }
 
 size_t ImportedStrands::run_length(size_t begin, size_t end) const {
@@ -103,12 +140,12 @@ void ImportedStrands::place_free(StrandBatch& batch, size_t begin) const {
 }
 
 void ImportedStrands::start(StrandBatch& batch, size_t begin) const {
-  const Strands& strands = file_.strands;
+  const Strands strands = read(begin, begin + batch.count);
   start_strands(batch, strand_points(begin));
   for (int p = 0; p < batch.point_count(); ++p) {
     StrandRow& radius = batch.points[static_cast<size_t>(p)].radius;
     for (size_t s = 0; s < batch.count; ++s) {
-      const size_t index = strands.first_point(place_[begin + s]) + static_cast<size_t>(p);
+      const size_t index = strands.first_point(s) + static_cast<size_t>(p);
       batch.set_offset(p, s, strands.point(index) - vector_at(batch.rest.position, s));
       radius[s] = strands.radius(index);
     }
@@ -117,29 +154,45 @@ void ImportedStrands::start(StrandBatch& batch, size_t begin) const {
 
 std::vector<StrandAttribute> ImportedStrands::attributes(std::span<const uint32_t> follicles,
                                                          std::string_view except) const {
-  const Strands& strands = file_.strands;
   std::vector<StrandAttribute> result;
-  for (const StrandAttribute& from : strands.attributes()) {
-    if (from.name == except) continue;
-    StrandAttribute to{from.name, from.frequency, from.components, {}};
-    const auto width = static_cast<size_t>(from.components);
-    const auto copy = [&](size_t first, size_t count) {
-      const auto at = from.values.begin() + static_cast<std::ptrdiff_t>(first * width);
-      to.values.insert(to.values.end(), at, at + static_cast<std::ptrdiff_t>(count * width));
-    };
-    if (from.frequency == AttributeClass::kConstant) {
-      to.values = from.values;
-    } else {
-      for (const uint32_t follicle : follicles) {
-        const size_t place = place_[follicle];
-        if (from.frequency == AttributeClass::kPerStrand) copy(place, 1);
-        if (from.frequency == AttributeClass::kPerPoint)
-          copy(strands.first_point(place), strands.strand_points(place));
-      }
+  bool varies = false;
+  for (const StrandAttribute& attribute : reader_.attributes()) {
+    if (attribute.name == except) continue;
+    result.push_back(attribute);
+    varies |= attribute.frequency != AttributeClass::kConstant;
+  }
+  // A few strands at a time: their points are read along with them.
+  std::vector<uint32_t> places;
+  for (size_t begin = 0; varies && begin < follicles.size(); begin += kBlockStrands) {
+    places.clear();
+    for (const uint32_t f : follicles.subspan(begin, std::min(kBlockStrands, follicles.size() - begin)))
+      places.push_back(place_[f]);
+    const Strands strands = reader_.read(places);
+    for (StrandAttribute& to : result) {
+      if (to.frequency == AttributeClass::kConstant) continue;
+      const std::vector<float>& from = strands.find_attribute(to.name)->values;
+      to.values.insert(to.values.end(), from.begin(), from.end());
     }
-    result.push_back(std::move(to));
   }
   return result;
+}
+
+size_t ImportedStrands::attribute_floats(size_t begin, size_t end, std::string_view except) const {
+  size_t points = 0, floats = 0;
+  for (size_t f = begin; f < end; ++f) points += static_cast<size_t>(strand_points(f));
+  for (const StrandAttribute& attribute : reader_.attributes()) {
+    if (attribute.name == except) continue;
+    floats += static_cast<size_t>(attribute.components) *
+              (attribute.frequency == AttributeClass::kConstant    ? 1
+               : attribute.frequency == AttributeClass::kPerStrand ? end - begin
+                                                                   : points);
+  }
+  return floats;
+}
+
+size_t ImportedStrands::bytes() const {
+  return reader_.bytes() + follicles_.bytes() + place_.capacity() * sizeof(uint32_t) +
+         free_roots_.capacity() * sizeof(V3f) + reach_.capacity() * sizeof(StrandReach);
 }
 
 }  // namespace pelage

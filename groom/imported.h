@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/content_store.h"
-#include "geom/io/strand_file.h"
+#include "geom/io/strand_reader.h"
 #include "groom/follicles.h"
 #include "groom/groom_params.h"
 #include "groom/operator.h"
@@ -11,22 +10,24 @@
 namespace pelage {
 
 /// The strands of a file as the start of a groom: each is bound to the nearest place of the rest skin, or
-/// stands free. Immutable. Thread safety: const members may be called from any thread.
+/// stands free. The strands stay in the file; only where they are is held. Immutable. Thread safety: const
+/// members may be called from any thread.
 class ImportedStrands {
  public:
-  /// Throws Error (kInput) when the file cannot be read. `rest` may be null.
-  /// The job's progress is warned of strands that are too far from the skin to follow it.
+  /// Throws Error (kInput) when the file cannot be read, Error (kMemory) before it is, Error (kStopped).
+  /// `rest` may be null; `owner` is for messages. The job's
+  /// progress is warned of strands that are too far from the skin to follow it.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 
   const FollicleTree& follicles() const { return follicles_; }
   /// Whether the strands follow no skin.
   bool stands_free() const { return free_; }
-  CurveBasis basis() const { return file_.strands.basis(); }
-  const StrandRepairs& repairs() const { return file_.repairs; }
-  int strand_points(size_t follicle) const {
-    return static_cast<int>(file_.strands.strand_points(place_[follicle]));
-  }
+  CurveBasis basis() const { return reader_.basis(); }
+  const StrandRepairs& repairs() const { return reader_.repairs(); }
+  int strand_points(size_t follicle) const { return static_cast<int>(reader_.points(place_[follicle])); }
+
+  int most_points() const { return static_cast<int>(reader_.most_points()); }
 
   /// How many of the follicles from `begin`, at most to `end`, can share a batch: as many as have equally
   /// many points.
@@ -37,15 +38,13 @@ class ImportedStrands {
   void start(StrandBatch& batch, size_t begin) const;
   /// What holds of the strands [begin, end).
   const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
-  /// Where the strand of a follicle begins, in the space of the file.
-  V3f first_point(size_t follicle) const {
-    return file_.strands.point(file_.strands.first_point(place_[follicle]));
-  }
+  /// Where the strand of a follicle begins that stands free, in the space of the file.
+  const V3f& first_point(size_t follicle) const { return free_roots_[follicle]; }
   /// Attributes of the file for some follicles, all but `except`.
   std::vector<StrandAttribute> attributes(std::span<const uint32_t> follicles, std::string_view except) const;
-  size_t bytes() const {
-    return file_.strands.bytes() + follicles_.bytes() + place_.capacity() * sizeof(uint32_t);
-  }
+  /// How many floats those of the follicles [begin, end) have.
+  size_t attribute_floats(size_t begin, size_t end, std::string_view except) const;
+  size_t bytes() const;
 
  private:
   /// Finds the place on the skin of every strand that begins at `positions`, and moves these there. False,
@@ -53,10 +52,14 @@ class ImportedStrands {
   bool bind(const GroomParams& params, const LimitSurface& rest, const Job& job, std::vector<V3f>& positions,
             std::vector<RootAddress>& roots) const;
 
-  StrandFile file_;
+  void find_reach(std::span<const V3f> roots, const Job& job);
+  Strands read(size_t begin, size_t end) const;
+
+  StrandReader reader_;
   bool free_ = true;
   FollicleTree follicles_;
-  std::vector<uint32_t> place_;     // in the file's strands, of each follicle
+  std::vector<uint32_t> place_;     // number of the strand of each follicle; ascends within a leaf
+  std::vector<V3f> free_roots_;     // of strands that stand free
   std::vector<StrandReach> reach_;  // per leaf
 };
 

@@ -4,23 +4,22 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
-
 namespace pelage {
 
-StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options) {
-  try {
-    return read_strands(file.path, options);
-  } catch (const Error& error) {
-    if (file.position.file.empty()) throw;
-    std::vector<Problem> problems = error.problems();
+void throw_where_named(const Error& error, const AssetPath& file) {
+  std::vector<Problem> problems = error.problems();
+  if (!file.position.file.empty()) {
     for (Problem& problem : problems) {
       const std::string in = to_string(problem.position);
       problem.message = in.empty() ? problem.message : in + ": " + problem.message;
       problem.position = file.position;
     }
-    throw Error(error.kind(), std::move(problems));
   }
+  throw Error(error.kind(), std::move(problems));
+}
+
+StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options) {
+  return where_named(file, [&] { return read_strands(file.path, options); });
 }
 
 }  // namespace pelage

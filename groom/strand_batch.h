@@ -63,6 +63,11 @@ struct StrandBatch {
   float scale = 1;     ///< of the character: what a scene unit of an operator measures here
   bool posed = false;  ///< whether the batch's space is that of a pose
 
+  /// What a batch of strands of so many points takes.
+  static int64_t bytes(int points, bool colored) {
+    return static_cast<int64_t>(sizeof(StrandBatch)) +
+           static_cast<int64_t>(sizeof(PointRows) + (colored ? sizeof(VectorRow) : 0)) * points;
+  }
   int point_count() const { return static_cast<int>(points.size()); }
   int segment_count() const { return point_count() - 1; }
   V3f offset(int point, size_t strand) const {

@@ -84,8 +84,10 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key(
         "memory", &RenderParams::memory,
-        {.help = "Limit for strands, trees, skins, textures, caches and film together: what is over it is dropped "
-                 "and grown or read again when needed; less than the largest chunk takes is an error"});
+        {.help = "Limit for all that is held of a scene and all that making it takes for a moment (strands, "
+                 "trees, skins, grooms, crowds, caches, textures and film together), but for the program and "
+                 "its libraries. What can be made again is dropped when room is needed; what does not fit is "
+                 "refused by name before it is made"});
     s.key("bvh", &RenderParams::bvh, {.help = "Trees that are kept between runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "

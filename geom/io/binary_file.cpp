@@ -2,7 +2,11 @@
 #include "geom/io/binary_file.h"
 
 #include <bit>
+#include <cerrno>
 #include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "base/error.h"
 
@@ -15,9 +19,9 @@ BinaryFile::BinaryFile(const std::filesystem::path& path) : path_(path) {
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) fail("there is no such file");
   if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
-  stream_.open(path, std::ios::binary);
+  descriptor_.number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   size_ = std::filesystem::file_size(path, error);
-  if (!stream_ || error) fail("cannot be opened");
+  if (descriptor_.number < 0 || error) fail("cannot be opened");
   if (size_ == 0) fail("is empty");
   constexpr std::string_view kPointer = "version https://git-lfs";
   std::string beginning(kPointer.size(), '\0');
@@ -32,11 +36,19 @@ void BinaryFile::require(uint64_t offset, uint64_t count, uint64_t value_size,
        ", but has only " + std::to_string(size_) + " bytes");
 }
 
-void BinaryFile::read_bytes(uint64_t offset, void* to, size_t count) {
-  stream_.seekg(static_cast<std::streamoff>(offset));
-  stream_.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
-  if (static_cast<size_t>(stream_.gcount()) != count)
-    fail("cannot be read at byte " + std::to_string(offset));
+BinaryFile::Descriptor::~Descriptor() {
+  if (number >= 0) ::close(number);
+}
+
+void BinaryFile::read_bytes(uint64_t offset, void* to, size_t count) const {
+  size_t done = 0;
+  while (done < count) {
+    const ssize_t got = ::pread(descriptor_.number, static_cast<char*>(to) + done, count - done,
+                                static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) fail("cannot be read at byte " + std::to_string(offset + done));
+    done += static_cast<size_t>(got);
+  }
 }
 
 void BinaryFile::fail(const std::string& why) const {

@@ -3,37 +3,43 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 
 namespace pelage {
 
 /// A little-endian binary file read in pieces, whose every claim about itself is checked against its length
-/// first.
+/// first. Thread safety: const members may be called from any thread.
 class BinaryFile {
  public:
   /// Throws Error (kInput) when the file is missing, empty, no regular file or a git-lfs pointer.
   explicit BinaryFile(const std::filesystem::path& path);
 
+  const std::filesystem::path& path() const { return path_; }
   uint64_t size() const { return size_; }
   /// Throws Error (kInput) naming `what` unless `count` values of `value_size` bytes lie at `offset`.
   void require(uint64_t offset, uint64_t count, uint64_t value_size, const std::string& what) const;
   /// Reads what `require` has found to be there.
-  void read(uint64_t offset, std::span<float> values) {
+  void read(uint64_t offset, std::span<float> values) const {
     read_bytes(offset, values.data(), values.size_bytes());
   }
-  void read(uint64_t offset, std::span<uint16_t> values) {
+  void read(uint64_t offset, std::span<uint16_t> values) const {
     read_bytes(offset, values.data(), values.size_bytes());
   }
-  void read_bytes(uint64_t offset, void* to, size_t count);
+  void read_bytes(uint64_t offset, void* to, size_t count) const;
 
   /// Throws Error (kInput): "path: why".
   [[noreturn]] void fail(const std::string& why) const;
 
  private:
   std::filesystem::path path_;
-  std::ifstream stream_;
+  struct Descriptor {
+    int number = -1;
+    Descriptor() = default;
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor();
+  } descriptor_;
   uint64_t size_ = 0;
 };
 

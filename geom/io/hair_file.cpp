@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 
 #include "base/file.h"
@@ -35,7 +34,7 @@ struct Layout {
   uint64_t segments = 0, points = 0, thickness = 0, transparency = 0, color = 0;
 };
 
-Header read_header(BinaryFile& file) {
+Header read_header(const BinaryFile& file) {
   Header header;
   file.require(0, sizeof header, 1, "bytes of header");
   file.read_bytes(0, &header, sizeof header);
@@ -65,7 +64,8 @@ Layout check_layout(const BinaryFile& file, const Header& header) {
   return layout;
 }
 
-std::vector<uint32_t> read_first_points(BinaryFile& file, const Header& header, const Layout& layout) {
+/// Empty where all strands have as many segments as the header says.
+std::vector<uint32_t> read_first_points(const BinaryFile& file, const Header& header, const Layout& layout) {
   const uint64_t strands = header.strand_count;
   const auto check_total = [&](uint64_t points) {
     if (points == header.point_count) return;
@@ -74,10 +74,8 @@ std::vector<uint32_t> read_first_points(BinaryFile& file, const Header& header, 
   };
   std::vector<uint32_t> first;
   if (!layout.segments) {
-    // Before anything is allocated for strands that only the header knows of: each of them has a point.
+    // Strands that only the header knows of: each of them has a point.
     check_total(strands * (uint64_t(header.default_segments) + 1));
-    first.resize(strands + 1);
-    for (size_t s = 0; s <= strands; ++s) first[s] = static_cast<uint32_t>(s) * (header.default_segments + 1);
     return first;
   }
   std::vector<uint16_t> segments(strands);
@@ -93,14 +91,6 @@ std::vector<uint32_t> read_first_points(BinaryFile& file, const Header& header, 
   return first;
 }
 
-StrandAttribute read_attribute(BinaryFile& file, const char* name, int components, uint64_t offset,
-                               size_t points) {
-  StrandAttribute attribute{name, AttributeClass::kPerPoint, components, {}};
-  attribute.values.resize(points * static_cast<size_t>(components));
-  file.read(offset, std::span(attribute.values));
-  return attribute;
-}
-
 /// Segments of every strand when all have equally many, else -1.
 int64_t common_segments(const Strands& strands) {
   for (size_t s = 1; s < strands.strand_count(); ++s) {
@@ -111,35 +101,68 @@ int64_t common_segments(const Strands& strands) {
 
 }  // namespace
 
-StrandFile read_hair(const std::filesystem::path& path, const StrandReadOptions& options) {
-  BinaryFile file(path);
-  const Header header = read_header(file);
-  const Layout layout = check_layout(file, header);
-  StrandArrays a;
-  a.basis = options.basis.value_or(CurveBasis::kPinnedBSpline);
-  a.first_point = read_first_points(file, header, layout);
-  a.ids.resize(header.strand_count);
-  std::iota(a.ids.begin(), a.ids.end(), uint64_t(0));
-  const size_t points = header.point_count;
-  a.points.resize(points * 4);
-  read_point_parts(file, layout.points, 3, points, a.points.data());
-  if (layout.thickness) {
-    read_point_parts(file, layout.thickness, 1, points, a.points.data() + 3);
-    for (size_t i = 3; i < a.points.size(); i += 4) a.points[i] *= 0.5f;
+namespace {
+
+class HairFile final : public RawStrands {
+ public:
+  HairFile(const std::filesystem::path& path, const StrandReadOptions& options)
+      : RawStrands(path, "hair", options),
+        header_(read_header(file)),
+        layout_(check_layout(file, header_)),
+        first_(read_first_points(file, header_, layout_)) {
+    strand_count = header_.strand_count;
+    has_widths = layout_.thickness != 0;
+    file_width = header_.default_thickness;
+    if (layout_.transparency) {
+      attributes.push_back({"transparency", AttributeClass::kPerPoint, 1, {}});
+    } else if (header_.default_transparency != 0) {
+      attributes.push_back({"transparency", AttributeClass::kConstant, 1, {header_.default_transparency}});
+    }
+    const float* color = header_.default_color;
+    if (layout_.color) {
+      attributes.push_back({"color", AttributeClass::kPerPoint, 3, {}});
+    } else if (color[0] != 0 || color[1] != 0 || color[2] != 0) {
+      attributes.push_back({"color", AttributeClass::kConstant, 3, {color[0], color[1], color[2]}});
+    }
   }
-  if (layout.transparency) {
-    a.attributes.push_back(read_attribute(file, "transparency", 1, layout.transparency, points));
-  } else if (header.default_transparency != 0) {
-    a.attributes.push_back({"transparency", AttributeClass::kConstant, 1, {header.default_transparency}});
+
+  uint32_t first_point(size_t strand) const override {
+    return first_.empty() ? static_cast<uint32_t>(strand * (size_t(header_.default_segments) + 1))
+                          : first_[strand];
   }
-  const float* color = header.default_color;
-  if (layout.color) {
-    a.attributes.push_back(read_attribute(file, "color", 3, layout.color, points));
-  } else if (color[0] != 0 || color[1] != 0 || color[2] != 0) {
-    a.attributes.push_back({"color", AttributeClass::kConstant, 3, {color[0], color[1], color[2]}});
+
+  void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& a) const override {
+    const size_t before = a.first_point.back();
+    append_places(*this, begin, end, a);
+    const uint64_t from = first_point(begin);
+    const size_t count = a.first_point.back() - before;
+    a.points.resize((before + count) * 4);
+    float* points = a.points.data() + before * 4;
+    read_point_parts(windows, layout_.points + from * 12, 3, count, points);
+    if (layout_.thickness) {
+      read_point_parts(windows, layout_.thickness + from * 4, 1, count, points + 3);
+      for (size_t i = 3; i < count * 4; i += 4) points[i] *= 0.5f;
+    }
+    for (StrandAttribute& attribute : a.attributes) {
+      if (attribute.frequency == AttributeClass::kConstant) continue;
+      const bool is_color = attribute.name == "color";
+      append_values(windows, is_color ? layout_.color + from * 12 : layout_.transparency + from * 4, count,
+                    attribute);
+    }
   }
-  const bool has_widths = layout.thickness != 0;
-  return finish_strands(std::move(a), "hair", options, has_widths, header.default_thickness);
+
+  size_t bytes() const override { return first_.capacity() * sizeof(uint32_t); }
+
+ private:
+  Header header_;
+  Layout layout_;
+  std::vector<uint32_t> first_;
+};
+
+}  // namespace
+
+std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options) {
+  return std::make_unique<HairFile>(path, options);
 }
 
 void write_hair(const std::filesystem::path& path, const Strands& strands) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -16,10 +17,10 @@ namespace {
 
 struct Format {
   const char* ending;
-  StrandFile (*read)(const std::filesystem::path&, const StrandReadOptions&);
+  std::unique_ptr<RawStrands> (*open)(const std::filesystem::path&, const StrandReadOptions&);
   void (*write)(const std::filesystem::path&, const Strands&);
 };
-constexpr Format kFormats[] = {{".hair", read_hair, write_hair}, {".tfx", read_tfx, write_tfx}};
+constexpr Format kFormats[] = {{".hair", open_hair, write_hair}, {".tfx", open_tfx, write_tfx}};
 
 const Format* find_format(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -43,14 +44,45 @@ constexpr size_t kChunk = 4096;
 bool is_strand_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
 
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options) {
-  return format_of(path, ErrorKind::kInput).read(path, options);
+  const std::unique_ptr<RawStrands> raw = open_raw_strands(path, options);
+  StrandArrays arrays = raw->empty();
+  FileWindows windows(raw->file);
+  raw->append(0, raw->strand_count, windows, arrays);
+  const float stated = stated_width(*raw, options);
+  const float width = stated > 0 ? stated : assumed_width(arrays);
+  StrandFile result = finish_strands(std::move(arrays), *raw, width);
+  if (!raw->has_widths && !(stated > 0)) result.assumed_width = width;
+  return result;
+}
+
+std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
+                                             const StrandReadOptions& options) {
+  return format_of(path, ErrorKind::kInput).open(path, options);
 }
 
 void write_strands(const std::filesystem::path& path, const Strands& strands) {
   format_of(path, ErrorKind::kFailed).write(path, strands);
 }
 
-void read_point_parts(BinaryFile& file, uint64_t offset, int components, size_t count, float* points) {
+void FileWindows::read_bytes(uint64_t offset, void* to, size_t count) {
+  if (count > kBytes / 2) return file_.read_bytes(offset, to, count);
+  Window* oldest = &windows_[0];
+  for (Window& window : windows_) {
+    if (offset >= window.begin && offset + count <= window.begin + window.bytes.size()) {
+      window.used = ++uses_;
+      std::memcpy(to, window.bytes.data() + (offset - window.begin), count);
+      return;
+    }
+    if (window.used < oldest->used) oldest = &window;
+  }
+  oldest->begin = offset;
+  oldest->used = ++uses_;
+  oldest->bytes.resize(static_cast<size_t>(std::min<uint64_t>(kBytes, file_.size() - offset)));
+  file_.read_bytes(offset, oldest->bytes.data(), oldest->bytes.size());
+  std::memcpy(to, oldest->bytes.data(), count);
+}
+
+void read_point_parts(FileWindows& file, uint64_t offset, int components, size_t count, float* points) {
   const size_t n = static_cast<size_t>(components);
   std::vector<float> chunk(kChunk * n);
   for (size_t begin = 0; begin < count; begin += kChunk) {
@@ -88,17 +120,29 @@ void attribute_at(const StrandAttribute& attribute, size_t strand, size_t point,
   for (int c = 0; c < components; ++c) out[c] = values[std::min(c, attribute.components - 1)];
 }
 
-StrandFile finish_strands(StrandArrays arrays, const char* format, const StrandReadOptions& options,
-                          bool has_widths, float file_width) {
-  StrandFile result;
-  result.format = format;
-  float width = file_width > 0 && file_width <= std::numeric_limits<float>::max() ? file_width : 0;
-  if (options.default_width && !width) width = *options.default_width;
-  if (!width) {
-    width = assumed_width(arrays);
-    if (!has_widths) result.assumed_width = width;
+void append_places(const RawStrands& raw, size_t begin, size_t end, StrandArrays& arrays) {
+  const uint32_t before = arrays.first_point.back();
+  for (size_t s = begin; s < end; ++s) {
+    arrays.ids.push_back(s);
+    arrays.first_point.push_back(before + raw.first_point(s + 1) - raw.first_point(begin));
   }
-  if (!has_widths) {
+}
+
+void append_values(FileWindows& file, uint64_t offset, size_t count, StrandAttribute& attribute) {
+  const size_t before = attribute.values.size(), floats = count * static_cast<size_t>(attribute.components);
+  attribute.values.resize(before + floats);
+  file.read(offset, std::span(attribute.values).subspan(before));
+}
+
+float stated_width(const RawStrands& raw, const StrandReadOptions& options) {
+  if (raw.file_width > 0 && raw.file_width <= std::numeric_limits<float>::max()) return raw.file_width;
+  return options.default_width.value_or(0.0f);
+}
+
+StrandFile finish_strands(StrandArrays arrays, const RawStrands& raw, float width) {
+  StrandFile result;
+  result.format = raw.format;
+  if (!raw.has_widths) {
     for (size_t i = 3; i < arrays.points.size(); i += 4) arrays.points[i] = 0.5f * width;
   }
   result.repairs = repair_strands(arrays, width);

@@ -3,8 +3,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "geom/io/binary_file.h"
 #include "geom/io/strand_file.h"
@@ -15,14 +17,70 @@ namespace pelage {
 
 class AtomicFile;
 
-StrandFile read_hair(const std::filesystem::path& path, const StrandReadOptions& options);
+/// Reads of a file that come one shortly behind the other, in several arrays at a time: what is small is
+/// taken from a window of the file that was read at once. Of one thread.
+class FileWindows {
+ public:
+  explicit FileWindows(const BinaryFile& file) : file_(file) {}
+  void read_bytes(uint64_t offset, void* to, size_t count);
+  void read(uint64_t offset, std::span<float> values) {
+    read_bytes(offset, values.data(), values.size_bytes());
+  }
+
+ private:
+  static constexpr size_t kBytes = 16 << 10, kWindows = 6;
+  struct Window {
+    uint64_t begin = 0, used = 0;
+    std::vector<std::byte> bytes;
+  };
+  const BinaryFile& file_;
+  Window windows_[kWindows];
+  uint64_t uses_ = 0;
+};
+
+/// The strands of an opened file as they are in it, not repaired. Everything the file says about itself was
+/// checked against its length. Thread safety: const members may be called from any thread.
+class RawStrands {
+ public:
+  RawStrands(const std::filesystem::path& path, const char* format, const StrandReadOptions& options)
+      : file(path), format(format), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
+  virtual ~RawStrands() = default;
+
+  /// Where the points of a strand, or of what comes after the last, begin.
+  virtual uint32_t first_point(size_t strand) const = 0;
+  /// Appends the strands [begin, end) to arrays that empty() made; their ids are their places in the file.
+  virtual void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const = 0;
+  /// What is held to find strands.
+  virtual size_t bytes() const { return 0; }
+
+  StrandArrays empty() const {
+    StrandArrays arrays;
+    arrays.basis = basis;
+    arrays.first_point.push_back(0);
+    arrays.attributes = attributes;
+    return arrays;
+  }
+
+  const BinaryFile file;
+  const char* const format;
+  const CurveBasis basis;
+  size_t strand_count = 0;
+  bool has_widths = false;
+  float file_width = 0;                     ///< of files without widths of their own, where they say; else 0
+  std::vector<StrandAttribute> attributes;  ///< without values, but for constants
+};
+
+std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
+std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
+/// By the ending of the name. Throws Error (kInput).
+std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
+                                             const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands);
-StrandFile read_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
 void write_tfx(const std::filesystem::path& path, const Strands& strands);
 
 /// Reads `count` records of `components` floats at `offset` into every fourth float and its followers of
 /// `points` (x, y, z, r), a few thousand at a time.
-void read_point_parts(BinaryFile& file, uint64_t offset, int components, size_t count, float* points);
+void read_point_parts(FileWindows& file, uint64_t offset, int components, size_t count, float* points);
 
 /// Calls `value(point, out)` for every point of every strand and writes the `components` floats it gives.
 void write_per_point(AtomicFile& file, const Strands& strands, int components,
@@ -31,9 +89,17 @@ void write_per_point(AtomicFile& file, const Strands& strands, int components,
 /// Value of an attribute at a point of a strand; `components` many, missing ones filled with the last.
 void attribute_at(const StrandAttribute& attribute, size_t strand, size_t point, int components, float* out);
 
-/// Repairs what was read, with the widths that the options, the file (`file_width` > 0) or a guess say.
-StrandFile finish_strands(StrandArrays arrays, const char* format, const StrandReadOptions& options,
-                          bool has_widths, float file_width);
+/// Appends the ids and first points of strands [begin, end) of a file.
+void append_places(const RawStrands& raw, size_t begin, size_t end, StrandArrays& arrays);
+
+/// Appends `count` records of an attribute's floats at `offset`.
+void append_values(FileWindows& file, uint64_t offset, size_t count, StrandAttribute& attribute);
+
+/// The width of strands without one: what the file or the options say, else 0.
+float stated_width(const RawStrands& raw, const StrandReadOptions& options);
+
+/// Repairs what was read, with `width` for strands that have none.
+StrandFile finish_strands(StrandArrays arrays, const RawStrands& raw, float width);
 
 /// Throws Error (kFailed): "path: why".
 [[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::string& why);

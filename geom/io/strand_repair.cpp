@@ -125,15 +125,21 @@ StrandRepairs repair_strands(StrandArrays& arrays, float default_width) {
   return Repair(arrays, default_width).run();
 }
 
-float assumed_width(const StrandArrays& arrays) {
+float assumed_width(const StrandArrays& arrays) { return assumed_width(usable_box(arrays)); }
+
+float assumed_width(const Box3f& box) {
+  const V3f size = box.isEmpty() ? V3f(1) : box.size();
+  const float largest = std::max({size.x, size.y, size.z});
+  return largest > 0 ? 1e-3f * largest : 1e-3f;
+}
+
+Box3f usable_box(const StrandArrays& arrays) {
   Box3f box;
   for (size_t i = 0; i < arrays.points.size(); i += 4) {
     const float* p = &arrays.points[i];
     if (is_usable(p)) box.extendBy(V3f(p[0], p[1], p[2]));
   }
-  const V3f size = box.isEmpty() ? V3f(1) : box.size();
-  const float largest = std::max({size.x, size.y, size.z});
-  return largest > 0 ? 1e-3f * largest : 1e-3f;
+  return box;
 }
 
 }  // namespace pelage

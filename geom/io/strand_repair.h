@@ -21,5 +21,8 @@ StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 /// What a width is taken for where neither the file nor the reader says: a thousandth of the largest side of
 /// the box of all points.
 float assumed_width(const StrandArrays& arrays);
+float assumed_width(const Box3f& box);
+/// Of the points that is made of: those that are finite and not absurdly far away.
+Box3f usable_box(const StrandArrays& arrays);
 
 }  // namespace pelage

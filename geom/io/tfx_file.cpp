@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 
 #include "base/file.h"
@@ -27,7 +26,7 @@ struct Header {
 };
 static_assert(sizeof(Header) == 160 && std::is_trivially_copyable_v<Header>);
 
-Header read_header(BinaryFile& file) {
+Header read_header(const BinaryFile& file) {
   Header header;
   file.require(0, sizeof header, 1, "bytes of header");
   file.read_bytes(0, &header, sizeof header);
@@ -51,32 +50,6 @@ void check_array(const BinaryFile& file, uint64_t offset, uint64_t count, int co
   file.require(offset, count, 4 * static_cast<uint64_t>(components), what);
 }
 
-std::vector<float> read_floats(BinaryFile& file, uint64_t offset, size_t count) {
-  std::vector<float> values(count);
-  file.read(offset, std::span(values));
-  return values;
-}
-
-/// Splits RGBA into "color" and "opacity".
-void read_color(BinaryFile& file, const Header& header, size_t points, StrandArrays& a) {
-  StrandAttribute color{"color", AttributeClass::kPerPoint, 3, {}};
-  StrandAttribute opacity{"opacity", AttributeClass::kPerPoint, 1, {}};
-  color.values.resize(points * 3);
-  opacity.values.resize(points);
-  std::vector<float> rgba;
-  for (size_t i = 0; i < points; i += 4096) {
-    const size_t count = std::min<size_t>(4096, points - i);
-    rgba.resize(count * 4);
-    file.read(header.color + i * 16, std::span(rgba));
-    for (size_t k = 0; k < count; ++k) {
-      std::copy_n(&rgba[k * 4], 3, &color.values[(i + k) * 3]);
-      opacity.values[i + k] = rgba[k * 4 + 3];
-    }
-  }
-  a.attributes.push_back(std::move(color));
-  a.attributes.push_back(std::move(opacity));
-}
-
 float largest_radius(const Strands& strands, size_t strand) {
   float largest = 0;
   for (uint32_t i = 0; i < strands.strand_points(strand); ++i) {
@@ -87,39 +60,84 @@ float largest_radius(const Strands& strands, size_t strand) {
 
 }  // namespace
 
-StrandFile read_tfx(const std::filesystem::path& path, const StrandReadOptions& options) {
-  BinaryFile file(path);
-  const Header header = read_header(file);
-  const size_t strands = header.strand_count;
-  const size_t points = strands * header.points_per_strand;
-  check_array(file, header.points, points, 4, "points");
-  check_array(file, header.strand_uv, strands, 2, "strand coordinates");
-  check_array(file, header.point_uv, points, 2, "point coordinates");
-  check_array(file, header.thickness, strands, 1, "thicknesses");
-  check_array(file, header.color, points, 4, "colours");
+namespace {
 
-  StrandArrays a;
-  a.basis = options.basis.value_or(CurveBasis::kPinnedBSpline);
-  a.ids.resize(strands);
-  std::iota(a.ids.begin(), a.ids.end(), uint64_t(0));
-  a.first_point.resize(strands + 1);
-  for (size_t s = 0; s <= strands; ++s)
-    a.first_point[s] = static_cast<uint32_t>(s * header.points_per_strand);
-  a.points = read_floats(file, header.points, points * 4);
-  if (header.strand_uv) {
-    const std::vector<float> uv = read_floats(file, header.strand_uv, strands * 2);
-    for (size_t s = 0; s < strands; ++s) a.root_uv.emplace_back(uv[2 * s], uv[2 * s + 1]);
+class TfxFile final : public RawStrands {
+ public:
+  TfxFile(const std::filesystem::path& path, const StrandReadOptions& options)
+      : RawStrands(path, "tfx", options), header_(read_header(file)) {
+    strand_count = header_.strand_count;
+    const size_t points = strand_count * header_.points_per_strand;
+    check_array(file, header_.points, points, 4, "points");
+    check_array(file, header_.strand_uv, strand_count, 2, "strand coordinates");
+    check_array(file, header_.point_uv, points, 2, "point coordinates");
+    check_array(file, header_.thickness, strand_count, 1, "thicknesses");
+    check_array(file, header_.color, points, 4, "colours");
+    has_widths = header_.thickness != 0;
+    if (header_.point_uv) attributes.push_back({"uv", AttributeClass::kPerPoint, 2, {}});
+    if (header_.color) {
+      attributes.push_back({"color", AttributeClass::kPerPoint, 3, {}});
+      attributes.push_back({"opacity", AttributeClass::kPerPoint, 1, {}});
+    }
   }
-  if (header.point_uv) {
-    a.attributes.push_back(
-        {"uv", AttributeClass::kPerPoint, 2, read_floats(file, header.point_uv, points * 2)});
+
+  uint32_t first_point(size_t strand) const override {
+    return static_cast<uint32_t>(strand * header_.points_per_strand);
   }
-  if (header.color) read_color(file, header, points, a);
-  if (header.thickness) {
-    const std::vector<float> thickness = read_floats(file, header.thickness, strands);
-    for (size_t p = 0; p < points; ++p) a.points[4 * p + 3] = 0.5f * thickness[p / header.points_per_strand];
+
+  void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& a) const override {
+    const size_t before = a.first_point.back(), per_strand = header_.points_per_strand;
+    append_places(*this, begin, end, a);
+    const size_t count = (end - begin) * per_strand;
+    const uint64_t from = begin * per_strand;
+    a.points.resize((before + count) * 4);
+    const std::span<float> points = std::span(a.points).subspan(before * 4);
+    windows.read(header_.points + from * 16, points);
+    if (header_.strand_uv) {
+      const std::vector<float> uv = floats(windows, header_.strand_uv + begin * 8, (end - begin) * 2);
+      for (size_t s = 0; s < uv.size(); s += 2) a.root_uv.emplace_back(uv[s], uv[s + 1]);
+    }
+    if (header_.thickness) {
+      const std::vector<float> thickness = floats(windows, header_.thickness + begin * 4, end - begin);
+      for (size_t p = 0; p < count; ++p) points[4 * p + 3] = 0.5f * thickness[p / per_strand];
+    }
+    size_t next = 0;
+    if (header_.point_uv) append_values(windows, header_.point_uv + from * 8, count, a.attributes[next++]);
+    if (header_.color) append_color(windows, from, count, a.attributes[next], a.attributes[next + 1]);
   }
-  return finish_strands(std::move(a), "tfx", options, header.thickness != 0, 0);
+
+ private:
+  static std::vector<float> floats(FileWindows& windows, uint64_t offset, size_t count) {
+    std::vector<float> values(count);
+    windows.read(offset, std::span(values));
+    return values;
+  }
+
+  /// Splits RGBA, a few thousand points at a time.
+  void append_color(FileWindows& windows, uint64_t from, size_t count, StrandAttribute& color,
+                    StrandAttribute& opacity) const {
+    constexpr size_t kPart = 4096;
+    const size_t before = opacity.values.size();
+    color.values.resize((before + count) * 3);
+    opacity.values.resize(before + count);
+    std::vector<float> rgba;
+    for (size_t i = 0; i < count; i += kPart) {
+      rgba.resize(std::min(kPart, count - i) * 4);
+      windows.read(header_.color + (from + i) * 16, std::span(rgba));
+      for (size_t k = 0; k < rgba.size() / 4; ++k) {
+        std::copy_n(&rgba[k * 4], 3, &color.values[(before + i + k) * 3]);
+        opacity.values[before + i + k] = rgba[k * 4 + 3];
+      }
+    }
+  }
+
+  const Header header_;
+};
+
+}  // namespace
+
+std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options) {
+  return std::make_unique<TfxFile>(path, options);
 }
 
 void write_tfx(const std::filesystem::path& path, const Strands& strands) {

@@ -2,6 +2,7 @@
 #include "render/path/frame_chunks.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/error.h"
 #include "base/memory_budget.h"
@@ -158,15 +159,50 @@ size_t FrameChunks::bytes() const {
   return sum;
 }
 
+FrameChunks::Measuring FrameChunks::measuring(const Workers& workers, const MemoryLedger& ledger) const {
+  // The strands of a leaf are charged where they are measured; the block on its way through the operators
+  // counts here.
+  Measuring most;
+  uint32_t which = 0;
+  size_t strands = 0;
+  for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const ChunkCounts n = counts(leaf);
+    const size_t own =
+        (n.points * static_cast<size_t>(n.motion_keys) * 4 + n.attribute_floats) * sizeof(float);
+    if (n.growth_bytes + own > most.block + strands) which = leaf;
+    most.block = std::max(most.block, n.growth_bytes);
+    strands = std::max(strands, own);
+  }
+  if (leaves_.empty()) return most;
+  const auto one = static_cast<int64_t>(most.block + strands);
+  require_room(ledger, one,
+               scene_.fur[parts_[which]].name + ": growing the largest of its parts, to be measured");
+  most.at_once = workers.thread_count();
+  if (ledger.limit() > 0) {
+    most.at_once = static_cast<int>(std::clamp<int64_t>(
+        (ledger.limit() - ledger.budgeted()) / std::max<int64_t>(1, one), 1, most.at_once));
+  }
+  return most;
+}
+
 std::vector<ChunkBounds> FrameChunks::bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger,
                                              BoundingCounts& counts) const {
   BoundingOptions options;
   options.strategy = scene_.render.bounds;
   options.factor = scene_.render.bounds_factor;
   options.in_one_part = in_fur_trees();
+  std::optional<Workers> fewer;
+  MemoryCharge blocks;
+  if (measures_strands(options.strategy)) {
+    const Measuring measuring = this->measuring(workers, ledger);
+    blocks =
+        MemoryCharge(ledger, MemoryTag::kChunks, static_cast<int64_t>(measuring.block) * measuring.at_once);
+    if (measuring.at_once < workers.thread_count()) fewer.emplace(measuring.at_once);
+  }
   std::vector<ChunkBounds> bounds = bound_chunks(
-      options, leaves_, workers, progress, ledger,
+      options, leaves_, fewer ? *fewer : workers, progress, ledger,
       [&progress](const std::string& line) { progress.warn(line); }, &counts);
+  blocks = {};
   for (const PieceOfSkin& piece : pieces_) {
     ChunkBounds box;
     box.keys = bound_keys(options.strategy);

@@ -38,7 +38,8 @@ class FrameChunks final : public ChunkGrower {
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
   /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
-  /// points. `counts` are of leaves. Throws what growing throws. Chunks are without boxes when cancelled.
+  /// points. `counts` are of leaves. Throws what growing throws, Error (kMemory) before anything is grown
+  /// that does not fit. Chunks are without boxes when cancelled.
   std::vector<ChunkBounds> bounds(const Workers& workers, Progress& progress, MemoryLedger& ledger,
                                   BoundingCounts& counts) const;
   /// Whether strands stand in fur trees, which need no boxes of parts above them.
@@ -56,6 +57,13 @@ class FrameChunks final : public ChunkGrower {
     SkinPiece piece;
     size_t making_bytes = 0;
   };
+
+  /// How leaves are grown to be measured within `render.memory`.
+  struct Measuring {
+    int at_once = 1;
+    size_t block = 0;  // bytes of a block of strands on its way through the operators
+  };
+  Measuring measuring(const Workers& workers, const MemoryLedger& ledger) const;
 
   void divide_skins(const Workers& workers, MemoryLedger& ledger);
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);

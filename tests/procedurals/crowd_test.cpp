@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "procedurals/crowd_placement.h"
+#include "tests/support/allocation_meter.h"
 #include "tests/support/quiet_job.h"
 
 namespace pelage {
@@ -230,6 +231,31 @@ TEST(Crowd, NamesWhatDoesNotFit) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInput);
     EXPECT_EQ(std::string(error.what()).find("s.yaml:7:3: crowd 'colony': 200 do not fit into its area"), 0u);
+  }
+}
+
+TEST(CrowdMemory, PlacingHoldsWhatItAsksForOrIsRefusedByName) {
+  CrowdParams params = colony();
+  params.count = 20000;
+  params.spacing = 0;
+  const std::vector<Footprint> footprints{{V3f(0, 0, 1e-5f)}, {V3f(0, 0, 1e-5f), V3f(0, 1e-5f, 1e-5f)}};
+  const int64_t says = crowd_making_bytes(params, footprints, 0);
+  const size_t before = live_bytes();
+  reset_peak();
+  const auto members = make_crowd("herd", {}, params, footprints, QuietJob(1));
+  const auto peak = static_cast<int64_t>(peak_bytes() - before);
+  EXPECT_LE(peak, says);
+  EXPECT_GE(peak, says / 2);
+
+  MemoryLedger ledger;
+  ledger.set_limit(says - 1);
+  try {
+    make_crowd("herd", {}, params, footprints, QuietJob(1, ledger));
+    ADD_FAILURE() << "placed";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_TRUE(std::string(error.what()).starts_with("crowd 'herd': placing 20000 animals: needs "))
+        << error.what();
   }
 }
 

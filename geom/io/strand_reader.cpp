@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geom/io/strand_reader.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "geom/io/strand_formats.h"
+#include "geom/io/strand_repair.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint32_t kPointsAtOnce = 1 << 16;
+
+/// Calls visit(begin, end) for ranges of strands that cover the file, each of some ten thousand points or of
+/// one strand.
+template <class Visit>
+void for_each_range(const RawStrands& raw, const Job& job, const Visit& visit) {
+  for (size_t begin = 0; begin < raw.strand_count;) {
+    job.check_stop();
+    size_t end = begin + 1;
+    while (end < raw.strand_count && raw.first_point(end + 1) - raw.first_point(begin) <= kPointsAtOnce)
+      ++end;
+    visit(begin, end);
+    begin = end;
+  }
+}
+
+}  // namespace
+
+StrandReader::StrandReader(const std::filesystem::path& path, const StrandReadOptions& options)
+    : raw_(open_raw_strands(path, options)), width_(stated_width(*raw_, options)) {}
+StrandReader::~StrandReader() = default;
+StrandReader::StrandReader(StrandReader&&) noexcept = default;
+
+size_t StrandReader::strands_in_file() const { return raw_->strand_count; }
+CurveBasis StrandReader::basis() const { return raw_->basis; }
+std::span<const StrandAttribute> StrandReader::attributes() const { return raw_->attributes; }
+
+/// A width that nobody states depends on the size of all strands together.
+void StrandReader::find_width(const Job& job) {
+  if (width_ > 0) return;
+  Box3f box;
+  FileWindows windows(raw_->file);
+  for_each_range(*raw_, job, [&](size_t begin, size_t end) {
+    StrandArrays arrays = raw_->empty();
+    raw_->append(begin, end, windows, arrays);
+    box.extendBy(usable_box(arrays));
+  });
+  width_ = assumed_width(box);
+}
+
+void StrandReader::scan(const Job& job, const Visit& visit) {
+  find_width(job);
+  for_each_strands(job, [&](const StrandFile& read) {
+    repairs_.dropped += read.repairs.dropped;
+    repairs_.repaired += read.repairs.repaired;
+    const size_t first = count_;
+    note(read.strands);
+    if (count_ > first) visit(first, read.strands);
+  });
+}
+
+void StrandReader::read_all(const Job& job, const Visit& visit) const {
+  size_t first = 0;
+  for_each_strands(job, [&](const StrandFile& read) {
+    if (read.strands.strand_count() > 0) visit(first, read.strands);
+    first += read.strands.strand_count();
+  });
+  if (first != count_) fail_changed();
+}
+
+void StrandReader::for_each_strands(const Job& job,
+                                    const std::function<void(const StrandFile&)>& visit) const {
+  FileWindows windows(raw_->file);
+  for_each_range(*raw_, job, [&](size_t begin, size_t end) {
+    StrandArrays arrays = raw_->empty();
+    raw_->append(begin, end, windows, arrays);
+    visit(finish_strands(std::move(arrays), *raw_, width_));
+  });
+}
+
+void StrandReader::fail_changed() const {
+  throw Error(ErrorKind::kFailed, {raw_->file.path().string(), 0, 0}, "was changed while it was in use");
+}
+
+/// Keeps where usable strands are and how long, as soon as it is not the same for all.
+void StrandReader::note(const Strands& strands) {
+  for (size_t s = 0; s < strands.strand_count(); ++s, ++count_) {
+    const auto place = static_cast<uint32_t>(strands.id(s));
+    if (places_.empty() && place != count_) {
+      places_.resize(count_);
+      std::iota(places_.begin(), places_.end(), 0u);
+    }
+    if (!places_.empty() || place != count_) places_.push_back(place);
+    const uint32_t points = strands.strand_points(s);
+    most_points_ = std::max(most_points_, points);
+    if (count_ == 0) common_points_ = points;
+    if (points_.empty() && points != common_points_) points_.assign(count_, common_points_);
+    if (!points_.empty() || points != common_points_) points_.push_back(points);
+  }
+}
+
+Strands StrandReader::read(std::span<const uint32_t> strands) const {
+  StrandArrays arrays = raw_->empty();
+  FileWindows windows(raw_->file);
+  for (size_t i = 0; i < strands.size();) {
+    size_t end = i + 1;
+    while (end < strands.size() && place(strands[end]) == place(strands[end - 1]) + 1) ++end;
+    raw_->append(place(strands[i]), place(strands[end - 1]) + 1, windows, arrays);
+    i = end;
+  }
+  StrandFile read = finish_strands(std::move(arrays), *raw_, width_);
+  bool same = read.strands.strand_count() == strands.size();
+  for (size_t i = 0; same && i < strands.size(); ++i)
+    same = read.strands.strand_points(i) == points(strands[i]);
+  if (!same) fail_changed();
+  return std::move(read.strands);
+}
+
+size_t StrandReader::bytes() const {
+  return raw_->bytes() + (points_.capacity() + places_.capacity()) * sizeof(uint32_t);
+}
+
+}  // namespace pelage
