@@ -44,8 +44,8 @@ struct PrepareContext {
   std::span<const std::unique_ptr<Operator>> preceding;  ///< prepared already
   uint64_t seed = 0;  ///< of this operator: changes when the groom's does, differs between equal operators
   int points = 8;     ///< of a grown strand
-  SourcePosition position;  ///< where the operator stands in the scene, for errors
-  std::string owner = {};   ///< for messages: "groom 'coat'"
+  SourcePosition position = {};  ///< where the operator stands in the scene, for errors
+  std::string owner = {};        ///< for messages: "groom 'coat'"
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
