@@ -86,7 +86,7 @@ void stereo(benchmark::State& state) {
     job.field = &field;
     job.target.scale = kScale;
     job.filter = state.range(0) ? StereoFilter::kBox : StereoFilter::kLanczos;
-    job.longest_fill = default_fill(p.kWidth);
+    job.longest_fill = kFillEverything;
     job.width = p.kWidth;
     job.height = job.last_row = p.kHeight;
     stereo_rows(job, layers, kStripRows, workers, progress);

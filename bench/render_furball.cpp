@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiple scattering in pale fur: the ball of the peers with the fibres of Chiang et al., as they were
-// measured with: absorption 0.10, 0.18, 0.38 per radius, roughness 0.3, tilt 2 degrees.
+// Multiple scattering in pale fur: the ball that docs/MEASURE.md describes, with the fibres of Chiang et al.:
+// absorption 0.10, 0.18, 0.38 per radius, roughness 0.3, tilt 2 degrees.
 //
 //   cpu/16spp   processor seconds of 16 samples of a picture of 960 x 540, by the cost of a sample
 //   relMSE16    mean over fur pixels and channels of (a - b)^2 / (b^2 + 0.01) at 16 samples
 //   relMSE64    the same at 64
-//   x_cpu, x_16, x_64: the same over those of Cycles 3.4.1 with 12 bounces (464 CPU s, 0.35, 0.104 for a
-//   million strands), which 32 bounces make 0.35 % brighter; its figures are of another machine.
+//   rays/path   rays of all kinds for each camera ray
 //
 // Errors are half the squared differences of pictures of independent seeds; b is the mean of other pictures
-// of 64 samples. Found on 4 cores at 2 GHz that others used five times over, which makes CPU seconds longer:
+// of 64 samples. How Pelage compares with Cycles on this ball, on one machine in the same hour, is in
+// docs/MEASURE.md; seconds of different machines or hours must not be compared.
 //
-//   strands    bounces  lights  cpu/16spp  relMSE16  relMSE64  x_cpu  x_16  x_64
-//   100,000    12       1       117        0.18      0.045     0.90   0.64  0.58
-//   100,000    12       2       160        0.14      0.035     1.23   0.50  0.45
-//   100,000    12       4       247        0.12      0.029     1.90   0.43  0.37
-//   1,000,000  32       1       335        0.21      0.052     0.72   0.60  0.50
+// Found on 4 cores at 2 GHz that others used five times over, which makes CPU seconds longer:
 //
-// The million at half that load, with roulette by the weight of a path alone: 199 s for 3.7 rays a path,
-// not 5.3, and 0.35, 0.086. Variance times rays is the same with one and two points on lights and a fifth
-// more with four, hence light_samples: 1.
+//   strands    bounces  lights  cpu/16spp  relMSE16  relMSE64
+//   100,000    12       1       117        0.18      0.045
+//   100,000    12       2       160        0.14      0.035
+//   100,000    12       4       247        0.12      0.029
+//   1,000,000  32       1       335        0.21      0.052
+//
+// Variance times rays is the same with one and two points on lights and a fifth more with four, hence
+// light_samples: 1.
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -36,11 +37,6 @@ namespace {
 
 constexpr int kWidth = 192, kHeight = 108;
 constexpr int kSeeds = 6;
-
-struct Peer {
-  double cpu_s, rel_mse_16, rel_mse_64;
-};
-Peer peer(int64_t strands) { return strands >= 1000000 ? Peer{464, 0.35, 0.104} : Peer{130, 0.28, 0.078}; }
 
 /// Mean over fur pixels and channels of half the squared difference of a and b over (t^2 + 0.01).
 double relative_error(const Film& a, const Film& b, const std::vector<Rgb>& truth) {
@@ -111,14 +107,10 @@ void furball(benchmark::State& state) {
     }
     const double samples = double{kWidth} * kHeight * 64 * kSeeds;
     const double cpu_16_s = cpu_64_s / samples * 960 * 540 * 16;
-    const Peer other = peer(state.range(0));
     state.counters["us/path"] = 1e6 * cpu_64_s / samples;
     state.counters["cpu/16spp"] = cpu_16_s;
     state.counters["relMSE16"] = error_16;
     state.counters["relMSE64"] = error_64;
-    state.counters["x_cpu"] = cpu_16_s / other.cpu_s;
-    state.counters["x_16"] = error_16 / other.rel_mse_16;
-    state.counters["x_64"] = error_64 / other.rel_mse_64;
     double rays = 0;
     for (const auto& [kind, count] : statistics.rays) rays += static_cast<double>(count);
     state.counters["rays/path"] = rays / static_cast<double>(statistics.rays["camera"]);

@@ -129,7 +129,7 @@ void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
       ->type_name("NAME");
   command.add_option("--filter", texts.filter, "lanczos (default), which keeps sharpness, or box")
       ->type_name("FILTER");
-  add_fill_flag(command, stereo.file, "Pixels to fill of a gap (default: width / 40)");
+  add_fill_flag(command, stereo.file, "Longest gap to fill, in pixels; 0 fills none (default: all)");
   add_vector_flags(command, texts, "parallax",
                    "Layer that says where pixels are in the other eye, instead of a camera");
 }

@@ -47,6 +47,9 @@ int run_post_frames(const Options& options, const PostWork& work) {
     const std::string input = name_of(options.input, frame), output = name_of(options.output, frame);
     const double began = run.seconds();
     const PostReport report = work(input, output, run);
+    for (const std::string& warning : report.warnings) {
+      run.display().warn(fmt::format("{}: warning: {}", input, warning));
+    }
     for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
     if (report.cancelled) return SignalGuard::exit_code();
     run.statistics().stages_s["post"] += run.seconds() - began;

@@ -46,6 +46,18 @@ void check_named_layers(const std::vector<MovingView>& views, const LayerChoice&
   }
 }
 
+void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
+                    const std::string& flag, const std::string& where, PostReport& report) {
+  if (survey.not_finite() > 0) {
+    report.notes.push_back(
+        fmt::format("{} vectors{} are not finite and count as none", survey.not_finite(), where));
+  }
+  const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
+  const bool is_ours = part.attributes.contains("pelage:version");
+  const auto doubt = survey.doubt(params, flag, part.display.width(), is_ours);
+  if (doubt) report.warnings.push_back(*doubt + where);
+}
+
 std::string what_was_named(const std::string& what, const std::string& name) {
   return name.empty() ? what : what + " " + quote(name);
 }

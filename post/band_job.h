@@ -19,9 +19,10 @@ struct PostReport {
   bool cancelled = false;  ///< nothing was written
   PixelBox window;         ///< of all that was written
   int steps = 1;
-  int bands = 1;                   ///< pieces in which the file went through memory
-  float longest = 0;               ///< motion or parallax, pixels
-  std::vector<std::string> notes;  ///< for the user, one line each
+  int bands = 1;                      ///< pieces in which the file went through memory
+  float longest = 0;                  ///< motion or parallax, pixels
+  std::vector<std::string> notes;     ///< for the user, one line each
+  std::vector<std::string> warnings;  ///< the same, of what is probably a mistake
 };
 
 /// What both tools need to know.
@@ -106,6 +107,10 @@ void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
 /// Throws Error (kInput) naming a layer that was said to be data or colours and that none of the views finds.
 void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
+
+/// Adds what a survey of vectors found to the report. `where` names the view, or is empty.
+void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
+                    const std::string& flag, const std::string& where, PostReport& report);
 
 /// "depth", or "depth 'far'" where it was named.
 std::string what_was_named(const std::string& what, const std::string& name);

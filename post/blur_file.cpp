@@ -9,15 +9,17 @@
 #include "base/error.h"
 #include "post/box_resolve.h"
 #include "post/soft_edges.h"
+#include "post/step_lists.h"
 
 namespace pelage {
 namespace {
 
-PixelBox grown_within(const PixelBox& box, const Overhang& by, const PixelBox& limits) {
-  return {std::max(box.x0 - by.left, std::min(limits.x0, box.x0)),
-          std::max(box.y0 - by.top, std::min(limits.y0, box.y0)),
-          std::min(box.x1 + by.right, std::max(limits.x1, box.x1)),
-          std::min(box.y1 + by.bottom, std::max(limits.y1, box.y1))};
+/// `most`: pixels on each side.
+PixelBox grown_within(const PixelBox& box, const Overhang& by, int most, const PixelBox& limits) {
+  return {std::max(box.x0 - std::min(by.left, most), std::min(limits.x0, box.x0)),
+          std::max(box.y0 - std::min(by.top, most), std::min(limits.y0, box.y0)),
+          std::min(box.x1 + std::min(by.right, most), std::max(limits.x1, box.x1)),
+          std::min(box.y1 + std::min(by.bottom, most), std::max(limits.y1, box.y1))};
 }
 
 void enclose(PixelBox& box, const PixelBox& other) {
@@ -33,6 +35,23 @@ float longest_of(const FlowField& field) {
   return std::hypot(x, y);
 }
 
+/// Warns where the header says that the picture is blurred already. Files of other programs say nothing.
+void check_sharp(const ExrPart& part, PostReport& report) {
+  const auto number = [&](const char* name) {
+    const auto found = part.attributes.find(name);
+    return found == part.attributes.end() ? nullptr : std::get_if<float>(&found->second);
+  };
+  const float *open = number("pelage:shutterOpen"), *close = number("pelage:shutterClose");
+  if (part.attributes.contains("pelage:motionBlur")) {
+    report.warnings.push_back("the picture is blurred already: it was written by pelage motionblur");
+  } else if (open && close && *close > *open) {
+    report.warnings.push_back(
+        fmt::format("the picture is blurred already: it was rendered with the shutter open from {:.3g} to "
+                    "{:.3g} frames; render it with camera.shutter: [0, 0]",
+                    static_cast<double>(*open), static_cast<double>(*close)));
+  }
+}
+
 /// The field of a view, or none where it has no vectors or nothing to blur. `held`: bytes of those before.
 std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFileParams& params,
                                       const std::string& view, int64_t held, const Workers& workers,
@@ -46,16 +65,13 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
                  "name a layer with --depth-layer, or 'none' to go without");
   }
   check_field_memory(image, held, params.file.memory);
-  std::vector<uint8_t> is_soft;
+  std::vector<uint8_t> edges;
   std::vector<float> depth =
-      image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), is_soft);
-  size_t not_finite = 0;
-  std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, not_finite);
-  if (not_finite > 0) {
-    report.notes.push_back(
-        fmt::format("{} vectors{} are not finite and count as none", not_finite, of_view(view)));
-  }
-  join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
+      image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), edges);
+  VectorSurvey survey(static_cast<float>(image.largest_reach()));
+  std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, survey);
+  report_vectors(survey, image, params.file.vectors, "--motion", of_view(view), report);
+  join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
   const ShutterParams& shutter = params.shutter;
   LinkLimits limits;
   limits.largest_time = std::abs(shutter.centre) + std::abs(shutter.length) / 2;
@@ -82,6 +98,8 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
   ExrReader reader(input, workers.thread_count());
   const std::vector<NamedChannel> channels = name_channels(reader.parts());
   if (channels.empty()) throw Error(ErrorKind::kInput, {input.string(), 0, 0}, "has no channels");
+
+  check_sharp(reader.parts().front(), report);
 
   BandJob job;
   job.reader = &reader;
@@ -116,6 +134,12 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
   check_named_layers(job.views, params.file.layers);
   const std::vector<float> times = shutter_times(params.shutter, report.longest);
   report.steps = static_cast<int>(times.size());
+  const float largest_time = std::max(std::abs(times.front()), std::abs(times.back()));
+  if (std::any_of(job.views.begin(), job.views.end(), [&](const MovingView& view) {
+        return view.field && StepLists::is_needed(*view.field, largest_time);
+      })) {
+    job.scratch_bytes += static_cast<int64_t>(StepLists::bytes_needed()) * workers.thread_count();
+  }
 
   job.window = reader.parts().front().data;
   for (size_t p = 0; p < reader.parts().size(); ++p) {
@@ -125,7 +149,8 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
       bool is_inside = false;
       for (size_t i : view.image->own()) is_inside |= channels[i].part == p;
       if (!is_inside || !view.field) continue;
-      enclose(out.part.header.data, grown_within(part.data, overhang(*view.field, times), part.display));
+      enclose(out.part.header.data, grown_within(part.data, overhang(*view.field, times),
+                                                 view.image->largest_reach(), part.display));
     }
     for (size_t i = 0; i < channels.size(); ++i) {
       if (channels[i].part == p) out.planes.push_back(i);
@@ -134,6 +159,11 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     out.part.header.attributes["pelage:motionBlur"] =
         fmt::format("shutter {} around {}, {} steps, scale {}", params.shutter.length, params.shutter.centre,
                     report.steps, params.file.scale);
+    if (part.attributes.contains("pelage:shutterOpen")) {
+      const float middle = params.shutter.centre, half = params.shutter.length / 2;
+      out.part.header.attributes["pelage:shutterOpen"] = middle - half;
+      out.part.header.attributes["pelage:shutterClose"] = middle + half;
+    }
     enclose(job.window, out.part.header.data);
     job.parts.push_back(std::move(out));
   }

@@ -5,6 +5,8 @@
 #include <bit>
 #include <limits>
 
+#include "post/color_sum.h"
+
 namespace pelage {
 namespace {
 
@@ -109,7 +111,7 @@ void BoxResolve::flush() {
     float* const sums = &sums_[c * states_.size()];
     for (const Entry& e : entries_) {
       const float v = channel.source.at(source_x(e.source), source_y(e.source));
-      sums[e.at] += static_cast<float>(e.count) * (v == v ? v : 0);
+      sums[e.at] += static_cast<float>(e.count) * color_to_sum(v);
     }
   }
   for (size_t m = 0; m < layers_.mattes.size(); ++m) {
@@ -128,7 +130,7 @@ void BoxResolve::add_to_matte(const RankedMatte& matte, const Entry& e) {
     const auto id = std::bit_cast<uint32_t>(layers_.channels[rank.id].source.at(x, y));
     auto found = std::find_if(sums.begin(), sums.end(), [&](const auto& sum) { return sum.first == id; });
     if (found == sums.end()) found = sums.insert(sums.end(), {id, 0.0f});
-    found->second += static_cast<float>(e.count) * coverage;
+    found->second += static_cast<float>(e.count) * color_to_sum(coverage);
   }
 }
 
@@ -142,7 +144,7 @@ void BoxResolve::write_matte(size_t matte, uint32_t at, int x, int y) {
     const bool has = i < sums.size();
     layers_.channels[ranks[i].id].target.at(x, y) = has ? std::bit_cast<float>(sums[i].first) : 0;
     layers_.channels[ranks[i].coverage].target.at(x, y) =
-        has ? sums[i].second / static_cast<float>(samples_) : 0;
+        has ? color_of_mean(sums[i].second / static_cast<float>(samples_)) : 0;
   }
 }
 
@@ -156,7 +158,7 @@ void BoxResolve::write_pixel(uint32_t at, int x, int y) {
     if (is_copy) {
       to = channel.source.at(source_x(state.source), source_y(state.source));
     } else if (channel.role == LayerRole::kColor) {
-      to = sums_[c * states_.size() + at] / static_cast<float>(samples_);
+      to = color_of_mean(sums_[c * states_.size() + at] / static_cast<float>(samples_));
     } else if (channel.role == LayerRole::kData || channel.role == LayerRole::kDepth) {
       const float empty = channel.role == LayerRole::kDepth ? std::numeric_limits<float>::infinity() : 0.0f;
       to = state.front.is_empty() ? empty : channel.source.at(state.front.x(), state.front.y());

@@ -9,7 +9,7 @@
 namespace pelage {
 
 FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
-                     const LinkLimits& limits, const Workers& workers)
+                     const LinkLimits& limits, const Workers& workers, const std::vector<uint8_t>* is_thin)
     : width_(width),
       height_(height),
       motion_(std::move(motion)),
@@ -41,15 +41,17 @@ FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vecto
   };
   mark([&](int x, int y) { return four_hang_together(x, y) ? kFour : 0; });
   mark([&](int x, int y) { return has_own_corners(x, y) ? kRigid : 0; });
-  mark([&](int x, int y) { return hides_behind_another(x, y) ? kSeam : 0; });
+  mark([&](int x, int y) {
+    const bool may_hide = !is_thin || !(*is_thin)[at(x, y)];
+    return may_hide && hides_behind_another(x, y) ? kSeam : 0;
+  });
   bound_blocks();
 }
 
 void FlowField::clean(size_t pixel) {
   Flow& m = motion_[pixel];
   if (!std::isfinite(m.x) || !std::isfinite(m.y)) m = {};
-  m.x = std::clamp(m.x, -kLongest, kLongest);
-  m.y = std::clamp(m.y, -kLongest, kLongest);
+  m = cut(m);
   float& z = depth_[pixel];
   z = std::abs(z);
   if (!(z > 0)) z = std::numeric_limits<float>::infinity();

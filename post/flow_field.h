@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -34,12 +35,15 @@ class FlowField {
   static constexpr int kLargestSide = 65535;
   /// Vectors are cut to this length: far enough to leave any picture.
   static constexpr float kLongest = 1 << 18;
+  static Flow cut(Flow m) {
+    return {std::clamp(m.x, -kLongest, kLongest), std::clamp(m.y, -kLongest, kLongest)};
+  }
 
   /// `motion`, `depth`: width * height, rows from the top. Vectors that are not finite count as none. Depth
   /// is a distance; its sign is ignored, and what is not a distance (zero, infinity, not a number) is
-  /// infinitely far away.
+  /// infinitely far away. Pixels for which `is_thin` is not 0 get no seams.
   FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
-            const LinkLimits& limits, const Workers& workers);
+            const LinkLimits& limits, const Workers& workers, const std::vector<uint8_t>* is_thin = nullptr);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -49,7 +53,8 @@ class FlowField {
   bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
 
   /// Whether a neighbour on another, nearer surface may come away from this pixel. Neither is infinitely far
-  /// away: what is nothing, or a sky, does not end where it is hidden.
+  /// away: what is nothing, or a sky, does not end where it is hidden. Nor is it thin: beside a strand, the
+  /// background is seen.
   bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
   /// Whether the first of two neighbours is the one behind; of equally far ones, the later one is.
   bool is_behind(int x, int y, int other_x, int other_y) const;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "post/color_sum.h"
+
 namespace pelage {
 namespace {
 
@@ -157,8 +159,7 @@ void LanczosResolve::fetch_colors() {
     for (const uint32_t pixel : sources_) {
       const int x = static_cast<int>(pixel & 0xffff), y = static_cast<int>(pixel >> 16);
       for (size_t c = 0; c < kLanes; ++c) {
-        const float v = channels[c].source.at(x, y);
-        to[c] = v == v ? v : 0;
+        to[c] = color_to_sum(channels[c].source.at(x, y));
       }
       to += channels_.size();
     }
@@ -190,7 +191,8 @@ void LanczosResolve::resolve(const Gathered& pixel, int x, int y) const {
     for (size_t c = 0; c < std::min(kLanes, color_count_ - c0); ++c) {
       const float value = sum[c] / pixel.weight;
       // Infinite colours make the sum meaningless; the limits are still true.
-      channels_[c0 + c].target.at(x, y) = value == value ? std::clamp(value, low[c], high[c]) : high[c];
+      channels_[c0 + c].target.at(x, y) =
+          color_of_mean(value == value ? std::clamp(value, low[c], high[c]) : high[c]);
     }
   }
 }

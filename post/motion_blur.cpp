@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "post/box_resolve.h"
+#include "post/step_lists.h"
 
 namespace pelage {
 namespace {
@@ -17,6 +18,7 @@ struct Scratch {
   explicit Scratch(const PostLayers& layers) : resolve(layers) {}
   WorkBuffer buffer{PixelBox{}, 1};
   BoxResolve resolve;
+  StepLists lists;
 };
 
 bool is_still(const std::vector<const FlowField::Block*>& blocks) {
@@ -29,15 +31,19 @@ void blur_piece(const BlurJob& job, const Warp& warp, const PixelBox& box, Scrat
   scratch.buffer.reset(box, job.target.scale);
   scratch.resolve.begin(box, job.target.scale);
   const PixelBox samples = scratch.buffer.samples();
-  const std::vector<const FlowField::Block*> blocks = warp.reaching(samples, *first, *last);
+  std::vector<const FlowField::Block*> blocks = warp.reaching(samples, *first, *last);
   // Corners may take up motion from beyond a block, but none from where all links hold no motion.
   const bool still = is_still(blocks);
   const size_t steps = still ? 1 : job.times.size();
+  if (!still) scratch.lists.gather(warp, job.times, samples, blocks);
   for (size_t step = 0; step < steps; ++step) {
     if (step > 0) scratch.buffer.clear();
     const float time = still ? 0 : job.times[step];
     for (const FlowField::Block* block : blocks) {
       if (warp.reaches(*block, samples, time)) warp.draw(*block, time, scratch.buffer);
+    }
+    if (!still) {
+      for (const StepLists::Pixel& p : scratch.lists.at(step)) warp.draw(p.x, p.y, time, scratch.buffer);
     }
     scratch.resolve.add(scratch.buffer, still ? static_cast<int>(job.times.size()) : 1);
   }

@@ -78,21 +78,21 @@ PostLayers layers_of(const pelage_post_image& image) {
 }
 
 /// Depth of every pixel; soft edges are joined to their surfaces, and so are their vectors if there are any.
-std::vector<float> depth_of(const pelage_post_image& image, std::vector<Flow>& motion) {
-  std::vector<uint8_t> is_soft;
+std::vector<float> depth_of(const pelage_post_image& image, std::vector<Flow>& motion,
+                            std::vector<uint8_t>& edges) {
   std::vector<float> depth;
   depth.reserve(static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
-  is_soft.reserve(depth.capacity());
+  edges.reserve(depth.capacity());
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const bool is_clear = image.alpha.words && value(image.alpha, x, y) == 0;
       depth.push_back(is_clear            ? std::numeric_limits<float>::infinity()
                       : image.depth.words ? value(image.depth, x, y)
                                           : 1);
-      is_soft.push_back(image.alpha.words && is_soft_edge(value(image.alpha, x, y), depth.back()));
+      edges.push_back(image.alpha.words ? edge_bits(value(image.alpha, x, y), depth.back()) : uint8_t{0});
     }
   }
-  join_soft_edges(image.width, image.height, is_soft, depth, motion);
+  join_soft_edges(image.width, image.height, edges, depth, motion);
   return depth;
 }
 
@@ -113,7 +113,8 @@ void blur(const pelage_post_image& image, const pelage_post_options& options, Pr
   }
   LinkLimits limits;
   limits.largest_time = std::abs(options.centre) + std::abs(options.shutter) / 2;
-  std::vector<float> depth = depth_of(image, motion);
+  std::vector<uint8_t> edges;
+  std::vector<float> depth = depth_of(image, motion, edges);
   const FlowField field(image.width, image.height, std::move(motion), std::move(depth), limits, workers);
   const BlurJob job{&field,
                     {options.scale, 0, 0,
@@ -133,15 +134,16 @@ void other_eye(const pelage_post_image& image, const pelage_post_options& option
   const Workers workers(options.threads);
   const StereoCamera camera{options.focal_pixels, options.eye_separation, options.convergence};
   std::vector<Flow> motion;
-  std::vector<float> depth = depth_of(image, motion);
+  std::vector<uint8_t> edges;
+  std::vector<float> depth = depth_of(image, motion, edges);
   motion = parallax_field(depth, camera);
-  const FlowField field(image.width, image.height, std::move(motion), std::move(depth), LinkLimits(),
-                        workers);
+  const FlowField field(image.width, image.height, std::move(motion), std::move(depth), LinkLimits(), workers,
+                        &edges);
   StereoJob job;
   job.field = &field;
   job.target.scale = options.scale;
   job.filter = options.box_filter ? StereoFilter::kBox : StereoFilter::kLanczos;
-  job.longest_fill = options.longest_fill < 0 ? default_fill(image.width) : options.longest_fill;
+  job.longest_fill = options.longest_fill < 0 ? kFillEverything : options.longest_fill;
   job.width = image.width;
   job.height = job.last_row = image.height;
   if (options.invented) job.invented = Plane{options.invented, 1, image.width, 0};

@@ -77,8 +77,8 @@ typedef struct pelage_post_options {
   float eye_separation; /* stereo: scene units, positive to the right */
   float convergence;    /* stereo: scene units; infinity for none */
   int box_filter;       /* stereo: 0: Lanczos */
-  int longest_fill;     /* pixels of a gap that are filled, at most 65535; -1: stereo a fortieth of the
-                           width, blur 4 */
+  int longest_fill;     /* pixels of a gap that are filled, at most 65535; -1: stereo all of
+                           them, blur 4 */
   float* invented; /* stereo: NULL, or width * height floats for the part of each pixel that was filled */
   pelage_post_progress progress; /* NULL: none */
   void* user;

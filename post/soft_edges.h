@@ -9,18 +9,24 @@
 
 namespace pelage {
 
-/// Pixels that a filter gave some coverage (alpha between 0 and 1) but in which no surface was met have no
+/// What alpha says of a pixel, as bits.
+inline constexpr uint8_t kPartlyCovered = 1;  ///< alpha between 0 and 1: an edge, or something thin
+inline constexpr uint8_t kSoftEdge = 2;       ///< partly covered, and without a depth
+
+/// Soft edges are pixels that a filter gave some coverage, but in which no surface was met. They have no
 /// depth and no vector of their own: left alone they would stay behind when their surface moves.
-inline bool is_soft_edge(float alpha, float depth) {
+inline uint8_t edge_bits(float alpha, float depth) {
+  if (!(alpha > 0 && alpha < 1)) return 0;
   const float distance = depth < 0 ? -depth : depth;
-  return alpha > 0 && alpha < 1 && !(distance > 0 && distance < std::numeric_limits<float>::infinity());
+  const bool has_depth = distance > 0 && distance < std::numeric_limits<float>::infinity();
+  return has_depth ? kPartlyCovered : kPartlyCovered | kSoftEdge;
 }
 
 inline constexpr int kSoftEdgeReach = 2;
 
-/// Gives each marked pixel depth and vector of the nearest surface within kSoftEdgeReach pixels, if there is
+/// Gives each soft edge depth and vector of the nearest surface within kSoftEdgeReach pixels, if there is
 /// one. `motion` may be empty. Equal depths: the one that comes first.
-void join_soft_edges(int width, int height, const std::vector<uint8_t>& is_soft, std::vector<float>& depth,
+void join_soft_edges(int width, int height, const std::vector<uint8_t>& edges, std::vector<float>& depth,
                      std::vector<Flow>& motion);
 
 }  // namespace pelage

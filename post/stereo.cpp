@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "post/box_resolve.h"
+#include "post/extend_sides.h"
 #include "post/lanczos_resolve.h"
 
 namespace pelage {
@@ -28,18 +29,25 @@ struct Scratch {
 void fill_strip(const StereoJob& job, int y0, int y1, Scratch& scratch) {
   const int s = job.target.scale;
   const auto width = static_cast<size_t>(job.width);
+  // Nothing moves into the picture from further away.
+  const Flow low = job.field->low(), high = job.field->high();
+  const float longest = std::ceil(std::max(std::abs(low.x), std::abs(high.x)));
+  const int beyond = std::min(job.longest_fill, static_cast<int>(longest));
   const PixelBox& samples = scratch.buffer.samples();
   scratch.filled.assign(width * static_cast<size_t>(y1 - y0), 0);
   scratch.empty.assign(scratch.filled.size(), 0);
   for (int row = samples.y0; row < samples.y1; ++row) {
     const std::span<Sample> line(scratch.buffer.row(row), static_cast<size_t>(samples.width()));
     scratch.invented.assign(line.size(), 0);
-    fill_gaps(line, scratch.invented, job.longest_fill * s, job.ends);
+    extend_sides(*job.field, job.target, job.ends, beyond, row, line, scratch.invented);
+    // With a limit, no more is added to the sides.
+    const RowEnds ends = job.longest_fill < kFillEverything ? RowEnds{false, false} : job.ends;
+    fill_gaps(line, scratch.invented, job.longest_fill * s, ends);
     const int y = row / s;
     if (y < y0 || y >= y1) continue;
     const size_t first = static_cast<size_t>(y - y0) * width;
     for (size_t i = 0; i < line.size(); ++i) {
-      scratch.filled[first + i / static_cast<size_t>(s)] += scratch.invented[i];
+      scratch.filled[first + i / static_cast<size_t>(s)] += scratch.invented[i] != 0;
       scratch.empty[first + i / static_cast<size_t>(s)] += line[i].is_empty();
     }
   }

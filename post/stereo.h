@@ -31,8 +31,8 @@ inline float parallax(const StereoCamera& camera, float depth) {
 /// The same for every pixel, as a field's vectors; depth as FlowField takes it.
 std::vector<Flow> parallax_field(const std::vector<float>& depth, const StereoCamera& camera);
 
-/// Pixels of a gap that are filled unless somebody says otherwise: a fortieth of the picture's width.
-inline int default_fill(int width) { return width / 40; }
+/// Pixels of a gap that are filled by default: every gap is filled.
+inline constexpr int kFillEverything = FlowField::kLargestSide;
 
 /// Rows of the strips that are held at a time unless somebody says otherwise.
 inline constexpr int kStripRows = 16;

@@ -136,24 +136,22 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
   if (!layers.depth()) {
     fail_missing(image, what_was_named("depth", params.file.layers.depth), "name a layer with --depth-layer");
   }
-  std::vector<uint8_t> is_soft;
-  std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha(), is_soft);
+  std::vector<uint8_t> edges;
+  std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha(), edges);
   std::vector<Flow> vectors;
   if (params.parallax.empty()) {
-    join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
+    join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
     vectors = parallax_field(depth, camera);
   } else {
     const auto uv = layers.vectors(params.parallax);
     if (!uv) fail_missing(image, "layer " + quote(params.parallax), "give another --parallax-layer");
-    size_t not_finite = 0;
-    vectors = image.read_vectors(*uv, params.file.vectors, not_finite);
-    join_soft_edges(image.canvas().width(), image.canvas().height(), is_soft, depth, vectors);
-    if (not_finite > 0) {
-      report.notes.push_back(fmt::format("{} vectors are not finite and count as none", not_finite));
-    }
+    VectorSurvey survey(static_cast<float>(image.largest_reach()));
+    vectors = image.read_vectors(*uv, params.file.vectors, survey);
+    report_vectors(survey, image, params.file.vectors, "--parallax", "", report);
+    join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
   }
   return std::make_unique<FlowField>(image.canvas().width(), image.canvas().height(), std::move(vectors),
-                                     std::move(depth), LinkLimits(), workers);
+                                     std::move(depth), LinkLimits(), workers, &edges);
 }
 
 }  // namespace
@@ -183,8 +181,16 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
 
   const Overhang by = overhang(field, {0, 1});
   job.window = image.canvas();
-  job.window.x0 = std::max(job.window.x0 - by.left, image.limits().x0);
-  job.window.x1 = std::min(job.window.x1 + by.right, image.limits().x1);
+  const int most = image.largest_reach();
+  job.window.x0 = std::max(job.window.x0 - std::min(by.left, most), image.limits().x0);
+  job.window.x1 = std::min(job.window.x1 + std::min(by.right, most), image.limits().x1);
+  const int width_px = image.limits().x1 - image.limits().x0;
+  if (params.parallax.empty() && report.longest > static_cast<float>(width_px)) {
+    report.warnings.push_back(
+        fmt::format("the parallax reaches {:.0f} pixels, more than the picture's width of {}; check "
+                    "--eye-separation and --convergence",
+                    static_cast<double>(report.longest), width_px));
+  }
   plan_parts(job, image, view, camera);
   job.views.push_back(std::move(moving));
   check_named_layers(job.views, params.file.layers);
@@ -200,7 +206,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
           width * static_cast<size_t>(strip_rows) * counts +
           (is_box ? 0 : LanczosResolve::bytes_needed(job.window.width(), image.own().size(), job.scale))) *
       workers.thread_count();
-  job.longest_fill = params.file.longest_fill.value_or(default_fill(camera_part(image).display.width()));
+  job.longest_fill = params.file.longest_fill.value_or(kFillEverything);
   job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
     return rows_reaching(*v.field, target, job.window.width(), std::max(0, band.first - margin),
                          std::min(height, band.last + margin), {1.0f});

@@ -7,7 +7,7 @@
 namespace pelage {
 
 struct StereoFileParams {
-  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< fill: a fortieth of the display window's width
+  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< fill: by default every gap
   std::optional<std::string> view;  ///< to start from; default "left" if there is one, else the default view
   std::optional<float> eye_separation;  ///< scene units; default 6.5 cm where the file says what a unit is
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units

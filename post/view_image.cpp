@@ -40,6 +40,14 @@ ViewImage::ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channel
   }
 }
 
+int ViewImage::largest_reach() const {
+  const auto diagonal = [](const PixelBox& box) {
+    return std::hypot(double{1} * box.x1 - box.x0, double{1} * box.y1 - box.y0);
+  };
+  return static_cast<int>(
+      std::ceil(std::min(diagonal(limits_), std::max(diagonal(canvas_), double{kUsualReach}))));
+}
+
 void ViewImage::read_into(const std::vector<size_t>& wanted, int first, int last, float* words) const {
   const auto width = static_cast<size_t>(canvas_.width());
   const size_t plane = width * static_cast<size_t>(last - first);
@@ -84,14 +92,14 @@ void ViewImage::read(const std::vector<size_t>& wanted, int first, int last,
 }
 
 std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
-                                         std::vector<uint8_t>& is_soft) const {
+                                         std::vector<uint8_t>& edges) const {
   std::vector<size_t> wanted;
   if (depth) wanted.push_back(*depth);
   if (alpha) wanted.push_back(*alpha);
   std::vector<float> result;
   result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
-  is_soft.clear();
-  is_soft.reserve(result.capacity());
+  edges.clear();
+  edges.reserve(result.capacity());
   std::vector<float> words;
   for (int y = 0; y < canvas_.height(); y += kRows) {
     const int rows = std::min(kRows, canvas_.height() - y);
@@ -102,14 +110,14 @@ std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optio
     for (size_t i = 0; i < count; ++i) {
       const bool is_clear = a && a[i] == 0;  // nothing is there, whatever its depth
       result.push_back(is_clear ? std::numeric_limits<float>::infinity() : z ? z[i] : 1);
-      is_soft.push_back(a && is_soft_edge(a[i], result.back()));
+      edges.push_back(a ? edge_bits(a[i], result.back()) : uint8_t{0});
     }
   }
   return result;
 }
 
 std::vector<Flow> ViewImage::read_vectors(std::pair<size_t, size_t> uv, const VectorParams& params,
-                                          size_t& not_finite) const {
+                                          VectorSurvey& survey) const {
   const PixelBox& display = reader_.parts()[channels_[uv.first].part].display;
   float sx = params.scale, sy = params.is_y_up ? -params.scale : params.scale;
   if (params.is_ndc) {
@@ -118,7 +126,6 @@ std::vector<Flow> ViewImage::read_vectors(std::pair<size_t, size_t> uv, const Ve
   }
   std::vector<Flow> result;
   result.reserve(static_cast<size_t>(canvas_.width()) * static_cast<size_t>(canvas_.height()));
-  not_finite = 0;
   std::vector<float> words;
   for (int y = 0; y < canvas_.height(); y += kRows) {
     const int rows = std::min(kRows, canvas_.height() - y);
@@ -126,8 +133,9 @@ std::vector<Flow> ViewImage::read_vectors(std::pair<size_t, size_t> uv, const Ve
     read({uv.first, uv.second}, y, y + rows, words);
     for (size_t i = 0; i < count; ++i) {
       const Flow m{sx * words[i], sy * words[count + i]};
-      not_finite += !std::isfinite(m.x) || !std::isfinite(m.y);
-      result.push_back(m);
+      survey.add(words[i], words[count + i], m);
+      // A finite word in a wrong unit must not become infinite, which would count as no motion.
+      result.push_back(std::isfinite(words[i]) && std::isfinite(words[count + i]) ? FlowField::cut(m) : m);
     }
   }
   return result;

@@ -7,15 +7,9 @@
 
 #include "post/flow_field.h"
 #include "post/layer_names.h"
+#include "post/vector_survey.h"
 
 namespace pelage {
-
-/// How vectors of a file are meant.
-struct VectorParams {
-  bool is_ndc = false;   ///< fractions of the display window instead of pixels
-  bool is_y_up = false;  ///< positive v points up, as in Nuke; Pelage writes it pointing down
-  float scale = 1;       ///< on top of both: what turns them into motion per frame
-};
 
 /// One view of a file on one canvas: the smallest window that holds all its parts. Knows where everything is,
 /// and reads it; keeps no pixels.
@@ -31,6 +25,11 @@ class ViewImage {
   const PixelBox& canvas() const { return canvas_; }
   /// Where the parts' frames and pixels are.
   const PixelBox& limits() const { return limits_; }
+  /// Pixels that motion may carry something beyond the canvas: the diagonal of the frame. Of a few pixels in
+  /// a frame that is far larger, the larger one of their own diagonal and kUsualReach, so that the size of
+  /// the result is bounded by that of the source.
+  int largest_reach() const;
+  static constexpr int kUsualReach = 1024;
   const std::vector<NamedChannel>& channels() const { return channels_; }
   /// Numbers of the channels of this view.
   const std::vector<size_t>& own() const { return own_; }
@@ -41,12 +40,12 @@ class ViewImage {
   void read(const std::vector<size_t>& channels, int first, int last, std::vector<float>& words) const;
 
   /// Depth for all of the canvas: infinite where alpha is zero; `depth` empty: 1 wherever there is alpha.
-  /// `is_soft` marks soft edges (post/soft_edges.h).
+  /// `edges` gets the bits of post/soft_edges.h.
   std::vector<float> read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
-                                std::vector<uint8_t>& is_soft) const;
-  /// Vectors for all of the canvas. `not_finite` counts those that will be taken as none.
+                                std::vector<uint8_t>& edges) const;
+  /// Vectors for all of the canvas, counted by `survey`.
   std::vector<Flow> read_vectors(std::pair<size_t, size_t> uv, const VectorParams& params,
-                                 size_t& not_finite) const;
+                                 VectorSurvey& survey) const;
 
  private:
   void read_into(const std::vector<size_t>& channels, int first, int last, float* words) const;

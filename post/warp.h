@@ -43,24 +43,22 @@ class Warp {
 
   template <class Buffer>
   void draw(const FlowField::Block& block, float time, Buffer& buffer) const {
-    // How far from its own vector's end a pixel may be seen: its size, what its corners take over from
-    // others, and its seams.
-    const float margin =
-        static_cast<float>(target_.scale) * (2 + field_.slack() * std::abs(time) + target_.longest_seam);
+    const Point margin = margin_at(std::abs(time));
     for (int y = block.y0; y < block.y1; ++y) {
-      for (int x = block.x0; x < block.x1; ++x) {
-        if (field_.is_rigid(x, y)) {
-          draw_square(x, y, time, buffer);
-        } else if (is_near(x, y, time, buffer.samples(), margin)) {
-          draw_quad(x, y, time, buffer);
-        }
-        if (target_.longest_seam > 0 && field_.has_seam(x, y) &&
-            is_near(x, y, time, buffer.samples(), margin)) {
-          draw_seams(x, y, time, buffer);
-        }
-      }
+      for (int x = block.x0; x < block.x1; ++x) draw_pixel(x, y, time, margin, buffer);
     }
   }
+  /// The same for one pixel.
+  template <class Buffer>
+  void draw(int x, int y, float time, Buffer& buffer) const {
+    draw_pixel(x, y, time, margin_at(std::abs(time)), buffer);
+  }
+
+  struct Times {
+    float first, last;  ///< empty when last < first
+  };
+  /// The times, by magnitude up to `largest`, outside of which the pixel draws nothing into `samples`.
+  Times times_near(int x, int y, float largest, const PixelBox& samples) const;
 
  private:
   struct Point {
@@ -68,6 +66,28 @@ class Warp {
   };
 
   bool reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const;
+  /// How far from its own vector's end a pixel may be seen at times up to `time`, in samples: its size, what
+  /// its corners take over from others, and its seams.
+  Point margin_at(float time) const {
+    const auto scale = static_cast<float>(target_.scale);
+    const float own = 2 + field_.slack() * time;
+    const Point seam = seam_reach(time);
+    return {scale * (own + seam.x), scale * (own + seam.y)};
+  }
+  template <class Buffer>
+  void draw_pixel(int x, int y, float time, Point margin, Buffer& buffer) const {
+    if (field_.is_rigid(x, y)) {
+      draw_square(x, y, time, buffer);
+    } else if (is_near(x, y, time, buffer.samples(), margin)) {
+      draw_quad(x, y, time, buffer);
+    }
+    if (target_.longest_seam > 0 && field_.has_seam(x, y) && is_near(x, y, time, buffer.samples(), margin)) {
+      draw_seams(x, y, time, buffer);
+    }
+  }
+  /// Largest width and height of a seam, in pixels, at times up to `time`: neighbours part by no more than
+  /// all vectors of the picture differ.
+  Point seam_reach(float time) const;
 
   /// In samples of the picture. The same for everybody who asks for the same corner.
   Point place(int x, int y, Flow motion, float time) const {
@@ -75,10 +95,10 @@ class Warp {
     return {scale * (static_cast<float>(x - target_.origin_x) + time * motion.x),
             scale * (static_cast<float>(y - target_.origin_y) + time * motion.y)};
   }
-  bool is_near(int x, int y, float time, const PixelBox& box, float margin) const {
+  bool is_near(int x, int y, float time, const PixelBox& box, Point margin) const {
     const Point p = place(x, y, field_.motion(x, y), time);
-    return p.x >= static_cast<float>(box.x0) - margin && p.x <= static_cast<float>(box.x1) + margin &&
-           p.y >= static_cast<float>(box.y0) - margin && p.y <= static_cast<float>(box.y1) + margin;
+    return p.x >= static_cast<float>(box.x0) - margin.x && p.x <= static_cast<float>(box.x1) + margin.x &&
+           p.y >= static_cast<float>(box.y0) - margin.y && p.y <= static_cast<float>(box.y1) + margin.y;
   }
   /// The first of the samples low .. high whose centre is not before `edge`.
   static int first_sample(float edge, int low, int high) {

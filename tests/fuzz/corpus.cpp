@@ -176,7 +176,27 @@ std::vector<std::string> post_corpus() {
         {{"Z", ChannelType::kFloat}, {"forward.u", ChannelType::kFloat}, {"forward.v", ChannelType::kFloat}},
         {image.find("Z")->pixels, image.find("forward.u")->pixels, image.find("forward.v")->pixels},
         "left"}});
-  return {read_file(folder.path() / "one.exr"), read_file(folder.path() / "two.exr")};
+  // A few pixels in a huge frame, with vectors, depths and colours beyond all sense.
+  ExrImage wild = still_image(9, 6);
+  for (size_t i = 0; i < 9 * 6; ++i) {
+    pixels_of(wild, "forward.u")[i] = i % 2 ? 1e30f : -3e38f;
+    pixels_of(wild, "key.diffuse.R")[i] = i % 3 ? 3e38f : -3e38f;
+    pixels_of(wild, "Z")[i] = i % 5 ? 1e-40f : 3e38f;
+  }
+  const PixelBox few{30000, 20000, 30009, 20006};
+  write_parts(folder.path() / "wild.exr", folder.path() / "one.exr", {0, 0, 65000, 65000},
+              {{"",
+                few,
+                {{"A", ChannelType::kHalf},
+                 {"R", ChannelType::kFloat},
+                 {"Z", ChannelType::kFloat},
+                 {"forward.u", ChannelType::kFloat},
+                 {"forward.v", ChannelType::kFloat}},
+                {wild.find("A")->pixels, wild.find("key.diffuse.R")->pixels, wild.find("Z")->pixels,
+                 wild.find("forward.u")->pixels, wild.find("forward.v")->pixels},
+                ""}});
+  return {read_file(folder.path() / "one.exr"), read_file(folder.path() / "two.exr"),
+          read_file(folder.path() / "wild.exr")};
 }
 
 std::vector<std::string> scene_corpus() {

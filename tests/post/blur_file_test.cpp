@@ -262,6 +262,108 @@ TEST_F(BlurFile, CountsVectorsThatAreNotFinite) {
             std::vector<std::string>{"2 vectors are not finite and count as none"});
 }
 
+TEST_F(BlurFile, AFewPixelsInAHugeFrameStayFew) {
+  write_exr(path("like.exr"), still_image(4, 4));
+  const PixelBox display{0, 0, 65000, 65000}, box{30000, 20000, 30064, 20036};
+  const auto plane = [](float value) { return std::vector<float>(64 * 36, value); };
+  const auto write = [&](float u) {
+    write_parts(path("in.exr"), path("like.exr"), display,
+                {{"",
+                  box,
+                  {{"A", ChannelType::kHalf},
+                   {"Z", ChannelType::kFloat},
+                   {"forward.u", ChannelType::kFloat},
+                   {"forward.v", ChannelType::kFloat}},
+                  {plane(1), plane(3), plane(u), plane(0)},
+                  ""}});
+  };
+  for (const float u : {30000.0f, 1e30f, 3e38f}) {
+    write(u);
+    const PostReport report = blur("in.exr", "out.exr");
+    EXPECT_EQ(report.window, (PixelBox{30000 - 1024, 20000, 30064 + 1024, 20036})) << u;
+    EXPECT_EQ(report.warnings.size(), 1u);
+  }
+  params_.file.vectors.is_ndc = true;
+  write(3e38f);  // becomes infinite, not zero
+  EXPECT_EQ(blur("in.exr", "out.exr").window.width(), 64 + 2 * 1024);
+  // Vectors that stay in the neighbourhood are never cut.
+  params_.file.vectors.is_ndc = false;
+  write(4000);  // 1000 on each side
+  const PostReport report = blur("in.exr", "out.exr");
+  EXPECT_GT(report.window.width(), 64 + 1900);
+  EXPECT_LT(report.window.width(), 64 + 2000);
+}
+
+TEST_F(BlurFile, WarnsOfWrongUnits) {
+  ExrImage image = still_image(64, 48);  // the diagonal is 80
+  const auto warning = [&](float u, bool is_ndc = false, float scale = 1) -> std::string {
+    std::fill(pixels_of(image, "forward.u").begin(), pixels_of(image, "forward.u").end(), u);
+    write_exr(path("in.exr"), image);
+    params_.file.vectors = {is_ndc, false, scale};
+    const PostReport report = blur("in.exr", "out.exr");
+    return report.warnings.empty() ? "" : report.warnings.at(0);
+  };
+  EXPECT_EQ(warning(0), "");
+  EXPECT_EQ(warning(5), "");
+  EXPECT_EQ(warning(-79), "");
+  EXPECT_EQ(
+      warning(0.1f),
+      "no vector is longer than 1 pixel (the longest: 0.1); if they are normalised to the picture's size, "
+      "use --motion-units ndc");
+  EXPECT_EQ(warning(0.1f, true), "");
+  EXPECT_EQ(warning(0.001f), "");  // nothing moves in either unit
+  EXPECT_EQ(warning(20, true),
+            "most vectors are longer than 80 pixels (the longest: 1280): they look like pixels; leave out "
+            "--motion-units ndc");
+  EXPECT_EQ(warning(20, false, 100),
+            "most vectors are longer than 80 pixels (the longest: 2000): check --motion-scale");
+  EXPECT_EQ(
+      warning(200),
+      "most vectors are longer than 80 pixels (the longest: 200): they look like pixels per second; at 24 "
+      "frames a second use --motion-scale 0.0417");
+  EXPECT_EQ(
+      warning(1e9f),
+      "most vectors are longer than 80 pixels (the longest: 1e+09): they look like positions or another "
+      "quantity; check --motion-layer");
+  pixels_of(image, "forward.v").assign(64 * 48, 0.5f);
+  EXPECT_EQ(warning(0.502f), "the vectors look encoded with 0.5 for no motion; subtract 0.5 from them first");
+  pixels_of(image, "forward.v").assign(64 * 48, 0);
+  pixels_of(image, "forward.v")[7] = pixels_of(image, "forward.v")[70] = 1e20f;
+  EXPECT_EQ(warning(5), "2 of 3072 vectors are longer than 80 pixels, beyond the picture: they look damaged");
+}
+
+TEST_F(BlurFile, TrustsTheUnitsOfPelagesOwnPictures) {
+  ExrImage image = still_image(64, 48);
+  pixels_of(image, "forward.u").assign(64 * 48, 0.1f);
+  image.attributes["pelage:version"] = std::string("0.1.0");
+  write_exr(path("in.exr"), image);
+  EXPECT_TRUE(blur("in.exr", "out.exr").warnings.empty());
+}
+
+TEST_F(BlurFile, WarnsWhereThePictureIsBlurredAlready) {
+  ExrImage image = still_image(16, 16);
+  image.attributes["pelage:shutterOpen"] = 0.0f;
+  image.attributes["pelage:shutterClose"] = 0.0f;
+  write_exr(path("static.exr"), image);
+  EXPECT_TRUE(blur("static.exr", "once.exr").warnings.empty());
+  image.attributes["pelage:shutterOpen"] = -0.25f;
+  image.attributes["pelage:shutterClose"] = 0.125f;
+  write_exr(path("blurred.exr"), image);
+  EXPECT_EQ(blur("blurred.exr", "twice.exr").warnings,
+            std::vector<std::string>{
+                "the picture is blurred already: it was rendered with the shutter open from -0.25 to 0.125 "
+                "frames; render it with camera.shutter: [0, 0]"});
+  // The result says when its shutter was open, and who opened it.
+  EXPECT_EQ(std::get<float>(read_exr(path("once.exr")).attributes.at("pelage:shutterOpen")), -0.25f);
+  EXPECT_EQ(std::get<float>(read_exr(path("once.exr")).attributes.at("pelage:shutterClose")), 0.25f);
+  const std::vector<std::string> by_us{"the picture is blurred already: it was written by pelage motionblur"};
+  EXPECT_EQ(blur("once.exr", "twice.exr").warnings, by_us);
+  ExrImage foreign = still_image(16, 16);
+  write_exr(path("foreign.exr"), foreign);
+  EXPECT_TRUE(blur("foreign.exr", "once.exr").warnings.empty());
+  EXPECT_EQ(blur("once.exr", "twice.exr").warnings, by_us);
+}
+
 TEST_F(BlurFile, LeavesNothingWhenItIsStopped) {
   class Stopped final : public Progress {
    public:

@@ -9,12 +9,13 @@
 namespace pelage {
 namespace {
 
-/// Small letters are near, capitals far, dots empty; what was invented comes back in brackets' stead as '*'.
+/// Small letters are near, capitals far, S very far, dots empty; what was invented comes back in brackets'
+/// stead as '*'.
 std::string filled(const std::string& text, int longest, RowEnds ends = {}, std::string* invented = nullptr) {
   std::vector<Sample> row;
   for (size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    row.push_back(c == '.' ? Sample() : Sample(c >= 'a' ? 1.0f : 5.0f, c, 0));
+    row.push_back(c == '.' ? Sample() : Sample(c >= 'a' ? 1.0f : c == 'S' ? 100.0f : 5.0f, c, 0));
   }
   std::vector<uint8_t> marks(row.size());
   fill_gaps(row, marks, longest, ends);
@@ -52,7 +53,16 @@ TEST(FillHoles, NothingComesFromNothing) {
   EXPECT_EQ(filled("A..B", 0), "A..B");
 }
 
-TEST(FillHoles, WhatWasInventedIsNotMirrored) { EXPECT_EQ(filled("A..B..c", 9), "AAABBBc"); }
+TEST(FillHoles, WhatWasFilledIsNotMirrored) { EXPECT_EQ(filled("A..B..c", 9), "AAABBAc"); }
+
+TEST(FillHoles, AThinThingIsMirroredWithTheBackgroundBesideIt) {
+  // S is the sky: in the gap the far strand D ends where it ends beside it.
+  EXPECT_EQ(filled("ab...DSSS", 9), "abSSDDSSS");
+}
+
+TEST(FillHoles, NearThingsAreNotMirrored) { EXPECT_EQ(filled("ab..DcE..", 9, {true, false}), "abEDDcE.."); }
+
+TEST(FillHoles, WhatIsFarAwayIsNotTheGapsBackground) { EXPECT_EQ(filled("ab..DccccccE", 9), "abDDDccccccE"); }
 
 }  // namespace
 }  // namespace pelage

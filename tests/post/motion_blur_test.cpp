@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "post/motion_blur.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,42 @@ TEST(MotionBlur, NoMotionIsTheIdentityToTheBit) {
       EXPECT_EQ(bits(result.depth), bits(p.depth));
     }
   }
+}
+
+TEST(MotionBlur, ListsOfWildPixelsChangeNothing) {
+  // Descending times are drawn without lists; whole samples, so that the order of sums does not matter.
+  Picture p = lively_picture(150, 60);
+  p.each([&](int x, int y, size_t i) {
+    if (x % 3 != 0) p.motion[i] = {400 * signed_float(hash64(i, 1)), 300 * signed_float(hash64(i, 2))};
+    p.color[i] = static_cast<float>((x + y) % 7);
+  });
+  BlurSetup setup;
+  setup.times = times(1, 32);
+  setup.longest_seam = 4;
+  const Result listed = blurred(p, setup);
+  std::reverse(setup.times.begin(), setup.times.end());
+  const Result direct = blurred(p, setup);
+  EXPECT_EQ(bits(listed.color), bits(direct.color));
+  EXPECT_EQ(bits(listed.data), bits(direct.data));
+  EXPECT_EQ(bits(listed.depth), bits(direct.depth));
+}
+
+TEST(MotionBlur, TheLargestColorsStayFinite) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  Picture p = lively_picture(80, 40);
+  BlurSetup setup;
+  setup.scale = 8;
+  setup.times = times(0.5f, 200);
+  setup.longest_seam = 4;
+  p.each([&](int x, int y, size_t i) { p.color[i] = (x + y) % 5 == 0 ? -kLargest : kLargest; });
+  for (const float v : blurred(p, setup).color) ASSERT_TRUE(std::isfinite(v));
+  p.each([&](int, int, size_t i) { p.motion[i] = {5.3f, 0}; });
+  p.each([&](int, int, size_t i) { p.color[i] = 1e38f; });
+  const Result result = blurred(p, setup);
+  for (int x = 10; x < 70; ++x) EXPECT_NEAR(result.color[p.at(x, 20)], 1e38, 1e33);
+  // Infinities of both signs cancel.
+  p.each([&](int x, int, size_t i) { p.color[i] = x % 2 == 0 ? kInfinity : -kInfinity; });
+  EXPECT_EQ(blurred(p, setup).color[p.at(40, 20)], 0);
 }
 
 TEST(MotionBlur, WholePixelsAreShiftedToTheBit) {

@@ -64,10 +64,17 @@ TEST_F(StereoFile, TakesTheCameraFromTheHeader) {
               left.find("id")->ids[static_cast<size_t>(20 * 80 + x + 12)]);
     ASSERT_EQ(right.find("invented.mask")->pixels[static_cast<size_t>(20 * 80 + x)], 0);
   }
-  // Two pixels, a fortieth of the width, are filled beyond the picture's edge, the rest is left.
+  // Beyond the picture's side it is mirrored: all of it, or as much as is asked for.
+  params_.file.longest_fill = 2;
+  run("left.exr", "two.exr");
+  const ExrImage two = read_exr(path("two.exr"));
   for (int x = 68; x < 80; ++x) {
-    EXPECT_EQ(right.find("invented.mask")->pixels[static_cast<size_t>(20 * 80 + x)], x < 70 ? 1 : 0) << x;
-    EXPECT_EQ(right.find("invented.hole")->pixels[static_cast<size_t>(20 * 80 + x)], x < 70 ? 0 : 1) << x;
+    const auto at = static_cast<size_t>(20 * 80 + x);
+    EXPECT_EQ(right.find("R")->pixels[at], left.find("R")->pixels[static_cast<size_t>(20 * 80 + 147 - x)]);
+    EXPECT_EQ(right.find("invented.mask")->pixels[at], 1) << x;
+    EXPECT_EQ(right.find("invented.hole")->pixels[at], 0) << x;
+    EXPECT_EQ(two.find("invented.mask")->pixels[at], x < 70 ? 1 : 0) << x;
+    EXPECT_EQ(two.find("invented.hole")->pixels[at], x < 70 ? 0 : 1) << x;
   }
 }
 
@@ -89,6 +96,45 @@ TEST_F(StereoFile, TheOtherEyesCameraProjectsToWhereThePixelsWent) {
   }
   const V2f converged = ndc("right.exr", V3f(7, 0, 8)) - ndc("left.exr", V3f(7, 0, 8));
   EXPECT_NEAR(converged.x, 0, 1e-3);
+}
+
+TEST_F(StereoFile, LeavesNoHolesAroundThinThings) {
+  // Strands of one pixel, half covered, in front of each other and of a sky.
+  ExrImage image = still_image(160, 12);
+  for (size_t i = 0; i < 160 * 12; ++i) {
+    const size_t x = i % 160;
+    const bool strand = x % 7 == 0;
+    pixels_of(image, "A")[i] = strand ? 0.5f : 0.0f;
+    pixels_of(image, "R")[i] = strand ? 0.5f : 0.0f;
+    pixels_of(image, "Z")[i] = strand ? 2 + 0.5f * static_cast<float>(x % 3) : 1000;
+  }
+  write_exr(path("in.exr"), image);
+  params_.focal_pixels = 100;
+  params_.eye_separation = 0.5f;
+  params_.convergence = 3;
+  params_.filter = StereoFilter::kBox;
+  run("in.exr", "out.exr");
+  ExrImage out = read_exr(path("out.exr"));
+  double before = 0, after = 0;
+  for (size_t i = 0; i < 160 * 12; ++i) {
+    ASSERT_EQ(pixels_of(out, "invented.hole")[i], 0);
+    before += pixels_of(image, "A")[i];
+    after += pixels_of(out, "A")[i];
+  }
+  // Strands neither become wider nor vanish, but for those that come to hide each other.
+  EXPECT_NEAR(after / before, 1, 0.15);
+}
+
+TEST_F(StereoFile, WarnsOfAParallaxWiderThanThePicture) {
+  write_with_camera("left.exr");
+  params_.convergence = 8;
+  EXPECT_TRUE(run("left.exr", "right.exr").warnings.empty());
+  params_.eye_separation = 7;
+  const PostReport report = run("left.exr", "right.exr");
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_EQ(report.warnings[0],
+            "the parallax reaches 88 pixels, more than the picture's width of 80; check --eye-separation and "
+            "--convergence");
 }
 
 TEST_F(StereoFile, SamePixelsForAnyBudget) {

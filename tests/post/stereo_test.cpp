@@ -97,6 +97,62 @@ TEST(Stereo, NothingShinesThroughAGap) {
   }
 }
 
+TEST(Stereo, TheSidesAreContinuedWithTheParallaxOfWhatIsThere) {
+  // A bar at the right side, before a plane that moves three pixels further: beyond the side, bar and plane
+  // are mirrored, and the plane appears between them as it does where it was seen.
+  Picture p(60, 4);
+  p.each([&](int x, int, size_t i) {
+    const bool near = x >= 50 && x < 57;
+    p.color[i] = near ? 1.0f : 0.25f;
+    p.depth[i] = near ? 2.0f : 8.0f;
+    p.motion[i] = {near ? -9.0f : -12.0f, 0};
+  });
+  StereoSetup setup;
+  setup.filter = StereoFilter::kBox;
+  setup.longest_fill = kFillEverything;
+  const Result result = other_eye(p, setup);
+  // Of the plane's 57 .. 62 at 45 .. 50, the bar at 41 .. 47 hides the first three; the mirrored bar is
+  // columns 63 .. 69.
+  for (int x = 0; x < 60; ++x) {
+    const bool near = (x >= 41 && x < 48) || (x >= 54 && x < 61);
+    EXPECT_EQ(result.color[p.at(x, 2)], near ? 1.0f : 0.25f) << x;
+    EXPECT_EQ(result.missing[p.at(x, 2)], 0) << x;
+    const bool is_uncovered = x >= 38 && x < 41;  // left of the bar
+    EXPECT_EQ(result.invented[p.at(x, 2)], is_uncovered || x >= 48 ? 1.0f : 0.0f) << x;
+  }
+}
+
+TEST(Stereo, TheSkyIsSeenBesideAThinThing) {
+  // Two strands part, as in NothingShinesThroughAGap, but the one behind is partly covered.
+  Picture p(80, 6);
+  std::vector<uint8_t> is_thin(80 * 6);
+  p.each([&](int x, int, size_t i) {
+    const bool near = x == 30, far = x == 31;
+    is_thin[i] = far;
+    p.depth[i] = near ? 2.0f : far ? 3.0f : std::numeric_limits<float>::infinity();
+    p.motion[i] = {near ? 0.0f : far ? 4.0f : 3.0f, 0};
+  });
+  const Workers workers(1);
+  const FlowField solid(80, 6, p.motion, p.depth, LinkLimits(), workers);
+  const FlowField thin(80, 6, p.motion, p.depth, LinkLimits(), workers, &is_thin);
+  EXPECT_TRUE(solid.has_seam(31, 2));
+  EXPECT_FALSE(thin.has_seam(31, 2));
+}
+
+TEST(Stereo, TheLargestColorsStayFinite) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  for (const StereoFilter filter : {StereoFilter::kLanczos, StereoFilter::kBox}) {
+    Picture p = two_planes(-6.4f, 1.3f);
+    p.each([&](int x, int y, size_t i) { p.color[i] = (x + y) % 5 == 0 ? -kLargest : kLargest; });
+    StereoSetup setup;
+    setup.filter = filter;
+    setup.longest_fill = 20;
+    for (const float v : other_eye(p, setup).color) ASSERT_TRUE(std::isfinite(v));
+    p.each([&](int, int, size_t i) { p.color[i] = 1e38f; });
+    for (const float v : other_eye(p, setup).color) ASSERT_FLOAT_EQ(v, 1e38f);
+  }
+}
+
 TEST(Stereo, ThereAndBackIsTheSamePicture) {
   // Smooth textures on a slanted plane and on a bar before it.
   Picture left(240, 40);
