@@ -37,18 +37,15 @@ float longest_of(const FlowField& field) {
 
 /// Warns where the header says that the picture is blurred already. Files of other programs say nothing.
 void check_sharp(const ExrPart& part, PostReport& report) {
-  const auto number = [&](const char* name) {
-    const auto found = part.attributes.find(name);
-    return found == part.attributes.end() ? nullptr : std::get_if<float>(&found->second);
-  };
-  const float *open = number("pelage:shutterOpen"), *close = number("pelage:shutterClose");
+  const auto found = part.attributes.find("pelage:shutter");
+  const V2f* shutter = found == part.attributes.end() ? nullptr : std::get_if<V2f>(&found->second);
   if (part.attributes.contains("pelage:motionBlur")) {
     report.warnings.push_back("the picture is blurred already: it was written by pelage motionblur");
-  } else if (open && close && *close > *open) {
+  } else if (shutter && shutter->y > shutter->x) {
     report.warnings.push_back(
         fmt::format("the picture is blurred already: it was rendered with the shutter open from {:.3g} to "
                     "{:.3g} frames; render it with camera.shutter: [0, 0]",
-                    static_cast<double>(*open), static_cast<double>(*close)));
+                    static_cast<double>(shutter->x), static_cast<double>(shutter->y)));
   }
 }
 
@@ -159,10 +156,9 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     out.part.header.attributes["pelage:motionBlur"] =
         fmt::format("shutter {} around {}, {} steps, scale {}", params.shutter.length, params.shutter.centre,
                     report.steps, params.file.scale);
-    if (part.attributes.contains("pelage:shutterOpen")) {
+    if (part.attributes.contains("pelage:shutter")) {
       const float middle = params.shutter.centre, half = params.shutter.length / 2;
-      out.part.header.attributes["pelage:shutterOpen"] = middle - half;
-      out.part.header.attributes["pelage:shutterClose"] = middle + half;
+      out.part.header.attributes["pelage:shutter"] = V2f(middle - half, middle + half);
     }
     enclose(job.window, out.part.header.data);
     job.parts.push_back(std::move(out));

@@ -342,20 +342,17 @@ TEST_F(BlurFile, TrustsTheUnitsOfPelagesOwnPictures) {
 
 TEST_F(BlurFile, WarnsWhereThePictureIsBlurredAlready) {
   ExrImage image = still_image(16, 16);
-  image.attributes["pelage:shutterOpen"] = 0.0f;
-  image.attributes["pelage:shutterClose"] = 0.0f;
+  image.attributes["pelage:shutter"] = V2f(0.0f, 0.0f);
   write_exr(path("static.exr"), image);
   EXPECT_TRUE(blur("static.exr", "once.exr").warnings.empty());
-  image.attributes["pelage:shutterOpen"] = -0.25f;
-  image.attributes["pelage:shutterClose"] = 0.125f;
+  image.attributes["pelage:shutter"] = V2f(-0.25f, 0.125f);
   write_exr(path("blurred.exr"), image);
   EXPECT_EQ(blur("blurred.exr", "twice.exr").warnings,
             std::vector<std::string>{
                 "the picture is blurred already: it was rendered with the shutter open from -0.25 to 0.125 "
                 "frames; render it with camera.shutter: [0, 0]"});
   // The result says when its shutter was open, and who opened it.
-  EXPECT_EQ(std::get<float>(read_exr(path("once.exr")).attributes.at("pelage:shutterOpen")), -0.25f);
-  EXPECT_EQ(std::get<float>(read_exr(path("once.exr")).attributes.at("pelage:shutterClose")), 0.25f);
+  EXPECT_EQ(std::get<V2f>(read_exr(path("once.exr")).attributes.at("pelage:shutter")), V2f(-0.25f, 0.25f));
   const std::vector<std::string> by_us{"the picture is blurred already: it was written by pelage motionblur"};
   EXPECT_EQ(blur("once.exr", "twice.exr").warnings, by_us);
   ExrImage foreign = still_image(16, 16);
