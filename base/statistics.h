@@ -44,6 +44,7 @@ struct Statistics {
   double noise = 0;           ///< of the noisiest frame: see frame_noise(); 0 where the film keeps no moments
   bool time_limited = false;  ///< some frame ran into render.time_limit
   int64_t samples_rejected = 0;  ///< camera samples that were not finite; more than zero is a bug
+  double clamped_fraction = 0;   ///< of indirect light, by render.clamp_indirect: the highest of all frames
   int64_t strands_dropped = 0;   ///< degenerate strands of files that could not be repaired
   int64_t strands_repaired = 0;
   std::map<std::string, int64_t> rays;          ///< by kind: camera, shadow, indirect

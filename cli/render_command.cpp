@@ -125,8 +125,12 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
         exr_attributes(header_of(scene, frame, result, seconds), world.scene.camera),
         [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, run.workers(), run.ledger());
   });
-  run.display().note(fmt::format("{}  {} x {}, {}{}, {}", place, scene.image.width, scene.image.height,
-                                 samples_text(result), result.partial ? " (partial)" : "",
+  const std::string clamped =
+      scene.render.clamp_indirect > 0
+          ? fmt::format(", {:.2g} % of the indirect light clamped", 100 * result.clamped_fraction)
+          : "";
+  run.display().note(fmt::format("{}  {} x {}, {}{}{}, {}", place, scene.image.width, scene.image.height,
+                                 samples_text(result), result.partial ? " (partial)" : "", clamped,
                                  duration_text(seconds)));
   return !result.partial;
 }

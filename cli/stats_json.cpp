@@ -62,6 +62,7 @@ std::string statistics_json(const Statistics& s) {
       {"noise", s.noise},
       {"time_limited", s.time_limited},
       {"samples_rejected", s.samples_rejected},
+      {"clamped_fraction", s.clamped_fraction},
       {"rays", s.rays},
       {"stages_s", s.stages_s},
   };

@@ -81,6 +81,14 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key(
         "bounces", &RenderParams::bounces,
         {.help = "Most scatterings of a path after the first; 0 = direct light only", .min = 0, .max = 1024});
+    s.key(
+        "clamp_indirect", &RenderParams::clamp_indirect,
+        {.unit = "radiance",
+         .help =
+             "Maximum luminance that one path adds by indirect light: removes fireflies of few samples and "
+             "darkens the picture. 0 is no limit. The fraction of indirect light that is lost is reported at "
+             "the end of each frame, and in `--stats` as `clamped_fraction`",
+         .min = 0});
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key(
         "memory", &RenderParams::memory,

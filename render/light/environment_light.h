@@ -28,6 +28,7 @@ class EnvironmentLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from, const V3f& tangent) const override;
+  std::optional<V3f> middle(const V3f&) const override { return std::nullopt; }
   bool visible() const override { return visible_; }
 
  private:

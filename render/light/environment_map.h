@@ -74,7 +74,7 @@ class EnvironmentMap {
   float inverse_power_ = 0;
   std::vector<double> row_cosine_;  ///< of the polar angle at the upper edge of each row of texels, and at
                                     ///< the lowest edge
-  std::vector<float> row_cdf_;  ///< of cells, inclusive
+  std::vector<float> row_cdf_;      ///< of cells, inclusive
   std::vector<uint32_t> row_guide_;
   std::vector<float> column_cdf_;  ///< of cells, inclusive, row after row
   std::vector<uint32_t> column_guide_;

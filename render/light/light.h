@@ -40,6 +40,8 @@ class Light {
   /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres;
   /// the null vector when the point is not on a fibre.
   virtual float importance(const V3f& from, const V3f& tangent) const = 0;
+  /// Unit direction from `from` to its middle; nothing where it shines from all around.
+  virtual std::optional<V3f> middle(const V3f& from) const = 0;
   /// Whether camera rays see it.
   virtual bool visible() const = 0;
 };

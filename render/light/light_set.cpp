@@ -28,13 +28,21 @@ class LightScratch {
 
 LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights) : lights_(std::move(lights)) {}
 
+void LightSet::importances(const V3f& from, const V3f& tangent, std::span<float> out) const {
+  for (size_t i = 0; i < lights_.size(); ++i) out[i] = lights_[i]->importance(from, tangent);
+}
+
 void LightSet::probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const {
+  importances(from, tangent, out);
+  share_out(out);
+}
+
+void LightSet::share_out(std::span<float> out) {
   double total = 0;
   size_t useful = 0;
-  for (size_t i = 0; i < lights_.size(); ++i) {
-    out[i] = lights_[i]->importance(from, tangent);
-    total += out[i];
-    useful += out[i] > 0.0f;
+  for (const float importance : out) {
+    total += importance;
+    useful += importance > 0.0f;
   }
   if (!(total > 0)) return;
   const double uniform = kUniformShare / static_cast<double>(useful);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/light/light.h"
+#include "render/sampling/warp.h"
 
 namespace pelage {
 
@@ -34,7 +35,26 @@ class LightSet {
   void probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const;
   static Choice choose(std::span<const float> probabilities, float u);
 
+  /// The same where lobes scatter light with the density `lobes(direction)` per solid angle: lights towards
+  /// which they scatter much are chosen more often. A narrow lobe that points at a small bright light, which
+  /// is chosen by rare chance, is the brightest noise of paths through fur. Half of each importance does
+  /// without the density, since the middle of a large light says little about the rest of it.
+  template <class Density>
+  void probabilities(const V3f& from, const V3f& tangent, const Density& lobes, std::span<float> out) const {
+    importances(from, tangent, out);
+    for (size_t i = 0; i < size() && size() > 1; ++i) {
+      if (!(out[i] > 0.0f)) continue;
+      const std::optional<V3f> middle = lights_[i]->middle(from);
+      if (middle) out[i] *= 0.5f + 0.5f * (4 * kPi * lobes(*middle));
+    }
+    share_out(out);
+  }
+
  private:
+  void importances(const V3f& from, const V3f& tangent, std::span<float> out) const;
+  /// Turns importances into probabilities.
+  static void share_out(std::span<float> out);
+
   std::vector<std::unique_ptr<Light>> lights_;
 };
 

@@ -24,6 +24,7 @@ class RectangleLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from, const V3f& tangent) const override;
+  std::optional<V3f> middle(const V3f& from) const override { return (shape_.center - from).normalized(); }
   bool visible() const override { return visible_; }
 
   /// Solid angle from `from`, whichever side that is on.

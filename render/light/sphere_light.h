@@ -16,6 +16,7 @@ class SphereLight final : public Light {
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from, const V3f& tangent) const override;
+  std::optional<V3f> middle(const V3f& from) const override { return (center_ - from).normalized(); }
   bool visible() const override { return visible_; }
 
   /// Solid angle from `from`; 4 pi inside.

@@ -116,6 +116,16 @@ void FrameLoop::add_to(Statistics& statistics) const {
     statistics.rays["shadow"] += scratch.rays.shadow;
     statistics.rays["indirect"] += scratch.rays.indirect;
   }
+  statistics.clamped_fraction = std::max(statistics.clamped_fraction, clamped_fraction());
+}
+
+double FrameLoop::clamped_fraction() const {
+  int64_t lost = 0, indirect = 0;
+  for (const PathScratch& scratch : scratch_) {
+    lost += scratch.clamp.lost;
+    indirect += scratch.clamp.indirect;
+  }
+  return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
 }
 
 }  // namespace pelage

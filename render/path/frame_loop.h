@@ -49,6 +49,8 @@ class FrameLoop {
   /// What the clock said when the first tile was done.
   double first_tile_s() const { return first_tile_s_; }
   void add_to(Statistics& statistics) const;
+  /// Fraction of the indirect light that render.clamp_indirect took away.
+  double clamped_fraction() const;
 
  private:
   struct TileCost {

@@ -43,6 +43,7 @@ FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progr
   result.partial = end.partial;
   result.time_limited = end.time_limited;
   result.samples = loop.least_given();
+  result.clamped_fraction = loop.clamped_fraction();
   result.mean_samples = loop.mean_given();
   result.noise = frame_noise(result.film.moments());
   result.first_tile_s = loop.first_tile_s();

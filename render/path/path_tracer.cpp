@@ -40,9 +40,10 @@ struct PathTracer::Path {
 
   /// Adds light that reaches the camera through lobe group g of the first surface as lobes[g] * light.
   void add(size_t source, const Rgb* lobes, const Rgb& light) {
+    const float kept = vertex > 0 ? scratch.clamp.keep(lobes, light) : 1;
     Rgb total(0);
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb part = lobes[g] * light;
+      const Rgb part = lobes[g] * light * kept;
       total += part;
       if (g < layers.groups) scratch.by_layer[layers.scattered(source, g)] += part;
     }
@@ -273,6 +274,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
 
 void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) const {
   scratch.sample = FilmSample{};
+  scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.by_layer.assign(layers_.size(), Rgb(0));
   scratch.light_probabilities.resize(scene_.lights.size());
 
@@ -294,7 +296,9 @@ void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) cons
 
   for (;; ++path.vertex) {
     const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
-    scene_.lights.probabilities(point.position(), point.tangent(), scratch.light_probabilities);
+    scene_.lights.probabilities(
+        point.position(), point.tangent(), [&](const V3f& wi) { return point.eval(wi).pdf; },
+        scratch.light_probabilities);
     if (options_.direct != DirectLight::kLobesOnly) sample_lights(point, path);
     if (!sample_lobes(point, path)) return;
   }

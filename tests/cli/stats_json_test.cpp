@@ -24,11 +24,26 @@ TEST(StatsJson, HoldsWhatIsPromised) {
   EXPECT_EQ(json.at("rays").at("shadow"), 5);
   EXPECT_EQ(json.at("memory_bytes").at("film"), 7);
   EXPECT_EQ(json.at("stages_s").at("grow"), 0.25);
-  for (const char* name :
-       {"cpu_s", "baseline_rss_bytes", "working_set_bytes", "strands_described", "strands_unique",
-        "strands_generated", "characters", "characters_in_frame", "chunks", "expansions", "reexpansions",
-        "false_expansions", "samples_rejected", "peak_anonymous_bytes", "baseline_anonymous_bytes",
-        "unexplained_bytes", "strands_dropped", "strands_repaired", "version"}) {
+  for (const char* name : {"cpu_s",
+                           "baseline_rss_bytes",
+                           "working_set_bytes",
+                           "strands_described",
+                           "strands_unique",
+                           "strands_generated",
+                           "characters",
+                           "characters_in_frame",
+                           "chunks",
+                           "expansions",
+                           "reexpansions",
+                           "false_expansions",
+                           "samples_rejected",
+                           "clamped_fraction",
+                           "peak_anonymous_bytes",
+                           "baseline_anonymous_bytes",
+                           "unexplained_bytes",
+                           "strands_dropped",
+                           "strands_repaired",
+                           "version"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
 }
