@@ -22,6 +22,7 @@
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/quiet_job.h"
 
 namespace {
 
@@ -87,7 +88,7 @@ struct Coat {
       params.cache->directory.path = folder.path();
       params.cache->freeze.name = kind.freeze;
     }
-    groom = Groom::create("coat", params, rest, textures, Workers(), ledger);
+    groom = Groom::create("coat", params, rest, textures, QuietJob(0, ledger));
   }
   PosedSkin pose() const { return {{rest.get(), 1}, {}, 1, {}}; }
   /// At the ends of a shutter.
@@ -134,7 +135,6 @@ double grow_all(const Coat& coat, const PosedSkin& pose, const Workers& workers,
 }
 
 void growth(benchmark::State& state) {
-  const Workers one(1);
   const auto strands = static_cast<double>(coat().groom->follicles().size());
   double best = 1e30, root = 1e30;
   int64_t bytes = 0;
@@ -157,7 +157,6 @@ double cpu_of_growth(const Coat& coat, const PosedSkin& pose, const Workers& wor
 
 /// What is frozen, and whether the coat is grown at both ends of a shutter.
 void growth_from_cache(benchmark::State& state, bool colored, const char* freeze, bool moving) {
-  const Workers one(1);
   const Coat plain({colored, ""}), cached({colored, freeze});
   const auto pose = [&](const Coat& coat) { return moving ? coat.moving() : coat.pose(); };
   const auto strands = static_cast<double>(plain.groom->follicles().size());
@@ -212,13 +211,12 @@ void growth_on_all_cores(benchmark::State& state) {
 BENCHMARK(growth_on_all_cores)->Unit(benchmark::kMillisecond)->Iterations(3);
 
 void follicles(benchmark::State& state) {
-  const Workers one(1);
   double best = 1e30;
   for (auto _ : state) {
     const auto start = std::chrono::steady_clock::now();
     FollicleOptions options;
     options.count = state.range(0);
-    benchmark::DoNotOptimize(FollicleTree::build(*coat().rest, options, one));
+    benchmark::DoNotOptimize(FollicleTree::build(*coat().rest, options, QuietJob(1)));
     best = std::min(best, seconds_since(start));
   }
   state.counters["follicles_per_s"] = static_cast<double>(state.range(0)) / best;

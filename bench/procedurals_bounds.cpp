@@ -15,6 +15,7 @@
 #include "procedurals/segment_parts.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -30,7 +31,7 @@ struct Coat {
     GroomParams params;
     params.strands = 200000;
     params.operators = stacks::usual();
-    groom = Groom::create("coat", params, rest, textures, Workers(), ledger);
+    groom = Groom::create("coat", params, rest, textures, QuietJob(0, ledger));
     ControlMesh cage = shapes::ball_cage(10);
     for (int key = 0; key < 4; ++key) {
       keys.emplace_back(rest->shared_topology(), cage.positions);

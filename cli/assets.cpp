@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/assets.h"
 
+#include <fmt/format.h>
+
+#include "base/memory_budget.h"
+#include "cli/crowds.h"
+#include "cli/drawn_characters.h"
 #include "cli/map_check.h"
+#include "cli/skin_room.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 
@@ -43,40 +49,53 @@ PoseSequence pose_sequence(const PosesParams& params, const ControlMesh& cage, M
                       params.frames_per_pose);
 }
 
-Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, MemoryLedger& ledger) {
+Assets::Skin load_skin(const std::string& name, const SkinParams& params, SharedTopologies& topologies,
+                       const Job& job) {
   require_file(params.mesh.path, params.mesh.position);
-  const ControlMesh cage = read_obj(params.mesh.path);
-  const auto topology = share(
-      SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
-  Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage, {}};
-  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, cage, ledger));
+  MemoryCharge reading = reserve_reading(name, params, job);
+  ControlMesh cage = read_obj(params.mesh.path, job);
+  reading = {};
+  const MemoryCharge making = reserve_skin(name, params, cage, job);
+  const auto topology =
+      share(SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string(), job),
+            topologies);
+  job.check_stop();
+  auto rest = std::make_shared<LimitSurface>(topology, cage.positions);
+  Assets::Skin skin{std::move(rest), std::move(cage), {}};
+  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, skin.cage, job.ledger));
   return skin;
 }
 
-/// One crowd after the other, each clear of those before it.
-std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene) {
-  std::vector<std::vector<CrowdMember>> crowds;
-  std::vector<PlacedFootprint> taken;
-  for (const auto& [name, position, params] : scene.crowds.items) {
-    std::vector<Footprint> footprints;
-    for (const NameReference& of : params.of)
-      footprints.push_back(scene.characters.find(of.name)->value.footprint);
-    crowds.push_back(make_crowd(name, position, params, footprints, taken));
-    for (const CrowdMember& member : crowds.back())
-      taken.push_back(placed_footprint(member, footprints[member.prototype]));
+/// Where all strands of the scene are refused for want of memory, that is said before the first is placed.
+void require_room_for_strands(const SceneDescription& scene, const Job& job) {
+  int64_t kept = 0;
+  for (const auto& [name, position, params] : scene.grooms.items) {
+    if (!params.strands || params.cache) continue;
+    require_room(job.ledger, kept + follicle_making_bytes(*params.strands),
+                 fmt::format("groom '{}': placing {} strands", name, *params.strands));
+    kept += follicle_bytes(*params.strands);
   }
-  return crowds;
+}
+
+/// What each character holds in a frame, by its index in the scene.
+std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
+  std::vector<int64_t> bytes;
+  for (const auto& [name, position, params] : scene.characters.items)
+    bytes.push_back(drawn_character_bytes(scene, assets, name, params));
+  return bytes;
 }
 
 }  // namespace
 
-std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
-                                    MemoryLedger& ledger, const GroomCacheHooks& hooks) {
+std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job) {
+  MemoryLedger& ledger = job.ledger;
+  require_room_for_strands(scene, job);
   auto assets = std::make_unique<Assets>(ledger);
   SharedTopologies topologies;
   for (const auto& [name, position, params] : scene.skins.items) {
+    job.check_stop();
     const Assets::Skin& skin =
-        assets->skins.emplace(name, load_skin(params, topologies, ledger)).first->second;
+        assets->skins.emplace(name, load_skin(name, params, topologies, job)).first->second;
     assets->charges.emplace_back(ledger, MemoryTag::kSkins,
                                  static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
   }
@@ -88,19 +107,25 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers
     for (size_t part = 0; part < params.parts.size(); ++part) {
       const auto& [skin, material, grooms, poses] = params.parts[part];
       if (!poses) continue;
+      job.check_stop();
       const ControlMesh& cage = assets->skins.at(skin.name).cage;
       assets->part_poses.emplace(std::pair(name, part), pose_sequence(*poses, cage, ledger));
     }
   }
-  assets->crowds = make_crowds(scene);
+  assets->crowds = make_crowds(scene, drawn_bytes(scene, *assets), job);
+  for (const auto& crowd : assets->crowds) {
+    assets->charges.emplace_back(ledger, MemoryTag::kSkins,
+                                 static_cast<int64_t>(crowd.capacity() * sizeof(CrowdMember)));
+  }
   for (const auto& [name, position, params] : scene.grooms.items) {
     const auto skin = assets->skins.find(params.skin.name);
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
-    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, workers, ledger, hooks);
+    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, job);
   }
-  const WarningSink warn = hooks.warn ? hooks.warn : [](const std::string&) {};
+  const WarningSink warn = [&job](const std::string& line) { job.progress.warn(line); };
   for (const auto& [name, position, params] : scene.materials.items) {
-    assets->materials.push_back(with_tables(with_textures(params, assets->textures), workers, warn));
+    job.check_stop();
+    assets->materials.push_back(with_tables(with_textures(params, assets->textures), job.workers, warn));
   }
   return assets;
 }

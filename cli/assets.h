@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/job.h"
 #include "base/ledger.h"
-#include "base/parallel.h"
 #include "cli/scene_schema.h"
 #include "geom/limit_surface.h"
 #include "geom/pose_sequence.h"
@@ -38,8 +38,8 @@ struct Assets {
 };
 
 /// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
-/// operators, coats with a cache from there; who stands where. Throws Error (kInput).
-std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Workers& workers,
-                                    MemoryLedger& ledger, const GroomCacheHooks& hooks = {});
+/// operators, coats with a cache from there; who stands where. Throws Error (kInput), Error
+/// (kMemory) before anything is made that `render.memory` has no room for, Error (kStopped).
+std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

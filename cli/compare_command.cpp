@@ -131,8 +131,7 @@ int run_compare(const Options& options) {
                                            : options.output;
   // A folder that takes nothing is found before anything is rendered.
   write_whole(folder / "report.json", "{}\n");
-  const auto assets =
-      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
 
   const double load_before = load_average();
   const Comparison comparison = compare(options, scene, *assets, run, folder);

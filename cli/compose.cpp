@@ -24,22 +24,23 @@ size_t material_index(const SceneDescription& scene, const NameReference& materi
 /// Poses a frame's characters one after the other.
 class Composer {
  public:
-  Composer(const SceneDescription& scene, const Assets& assets, double frame, const Workers& workers,
-           MemoryLedger& ledger, World& world)
+  Composer(const SceneDescription& scene, const Assets& assets, double frame, const Job& job, World& world)
       : scene_(scene),
         assets_(assets),
         frame_(frame),
-        workers_(workers),
-        ledger_(ledger),
+        job_(job),
         world_(world),
         lod_view_(lod_camera().lod_view()),
-        poses_(std::make_shared<PoseCache>(workers.thread_count(), ledger)) {}
+        poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
     const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
     const std::vector<bool> in_full =
         characters_in_full(drawn, scene_.render.lod.in_full, lod_view_.open.position, frame_);
-    for (size_t i = 0; i < drawn.size(); ++i) add(drawn[i], scene_.render.lod.enabled && !in_full[i]);
+    for (size_t i = 0; i < drawn.size(); ++i) {
+      job_.check_stop();
+      add(drawn[i], scene_.render.lod.enabled && !in_full[i]);
+    }
   }
 
  private:
@@ -94,8 +95,9 @@ class Composer {
                                 const PosedCharacterSkin& skin) {
     auto known = natures_.find(&groom);
     if (known == natures_.end())
-      known = natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, workers_))
-                  .first;
+      known =
+          natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, job_.workers))
+              .first;
     StrandNature nature = known->second;
     nature.width *= skin.scale();
     nature.length *= skin.scale() * skin.length();
@@ -118,7 +120,7 @@ class Composer {
         groom->role() == StrandRole::kWhisker)
       return {};
     std::shared_ptr<const CoatLie>& known = lies_[groom.get()];
-    if (!known) known = std::make_shared<const CoatLie>(*groom, rest, workers_);
+    if (!known) known = std::make_shared<const CoatLie>(*groom, rest, job_.workers);
     return known;
   }
 
@@ -139,14 +141,13 @@ class Composer {
   }
 
   void charge(size_t bytes) {
-    world_.charges.emplace_back(ledger_, MemoryTag::kSkins, static_cast<int64_t>(bytes));
+    world_.charges.emplace_back(job_.ledger, MemoryTag::kSkins, static_cast<int64_t>(bytes));
   }
 
   const SceneDescription& scene_;
   const Assets& assets_;
   const double frame_;
-  const Workers& workers_;
-  MemoryLedger& ledger_;
+  const Job& job_;
   World& world_;
   const LodView lod_view_;
   std::shared_ptr<PoseCache> poses_;
@@ -157,11 +158,10 @@ class Composer {
 
 }  // namespace
 
-World compose(const SceneDescription& scene, Assets& assets, double frame, const Workers& workers,
-              MemoryLedger& ledger) {
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
   std::vector<std::unique_ptr<Light>> lights;
   for (const auto& [name, position, params] : scene.lights.items) {
-    lights.push_back(make_light(name, params, frame, assets.textures, ledger));
+    lights.push_back(make_light(name, params, frame, assets.textures, job.ledger));
   }
   World world{{{},
                {},
@@ -175,7 +175,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               {}};
-  Composer(scene, assets, frame, workers, ledger, world).add_all();
+  Composer(scene, assets, frame, job, world).add_all();
   return world;
 }
 

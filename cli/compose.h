@@ -21,8 +21,7 @@ struct World {
 };
 
 /// Poses everything for a frame: skins, coats, materials, lights, camera. Throws Error (kInput) for missing
-/// poses and images.
-World compose(const SceneDescription& scene, Assets& assets, double frame, const Workers& workers,
-              MemoryLedger& ledger);
+/// poses and images, Error (kStopped).
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
 
 }  // namespace pelage

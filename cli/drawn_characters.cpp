@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "cli/character_transform.h"
+#include "procedurals/fur.h"
+#include "render/render_scene.h"
 
 namespace pelage {
 
@@ -67,6 +69,26 @@ std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, cons
     }
   }
   return drawn;
+}
+
+int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
+                              const CharacterParams& character) {
+  constexpr size_t kHeap = 16;  // of each block, what the heap keeps and rounds
+  constexpr size_t kName = 48;  // of a name too long for its string
+  const CrowdMember anyone;
+  const DrawnCharacter animal{name, name, &character, anyone};
+  size_t bytes = sizeof(CrowdMember) + sizeof(DrawnCharacter) + 2 * kName;
+  for (size_t part = 0; part < character.parts.size(); ++part) {
+    const Motion motion = motion_of(animal, part, assets);
+    const bool shutter = scene.camera.shutter.y > scene.camera.shutter.x;
+    const size_t times =
+        motion.moves() && shutter ? static_cast<size_t>(scene.camera.motion_keys) + 2 : size_t(1);
+    bytes += times * (motion.rest.size() * sizeof(V3f) + sizeof(std::vector<V3f>) + sizeof(M44f) + kHeap);
+    bytes += sizeof(PosedCharacterSkin) + 4 * kHeap + sizeof(SkinPart) + kName;
+    bytes += character.parts[part].grooms.items.size() *
+             (sizeof(FurPart) + sizeof(FurProcedural) + sizeof(void*) + kName + 2 * kHeap);
+  }
+  return static_cast<int64_t>(bytes);
 }
 
 bool has_coat(const DrawnCharacter& character) {

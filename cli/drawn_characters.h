@@ -22,6 +22,11 @@ struct DrawnCharacter {
 /// All of a scene, characters first, then crowds, in the order of the scene. Refers to `scene`.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
+/// What one animal of a character holds in a frame, grown hair and whole poses apart: its names, its posed
+/// cages and what describes its coats.
+int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
+                              const CharacterParams& character);
+
 /// Whether hair grows on it.
 bool has_coat(const DrawnCharacter& character);
 

@@ -17,8 +17,7 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
   if (!measures_strands(bounding.strategy)) return true;
   for (const int frame : scene.frames.frames) {
     const double began = run.seconds();
-    const World world =
-        run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
+    const World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
     const FrameChunks chunks(world.scene, run.workers(), run.ledger());
     std::vector<const Procedural*> remembering;
     for (const Procedural* leaf : chunks.leaves()) {

@@ -120,7 +120,10 @@ std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rf
 
 int run_grow(const Options& options) {
   Run run(options);
-  const SceneDescription scene = load_scene(options.input, options.overrides);
+  SceneDescription scene = load_scene(options.input, options.overrides);
+  run.ledger().set_limit(scene.render.memory.bytes);
+  // What other programs are given must not depend on the picture's size or the camera.
+  if (!options.output.empty() && !options.lod) scene.render.lod.enabled = false;
   if (!options.groom.empty() && !scene.grooms.find(options.groom)) {
     throw Error(ErrorKind::kArguments, "there is no groom '" + options.groom + "'" +
                                            did_you_mean(options.groom, scene.grooms.names()));
@@ -129,8 +132,7 @@ int run_grow(const Options& options) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": strands are written as .hair or .tfx");
   }
   const int frame = scene.frames.frames.front();
-  const auto assets =
-      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   // What opening, filling and growing caches took is a stage of its own.
   double cache_s = 0;
   for (const auto& [name, groom] : assets->grooms) {
@@ -155,8 +157,7 @@ int run_grow(const Options& options) {
     require_kept(*assets, options);
     return 0;
   }
-  World world =
-      run.stage("pose", [&] { return compose(scene, *assets, frame, run.workers(), run.ledger()); });
+  World world = run.stage("pose", [&] { return compose(scene, *assets, frame, run.job()); });
   run.statistics().strands_described = world.strands_described;
   run.statistics().strands_unique = world.strands_unique;
   run.statistics().characters = world.characters;

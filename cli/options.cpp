@@ -84,7 +84,12 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
   add_scene_flags(*grow, options, texts);
-  grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx)")->type_name("FILE");
+  CLI::Option* file =
+      grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
+          ->type_name("FILE");
+  grow->add_flag("--lod", options.lod,
+                 "Write only the strands that the picture needs at its level of detail (render.lod)")
+      ->needs(file);
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
   grow->add_flag("--explain", options.explain,
                  "Say of each operator of a cache whether it was stale, and why");

@@ -69,6 +69,7 @@ struct Options {
   std::string groom;     ///< grow: only this one; empty: all
   bool prune = false;    ///< grow: remove what the scene does not need from the folders of its caches
   bool explain = false;  ///< grow: say of each operator whether its cache was fresh
+  bool lod = false;      ///< grow: write the strands that the picture needs at its level of detail, not all
 
   std::string frames;          ///< motionblur, stereo: --frames, for names with a place for the number
   BlurFileParams motion_blur;  ///< motionblur

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "base/heap.h"
+#include "base/memory_budget.h"
 #include "cli/commands.h"
 #include "cli/compose.h"
 #include "cli/counted.h"
@@ -13,6 +14,7 @@
 #include "cli/run.h"
 #include "cli/version.h"
 #include "render/film/frame_header.h"
+#include "render/path/frame_layers.h"
 #include "render/path/path_integrator.h"
 
 namespace pelage {
@@ -34,10 +36,22 @@ std::string samples_text(const FrameResult& result) {
   return fmt::format("{:.1f} samples on average", result.mean_samples);
 }
 
+// The picture's film is as large as the scene says: what comes before it must leave room for it.
+MemoryCharge reserve_film(const SceneDescription& scene, MemoryLedger& ledger) {
+  std::vector<FilmLayers::LightInfo> lights;
+  for (const auto& [name, position, light] : scene.lights.items)
+    lights.push_back({name, std::visit([](const auto& params) { return params.visible; }, light)});
+  std::vector<MaterialParams> materials;
+  for (const auto& material : scene.materials.items) materials.push_back(material.value);
+  const FilmLayers layers = frame_layers(scene.image, scene.render, lights, materials);
+  return reserve(ledger, MemoryTag::kFilm, Film::bytes_needed(scene.image.width, scene.image.height, layers),
+                 fmt::format("the film of {} x {} pixels", scene.image.width, scene.image.height));
+}
+
 // Renders and writes one frame; returns whether all of it was done.
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
   const double began = run.seconds();
-  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.workers(), run.ledger()); });
+  World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
   run.statistics().strands_described += world.strands_described;
   run.statistics().strands_unique += world.strands_unique;
   run.statistics().characters += world.characters;
@@ -94,12 +108,13 @@ int run_render(const Options& options) {
   check_output_pattern(output, scene.frames);
   check_writable(frame_file_name(output, scene.frames.frames.front()));
 
-  const auto assets =
-      run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
+  MemoryCharge film = reserve_film(scene, run.ledger());
+  const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
   for (const auto& [name, groom] : assets->grooms) {
     run.statistics().strands_dropped += groom->strands_dropped();
     run.statistics().strands_repaired += groom->strands_repaired();
   }
+  film = {};  // each frame makes its own
   bool complete = true;
   for (int frame : scene.frames.frames) {
     complete = render_one(scene, *assets, frame, frame_file_name(output, frame), run);

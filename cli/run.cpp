@@ -29,10 +29,6 @@ double Run::seconds() const {
   return std::chrono::duration<double>(MemorySampler::Clock::now() - start_).count();
 }
 
-GroomCacheHooks Run::cache_hooks() {
-  return {[this](const std::string& line) { display_.warn(line); }, &display_};
-}
-
 void Run::finish(const Options& options) {
   statistics_.wall_s = seconds();
   statistics_.cpu_s = cpu_seconds();

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "base/job.h"
 #include "base/ledger.h"
 #include "base/memory_sampler.h"
 #include "base/parallel.h"
@@ -10,7 +11,6 @@
 #include "cli/options.h"
 #include "cli/progress_display.h"
 #include "cli/signals.h"
-#include "groom/groom.h"
 
 namespace pelage {
 
@@ -23,8 +23,7 @@ class Run {
   MemoryLedger& ledger() { return ledger_; }
   Statistics& statistics() { return statistics_; }
   ProgressDisplay& display() { return display_; }
-  /// Shows what grooms with a cache do.
-  GroomCacheHooks cache_hooks();
+  Job job() { return {workers_, ledger_, display_}; }
   double seconds() const;
 
   /// Runs `work`, shows it as a stage of unknown length and adds its wall time to stages_s.

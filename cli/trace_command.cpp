@@ -47,9 +47,8 @@ int run_trace(const Options& options) {
   LabResult result;
   if (variant.kind == LabVariant::Kind::kPrepare) {
     const SceneDescription scene = load_scene(options.input, options.overrides);
-    const auto assets =
-        run.stage("read", [&] { return load_assets(scene, run.workers(), run.ledger(), run.cache_hooks()); });
-    const World world = compose(scene, *assets, scene.frames.frames.front(), run.workers(), run.ledger());
+    const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
+    const World world = compose(scene, *assets, scene.frames.frames.front(), run.job());
     result = prepare_lab(world.scene, store, static_cast<size_t>(options.rays), run.workers(), run.display());
   } else {
     result = trace_lab_rays(variant, store, run.workers(), run.display());

@@ -190,10 +190,4 @@ StrandReach Clump::reach_after(const StrandReach& before) const {
   return after;
 }
 
-size_t Clump::bytes() const {
-  size_t total = 0;
-  for (const Level& level : levels_) total += level.centres->bytes();
-  return total;
-}
-
 }  // namespace pelage

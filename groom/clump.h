@@ -54,7 +54,6 @@ class Clump final : public Operator {
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
-  size_t bytes() const override;
 
  private:
   struct Level {

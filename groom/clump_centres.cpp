@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
+#include "base/job.h"
+#include "base/memory_budget.h"
 #include "groom/follicle_candidates.h"
 #include "groom/follicles.h"
 #include "groom/operator_stack.h"
@@ -17,7 +18,8 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
                            const std::function<void(StrandBatch&)>& grow)
     : points_(context.points) {
   constexpr double kMostCentres = 4e6;
-  const double area = measure_surface(*context.rest, {}, context.workers).area;
+  const Job& job = context.job;
+  const double area = measure_surface(*context.rest, {}, job).area;
   const double wanted = area / (static_cast<double>(spacing) * spacing);
   if (!(wanted <= kMostCentres)) {
     throw Error(
@@ -28,12 +30,24 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
   FollicleOptions options;
   options.count = std::max<int64_t>(1, static_cast<int64_t>(wanted));
   options.seed = seed;
-  const FollicleTree centres = FollicleTree::build(*context.rest, options, context.workers);
+  options.owner = context.owner;
+  options.noun = fmt::format("clump centres (spacing {})", spacing);
+  const size_t curve_floats = static_cast<size_t>(points_) * 4;
+  const auto kept = [&](int64_t n) {
+    return n * static_cast<int64_t>(curve_floats * sizeof(float) + RootGrid::kMostBytesPerPlace);
+  };
+  require_room(
+      job.ledger,
+      std::max(follicle_making_bytes(options.count), follicle_bytes(options.count) + kept(options.count)),
+      fmt::format("{}: {} {}", context.owner, options.count, options.noun));
+  const FollicleTree centres = FollicleTree::build(*context.rest, options, job);
 
   const size_t count = centres.size();
   std::vector<V3f> positions(count), normals(count);
-  curves_.resize(count * static_cast<size_t>(points_) * 4);
-  context.workers.for_each(count, kBlockStrands, [&](WorkRange range) {
+  const MemoryCharge tree(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(centres.bytes()));
+  charge_ = MemoryCharge(job.ledger, MemoryTag::kGrooms, kept(static_cast<int64_t>(count)));
+  curves_.resize(count * curve_floats);
+  job.for_each(count, kBlockStrands, [&](WorkRange range) {
     const auto batch = std::make_unique<StrandBatch>();
     for (size_t begin = range.begin; begin < range.end; begin += kBlockStrands) {
       batch->count = std::min(kBlockStrands, range.end - begin);
@@ -46,7 +60,7 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
         const V3f root = vector_at(batch->rest.position, s);
         positions[begin + s] = root;
         normals[begin + s] = vector_at(batch->rest.normal, s);
-        float* out = &curves_[(begin + s) * static_cast<size_t>(points_) * 4];
+        float* out = &curves_[(begin + s) * curve_floats];
         V3f previous = root;
         float arc = 0;
         for (int p = 0; p < points_; ++p, out += 4) {
@@ -73,7 +87,5 @@ V3f ClumpCentres::at(size_t i, float arc, int& segment) const {
   const float t = length > 1e-12f ? (arc - a[3]) / length : 0.0f;
   return {a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t, a[2] + (b[2] - a[2]) * t};
 }
-
-size_t ClumpCentres::bytes() const { return roots_.bytes() + curves_.capacity() * sizeof(float); }
 
 }  // namespace pelage

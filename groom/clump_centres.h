@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "base/ledger.h"
 #include "groom/operator.h"
 #include "groom/root_grid.h"
 #include "groom/strand_batch.h"
@@ -13,7 +14,8 @@ namespace pelage {
 class ClumpCentres {
  public:
   /// Centres as blue noise, one per spacing^2 of the rest skin; `grow` shapes strands that have been placed
-  /// and started. Throws Error (kInput) at the operator's position when there would be too many.
+  /// and started. Charged to the ledger. Throws Error (kInput) at the operator's position when there would be
+  /// too many, Error (kMemory) before any is made when there is no room, Error (kStopped).
   ClumpCentres(const PrepareContext& context, float spacing, uint64_t seed,
                const std::function<void(StrandBatch&)>& grow);
 
@@ -25,11 +27,11 @@ class ClumpCentres {
   /// Place on centre `i` at arc length `arc` from its root, straight on beyond its tip. `segment` is where
   /// the last call for this strand and centre ended (0 at first); arcs must not decrease from call to call.
   V3f at(size_t i, float arc, int& segment) const;
-  size_t bytes() const;
 
  private:
   RootGrid roots_;
   int points_ = 0;
+  MemoryCharge charge_;
   std::vector<float> curves_;  // per centre and point: rest position and arc length up to it
 };
 

@@ -5,22 +5,16 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/error.h"
 #include "base/hash.h"
-#include "base/parallel.h"
+#include "base/job.h"
+#include "base/stoppable_sort.h"
 #include "groom/rotation.h"
 
 namespace pelage {
 namespace {
 
 float area_element(const SurfacePoint& point) { return point.du.cross(point.dv).length(); }
-
-/// What candidates of a face need: its area, and bounds for rejection.
-struct FaceStatistics {
-  double area = 0;
-  double mass = 0;
-  float largest_element = 0;  // of |du x dv|, by samples
-  float largest_density = 0;
-};
 
 // Ptex parameters fill a square; those of a triangle (Loop) its lower half.
 bool is_triangular(const LimitSurface& rest) { return rest.topology().is_triangular(); }
@@ -63,7 +57,7 @@ FaceStatistics measure_face(const LimitSurface& rest, const FollicleDensity& den
 }
 
 std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const FollicleDensity& density,
-                                          const Workers& workers) {
+                                          const Job& job) {
   const size_t faces = rest.topology().face_count();
   const bool uniform = density.is_uniform();
   const int grid =
@@ -71,7 +65,7 @@ std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const Follic
               : static_cast<int>(std::clamp(
                     std::sqrt(262144.0 / static_cast<double>(std::max<size_t>(faces, 1))), 4.0, 32.0));
   std::vector<FaceStatistics> result(faces);
-  workers.for_each(faces, 16, [&](WorkRange range) {
+  job.for_each(faces, 16, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end; ++f) {
       result[f] = measure_face(rest, density, static_cast<uint32_t>(f), grid);
     }
@@ -79,32 +73,42 @@ std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const Follic
   return result;
 }
 
-/// A place on a face, uniform by area, that passes the density with probability density / bound.
-bool try_candidate(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
-                   const FaceStatistics& statistics, float room, uint64_t stream, FollicleCandidate& out) {
-  RootAddress root{face, 0, 0};
+/// A place on a face, uniform by area.
+struct Place {
+  RootAddress root;
   SurfacePoint point;
   V3f normal;
+};
+
+Place place_on_face(const LimitSurface& rest, uint32_t face, const FaceStatistics& statistics,
+                    uint64_t stream) {
+  Place place{{face, 0, 0}, {}, V3f(0)};
   const float limit = statistics.largest_element * 1.1f;
   // Rejection against |du x dv|; after 64 failures (a face that is nearly a line) any place.
   for (uint64_t attempt = 0; attempt < 64; ++attempt) {
     const uint64_t h = hash64(stream, attempt);
-    root.u = unit_float(h);
-    root.v = unit_float(mix64(h));
-    if (is_triangular(rest) && root.u + root.v > 1) {
-      root.u = 1 - root.u;
-      root.v = 1 - root.v;
+    place.root.u = unit_float(h);
+    place.root.v = unit_float(mix64(h));
+    if (is_triangular(rest) && place.root.u + place.root.v > 1) {
+      place.root.u = 1 - place.root.u;
+      place.root.v = 1 - place.root.v;
     }
-    point = rest.evaluate(face, root.u, root.v);
-    normal = point.du.cross(point.dv);
-    if (unit_float(mix64(h + 1)) * limit < normal.length()) break;
+    place.point = rest.evaluate(face, place.root.u, place.root.v);
+    place.normal = place.point.du.cross(place.point.dv);
+    if (unit_float(mix64(h + 1)) * limit < place.normal.length()) break;
   }
-  const float value = density.at(rest.topology(), root, point);
+  return place;
+}
+
+/// Such a place if it passes the density, with probability density / bound.
+bool try_candidate(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
+                   const FaceStatistics& statistics, float room, uint64_t stream, FollicleCandidate& out) {
+  const Place place = place_on_face(rest, face, statistics, stream);
+  const float value = density.at(rest.topology(), place.root, place.point);
   const float bound = statistics.largest_density * room;
   if (!(unit_float(hash64(stream, random_use("density"))) * bound < value)) return false;
-  out = {point.position.x,        point.position.y,
-         point.position.z,        pack_normal(unit_or(normal, V3f(0, 0, 1))),
-         1.0f / std::sqrt(value), root};
+  const V3f& at = place.point.position;
+  out = {at.x, at.y, at.z, pack_normal(unit_or(place.normal, V3f(0, 0, 1))), 1.0f / std::sqrt(value), 0, 0};
   return true;
 }
 
@@ -123,67 +127,97 @@ float FollicleDensity::at(const SurfaceTopology& topology, const RootAddress& ad
   return value > 0 && std::isfinite(value) ? value : 0.0f;
 }
 
-SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density,
-                               const Workers& workers) {
+SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job) {
   SurfaceMeasure result;
-  for (const FaceStatistics& face : measure_faces(rest, density, workers)) {
+  for (const FaceStatistics& face : measure_faces(rest, density, job)) {
     result.area += face.area;
     result.mass += face.mass;
   }
   return result;
 }
 
-std::vector<FollicleCandidate> make_candidates(const LimitSurface& rest, const FollicleDensity& density,
-                                               uint64_t seed, size_t wanted, const Workers& workers) {
-  const std::vector<FaceStatistics> faces = measure_faces(rest, density, workers);
+FollicleCandidates::FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density,
+                                       uint64_t seed, size_t wanted, const Job& job)
+    : rest_(rest),
+      density_(density),
+      seed_(seed),
+      wanted_(wanted),
+      room_(density.is_uniform() ? 1.0f : 1.25f),
+      faces_(measure_faces(rest, density, job)),
+      first_(faces_.size() + 1, 0) {
   double mass = 0;
-  for (const FaceStatistics& face : faces) mass += face.mass;
-  if (!(mass > 0)) return {};
-
-  // Every face tries as many as its area times a bound on its density asks for; the bound leaves room for
-  // what lies between the samples.
-  const float room = density.is_uniform() ? 1.0f : 1.25f;
-  std::vector<uint64_t> first(faces.size() + 1, 0);
+  for (const FaceStatistics& face : faces_) mass += face.mass;
+  if (!(mass > 0)) return;
+  // Every face tries as many as its area times a bound on its density asks for.
   double cumulative = 0;
-  for (size_t f = 0; f < faces.size(); ++f) {
-    const double limit = faces[f].largest_density * room;
-    cumulative += static_cast<double>(wanted) * faces[f].area * limit / mass;
-    first[f + 1] = static_cast<uint64_t>(cumulative);
-  }
-
-  // Small faces are done together and large ones in parts, whatever the threads.
-  const uint64_t tries = first.back();
-  constexpr uint64_t kPart = 4096;
-  const size_t parts = static_cast<size_t>((tries + kPart - 1) / kPart);
-  std::vector<std::vector<FollicleCandidate>> kept(parts);
-  std::vector<std::vector<uint64_t>> orders(parts);
-  workers.for_each(parts, 1, [&](WorkRange range) {
-    for (size_t part = range.begin; part < range.end; ++part) {
-      const uint64_t begin = part * kPart, end = std::min(tries, begin + kPart);
-      size_t f = static_cast<size_t>(std::upper_bound(first.begin(), first.end(), begin) - first.begin()) - 1;
-      for (uint64_t i = begin; i < end; ++i) {
-        while (i >= first[f + 1]) ++f;
-        const uint64_t stream = hash64(seed, f, i - first[f], random_use("follicle"));
-        FollicleCandidate candidate;
-        if (!try_candidate(rest, density, static_cast<uint32_t>(f), faces[f], room, stream, candidate))
-          continue;
-        kept[part].push_back(candidate);
-        orders[part].push_back(mix64(stream));
-      }
+  for (size_t f = 0; f < faces_.size(); ++f) {
+    const double limit = faces_[f].largest_density * room_;
+    cumulative += static_cast<double>(wanted) * faces_[f].area * limit / mass;
+    if (!(cumulative < 0x1p32)) {
+      throw Error(ErrorKind::kInput,
+                  "its density is too uneven: more than four thousand million places would "
+                  "have to be tried; ask for fewer strands or a denser coat elsewhere");
     }
-  });
-
-  std::vector<std::pair<uint64_t, std::pair<uint32_t, uint32_t>>> order;
-  for (size_t part = 0; part < parts; ++part) {
-    for (size_t i = 0; i < kept[part].size(); ++i) {
-      order.push_back({orders[part][i], {static_cast<uint32_t>(part), static_cast<uint32_t>(i)}});
-    }
-    orders[part] = {};
+    first_[f + 1] = static_cast<uint64_t>(cumulative);
   }
-  std::sort(order.begin(), order.end());
+}
+
+size_t FollicleCandidates::face_of(uint64_t attempt) const {
+  return static_cast<size_t>(std::upper_bound(first_.begin(), first_.end(), attempt) - first_.begin()) - 1;
+}
+
+uint64_t FollicleCandidates::stream(size_t face, uint64_t attempt) const {
+  return hash64(seed_, face, attempt - first_[face], random_use("follicle"));
+}
+
+uint64_t FollicleCandidates::order_key(uint64_t attempt) const {
+  return mix64(stream(face_of(attempt), attempt));
+}
+
+RootAddress FollicleCandidates::root(const FollicleCandidate& candidate) const {
+  const size_t face = face_of(candidate.attempt);
+  return place_on_face(rest_, static_cast<uint32_t>(face), faces_[face], stream(face, candidate.attempt))
+      .root;
+}
+
+std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job) const {
+  const uint64_t tries = first_.back();
   std::vector<FollicleCandidate> result;
-  result.reserve(order.size());
-  for (const auto& [key, at] : order) result.push_back(kept[at.first][at.second]);
+  result.reserve(std::min<uint64_t>(tries, wanted_ + wanted_ / 64 + 1024));
+  // Small faces are done together and large ones in parts, whatever the threads; what a few parts hold beside
+  // the result is little.
+  constexpr uint64_t kPart = 4096, kGroup = 64;
+  std::vector<std::vector<FollicleCandidate>> kept(kGroup);
+  for (uint64_t group = 0; group < tries; group += kGroup * kPart) {
+    const uint64_t parts = std::min(kGroup, (tries - group + kPart - 1) / kPart);
+    job.for_each(parts, 1, [&](WorkRange range) {
+      for (size_t part = range.begin; part < range.end; ++part) {
+        const uint64_t begin = group + part * kPart, end = std::min(tries, begin + kPart);
+        kept[part].clear();
+        size_t f = face_of(begin);
+        for (uint64_t i = begin; i < end; ++i) {
+          while (i >= first_[f + 1]) ++f;
+          const uint64_t stream = this->stream(f, i);
+          FollicleCandidate candidate;
+          if (!try_candidate(rest_, density_, static_cast<uint32_t>(f), faces_[f], room_, stream, candidate))
+            continue;
+          candidate.attempt = static_cast<uint32_t>(i);
+          candidate.next = static_cast<uint32_t>(mix64(stream) >> 32);
+          kept[part].push_back(candidate);
+        }
+      }
+    });
+    for (size_t part = 0; part < parts; ++part)
+      result.insert(result.end(), kept[part].begin(), kept[part].end());
+    job.progress.advance(static_cast<double>(std::min(kGroup * kPart, tries - group)) /
+                         static_cast<double>(tries));
+  }
+  stoppable_sort(job, result.begin(), result.end(),
+                 [&](const FollicleCandidate& a, const FollicleCandidate& b) {
+                   if (a.next != b.next) return a.next < b.next;
+                   const uint64_t ka = order_key(a.attempt), kb = order_key(b.attempt);
+                   return ka != kb ? ka < kb : a.attempt < b.attempt;
+                 });
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/value_readers.h"
@@ -14,7 +15,7 @@
 
 namespace pelage {
 
-class Workers;
+struct Job;
 
 /// What kind of hair a groom is; each role has a budget of its own when detail is reduced.
 enum class StrandRole { kGuard, kUnder, kWhisker };
@@ -30,7 +31,14 @@ struct FollicleOptions {
   std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< factor on the density; may be empty
   uint64_t seed = 0;
   int leaf_strands = 8000;
+  std::string owner = "groom";   ///< for messages: whose follicles they are
+  std::string noun = "strands";  ///< for messages: what grows on them
 };
+
+/// What placing `count` follicles holds at most, the tree included (progressive_order.h).
+int64_t follicle_making_bytes(int64_t count);
+/// What a tree of `count` follicles holds afterwards, but for its leaves.
+int64_t follicle_bytes(int64_t count);
 
 /// Where the strands of a groom grow: progressive blue noise on the rest limit surface, in a fixed hierarchy.
 ///
@@ -49,11 +57,12 @@ class FollicleTree {
   };
 
   /// Empty where the density is 0 everywhere. Throws Error (kInput) when more than kMaxFollicles are asked
-  /// for.
-  static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Workers& workers);
+  /// for, Error (kMemory) before anything is made that the ledger has no room for, Error (kStopped).
+  static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Job& job);
   /// The same hierarchy over given places with ascending ids. `order` receives the place of each follicle.
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
-                           std::span<const uint32_t> ids, int leaf_strands, std::vector<uint32_t>& order);
+                           std::span<const uint32_t> ids, int leaf_strands, const Job& job,
+                           std::vector<uint32_t>& order);
 
   /// What was taken from a tree, put together again: leaves follow each other and cover all follicles.
   static FollicleTree of(std::vector<Leaf> leaves, std::vector<uint32_t> ids, std::vector<RootAddress> roots);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/content_store.h"
+#include "base/job.h"
 #include "base/ledger.h"
-#include "base/progress.h"
 #include "groom/coat_source.h"
 #include "groom/frozen_leaf.h"
 #include "groom/groom_identity.h"
@@ -54,8 +54,7 @@ struct FrozenGrowth {
   const ContentStore& store;
   const WarningSink& warn;          ///< of damaged files
   const WarningSink& cannot_store;  ///< of files that cannot be written
-  const Workers& workers;
-  Progress& progress;
+  const Job& job;
 
   struct Result {
     std::vector<std::vector<std::byte>> leaves;

@@ -28,9 +28,9 @@ StrandReach quantised(StrandReach reach) {
 /// One leaf on its way.
 class LeafGrowth {
  public:
-  LeafGrowth(const FrozenGrowth& job, size_t leaf)
-      : job_(job), range_(job.source.follicles().leaves()[leaf]) {
-    const std::optional<AttributeClass> colors = job.stack.colors(0, job.frozen);
+  LeafGrowth(const FrozenGrowth& growth, size_t leaf)
+      : growth_(growth), range_(growth.source.follicles().leaves()[leaf]) {
+    const std::optional<AttributeClass> colors = growth.stack.colors(0, growth.frozen);
     color_rows_ = !colors ? 0 : *colors == AttributeClass::kPerPoint ? SIZE_MAX : 1;
   }
 
@@ -40,7 +40,7 @@ class LeafGrowth {
     size_t at = 0;
     for (size_t begin = range_.begin; begin < range_.end; begin += batch->count) {
       size_batch(*batch, begin);
-      batch->points.resize(static_cast<size_t>(job_.source.strand_points(begin)));
+      batch->points.resize(static_cast<size_t>(growth_.source.strand_points(begin)));
       if (!read_layer(layer, at, *batch)) return false;
     }
     return at == layer.size();
@@ -50,17 +50,18 @@ class LeafGrowth {
   /// last.
   std::vector<std::byte> run(size_t from, std::span<const std::byte> layer,
                              std::vector<std::vector<std::byte>>& layers) const {
-    FrozenLeafWriter writer({!job_.source.imported && job_.stack.has_one_width_profile(0, job_.frozen)});
+    FrozenLeafWriter writer(
+        {!growth_.source.imported && growth_.stack.has_one_width_profile(0, growth_.frozen)});
     const auto batch = std::make_unique<StrandBatch>();
     size_t at = 0;
-    layers.assign(job_.frozen - std::min(job_.frozen, from + 1), {});
+    layers.assign(growth_.frozen - std::min(growth_.frozen, from + 1), {});
     for (size_t begin = range_.begin; begin < range_.end; begin += batch->count) {
       size_batch(*batch, begin);
-      job_.source.start(*batch, begin);
+      growth_.source.start(*batch, begin);
       if (from > 0) read_layer(layer, at, *batch);
-      for (size_t i = from; i < job_.frozen; ++i) {
-        job_.stack.apply(i, i + 1, *batch);
-        if (i + 1 < job_.frozen) append_layer(*batch, layers[i - from]);
+      for (size_t i = from; i < growth_.frozen; ++i) {
+        growth_.stack.apply(i, i + 1, *batch);
+        if (i + 1 < growth_.frozen) append_layer(*batch, layers[i - from]);
       }
       writer.add(*batch);
     }
@@ -69,11 +70,11 @@ class LeafGrowth {
 
  private:
   void size_batch(StrandBatch& batch, size_t begin) const {
-    batch.count = job_.source.run_length(begin, range_.end);
-    batch.colors.resize(std::min(color_rows_, static_cast<size_t>(job_.source.strand_points(begin))));
+    batch.count = growth_.source.run_length(begin, range_.end);
+    batch.colors.resize(std::min(color_rows_, static_cast<size_t>(growth_.source.strand_points(begin))));
   }
 
-  const FrozenGrowth& job_;
+  const FrozenGrowth& growth_;
   const FollicleTree::Leaf& range_;
   size_t color_rows_ = 0;
 };
@@ -123,28 +124,27 @@ FrozenGrowth::Result FrozenGrowth::run(const PrepareContext& context, int leaf_s
   }
   for (StrandReach& reach : result.reaches) reach = quantised(reach);
   result.leaves.resize(leaf_count);
-  progress.begin("grow", static_cast<double>(leaf_count));
-  const size_t group = static_cast<size_t>(workers.thread_count()) * 4;
+  job.progress.begin("grow", static_cast<double>(leaf_count));
+  const size_t group = static_cast<size_t>(job.workers.thread_count()) * 4;
   for (size_t first = 0; first < leaf_count; first += group) {
     const size_t count = std::min(group, leaf_count - first);
     std::vector<std::vector<std::vector<std::byte>>> layers(count);
-    workers.for_each(count, 1, [&](WorkRange range) {
+    job.for_each(count, 1, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         const size_t leaf = first + i;
-        if (progress.cancelled()) return;
+        job.check_stop();
         result.leaves[leaf] =
             LeafGrowth(*this, leaf)
                 .run(result.resumed, layer ? layer->section(leaf + 1) : std::span<const std::byte>(),
                      layers[i]);
-        progress.advance(1);
+        job.progress.advance(1);
       }
     });
-    if (progress.cancelled()) throw Error(ErrorKind::kStopped, "stopped before a coat was grown");
     for (const auto& of_leaf : layers) {
       for (size_t i = 0; i < writers.size(); ++i) writers[i]->add(std::span<const std::byte>(of_leaf[i]));
     }
   }
-  progress.end();
+  job.progress.end();
   for (const auto& writer : writers) writer->commit(cannot_store);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/hash.h"
+#include "base/job.h"
 #include "groom/groom_impl.h"
 #include "groom/width.h"
 
@@ -82,16 +83,16 @@ OperatorList with_width(const GroomParams& params) {
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
                                            std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
-                                           const Workers& workers, MemoryLedger& ledger,
-                                           const GroomCacheHooks& hooks) {
+                                           const Job& job) {
   check_combination(name, params, rest != nullptr);
+  const std::string owner = "groom '" + name + "'";
   auto impl = std::make_unique<Impl>();
   impl->role = params.role;
   impl->source.rest = std::move(rest);
   impl->source.points = params.points;
   if (!params.strands_file.empty()) {
     // Strands that do not follow the skin grow as on none.
-    impl->source.imported.emplace(params, impl->source.rest.get(), workers, hooks.warn);
+    impl->source.imported.emplace(params, impl->source.rest.get(), owner, job);
     if (impl->source.imported->stands_free()) impl->source.rest = nullptr;
   }
   impl->stack.emplace(with_width(params));
@@ -103,8 +104,9 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   // Two coats of one skin must not grow from the same places because neither was given a seed.
   const uint64_t name_hash = pelage::content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
-  const PrepareContext context{impl->source.rest.get(),           textures,      workers, {},
-                               hash64(seed, random_use("groom")), params.points, {}};
+  PrepareContext context{impl->source.rest.get(),           textures,      job, {},
+                         hash64(seed, random_use("groom")), params.points, {}};
+  context.owner = owner;
   impl->operator_seed = context.seed;
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
   impl->hash = ContentHasher()
@@ -114,13 +116,13 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .digest();
 
   if (params.cache) {
-    impl->open_cache(name, params, identity, context, seed, ledger, hooks);
+    impl->open_cache(name, params, identity, context, seed);
   } else {
     stack.prepare_all(context);
     if (params.strands_file.empty()) impl->source.grown = impl->place_follicles(params, context, seed);
   }
-  const size_t bytes = stack.bytes() + impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
-  impl->charge = MemoryCharge(ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
+  const size_t bytes = impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
+  impl->charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
   return std::shared_ptr<const Groom>(new Groom(std::move(impl)));
 }
 
@@ -135,7 +137,8 @@ FollicleTree Groom::Impl::place_follicles(const GroomParams& params, const Prepa
   }
   options.seed = hash64(seed, random_use("follicles"));
   options.leaf_strands = params.leaf_size();
-  return FollicleTree::build(*source.rest, options, context.workers);
+  options.owner = context.owner;
+  return FollicleTree::build(*source.rest, options, context.job);
 }
 
 }  // namespace pelage

@@ -16,10 +16,9 @@
 
 namespace pelage {
 
-class Progress;
 class TextureLibrary;
-class Workers;
 struct GroomCacheReport;
+struct Job;
 
 /// A skin in the pose of a frame: one limit surface, and one tree over the frame's tessellation, per motion
 /// key.
@@ -41,12 +40,6 @@ struct KeptStrands {
       contrast;  ///< one per strand: factor on what tells its colour from the mean; or none
 };
 
-/// Whom a groom with `cache:` tells what it does.
-struct GroomCacheHooks {
-  WarningSink warn = {};         ///< of damaged files and of folders that take none
-  Progress* progress = nullptr;  ///< of growing what is missing
-};
-
 /// A coat on a skin: follicles and the operators that shape their strands.
 ///
 /// Operators that read rest state only run on the rest surface; the result is carried to each pose by the
@@ -61,12 +54,11 @@ class Groom {
  public:
   /// Places follicles and prepares the operators (clump centres, guides). `name` is for messages; `rest` is
   /// null for a groom on no skin. Throws Error (kInput) for missing maps, guide files and combinations that
-  /// make no sense, Error (kStopped) when the hooks' progress says so. What is wrong with a cache goes to the
-  /// hooks; growing goes on.
+  /// make no sense, Error (kMemory) before anything is made that the ledger has no room for, Error
+  /// (kStopped). What is wrong with a cache is a warning to the job's progress; growing goes on.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
-                                             TextureLibrary& textures, const Workers& workers,
-                                             MemoryLedger& ledger, const GroomCacheHooks& hooks = {});
+                                             TextureLibrary& textures, const Job& job);
   ~Groom();
 
   const FollicleTree& follicles() const;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/job.h"
 #include "groom/groom_impl.h"
 #include "groom/stored_follicles.h"
 
@@ -39,12 +40,10 @@ void remove_old_layers(const ContentStore& store, const GroomManifest& before, c
 }  // namespace
 
 void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
-                             const GroomIdentity& identity, const PrepareContext& context, uint64_t seed,
-                             MemoryLedger& ledger, const GroomCacheHooks& hooks) {
+                             const GroomIdentity& identity, const PrepareContext& context, uint64_t seed) {
   const auto start = std::chrono::steady_clock::now();
-  const WarningSink warn = hooks.warn ? hooks.warn : [](const std::string&) {};
-  NoProgress silent;
-  Progress& progress = hooks.progress ? *hooks.progress : silent;
+  const Job& job = context.job;
+  const WarningSink warn = [&job](const std::string& line) { job.progress.warn(line); };
   store.emplace(params.cache->directory.path);
   frozen_end = end_of_frozen(*stack, params.cache->freeze.name);
 
@@ -77,7 +76,8 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   };
   if (!frozen) {
     store->sweep();
-    const ContentStore::Lock lock = store->lock("offsets", offset_key, [&] { return progress.cancelled(); });
+    const ContentStore::Lock lock =
+        store->lock("offsets", offset_key, [&] { return job.progress.cancelled(); });
     open([](const std::string&) {});  // another process may have been at it; damage has been told of
     report->fresh = report->stored = frozen.has_value();
     if (!have_follicles) {
@@ -86,15 +86,14 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
       store_follicles(*store, follicle_key, source.grown, cannot_store);
     }
     if (!frozen) {
-      const FrozenGrowth growth{source, *stack,       identity,        frozen_end, *store,
-                                warn,   cannot_store, context.workers, progress};
+      const FrozenGrowth growth{source, *stack, identity, frozen_end, *store, warn, cannot_store, job};
       FrozenGrowth::Result grown = growth.run(context, params.leaf_size());
       report->resumed = grown.resumed;
       if (before) remove_old_layers(*store, *before, now, params.leaf_size());
       report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
       // Read back, so that what is in memory may go.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
-      if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), ledger);
+      if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), job.ledger);
     }
   }
   // What was made the last time does not matter where what is needed is there.
@@ -110,7 +109,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     report->files.push_back(layer_file(*store, stage.hash, params.leaf_size()));
   if (!report->fresh) store->prune(ContentStore::kUnusedAge);
   stack->prepare(frozen_end, stack->size(), context);
-  prepare_rest(context.workers);
+  prepare_rest(name, job);
   report->strands = source.follicles().size();
   report->offset_bytes = stored_bytes(report->file).value_or(frozen->bytes());
   if (!source.imported)

@@ -6,7 +6,8 @@
 #include <Imath/ImathBoxAlgo.h>
 
 #include "base/check.h"
-#include "base/parallel.h"
+#include "base/job.h"
+#include "base/memory_budget.h"
 #include "groom/groom_impl.h"
 #include "groom/strand_writer.h"
 
@@ -67,13 +68,15 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
   }
 }
 
-void Groom::Impl::prepare_rest(const Workers& workers) {
+void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
   const RestUse use = stack->rest_use(frozen_end, stack->size());
   stands_on_rest = !source.rest || use == RestUse::kFrames ||
                    !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
   if (stands_on_rest || use == RestUse::kNone) return;
+  require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
+               "groom '" + name + "': the places of its strands at rest");
   rest_positions.resize(source.follicles().size());
-  workers.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
+  job.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end; ++f) {
       const RootAddress& root = source.follicles().root(f);
       rest_positions[f] = source.rest->evaluate(root.face, root.u, root.v).position;

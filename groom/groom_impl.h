@@ -30,13 +30,12 @@ struct Groom::Impl {
 
   /// Follicles and frozen leaves from the store, or made and stored; prepares the operators that are needed.
   void open_cache(const std::string& name, const GroomParams& params, const GroomIdentity& identity,
-                  const PrepareContext& context, uint64_t seed, MemoryLedger& ledger,
-                  const GroomCacheHooks& hooks);
+                  const PrepareContext& context, uint64_t seed);
   FollicleTree place_follicles(const GroomParams& params, const PrepareContext& context, uint64_t seed) const;
 
   void grow_plain(const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const;
   /// What growing from the cache needs of the rest skin.
-  void prepare_rest(const Workers& workers);
+  void prepare_rest(const std::string& name, const Job& job);
   void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const;
   /// Where batch.count strands stand at a motion key.
   void stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const;

@@ -2,8 +2,11 @@
 #include "groom/guide_set.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
+#include "base/job.h"
+#include "base/memory_budget.h"
 #include "geom/io/strand_file.h"
 #include "geom/limit_surface.h"
 #include "groom/resample.h"
@@ -13,11 +16,12 @@ namespace pelage {
 namespace {
 
 /// Median over a bounded number of guides, evenly chosen, of the distance to the nearest other guide.
-float median_spacing(const std::vector<V3f>& roots) {
+float median_spacing(const std::vector<V3f>& roots, const Job& job) {
   if (roots.size() < 2) return 0;
   const size_t step = std::max<size_t>(1, roots.size() / 1000);
   std::vector<float> nearest;
   for (size_t i = 0; i < roots.size(); i += step) {
+    job.check_stop();
     float best = std::numeric_limits<float>::infinity();
     for (size_t j = 0; j < roots.size(); ++j) {
       if (j != i) best = std::min(best, (roots[i] - roots[j]).length());
@@ -32,15 +36,24 @@ float median_spacing(const std::vector<V3f>& roots) {
 }  // namespace
 
 GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : points_(context.points) {
+  const Job& job = context.job;
+  // Read, resampled and found again in two grids: all of it is a few times the file.
+  constexpr int64_t kOfFile = 4;
+  std::error_code missing;
+  const auto file_bytes = std::filesystem::file_size(source.file.path, missing);
+  const MemoryCharge making =
+      reserve(job.ledger, MemoryTag::kGrooms, missing ? 0 : kOfFile * static_cast<int64_t>(file_bytes),
+              context.owner + ": the guides of " + source.file.path.string());
   const StrandFile file = read_strands(source.file.path, {source.basis, 1.0f});
   const size_t count = file.strands.strand_count();
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
-  const SkinBinding binding(*context.rest, context.workers);
+  const SkinBinding binding(*context.rest, job);
   if (binding.empty())
     throw Error(ErrorKind::kInput, source.file.position,
                 "guides need a skin to stand on: every face of this one is a hole");
   for (size_t g = 0; g < count; ++g) {
+    if (g % 256 == 0) job.check_stop();
     const std::vector<V3f> points = resample_strand(file.strands, g, points_);
     const RootAddress root = binding.nearest(points[0] * source.scale + source.translate);
     roots_.push_back(context.rest->evaluate(root.face, root.u, root.v).position);
@@ -53,7 +66,7 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
     lengths_.push_back(length);
     longest_ = std::max(longest_, length);
   }
-  spacing_ = median_spacing(roots_);
+  spacing_ = median_spacing(roots_, job);
 }
 
 size_t GuideSet::bytes() const {

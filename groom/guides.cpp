@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/job.h"
 #include "geom/limit_surface.h"
 #include "groom/curve_basis_names.h"
 #include "groom/guide_set.h"
@@ -86,6 +87,9 @@ void Guides::prepare(const PrepareContext& context) {
       guides_->spacing() > 0 ? 4.0f * guides_->spacing() : context.rest->control_bounds().size().length();
   near_ = RootGrid(guides_->roots(), guides_->normals(), params_.radius.value_or(automatic));
   if (params_.spread) covered_ = RootGrid(guides_->roots(), guides_->normals(), *params_.spread);
+  charge_ = std::make_shared<const MemoryCharge>(
+      context.job.ledger, MemoryTag::kGrooms,
+      static_cast<int64_t>(guides_->bytes() + near_.bytes() + covered_.bytes()));
 }
 
 float Guides::coverage(const V3f& rest_position, const V3f& normal) const {
@@ -157,7 +161,5 @@ StrandReach Guides::reach_after(const StrandReach& before) const {
   after.lean = std::numbers::pi_v<float>;
   return after;
 }
-
-size_t Guides::bytes() const { return guides_->bytes() + near_.bytes() + covered_.bytes(); }
 
 }  // namespace pelage

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/ledger.h"
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "geom/strands.h"
@@ -49,15 +50,15 @@ class Guides final : public Operator {
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
-  size_t bytes() const override;
 
  private:
   bool every_strand_has_one() const;
 
   Params params_;
   std::shared_ptr<const GuideSet> guides_;
-  RootGrid near_;     // for interpolation
-  RootGrid covered_;  // for coverage
+  RootGrid near_;                               // for interpolation
+  RootGrid covered_;                            // for coverage
+  std::shared_ptr<const MemoryCharge> charge_;  // of all three
 };
 
 }  // namespace pelage

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/parallel.h"
-#include "groom/skin_binding.h"
+#include "base/job.h"
+#include "groom/attachment.h"
 
 namespace pelage {
 namespace {
@@ -29,53 +29,18 @@ StrandFile read_file_of(const GroomParams& params) {
 
 }  // namespace
 
-bool ImportedStrands::bind(const GroomParams& params, const LimitSurface& rest, const Workers& workers,
-                           const WarningSink& warn, std::vector<V3f>& positions,
-                           std::vector<RootAddress>& roots) const {
-  if (params.attach == Attachment::kNone) return false;
-  const SkinBinding binding(rest, workers);
-  const auto stay = [&](const std::string& why) {
-    if (warn)
-      warn(to_string(params.strands_file.position) + ": the strands of " +
-           params.strands_file.path.filename().string() + " " + why +
-           "; they stay where the file puts them and do not follow the skin (attach: skin makes them follow "
-           "it; attach: none is what this file gets, without the warning)");
-    return false;
-  };
-  if (binding.empty()) {
-    if (params.attach == Attachment::kAuto) return stay("find no face to follow: all of the skin are holes");
-    throw Error(ErrorKind::kInput, params.strands_file.position,
-                "attach: skin needs a skin to follow: every face of this one is a hole");
-  }
-  std::vector<RootAddress> found(positions.size());
-  std::vector<V3f> places(positions.size());
-  std::vector<float> gaps(positions.size());
-  workers.for_each(positions.size(), 256, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      found[i] = binding.nearest(positions[i]);
-      places[i] = rest.evaluate(found[i].face, found[i].u, found[i].v).position;
-      gaps[i] = (places[i] - positions[i]).length();
-    }
-  });
-  const SkinGaps all = SkinGaps::of(gaps, rest.control_bounds());
-  if (params.attach == Attachment::kAuto && all.far()) return stay(all.describe(params.skin.name));
-  positions = std::move(places);
-  roots = std::move(found);
-  return true;
-}
-
-ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest, const Workers& workers,
-                                 const WarningSink& warn)
+ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
+                                 const std::string& /*owner*/, const Job& job)
     : file_(read_file_of(params)) {
   const Strands& strands = file_.strands;
   const size_t count = strands.strand_count();
   std::vector<RootAddress> roots(count);
   std::vector<V3f> positions(count);
   for (size_t i = 0; i < count; ++i) positions[i] = strands.point(strands.first_point(i));
-  free_ = !rest || !bind(params, *rest, workers, warn, positions, roots);
+  free_ = !rest || !follow_skin(params, *rest, job, positions, roots);
   std::vector<uint32_t> ids;
   for (size_t i = 0; i < count; ++i) ids.push_back(static_cast<uint32_t>(strands.id(i)));
-  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), place_);
+  follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);
 
   for (const FollicleTree::Leaf& leaf : follicles_.leaves()) {
     StrandReach reach{0, 0, 0, std::numbers::pi_v<float>, 1};

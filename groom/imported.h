@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/content_store.h"
 #include "geom/io/strand_file.h"
 #include "groom/follicles.h"
 #include "groom/groom_params.h"
@@ -14,10 +13,10 @@ namespace pelage {
 /// stands free. Immutable. Thread safety: const members may be called from any thread.
 class ImportedStrands {
  public:
-  /// Throws Error (kInput) when the file cannot be read. `rest` may be null. `warn` is told of strands that
-  /// are too far from the skin to follow it.
-  ImportedStrands(const GroomParams& params, const LimitSurface* rest, const Workers& workers,
-                  const WarningSink& warn = {});
+  /// Throws Error (kInput) when the file cannot be read. `rest` may be null.
+  /// `job` is warned of strands that are too far from the skin to follow it.
+  ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
+                  const Job& job);
 
   const FollicleTree& follicles() const { return follicles_; }
   /// Whether the strands follow no skin.
@@ -48,11 +47,6 @@ class ImportedStrands {
   }
 
  private:
-  /// Finds the place on the skin of every strand that begins at `positions`, and moves these there. False,
-  /// with nothing changed, when the strands are not to follow the skin.
-  bool bind(const GroomParams& params, const LimitSurface& rest, const Workers& workers,
-            const WarningSink& warn, std::vector<V3f>& positions, std::vector<RootAddress>& roots) const;
-
   StrandFile file_;
   bool free_ = true;
   FollicleTree follicles_;

@@ -13,7 +13,10 @@ namespace pelage {
 /// cells.
 class OctaveGrid {
  public:
-  explicit OctaveGrid(float smallest_spacing) : smallest_(smallest_spacing) {}
+  /// Of at most about `most` follicles.
+  OctaveGrid(float smallest_spacing, size_t most) : smallest_(smallest_spacing) { items_.reserve(most); }
+  /// What each follicle takes beside the heads of lists: rebuild() makes at most 4 for each that is expected.
+  static constexpr size_t kItemBytes = 24;
 
   /// Files everything anew for searches at radii up to `radius`, with room for about `expected` follicles.
   void rebuild(size_t expected, float radius);
@@ -32,6 +35,8 @@ class OctaveGrid {
     float spacing;
     uint32_t next;
   };
+
+  static_assert(sizeof(Item) == kItemBytes);
 
   void link(uint32_t item);
   float nearest_in(uint32_t item, const FollicleCandidate& candidate, const V3f& normal, float best) const;

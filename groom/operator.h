@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace pelage {
 class LimitSurface;
 class Operator;
 class TextureLibrary;
-class Workers;
+struct Job;
 struct StrandBatch;
 
 /// What is known of every strand before or after an operator, for bounds. Scene units, before the scale of a
@@ -39,11 +40,12 @@ enum class RestUse { kNone, kPositions, kFrames };
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands that grow on no skin
   TextureLibrary& textures;
-  const Workers& workers;
+  const Job& job;
   std::span<const std::unique_ptr<Operator>> preceding;  ///< prepared already
   uint64_t seed = 0;  ///< of this operator: changes when the groom's does, differs between equal operators
   int points = 8;     ///< of a grown strand
   SourcePosition position;  ///< where the operator stands in the scene, for errors
+  std::string owner = {};   ///< for messages: "groom 'coat'"
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
@@ -83,7 +85,8 @@ class Operator {
   /// Whether prepare() runs the operators before this one.
   virtual bool learns_from_preceding() const { return false; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.
-  /// Throws Error (kInput).
+  /// Charges what it keeps to the ledger. Throws Error (kInput), Error (kMemory) before it makes what there
+  /// is no room for, Error (kStopped).
   virtual void prepare(const PrepareContext&) {}
   /// How many strands shall grow at a point of the rest skin, relative to the density that the groom asks
   /// for.
@@ -96,8 +99,6 @@ class Operator {
   virtual float displacement_bound(const StrandReach& before) const = 0;
   /// What holds after apply().
   virtual StrandReach reach_after(const StrandReach& before) const = 0;
-  /// Heap bytes held after prepare().
-  virtual size_t bytes() const { return 0; }
 };
 
 }  // namespace pelage

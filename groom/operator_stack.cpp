@@ -142,12 +142,6 @@ bool OperatorStack::restricts_coverage() const {
                      [](const auto& op) { return op->restricts_coverage(); });
 }
 
-size_t OperatorStack::bytes() const {
-  size_t total = 0;
-  for (const auto& op : operators_) total += op->bytes();
-  return total;
-}
-
 void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles,
                    size_t begin) {
   for (size_t s = 0; s < batch.count; ++s) {

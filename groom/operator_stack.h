@@ -57,7 +57,6 @@ class OperatorStack {
   /// Product over the operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
   bool restricts_coverage() const;
-  size_t bytes() const;
 
  private:
   struct Place {

@@ -9,6 +9,8 @@
 
 namespace pelage {
 
+struct Job;
+
 /// Candidates that are tried per follicle wanted. More pack the last follicles tighter, at proportional cost.
 inline constexpr size_t kCandidatesPerFollicle = 6;
 
@@ -22,8 +24,12 @@ inline constexpr size_t kCandidatesPerFollicle = 6;
 /// is looked at a few times in all: O(N log N). `area` is that of the surface where the spacing is 1 (the
 /// integral of the density); it only says how many follicles to expect of a radius.
 ///
-/// Returns indices of candidates; fewer than `count` when there are fewer candidates.
-std::vector<uint32_t> progressive_order(std::span<const FollicleCandidate> candidates, size_t count,
-                                        double area);
+/// Returns indices of candidates; fewer than `count` when there are fewer candidates. Overwrites
+/// FollicleCandidate::next. Sequential; throws Error (kStopped).
+std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates, size_t count, double area,
+                                        const Job& job);
+
+/// Upper bound of the bytes that making `count` follicles from `candidates` takes at any moment.
+size_t progressive_order_bytes(size_t candidates, size_t count);
 
 }  // namespace pelage

@@ -17,16 +17,13 @@ RootGrid::RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float r
       normals_(std::move(normals)) {
   PELAGE_CHECK(positions_.size() == normals_.size() && radius > 0);
   first_.assign(std::bit_ceil(2 * positions_.size() + 1) + 1, 0);
-  std::vector<uint32_t> buckets(positions_.size());
-  for (size_t i = 0; i < positions_.size(); ++i) {
-    const V3f& p = positions_[i];
-    buckets[i] = static_cast<uint32_t>(bucket(cell(p.x), cell(p.y), cell(p.z)));
-    ++first_[buckets[i] + 1];
-  }
+  const auto bucket_of = [this](const V3f& p) { return bucket(cell(p.x), cell(p.y), cell(p.z)); };
+  for (const V3f& p : positions_) ++first_[bucket_of(p)];
+  // Where each bucket ends; the last place of a bucket goes there first, which leaves where it begins.
   for (size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
   items_.resize(positions_.size());
-  std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
-  for (size_t i = 0; i < positions_.size(); ++i) items_[next[buckets[i]]++] = static_cast<uint32_t>(i);
+  for (size_t i = positions_.size(); i-- > 0;)
+    items_[--first_[bucket_of(positions_[i])]] = static_cast<uint32_t>(i);
 }
 
 int64_t RootGrid::cell(float coordinate) const {

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "base/check.h"
+#include "base/job.h"
+#include "base/memory_budget.h"
 #include "geom/closest_point.h"
 #include "geom/tessellation.h"
 
@@ -14,19 +16,28 @@ namespace pelage {
 struct SkinBinding::Impl {
   SkinMesh mesh;
   ClosestPointTree tree;
-  explicit Impl(SkinMesh&& m) : mesh(std::move(m)), tree(mesh, 0) {}
+  MemoryCharge charge;
+  Impl(SkinMesh&& m, const Job& job)
+      : mesh(std::move(m)),
+        tree(mesh, 0, &job),
+        charge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(mesh.bytes() + tree.bytes())) {}
 };
 
 namespace {
 
-SkinMesh tessellate_evenly(const LimitSurface& rest, const Workers& workers) {
+SkinMesh tessellate_evenly(const LimitSurface& rest, const Job& job) {
   View everywhere;
   everywhere.focal_pixels = 1e12f;  // every edge wants more than the largest rate
   TessellationOptions options;
   // About a hundred thousand quads, whatever the cage.
   const double faces = std::max(1.0, static_cast<double>(rest.topology().face_count()));
-  options.max_rate = std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
-  return tessellate(std::span(&rest, 1), everywhere, options, workers);
+  options.max_rate =
+      rest.topology().is_flat() ? 1 : std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
+  constexpr double kBytesPerQuad = 300;  // its vertex, two triangles and the tree over them
+  require_room(job.ledger, static_cast<int64_t>(faces * options.max_rate * options.max_rate * kBytesPerQuad),
+               "finding the roots of strands of a file on their skin");
+  job.check_stop();
+  return tessellate(std::span(&rest, 1), everywhere, options, job);
 }
 
 /// Parameters of a point of a triangle, by its barycentric coordinates.
@@ -48,8 +59,8 @@ RootAddress address_of(const SkinMesh& mesh, uint32_t triangle, const V3f& point
 
 }  // namespace
 
-SkinBinding::SkinBinding(const LimitSurface& rest, const Workers& workers)
-    : impl_(std::make_unique<Impl>(tessellate_evenly(rest, workers))) {}
+SkinBinding::SkinBinding(const LimitSurface& rest, const Job& job)
+    : impl_(std::make_unique<Impl>(tessellate_evenly(rest, job), job)) {}
 SkinBinding::~SkinBinding() = default;
 
 bool SkinBinding::empty() const { return impl_->mesh.triangle_count() == 0; }

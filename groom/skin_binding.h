@@ -8,14 +8,15 @@
 
 namespace pelage {
 
-class Workers;
+struct Job;
 
 /// Finds the place of the rest skin nearest to a point, for what was made elsewhere: guides and imported
 /// strands. By an even tessellation, so addresses are exact to its triangles. Immutable. Thread safety: const
 /// members may be called from any thread.
 class SkinBinding {
  public:
-  SkinBinding(const LimitSurface& rest, const Workers& workers);
+  /// Charged to the ledger for as long as it lives. Throws Error (kMemory), Error (kStopped).
+  SkinBinding(const LimitSurface& rest, const Job& job);
   ~SkinBinding();
 
   /// Whether there is no place to be near to: every face of the skin is a hole.

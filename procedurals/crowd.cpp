@@ -5,8 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/job.h"
+#include "base/memory_budget.h"
 
 namespace pelage {
 
@@ -52,15 +56,30 @@ Footprint scaled(const Footprint& footprint, const V3f& scale) {
 
 }  // namespace
 
+int64_t crowd_making_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
+                           size_t obstacles) {
+  size_t discs = 1;
+  for (const Footprint& footprint : footprints) discs = std::max(discs, footprint.size());
+  const size_t bodies = static_cast<size_t>(params.count) + obstacles;
+  return static_cast<int64_t>(static_cast<size_t>(params.count) * sizeof(CrowdMember) +
+                              bodies * crowd_placement_bytes(discs));
+}
+
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
-                                    const std::vector<PlacedFootprint>& obstacles) {
+                                    const Job& job, const std::vector<PlacedFootprint>& obstacles) {
+  const MemoryCharge making =
+      reserve(job.ledger, MemoryTag::kSkins, crowd_making_bytes(params, footprints, obstacles.size()),
+              fmt::format("crowd '{}': placing {} animals", name, params.count));
   constexpr float to_radians = std::numbers::pi_v<float> / 180;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed),
                                content_hash(std::as_bytes(std::span(name.data(), name.size()))).low);
   std::vector<CrowdMember> members;
   CrowdRules rules;
+  members.reserve(static_cast<size_t>(params.count));
+  rules.footprints.reserve(static_cast<size_t>(params.count));
   for (size_t i = 0; i < static_cast<size_t>(params.count); ++i) {
+    if (i % 4096 == 0) job.check_stop();
     members.push_back(vary(params, Dice(seed, i)));
     rules.footprints.push_back(scaled(footprints[members.back().prototype], members.back().scale));
   }
@@ -72,7 +91,7 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
   const GroundArea area(params.area);
   std::vector<CrowdPlace> places;
   try {
-    places = place_crowd(area, rules);
+    places = place_crowd(area, rules, job);
   } catch (const Error& error) {
     throw Error(error.kind(), named_at, "crowd '" + name + "': " + error.what());
   }

@@ -68,11 +68,15 @@ struct CrowdMember {
 };
 
 /// The animals of a crowd, a function of the arguments. `footprints`: of each of its prototypes; `obstacles`:
-/// of other crowds. Throws Error (kInput) when they do not fit into their area; `named_at` is where the crowd
-/// stands in the scene.
+/// of other crowds. Throws Error (kInput) when they do not fit into their area, Error (kMemory) before any is
+/// placed, Error (kStopped); `named_at` is where the crowd stands in the scene.
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
-                                    const std::vector<PlacedFootprint>& obstacles = {});
+                                    const Job& job, const std::vector<PlacedFootprint>& obstacles = {});
+
+/// Upper bound of the bytes that placing a crowd holds at any moment, what it makes included.
+int64_t crowd_making_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
+                           size_t obstacles);
 
 /// The ground that an animal covers, for the `footprint` of its prototype.
 PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint);

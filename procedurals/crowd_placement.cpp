@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/job.h"
 
 namespace pelage {
 namespace {
@@ -71,16 +72,18 @@ float distance(const Body& a, const Body& b) {
 
 /// Points of the R2 sequence [Roberts18] that fall into the area, each moved at random by part of their
 /// distance: even, but no lattice.
-std::vector<V2f> spread(const GroundArea& area, size_t count, uint64_t seed) {
+std::vector<V2f> spread(const GroundArea& area, size_t count, uint64_t seed, const Job& job) {
   constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
   const double shift_x = unit_float(hash64(seed, random_use("crowd shift x")));
   const double shift_y = unit_float(hash64(seed, random_use("crowd shift y")));
   const V2f size = area.max() - area.min();
   const float jitter = 0.4f * std::sqrt(static_cast<float>(area.surface() / static_cast<double>(count)));
   std::vector<V2f> points;
+  points.reserve(count);
   // A sliver of an area would be missed for ever: what is outside then moves to its border.
   const uint64_t patience = 1000 * count + 100000;
   for (uint64_t i = 0; points.size() < count; ++i) {
+    if (i % 4096 == 0) job.check_stop();
     const double x = shift_x + kStepX * static_cast<double>(i), y = shift_y + kStepY * static_cast<double>(i);
     const V2f at = area.min() + V2f(size.x * static_cast<float>(x - std::floor(x)),
                                     size.y * static_cast<float>(y - std::floor(y)));
@@ -104,6 +107,7 @@ class Neighbours {
     std::sort(cells_.begin(), cells_.end());
   }
   /// Calls `visit(i, j)` once for every pair, in a fixed order.
+  static constexpr size_t kBytesPerBody = 3 * sizeof(uint32_t);
   template <class Visit>
   void each_pair(const Visit& visit) const {
     for (const Cell& cell : cells_) {
@@ -128,8 +132,8 @@ class Neighbours {
 /// Pushes pairs of discs apart as if they belonged to rigid bodies on ice.
 class Crowd {
  public:
-  Crowd(const GroundArea& area, const CrowdRules& rules, std::vector<Body> bodies)
-      : area_(area), rules_(rules), bodies_(std::move(bodies)) {}
+  Crowd(const GroundArea& area, const CrowdRules& rules, std::vector<Body> bodies, const Job& job)
+      : area_(area), rules_(rules), bodies_(std::move(bodies)), job_(job) {}
 
   /// Pushes apart every pair that is too close; returns how many there were.
   size_t sweep() {
@@ -140,7 +144,9 @@ class Crowd {
     if (!(touching > 0)) return 0;
     const Neighbours neighbours(bodies_, area_.min(), std::max(touching, 1e-6f * std::max(size.x, size.y)));
     contacts_.clear();
+    size_t pairs = 0;
     neighbours.each_pair([&](uint32_t i, uint32_t j) {
+      if ((++pairs & 0xffff) == 0) job_.check_stop();
       const float depth = separate(i, j);
       if (depth > 0) contacts_.push_back({depth, bodies_[j].yields > 0 ? j : i});
     });
@@ -150,6 +156,7 @@ class Crowd {
   /// Moves one of each of the pairs that were closest in the last sweep, such as two that are hooked into
   /// each other, to the place with most room of some that are tried.
   void jump(uint64_t round) {
+    job_.check_stop();
     const V2f size = area_.max() - area_.min();
     std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
       return a.depth != b.depth ? a.depth > b.depth : a.body < b.body;
@@ -161,6 +168,7 @@ class Crowd {
       CrowdPlace best = bodies_[i].place;
       float most = -std::numeric_limits<float>::infinity();
       for (uint64_t attempt = 0; attempt < kJumps; ++attempt) {
+        job_.check_stop();
         const auto dice = [&](uint64_t use) { return hash64(rules_.seed, i, round, attempt, use); };
         CrowdPlace place;
         place.position = area_.nearest(area_.min() + V2f(size.x * unit_float(dice(random_use("crowd x"))),
@@ -250,6 +258,7 @@ class Crowd {
   const GroundArea& area_;
   const CrowdRules& rules_;
   std::vector<Body> bodies_;
+  const Job& job_;
   struct Contact {
     float depth;
     uint32_t body;  // one of the two that can move
@@ -259,7 +268,7 @@ class Crowd {
 
 /// Refuses at once what cannot be: more discs than the area, widened by what may stand over its border, has
 /// room for.
-void require_room(const GroundArea& area, const CrowdRules& rules) {
+void require_space(const GroundArea& area, const CrowdRules& rules) {
   float radius = std::numeric_limits<float>::infinity(), offset = 0;  // of the least of the largest discs
   for (const Footprint& footprint : rules.footprints) {
     V3f largest(0);
@@ -281,11 +290,21 @@ void require_room(const GroundArea& area, const CrowdRules& rules) {
 
 }  // namespace
 
-std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules) {
-  require_room(area, rules);
+size_t crowd_placement_bytes(size_t discs) {
+  constexpr size_t kHeap = 16;  // of each list of discs, what the heap keeps and rounds
+  const size_t footprint = sizeof(Footprint) + discs * sizeof(V3f) + kHeap;
+  // A few contacts each; while their list grows, the old one is there too.
+  constexpr size_t kContacts = 4 * 3 * sizeof(uint64_t) / 2;
+  return footprint + sizeof(V2f) + sizeof(Body) + discs * sizeof(V3f) + kHeap + Neighbours::kBytesPerBody +
+         kContacts + sizeof(CrowdPlace);
+}
+
+std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules, const Job& job) {
+  require_space(area, rules);
   const size_t count = rules.footprints.size();
-  const std::vector<V2f> points = spread(area, count, rules.seed);
+  const std::vector<V2f> points = spread(area, count, rules.seed, job);
   std::vector<Body> bodies;
+  bodies.reserve(count + rules.obstacles.size());
   for (size_t i = 0; i < count; ++i) {
     const float turn = signed_float(hash64(rules.seed, i, random_use("crowd heading")));
     bodies.push_back(
@@ -295,7 +314,7 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
     bodies.push_back(body_of(obstacle.footprint, obstacle.place));
     bodies.back().yields = 0;
   }
-  Crowd crowd(area, rules, std::move(bodies));
+  Crowd crowd(area, rules, std::move(bodies), job);
   size_t contacts = 1, visits = 0;
   for (uint64_t round = 0; round < kRounds && contacts > 0; ++round) {
     if (round > 0) crowd.jump(round);

@@ -9,6 +9,8 @@
 
 namespace pelage {
 
+struct Job;
+
 /// The ground that an animal covers, as discs (x, z, radius) about its origin, for heading 0.
 using Footprint = std::vector<V3f>;
 
@@ -36,8 +38,11 @@ struct CrowdRules {
 
 /// Spreads animals evenly over an area, then pushes and turns those that are too close until none is.
 /// Positions (not footprints) stay inside the area. A function of its arguments alone; on one thread. Throws
-/// Error (kInput) when they do not fit.
-std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules);
+/// Error (kInput) when they do not fit, Error (kStopped).
+std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules, const Job& job);
+
+/// What place_crowd() holds at any moment, its rules included, for each body of so many discs.
+size_t crowd_placement_bytes(size_t discs);
 
 /// Distance between two footprints, negative when they overlap.
 float footprint_distance(const Footprint& a, const CrowdPlace& at, const Footprint& b, const CrowdPlace& bt);

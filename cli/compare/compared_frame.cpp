@@ -92,7 +92,7 @@ ComparedFrame FrameComparer::render(const std::vector<MaterialParams>& materials
   frame.light = light;
   scene_.lights = lights;
   assets_.materials = materials;
-  World world = compose(scene_, assets_, scene_.frames.frames.front(), run_.workers(), run_.ledger());
+  World world = compose(scene_, assets_, scene_.frames.frames.front(), run_.job());
   Quietly progress(run_.display());
   const auto half = [&](int64_t seed) {
     world.scene.render.seed = seed;
@@ -119,7 +119,7 @@ double FrameComparer::furnace(const std::vector<MaterialParams>& materials) {
   scene.render.samples = kSamples;
   scene.render.bounces = kBounces;
   assets_.materials = materials;
-  const World world = compose(scene, assets_, scene.frames.frames.front(), run_.workers(), run_.ledger());
+  const World world = compose(scene, assets_, scene.frames.frames.front(), run_.job());
   Quietly progress(run_.display());
   Statistics statistics;
   const FrameResult result = render_frame(world.scene, run_.workers(), progress, run_.ledger(), statistics);

@@ -6,6 +6,7 @@
 #include "base/memory_budget.h"
 #include "base/stopwatch.h"
 #include "render/path/frame_geometry.h"
+#include "render/path/frame_layers.h"
 #include "render/path/frame_loop.h"
 #include "render/path/sample_schedule.h"
 #include "render/sampling/adaptive_rule.h"
@@ -13,28 +14,12 @@
 namespace pelage {
 namespace {
 
-/// How many lobe groups a material uses, from the first.
-int lobe_groups(const MaterialParams& material) {
-  if (std::holds_alternative<LambertParams>(material)) return 1;
-  return std::holds_alternative<GlossyParams>(material) ? 2 : kLobeGroups;
-}
-
-FilmLayers light_layers(const RenderScene& scene) {
-  if (!scene.image.light_layers) return {};
+FilmLayers film_layers(const RenderScene& scene) {
   std::vector<FilmLayers::LightInfo> lights;
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
   }
-  int groups = 1;
-  for (const MaterialParams& material : scene.materials) groups = std::max(groups, lobe_groups(material));
-  return FilmLayers::make(lights, groups);
-}
-
-FilmLayers film_layers(const RenderScene& scene) {
-  FilmLayers layers = light_layers(scene);
-  layers.lod = scene.image.lod_layer;
-  layers.noise = scene.image.noise_layers || scene.render.adaptive;
-  return layers;
+  return frame_layers(scene.image, scene.render, lights, scene.materials);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "cli/compose.h"
 #include "cli/drawn_characters.h"
 #include "procedurals/crowd_placement.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -23,7 +24,7 @@ class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>
                                {"grooms.guard.cache", "null"},
                                {"grooms.whiskers.cache", "null"},
                                {"camera.shutter", "[0, 0]"}});
-    assets_ = load_assets(scene_, workers_, ledger_);
+    assets_ = load_assets(scene_, QuietJob(2, ledger_));
   }
 
   /// Height in pixels of what is in the picture of a skin; 0 where it is too far away to matter.
@@ -48,7 +49,7 @@ class ColonyTest : public testing::TestWithParam<std::pair<const char*, int64_t>
 };
 
 TEST_P(ColonyTest, IsInTheFrameAndTallInFront) {
-  const World world = compose(scene_, *assets_, 1, workers_, ledger_);
+  const World world = compose(scene_, *assets_, 1, QuietJob(2, ledger_));
   const int64_t rats = GetParam().second;
   std::vector<float> heights;
   for (const SkinPart& part : world.scene.skins) {
@@ -86,7 +87,7 @@ TEST_P(ColonyTest, NoRatStandsInAnother) {
 TEST_P(ColonyTest, ARatIsItsPosedCages) {
   const int64_t before = ledger_.current(MemoryTag::kSkins);
   scene_.render.lod.enabled = false;  // far coats have a pose of the whole skin in hand
-  const World world = compose(scene_, *assets_, 1, workers_, ledger_);
+  const World world = compose(scene_, *assets_, 1, QuietJob(2, ledger_));
   const int64_t bytes = ledger_.current(MemoryTag::kSkins) - before, rats = GetParam().second;
   size_t points = 0;
   for (const char* skin : {"rat", "eyes"}) points += assets_->skins.at(skin).cage.positions.size();

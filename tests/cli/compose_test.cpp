@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "tests/cli/small_scene.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -13,8 +14,8 @@ class ComposeTest : public testing::Test {
  protected:
   World compose_frame(double frame, const std::vector<Override>& overrides = {}) {
     description_ = load_scene(scene_.path("scene.yaml"), overrides);
-    assets_ = load_assets(description_, workers_, ledger_);
-    return compose(description_, *assets_, frame, workers_, ledger_);
+    assets_ = load_assets(description_, QuietJob(2, ledger_));
+    return compose(description_, *assets_, frame, QuietJob(2, ledger_));
   }
   static SkinMesh mesh_of(const World& world, size_t skin) {
     return world.scene.skins[skin].skin->tessellate({}, world.scene.camera.view());

@@ -8,6 +8,7 @@
 #include "cli/compose.h"
 #include "procedurals/posed_character_skin.h"
 #include "tests/cli/small_scene.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -17,8 +18,8 @@ class CrowdCompositionTest : public testing::Test {
   World compose_frame(double frame, std::vector<Override> overrides = {}) {
     overrides.push_back({"camera.shutter", "[0, 0]"});
     description_ = load_scene(scene_.path("scene.yaml"), overrides);
-    assets_ = load_assets(description_, workers_, ledger_);
-    return compose(description_, *assets_, frame, workers_, ledger_);
+    assets_ = load_assets(description_, QuietJob(2, ledger_));
+    return compose(description_, *assets_, frame, QuietJob(2, ledger_));
   }
   static Override crowd(const std::string& keys) {
     return {"crowds.herd",
@@ -156,8 +157,8 @@ TEST_F(CrowdCompositionTest, SharingATopologyChangesNothingButMemory) {
   const SceneDescription scene =
       load_scene(scene_.path("scene.yaml"),
                  {crowd("seed: 2"), {"render.shared_topology", "false"}, {"camera.shutter", "[0, 0]"}});
-  const auto assets = load_assets(scene, workers_, other);
-  const World apart = compose(scene, *assets, 1, workers_, other);
+  const auto assets = load_assets(scene, QuietJob(2, other));
+  const World apart = compose(scene, *assets, 1, QuietJob(2, other));
   EXPECT_EQ(a.arrays().points, apart.scene.fur[3].procedurals[0]->split()[0]->generate().arrays().points);
   const auto topology = static_cast<int64_t>(assets->skins.at("cube").rest->topology().bytes());
   EXPECT_GE(other.current(MemoryTag::kSkins), shared_bytes + 19 * topology);

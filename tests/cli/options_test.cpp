@@ -76,6 +76,8 @@ TEST(Options, HaveDefaults) {
 
 TEST(Options, OfTheOtherCommands) {
   EXPECT_EQ(parsed({"grow", "s", "-o", "a.hair", "--groom", "under"}).groom, "under");
+  EXPECT_FALSE(parsed({"grow", "s", "-o", "a.hair"}).lod);
+  EXPECT_TRUE(parsed({"grow", "s", "-o", "a.hair", "--lod"}).lod);
   EXPECT_EQ(parsed({"info", "a.tfx", "--basis", "linear"}).basis, CurveBasis::kLinear);
   EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx", "--default-width", "0.01"}).default_width, 0.01f);
   EXPECT_EQ(parsed({"convert", "a.hair", "b.tfx"}).output, "b.tfx");
@@ -85,6 +87,7 @@ TEST(Options, OfTheOtherCommands) {
 }
 
 TEST(Options, MistakesNameWhatWasMeant) {
+  EXPECT_NE(problem({"grow", "s", "--lod"}).find("--output"), std::string::npos);
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
   EXPECT_EQ(problem({"rendr", "s"}), "there is no command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),

@@ -14,6 +14,20 @@
 
 namespace pelage {
 
+/// Appends warnings to a list.
+class KeepsWarnings final : public Progress {
+ public:
+  explicit KeepsWarnings(std::vector<std::string>& warnings) : warnings_(warnings) {}
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  void warn(std::string_view line) override { warnings_.emplace_back(line); }
+  bool cancelled() const override { return false; }
+
+ private:
+  std::vector<std::string>& warnings_;
+};
+
 /// Coats on a ball, with and without a cache.
 class CachedCoatTest : public OperatorTest {
  protected:
@@ -42,9 +56,9 @@ class CachedCoatTest : public OperatorTest {
   }
   std::shared_ptr<const Groom> make(const GroomParams& params, const std::string& name = "coat",
                                     int threads = 2) {
-    GroomCacheHooks hooks;
-    hooks.warn = [this](const std::string& line) { warnings_.push_back(line); };
-    return Groom::create(name, params, rest_, textures_, Workers(threads), ledger_, hooks);
+    KeepsWarnings progress(warnings_);
+    const Workers workers(threads);
+    return Groom::create(name, params, rest_, textures_, Job{workers, ledger_, progress});
   }
   std::shared_ptr<const Groom> make(const Coat& coat, int threads = 2) {
     return make(params_of(coat), coat.name, threads);

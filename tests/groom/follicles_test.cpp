@@ -13,6 +13,7 @@
 #include "groom/follicle_candidates.h"
 #include "tests/groom/scene_text.h"
 #include "tests/groom/shapes.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -65,7 +66,7 @@ FollicleTree grow(const LimitSurface& rest, int64_t count, const Field& density 
   options.density = density;
   options.seed = 7;
   options.leaf_strands = leaf;
-  return FollicleTree::build(rest, options, Workers(threads));
+  return FollicleTree::build(rest, options, QuietJob(threads));
 }
 
 TEST(Follicles, EveryPrefixIsBlueNoise) {
@@ -75,7 +76,7 @@ TEST(Follicles, EveryPrefixIsBlueNoise) {
     const FollicleTree tree = grow(*rest, static_cast<int64_t>(count));
     ASSERT_EQ(tree.size(), count);
     const std::vector<Placed> places = by_id(tree, *rest);
-    const double area = measure_surface(*rest, {}, Workers(1)).area;
+    const double area = measure_surface(*rest, {}, QuietJob(1)).area;
     for (size_t prefix = count; prefix >= 300; prefix /= 2) {
       // Largest possible distance of that many points: hexagons [Yuksel15, section 3.1].
       const double most = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * static_cast<double>(prefix)));
@@ -118,7 +119,7 @@ TEST(Follicles, LeavesAreCompact) {
   const auto rest = shapes::surface_of(shapes::ball_cage());
   const FollicleTree tree = grow(*rest, 20000, Field(1.0f), 300);
   // A leaf's share of the area would fit a square of this side.
-  const double area = measure_surface(*rest, {}, Workers(1)).area;
+  const double area = measure_surface(*rest, {}, QuietJob(1)).area;
   const double side = std::sqrt(area / static_cast<double>(tree.leaves().size()));
   double sum = 0;
   for (const FollicleTree::Leaf& leaf : tree.leaves()) {
@@ -188,14 +189,14 @@ TEST(Follicles, CountComesFromDensityPerArea) {
   FollicleOptions options;
   options.per_area = 1;
   options.density = scene_text::read<Field>("{ramp: {along: y, knots: [[0, 0], [1, 6000]]}}");
-  EXPECT_NEAR(static_cast<double>(FollicleTree::build(*rest, options, Workers(2)).size()), 3000, 10);
+  EXPECT_NEAR(static_cast<double>(FollicleTree::build(*rest, options, QuietJob(2)).size()), 3000, 10);
   options.density = Field(0.0f);
-  EXPECT_EQ(FollicleTree::build(*rest, options, Workers(2)).size(), 0u);
-  EXPECT_EQ(FollicleTree::build(*rest, options, Workers(2)).leaves().size(), 0u);
+  EXPECT_EQ(FollicleTree::build(*rest, options, QuietJob(2)).size(), 0u);
+  EXPECT_EQ(FollicleTree::build(*rest, options, QuietJob(2)).leaves().size(), 0u);
   options.density = Field(1e12f);
-  EXPECT_THROW(FollicleTree::build(*rest, options, Workers(2)), Error);
+  EXPECT_THROW(FollicleTree::build(*rest, options, QuietJob(2)), Error);
   options.count = 1;
-  EXPECT_EQ(FollicleTree::build(*rest, options, Workers(2)).size(), 1u);
+  EXPECT_EQ(FollicleTree::build(*rest, options, QuietJob(2)).size(), 1u);
 }
 
 TEST(Follicles, IdsSayNothingAboutPlaces) {

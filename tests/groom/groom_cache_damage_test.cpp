@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "tests/groom/cached_coats.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -134,7 +135,8 @@ TEST_F(GroomCacheDamageTest, ManyAtOnceGrowItOnce) {
     threads.emplace_back([&] {
       MemoryLedger ledger;
       TextureLibrary textures(ledger);
-      const auto groom = Groom::create("coat", params_of(coat_), rest_, textures, Workers::alone(), ledger);
+      const auto groom =
+          Groom::create("coat", params_of(coat_), rest_, textures, QuietJob(Workers::alone(), ledger));
       if (!groom->cache_report()->fresh) ++grown;
       EXPECT_EQ(bits(*groom, at_rest()), right);
     });

@@ -126,6 +126,47 @@ TEST_F(GroomCacheTest, LengthScalesStrandsAboutTheirRootsAndNotTheirWidths) {
   }
 }
 
+/// Straight guides on the ball that lean away from its normals.
+void write_guides(const std::filesystem::path& file, const LimitSurface& rest, float lean) {
+  StrandArrays arrays;
+  arrays.first_point.push_back(0);
+  for (uint32_t face = 0; face < rest.topology().face_count(); ++face) {
+    const Frame frame = rest.frame(face, 0.5f, 0.5f);
+    const V3f root = rest.evaluate(face, 0.5f, 0.5f).position;
+    for (int p = 0; p < 4; ++p) {
+      const V3f point = root + (frame.normal + frame.tangent * lean) * (static_cast<float>(p) / 3);
+      arrays.points.insert(arrays.points.end(), {point.x, point.y, point.z, 0.01f});
+    }
+    arrays.first_point.push_back(static_cast<uint32_t>(arrays.points.size() / 4));
+    arrays.ids.push_back(face);
+  }
+  write_strands(file, Strands(std::move(arrays)));
+}
+
+TEST_F(GroomCacheTest, GuidesAreNotReadWhenTheCacheHasTheirCoatAndMakeItStaleWhenTheyChange) {
+  const auto file = folder_.path() / "guides.hair";
+  for (const char* freeze : {"length", "guides"}) {
+    const Coat coat{"- guides: {file: " + file.string() + "}\n- length: {value: 1}\n", freeze};
+    write_guides(file, *rest_, 0.5f);
+    const auto cold = bits(*make(coat), at_rest());
+    const auto warm = make(coat);
+    EXPECT_TRUE(warm->cache_report()->fresh);
+    EXPECT_EQ(cold, bits(*warm, at_rest()));
+
+    write_guides(file, *rest_, 0.7f);
+    const auto changed = make(coat);
+    EXPECT_FALSE(changed->cache_report()->fresh);
+    EXPECT_TRUE(
+        changed->cache_report()->summary().starts_with("stale from guides on (contents of guides.hair"))
+        << changed->cache_report()->summary();
+    const auto other = bits(*changed, at_rest());
+    EXPECT_NE(cold, other);
+    std::filesystem::remove_all(cache());
+    EXPECT_EQ(other, bits(*make(coat), at_rest()));
+    std::filesystem::remove_all(cache());
+  }
+}
+
 TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   const auto with = [](const std::string& amount, const std::string& amplitude) {
     return Coat{"- length: {value: 0.5}\n- comb: {direction: [0, -1, 0]}\n- clump: {spacing: 0.3, amount: " +
@@ -198,11 +239,9 @@ TEST_F(GroomCacheTest, GrowingStopsWhenTheUserSaysSo) {
     bool cancelled() const override { return leaves > 2; }
     std::atomic<int> leaves{0};
   } progress;
-  GroomCacheHooks hooks;
-  hooks.progress = &progress;
   const Coat coat{"- length: {value: 0.5}\n- frizz: {}\n", "frizz", 2000, 50};
   try {
-    Groom::create("coat", params_of(coat), rest_, textures_, Workers(2), ledger_, hooks);
+    Groom::create("coat", params_of(coat), rest_, textures_, Job{workers_, ledger_, progress});
     ADD_FAILURE() << "grown to the end";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kStopped);
@@ -240,12 +279,12 @@ TEST_F(GroomCacheTest, ImportedStrandsKeepTheirGapsAndTheirPointCounts) {
     const PosedSkin skin =
         on_skin ? PosedSkin{{&pose, 1}, {}, 1.2f, {}} : PosedSkin{{}, {}, 1.2f, {&turn, 1}};
     params.cache.reset();
-    const auto plain = all(*Groom::create("i", params, rest, textures_, workers_, ledger_), skin);
+    const auto plain = all(*Groom::create("i", params, rest, textures_, job_), skin);
     params.cache.emplace();
     params.cache->directory.path = cache();
     params.cache->freeze.name = "length";
-    const auto cold = Groom::create("i", params, rest, textures_, workers_, ledger_);
-    const auto warm = Groom::create("i", params, rest, textures_, workers_, ledger_);
+    const auto cold = Groom::create("i", params, rest, textures_, job_);
+    const auto warm = Groom::create("i", params, rest, textures_, job_);
     EXPECT_TRUE(warm->cache_report()->fresh);
     EXPECT_EQ(bits(*cold, skin), bits(*warm, skin));
     const auto cached = all(*warm, skin);

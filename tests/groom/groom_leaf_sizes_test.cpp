@@ -50,13 +50,13 @@ class GroomLeafSizesTest : public CachedCoatTest {
     for (const int leaf : {1, 37, 300, 500, 4000, 1000000}) {
       params.leaf_strands = leaf;
       std::filesystem::remove_all(cache());
-      const auto cold = Groom::create("coat", params, rest_, textures_, workers_, ledger_);
-      const auto warm = Groom::create("coat", params, rest_, textures_, workers_, ledger_);
+      const auto cold = Groom::create("coat", params, rest_, textures_, job_);
+      const auto warm = Groom::create("coat", params, rest_, textures_, job_);
       ASSERT_TRUE(cold->cache_report()->stored);
       ASSERT_TRUE(warm->cache_report()->fresh);
       std::filesystem::remove_all(cache());
       std::ofstream(cache()) << "a file, not a folder";
-      const auto kept = Groom::create("coat", params, rest_, textures_, workers_, ledger_);
+      const auto kept = Groom::create("coat", params, rest_, textures_, job_);
       ASSERT_FALSE(kept->cache_report()->stored);
       if (first.empty()) first = curves(*cold, pose);
       EXPECT_TRUE(first == curves(*cold, pose)) << leaf;

@@ -14,6 +14,7 @@
 #include "tests/groom/kept_strands.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -37,7 +38,7 @@ class GroomTest : public OperatorTest {
     GroomParams params = scene_text::read<GroomParams>("skin: ball\nstrands: " + std::to_string(strands) +
                                                        "\nleaf_strands: " + std::to_string(leaf));
     params.operators = scene_text::read<OperatorList>(operators);
-    return Groom::create("coat", params, rest_, textures_, Workers(threads), ledger_);
+    return Groom::create("coat", params, rest_, textures_, QuietJob(threads, ledger_));
   }
 
   /// The ball turned, moved and bent a little.
@@ -216,7 +217,7 @@ TEST_F(GroomTest, CombinationsThatMakeNoSenseAreRefused) {
   const auto refused = [&](const std::string& text, std::shared_ptr<const LimitSurface> rest) {
     const auto params = scene_text::read<GroomParams>(text);
     try {
-      Groom::create("coat", params, std::move(rest), textures_, workers_, ledger_);
+      Groom::create("coat", params, std::move(rest), textures_, job_);
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kInput);
       return std::string(error.what());
@@ -268,7 +269,7 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   write_strands(path, expected);
   GroomParams params = scene_text::read<GroomParams>("skin: ball\nleaf_strands: 60");
   params.strands_file = {path, {}};
-  const auto imported = Groom::create("imported", params, rest_, textures_, workers_, ledger_);
+  const auto imported = Groom::create("imported", params, rest_, textures_, job_);
   ASSERT_EQ(imported->follicles().size(), 400u);
   EXPECT_GT(imported->follicles().leaves().size(), 5u);
   for (size_t leaf = 0; leaf < imported->follicles().leaves().size(); ++leaf) {
@@ -285,6 +286,15 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   }
 }
 
+struct WarningLog final : Progress {
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  void warn(std::string_view line) override { lines.emplace_back(line); }
+  bool cancelled() const override { return false; }
+  std::vector<std::string> lines;
+};
+
 // A file in another unit or of another character is drawn where it is, and somebody says so.
 TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
   const TemporaryFolder folder;
@@ -300,10 +310,9 @@ TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
     for (const char* attach : {"auto", "skin", "none"}) {
       GroomParams params = scene_text::read<GroomParams>(std::string("skin: ball\nattach: ") + attach);
       params.strands_file = {path, {"scene.yaml", 7, 3}};
-      std::vector<std::string> warnings;
-      GroomCacheHooks hooks;
-      hooks.warn = [&](const std::string& line) { warnings.push_back(line); };
-      const auto groom = Groom::create("g", params, rest_, textures_, workers_, ledger_, hooks);
+      WarningLog log;
+      const std::vector<std::string>& warnings = log.lines;
+      const auto groom = Groom::create("g", params, rest_, textures_, Job{workers_, ledger_, log});
       const bool is_far = away == 100 && *attach == 'a';
       EXPECT_EQ(groom->grows_on_skin(), *attach != 'n' && !is_far) << away << attach;
       ASSERT_EQ(warnings.size(), is_far ? 1u : 0u) << away << attach;
@@ -336,15 +345,15 @@ TEST_F(GroomTest, StrandsOfAFileNeedAFaceToFollow) {
       holes.positions);
   GroomParams params = scene_text::read<GroomParams>("skin: ball");
   params.strands_file = {path, {"scene.yaml", 7, 3}};
-  EXPECT_FALSE(Groom::create("g", params, rest, textures_, workers_, ledger_)->grows_on_skin());
+  EXPECT_FALSE(Groom::create("g", params, rest, textures_, job_)->grows_on_skin());
   params.attach = Attachment::kSkin;
   try {
-    Groom::create("g", params, rest, textures_, workers_, ledger_);
+    Groom::create("g", params, rest, textures_, job_);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.problems().front().position.line, 7);
   }
-  EXPECT_THROW(Groom::create("g", params, nullptr, textures_, workers_, ledger_), Error);
+  EXPECT_THROW(Groom::create("g", params, nullptr, textures_, job_), Error);
 }
 
 TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {
@@ -355,7 +364,7 @@ TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {
   write_strands(path, expected);
   GroomParams params;
   params.strands_file = {path, {}};
-  const auto free = Groom::create("free", params, nullptr, textures_, workers_, ledger_);
+  const auto free = Groom::create("free", params, nullptr, textures_, job_);
   const Strands still = free->grow(0, {});
   EXPECT_FALSE(still.has_roots());
   M44f transform;

@@ -80,7 +80,7 @@ TEST_F(GuidesTest, SpreadKeepsFolliclesNearGuides) {
   FollicleOptions options;
   options.count = 1000;
   options.coverage = [&op](const V3f& at, const V3f& normal) { return op.coverage(at, normal); };
-  const FollicleTree tree = FollicleTree::build(*rest_, options, workers_);
+  const FollicleTree tree = FollicleTree::build(*rest_, options, job_);
   ASSERT_EQ(tree.size(), 1000u);
   for (size_t f = 0; f < tree.size(); ++f) {
     const RootAddress& root = tree.root(f);

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "base/parallel.h"
+#include "base/job.h"
 #include "groom/follicles.h"
 #include "groom/operator.h"
 #include "groom/operator_stack.h"
@@ -51,10 +51,12 @@ class OperatorTest : public testing::Test {
     FollicleOptions options;
     options.count = 2048;
     options.leaf_strands = static_cast<int>(kBlockStrands);  // so that a batch is compact
-    follicles_ = FollicleTree::build(*rest_, options, workers_);
+    follicles_ = FollicleTree::build(*rest_, options, job_);
   }
 
-  PrepareContext context(int points = 8) { return {rest_.get(), textures_, workers_, {}, 99, points, {}}; }
+  PrepareContext context(int points = 8) {
+    return {rest_.get(), textures_, job_, {}, 99, points, {}, "groom 'coat'"};
+  }
 
   template <class Op>
   Op prepared(typename Op::Params params, int points = 8) {
@@ -147,6 +149,8 @@ class OperatorTest : public testing::Test {
   MemoryLedger ledger_;
   TextureLibrary textures_{ledger_};
   Workers workers_;
+  NoProgress progress_;
+  Job job_{workers_, ledger_, progress_};
   FollicleTree follicles_;
 };
 

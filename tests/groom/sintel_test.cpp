@@ -12,6 +12,7 @@
 #include "image/texture.h"
 #include "tests/groom/scene_text.h"
 #include "tests/support/data.h"
+#include "tests/support/quiet_job.h"
 
 // 228 guides of a production groom, interpolated, beside the full groom of 11,400 strands made from them by
 // others.
@@ -74,7 +75,7 @@ class SintelTest : public testing::Test {
         ", scale: 0.01, translate: [0.0002, 1.1984, 0.0002]" + spread + "}\n" + length);
     MemoryLedger ledger;
     TextureLibrary textures(ledger);
-    const auto groom = Groom::create("hair", params, rest, textures, Workers(2), ledger);
+    const auto groom = Groom::create("hair", params, rest, textures, QuietJob(2, ledger));
     const Strands strands = groom->grow(0, {{rest.get(), 1}, {}, 1, {}});
     EXPECT_EQ(strands.strand_count(), 11400u);
     return portrait_of(strands);

@@ -8,6 +8,7 @@
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -26,7 +27,7 @@ class CombedBall {
     stacks::add<Comb>(
         params.operators,
         {.direction = Field(Rgb(0.3f, 0, 1)), .lift = Field(lift), .amount = Field(1.0f), .curve = 0});
-    groom = Groom::create("coat", params, rest, textures_, workers, ledger_);
+    groom = Groom::create("coat", params, rest, textures_, QuietJob(2, ledger_));
   }
 
   const ControlMesh cage;

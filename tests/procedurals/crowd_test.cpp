@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "procedurals/crowd_placement.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -64,7 +65,7 @@ TEST_P(CrowdPlacementTest, PointsKeepTheirDistance) {
   // Half of what a perfect packing would hold.
   const auto count = static_cast<size_t>(0.5 * area.surface() / (0.866 * 4 * 4));
   const CrowdRules kept = rules(count, {}, 4);
-  expect_kept(area, kept, place_crowd(area, kept));
+  expect_kept(area, kept, place_crowd(area, kept, QuietJob(1)));
 }
 
 TEST_P(CrowdPlacementTest, FootprintsKeepTheirDistance) {
@@ -72,16 +73,16 @@ TEST_P(CrowdPlacementTest, FootprintsKeepTheirDistance) {
   const auto count = static_cast<size_t>(area.surface() / 260);
   for (float variation : {kPi, 0.3f, 0.0f}) {
     const CrowdRules kept = rules(count, kRat, 0.5f, variation);
-    expect_kept(area, kept, place_crowd(area, kept));
+    expect_kept(area, kept, place_crowd(area, kept, QuietJob(1)));
   }
 }
 
 TEST_P(CrowdPlacementTest, IsAFunctionOfItsSeed) {
   const GroundArea area(GetParam());
   CrowdRules once = rules(12, kRat, 1);
-  const auto places = place_crowd(area, once), again = place_crowd(area, once);
+  const auto places = place_crowd(area, once, QuietJob(1)), again = place_crowd(area, once, QuietJob(1));
   once.seed = 12;
-  const auto other = place_crowd(area, once);
+  const auto other = place_crowd(area, once, QuietJob(1));
   for (size_t i = 0; i < places.size(); ++i) {
     EXPECT_EQ(places[i].position, again[i].position);
     EXPECT_EQ(places[i].heading, again[i].heading);
@@ -91,7 +92,7 @@ TEST_P(CrowdPlacementTest, IsAFunctionOfItsSeed) {
 
 TEST_P(CrowdPlacementTest, WithoutSpacingTheyAreSpreadEvenly) {
   const GroundArea area(GetParam());
-  const auto places = place_crowd(area, rules(400, {}, 0));
+  const auto places = place_crowd(area, rules(400, {}, 0), QuietJob(1));
   // Of random points, a tenth would have a neighbour closer than 0.18 of the mean distance.
   const float mean = std::sqrt(static_cast<float>(area.surface() / 400));
   int close = 0;
@@ -108,9 +109,9 @@ TEST_P(CrowdPlacementTest, WithoutSpacingTheyAreSpreadEvenly) {
 TEST_P(CrowdPlacementTest, KeepsClearOfWhatStandsThere) {
   const GroundArea area(GetParam());
   CrowdRules first = rules(4, kRat, 1), second = rules(static_cast<size_t>(area.surface() / 400), kRat, 1);
-  const auto standing = place_crowd(area, first);
+  const auto standing = place_crowd(area, first, QuietJob(1));
   for (const CrowdPlace& place : standing) second.obstacles.push_back({kRat, place});
-  const auto places = place_crowd(area, second);
+  const auto places = place_crowd(area, second, QuietJob(1));
   expect_kept(area, second, places);
   for (const PlacedFootprint& obstacle : second.obstacles) {
     for (const CrowdPlace& place : places)
@@ -129,7 +130,7 @@ TEST(CrowdPlacement, RefusesMoreThanFit) {
   const auto problem = [&](size_t count) -> std::string {
     rules.footprints.assign(count, {});
     try {
-      place_crowd(area, rules);
+      place_crowd(area, rules, QuietJob(1));
       return "";
     } catch (const Error& error) {
       return error.what();
@@ -175,7 +176,7 @@ CrowdParams colony() {
 }
 
 TEST(Crowd, EveryAnimalIsItsOwnWithinWhatIsAllowed) {
-  const auto members = make_crowd("colony", {}, colony(), {{}, {}});
+  const auto members = make_crowd("colony", {}, colony(), {{}, {}}, QuietJob(1));
   ASSERT_EQ(members.size(), 200u);
   std::set<float> phases, widths, lengths, reds;
   size_t of[2] = {};
@@ -203,7 +204,8 @@ TEST(Crowd, EveryAnimalIsItsOwnWithinWhatIsAllowed) {
 }
 
 TEST(Crowd, TwoCrowdsOfOneSeedDiffer) {
-  const auto a = make_crowd("a", {}, colony(), {{}, {}}), b = make_crowd("b", {}, colony(), {{}, {}});
+  const auto a = make_crowd("a", {}, colony(), {{}, {}}, QuietJob(1)),
+             b = make_crowd("b", {}, colony(), {{}, {}}, QuietJob(1));
   EXPECT_NE(a[0].position, b[0].position);
   EXPECT_NE(a[0].frame_offset, b[0].frame_offset);
 }
@@ -223,7 +225,7 @@ TEST(Crowd, NamesWhatDoesNotFit) {
   CrowdParams params = colony();
   params.spacing = 50;
   try {
-    make_crowd("colony", {"s.yaml", 7, 3}, params, {{}, {}});
+    make_crowd("colony", {"s.yaml", 7, 3}, params, {{}, {}}, QuietJob(1));
     FAIL() << "they fitted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kInput);

@@ -12,6 +12,7 @@
 #include "procedurals/strand_nature.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -31,7 +32,7 @@ class FlatTuft : public testing::Test {
         {.direction = Field(Rgb(1, 0, 0)), .lift = Field(0.05f), .amount = Field(1.0f), .curve = 0});
     stacks::add<Width>(params.operators,
                        {.root = Field(0.00015f), .tip = Field(0.00015f), .profile = 1, .variation = 0});
-    groom_ = Groom::create("tuft", params, rest, textures_, workers_, ledger_);
+    groom_ = Groom::create("tuft", params, rest, textures_, QuietJob(2, ledger_));
     nature_ = strand_nature(*groom_, rest.get(), workers_);
     CharacterPose pose;
     pose.topology = rest->shared_topology();

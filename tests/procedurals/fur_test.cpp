@@ -8,6 +8,7 @@
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -24,7 +25,7 @@ class FurTest : public testing::Test {
     params.leaf_strands = 700;
     params.points = 6;
     params.operators = stacks::usual();
-    groom_ = Groom::create("coat", params, rest, textures_, workers_, ledger_);
+    groom_ = Groom::create("coat", params, rest, textures_, QuietJob(2, ledger_));
 
     CharacterPose pose;
     pose.topology = rest->shared_topology();

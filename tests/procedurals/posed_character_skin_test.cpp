@@ -9,6 +9,7 @@
 #include "groom/groom.h"
 #include "image/texture.h"
 #include "tests/groom/shapes.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -150,7 +151,7 @@ TEST_F(PosedCharacterSkinTest, PartsOfPosesAreTheSameAndChargedBeforeTheyAreMade
   params.leaf_strands = 50;
   const auto rest = std::make_shared<LimitSurface>(topology_, cage_.positions);
   TextureLibrary textures(ledger_);
-  const auto groom = Groom::create("coat", params, rest, textures, Workers::alone(), ledger_);
+  const auto groom = Groom::create("coat", params, rest, textures, QuietJob(Workers::alone(), ledger_));
   const int64_t before = ledger_.current(MemoryTag::kSkins);
   moving->expect_leaves(*groom);
   const int64_t charged = ledger_.current(MemoryTag::kSkins) - before;

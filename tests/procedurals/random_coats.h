@@ -11,6 +11,7 @@
 #include "procedurals/fur.h"
 #include "tests/groom/random_stacks.h"
 #include "tests/groom/shapes.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 
@@ -47,7 +48,7 @@ class RandomCoat {
       params.cache->directory.path = options.cache;
       params.cache->freeze.name = Length::kName;
     }
-    groom = Groom::create("coat", params, rest, textures_, workers_, ledger_);
+    groom = Groom::create("coat", params, rest, textures_, QuietJob(2, ledger_));
 
     const float turn = between(-2, 2), swell = between(-0.3f, 0.3f), tilt = between(0, 6);
     const V3f flight(between(-3, 3), between(-3, 3), between(-3, 3));

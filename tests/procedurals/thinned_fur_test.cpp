@@ -12,6 +12,7 @@
 #include "procedurals/fur.h"
 #include "procedurals/strand_nature.h"
 #include "tests/procedurals/random_coats.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -129,7 +130,7 @@ TEST(ThinnedFur, StrandsOnNoSkinHaveOneScaleHoweverTheyAreDivided) {
   const auto scale_of = [&](int leaf_strands) {
     params.leaf_strands = leaf_strands;
     const std::shared_ptr<const Groom> free =
-        Groom::create("free", params, nullptr, textures, Workers(1), ledger);
+        Groom::create("free", params, nullptr, textures, QuietJob(1, ledger));
     return FurProcedural(free, coat.skin, seen(coat, s)).scale();
   };
   const StrandScale whole = scale_of(8000);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "cli/commands.h"
+#include "geom/io/strand_file.h"
+#include "tests/cli/small_scene.h"
+
+namespace pelage {
+namespace {
+
+class GrowExportTest : public testing::Test {
+ protected:
+  /// The file that `grow -o` writes for a picture of this width.
+  std::filesystem::path grown(int width, bool lod) {
+    Options options;
+    options.command = Command::kGrow;
+    options.input = scene_.path("scene.yaml");
+    options.output = scene_.path(std::to_string(width) + (lod ? "-lod.hair" : ".hair"));
+    options.progress = ProgressStyle::kQuiet;
+    options.lod = lod;
+    options.overrides = {{"image.width", std::to_string(width)},
+                         {"image.height", std::to_string(width * 9 / 16)},
+                         {"render.lod.enabled", "true"}};
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_grow(options), 0);
+    testing::internal::GetCapturedStdout();
+    return options.output;
+  }
+  static size_t strands(const std::filesystem::path& file) {
+    return read_strands(file).strands.strand_count();
+  }
+
+  SmallScene scene_;
+};
+
+TEST_F(GrowExportTest, WritesAllStrandsWhateverThePicturesSize) {
+  for (const int width : {1280, 32}) EXPECT_EQ(strands(grown(width, false)), 400u) << width;
+}
+
+TEST_F(GrowExportTest, WritesThoseOfThePicturesLevelOfDetailWhereAsked) {
+  EXPECT_LT(strands(grown(32, true)), 300u);
+}
+
+}  // namespace
+}  // namespace pelage
