@@ -7,6 +7,7 @@
 #include "cli/crowds.h"
 #include "cli/drawn_characters.h"
 #include "cli/map_check.h"
+#include "cli/skin_room.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
 
@@ -48,13 +49,20 @@ PoseSequence pose_sequence(const PosesParams& params, const ControlMesh& cage, M
                       params.frames_per_pose);
 }
 
-Assets::Skin load_skin(const SkinParams& params, SharedTopologies& topologies, MemoryLedger& ledger) {
+Assets::Skin load_skin(const std::string& name, const SkinParams& params, SharedTopologies& topologies,
+                       const Job& job) {
   require_file(params.mesh.path, params.mesh.position);
-  const ControlMesh cage = read_obj(params.mesh.path);
-  const auto topology = share(
-      SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string()), topologies);
-  Assets::Skin skin{std::make_shared<LimitSurface>(topology, cage.positions), cage, {}};
-  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, cage, ledger));
+  MemoryCharge reading = reserve_reading(name, params, job);
+  ControlMesh cage = read_obj(params.mesh.path, job);
+  reading = {};
+  const MemoryCharge making = reserve_skin(name, params, cage, job);
+  const auto topology =
+      share(SurfaceTopology::create(cage, params.scheme, params.boundary, params.mesh.path.string(), job),
+            topologies);
+  job.check_stop();
+  auto rest = std::make_shared<LimitSurface>(topology, cage.positions);
+  Assets::Skin skin{std::move(rest), std::move(cage), {}};
+  if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, skin.cage, job.ledger));
   return skin;
 }
 
@@ -87,7 +95,7 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
   for (const auto& [name, position, params] : scene.skins.items) {
     job.check_stop();
     const Assets::Skin& skin =
-        assets->skins.emplace(name, load_skin(params, topologies, ledger)).first->second;
+        assets->skins.emplace(name, load_skin(name, params, topologies, job)).first->second;
     assets->charges.emplace_back(ledger, MemoryTag::kSkins,
                                  static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
   }

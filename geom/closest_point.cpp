@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/job.h"
 #include "geom/triangle_distance.h"
 
 namespace pelage {
@@ -12,6 +13,7 @@ namespace pelage {
 namespace {
 
 constexpr uint32_t kWidth = 4;
+constexpr uint32_t kTrianglesPerCheck = 4096;
 constexpr uint32_t kLeaf = 1u << 31;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
@@ -47,7 +49,7 @@ struct ClosestPointTree::Impl {
     uint32_t triangle;
   };
 
-  Impl(const SkinMesh& skin, int motion_key) : mesh(skin), key(motion_key) {
+  Impl(const SkinMesh& skin, int motion_key, const Job* own_job) : mesh(skin), key(motion_key), job(own_job) {
     const auto count = static_cast<uint32_t>(mesh.triangle_count());
     if (count == 0) return;
     list_triangles_of_vertices();
@@ -67,6 +69,7 @@ struct ClosestPointTree::Impl {
     packets.reserve(count / kWidth + 1);
     nodes.reserve(count / (kWidth * 2) + 1);
     root = build(items, {0, count});
+    job = nullptr;
   }
 
   V3f corner(uint32_t triangle, uint32_t i) const {
@@ -101,6 +104,7 @@ struct ClosestPointTree::Impl {
 
   uint32_t build(std::vector<Item>& items, Range range) {
     if (range.size() <= kWidth) return make_packet(items, range);
+    if (job && range.size() > kTrianglesPerCheck) job->check_stop();
     Range children[kWidth] = {range};
     uint32_t count = 1;
     while (count < kWidth) {
@@ -212,6 +216,7 @@ struct ClosestPointTree::Impl {
 
   const SkinMesh& mesh;
   int key;
+  const Job* job;  // while it is built
   float pad = 0;
   uint32_t root = kNone;
   std::vector<Node> nodes;
@@ -220,8 +225,8 @@ struct ClosestPointTree::Impl {
   std::vector<uint32_t> uses;       // triangles around each vertex, in order
 };
 
-ClosestPointTree::ClosestPointTree(const SkinMesh& mesh, int key)
-    : impl_(std::make_unique<Impl>(mesh, key)) {}
+ClosestPointTree::ClosestPointTree(const SkinMesh& mesh, int key, const Job* job)
+    : impl_(std::make_unique<Impl>(mesh, key, job)) {}
 ClosestPointTree::~ClosestPointTree() = default;
 ClosestPointTree::ClosestPointTree(ClosestPointTree&&) noexcept = default;
 

@@ -9,6 +9,8 @@
 
 namespace pelage {
 
+struct Job;
+
 /// The point of a skin nearest to some point of space.
 struct ClosestPoint {
   V3f position{0};
@@ -22,7 +24,8 @@ struct ClosestPoint {
 /// Keeps a reference to `mesh`. Thread safety: const members may be called from any thread.
 class ClosestPointTree {
  public:
-  ClosestPointTree(const SkinMesh& mesh, int key);
+  /// With a job, throws Error (kStopped).
+  ClosestPointTree(const SkinMesh& mesh, int key, const Job* job = nullptr);
   ~ClosestPointTree();
   ClosestPointTree(ClosestPointTree&&) noexcept;
 

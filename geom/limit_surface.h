@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -13,6 +13,8 @@
 #include "geom/strands.h"
 
 namespace pelage {
+
+struct Job;
 
 enum class SubdivisionScheme { kCatmullClark, kLoop, kBilinear, kNone };
 template <>
@@ -34,6 +36,10 @@ class SurfaceTopology {
   /// takes any polygons: faces of more than three corners are cut into triangles where they lie at rest.
   static std::shared_ptr<const SurfaceTopology> create(const ControlMesh& mesh, SubdivisionScheme scheme,
                                                        BoundaryRule boundary, const std::string& source);
+  /// The same, and throws Error (kStopped), between steps of less than 5 us a face.
+  static std::shared_ptr<const SurfaceTopology> create(const ControlMesh& mesh, SubdivisionScheme scheme,
+                                                       BoundaryRule boundary, const std::string& source,
+                                                       const Job& job);
   ~SurfaceTopology();
 
   /// Most faces around a vertex and corners around a face: weights around it grow with the square of this.
@@ -47,6 +53,8 @@ class SurfaceTopology {
   uint32_t control_count() const;
   /// Whether ptex faces are triangles (Loop, none), with parameters u + v <= 1, not squares.
   bool is_triangular() const;
+  /// Whether they are the flat triangles of a mesh that is not subdivided (none).
+  bool is_flat() const;
   bool is_hole(uint32_t face) const;
   /// Cage face that a ptex face is part of.
   uint32_t cage_face(uint32_t face) const;
@@ -72,6 +80,9 @@ class SurfaceTopology {
   const Impl& impl() const { return *impl_; }
 
  private:
+  static std::shared_ptr<const SurfaceTopology> create(const ControlMesh& mesh, SubdivisionScheme scheme,
+                                                       BoundaryRule boundary, const std::string& source,
+                                                       const std::function<void()>& check_stop);
   explicit SurfaceTopology(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };

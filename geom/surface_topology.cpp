@@ -8,8 +8,10 @@
 #include <opensubdiv/far/topologyRefiner.h>
 
 #include "base/error.h"
+#include "base/job.h"
 #include "geom/cage_refiner.h"
 #include "geom/flat_topology.h"
+#include "geom/surface_levels.h"
 #include "geom/surface_topology_impl.h"
 
 namespace pelage {
@@ -18,15 +20,6 @@ namespace {
 
 // Levels of refinement around creases and corners. Semi-sharp creases are resolved up to here.
 constexpr int kSharpLevels = 6;
-
-// Levels around smooth extraordinary vertices. What is left at the last is a Gregory patch, which with three
-// levels stays within 1e-4 of the size of the cages of the tests from the limit surface; a level more leaves
-// a third of that. The faces of dense cages are so small a part of the whole that fewer levels do as much;
-// around each triangle three levels take 33 kB while they are made, two 17 and one 7.
-int smooth_levels(const ControlMesh& mesh) {
-  constexpr size_t kTwo = 6000;
-  return mesh.face_count() > SurfaceTopology::kDenseFaces ? 1 : mesh.face_count() > kTwo ? 2 : 3;
-}
 
 template <class T>
 size_t heap_bytes(const std::vector<T>& values) {
@@ -198,7 +191,8 @@ void append_rules(const Stencils& stencils, size_t first, size_t count, uint32_t
   }
 }
 
-PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable& patches) {
+PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable& patches,
+                      const std::function<void()>& check_stop) {
   PointRules rules;
   rules.control_count = static_cast<uint32_t>(refiner.GetLevel(0).GetNumVertices());
   // Not multiplied out: the stencils of a level take their points from the level before it, counted from its
@@ -206,6 +200,7 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
   StencilsFactory::Options options;
   options.factorizeIntermediateLevels = false;
   const std::unique_ptr<const Stencils> refined(StencilsFactory::Create(refiner, options));
+  check_stop();
   const Stencils* local = patches.GetLocalPointStencilTable<float>();
   rules.first_term.reserve(1 + refined->GetSizes().size() + (local ? local->GetSizes().size() : 0));
   rules.first_term.push_back(0);
@@ -244,19 +239,34 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
                                                                SubdivisionScheme scheme,
                                                                BoundaryRule boundary,
                                                                const std::string& source) {
+  return create(mesh, scheme, boundary, source, [] {});
+}
+
+std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh& mesh,
+                                                               SubdivisionScheme scheme,
+                                                               BoundaryRule boundary,
+                                                               const std::string& source, const Job& job) {
+  return create(mesh, scheme, boundary, source, [&job] { job.check_stop(); });
+}
+
+std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh& mesh,
+                                                               SubdivisionScheme scheme,
+                                                               BoundaryRule boundary,
+                                                               const std::string& source,
+                                                               const std::function<void()>& check_stop) {
   check_cage(mesh, scheme, source);
   auto impl = std::make_unique<Impl>();
   impl->control_count = static_cast<uint32_t>(mesh.positions.size());
   impl->hash = hash_cage(mesh, scheme, boundary);
   if (scheme == SubdivisionScheme::kNone) {
-    fill_flat_topology(
-        mesh, [] {}, *impl);
+    fill_flat_topology(mesh, check_stop, *impl);
     return std::shared_ptr<const SurfaceTopology>(new SurfaceTopology(std::move(impl)));
   }
   const std::unique_ptr<Far::TopologyRefiner> refiner = make_refiner(mesh, scheme, boundary, source);
   impl->triangular = scheme == SubdivisionScheme::kLoop;
   impl->cage = connect(*refiner, scheme);
   fill_ptex_faces(*impl, refiner->GetLevel(0), mesh);
+  check_stop();
 
   Far::PatchTableFactory::Options options(kSharpLevels);
   options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
@@ -266,14 +276,17 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   Far::TopologyRefiner::AdaptiveOptions levels = options.GetRefineAdaptiveOptions();
   levels.SetSecondaryLevel(smooth_levels(mesh));
   refiner->RefineAdaptive(levels);
+  check_stop();
   impl->patches.reset(Far::PatchTableFactory::Create(*refiner, options));
+  check_stop();
   impl->patch_map.emplace(*impl->patches);
   sort_patches(*impl);
-  impl->rules = make_rules(*refiner, *impl->patches);
+  impl->rules = make_rules(*refiner, *impl->patches, check_stop);
   return std::shared_ptr<const SurfaceTopology>(new SurfaceTopology(std::move(impl)));
 }
 
 bool SurfaceTopology::is_triangular() const { return impl_->triangular; }
+bool SurfaceTopology::is_flat() const { return impl_->flat; }
 uint32_t SurfaceTopology::face_count() const { return static_cast<uint32_t>(impl_->cage_face.size()); }
 uint32_t SurfaceTopology::control_count() const { return impl_->control_count; }
 bool SurfaceTopology::is_hole(uint32_t face) const { return impl_->hole[face] != 0; }

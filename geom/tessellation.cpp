@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/job.h"
 #include "base/parallel.h"
 #include "geom/skin_lattice.h"
 #include "geom/skin_pieces.h"
@@ -16,6 +17,23 @@ namespace {
 
 constexpr size_t kFacesAtOnce = 64;
 constexpr size_t kPointsAtOnce = 1024;
+
+/// Loops, and what is looked at before each range of them.
+struct Loops {
+  const Workers& workers;
+  const Job* job = nullptr;  // null: cannot be stopped
+
+  void check_stop() const {
+    if (job) job->check_stop();
+  }
+  template <class Body>
+  void for_each(size_t count, size_t grain, const Body& body) const {
+    workers.for_each(count, grain, [&](WorkRange range) {
+      check_stop();
+      body(range);
+    });
+  }
+};
 
 /// Unit sums of the normals of all faces around each vertex at which they differ.
 void average_split_normals(const SkinLattice& lattice, const LimitSurface& surface, float* normals) {
@@ -34,14 +52,14 @@ void average_split_normals(const SkinLattice& lattice, const LimitSurface& surfa
   }
 }
 
-SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, const Workers& workers) {
+SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, const Loops& loops) {
   SkinMesh mesh;
   mesh.motion_keys = static_cast<int>(keys.size());
   const size_t triangles = lattice.triangle_count();
   mesh.triangles.resize(triangles * 3);
   mesh.faces.resize(triangles);
   mesh.vertex_uv.resize(triangles * 3);
-  workers.for_each(lattice.face_count(), kFacesAtOnce, [&](WorkRange range) {
+  loops.for_each(lattice.face_count(), kFacesAtOnce, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i)
       lattice.write_triangles(i, mesh.triangles.data(), mesh.faces.data(), mesh.vertex_uv.data());
   });
@@ -52,7 +70,7 @@ SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, co
   for (size_t key = 0; key < keys.size(); ++key) {
     float* positions = mesh.positions.data() + key * points.size() * 3;
     float* normals = mesh.normals.data() + key * points.size() * 3;
-    workers.for_each(points.size(), kPointsAtOnce, [&](WorkRange range) {
+    loops.for_each(points.size(), kPointsAtOnce, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         const auto& [face, uv] = points[i];
         const SurfacePoint p = keys[key].evaluate(face, uv.x, uv.y);
@@ -64,6 +82,18 @@ SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, co
     average_split_normals(lattice, keys[key], normals);
   }
   return mesh;
+}
+
+SkinMesh tessellate_all(std::span<const LimitSurface> keys, const View& view,
+                        const TessellationOptions& options, const Loops& loops) {
+  PELAGE_CHECK(!keys.empty());
+  SkinLattice lattice(keys[0].topology().impl());
+  loops.check_stop();
+  set_rates(lattice, keys, view, options, loops.workers);
+  loops.check_stop();
+  lattice.number();
+  lattice.place();
+  return fill(lattice, keys, loops);
 }
 
 }  // namespace
@@ -93,12 +123,12 @@ void SkinMesh::assign_triangle(const SkinMesh& source, size_t triangle) {
 
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers) {
-  PELAGE_CHECK(!keys.empty());
-  SkinLattice lattice(keys[0].topology().impl());
-  set_rates(lattice, keys, view, options, workers);
-  lattice.number();
-  lattice.place();
-  return fill(lattice, keys, workers);
+  return tessellate_all(keys, view, options, {workers});
+}
+
+SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
+                    const Job& job) {
+  return tessellate_all(keys, view, options, {job.workers, &job});
 }
 
 SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
@@ -109,7 +139,7 @@ SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const ui
   set_rates(lattice, keys, view, options, Workers::alone());
   lattice.number();
   lattice.place();
-  return fill(lattice, keys, Workers::alone());
+  return fill(lattice, keys, {Workers::alone()});
 }
 
 size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices) {

@@ -54,6 +54,9 @@ struct TessellationOptions {
 /// Error (kMemory) when there would be more than 2^31 vertices or triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
+/// The same, and throws Error (kStopped).
+SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
+                    const Job& job);
 /// The triangles of `faces` alone: all ptex faces of some cage faces, ascending. Bit by bit those of the
 /// whole, in the same order; their vertices are numbered anew. The surfaces need only be there on
 /// faces_around(faces). By the calling thread.

@@ -5,6 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
+#include "base/job.h"
+#include "groom/groom_params.h"
+#include "groom/skin_binding.h"
+
 namespace pelage {
 
 SkinGaps SkinGaps::of(std::vector<float>& gaps, const Box3f& skin) {
@@ -22,6 +27,39 @@ SkinGaps SkinGaps::of(std::vector<float>& gaps, const Box3f& skin) {
 std::string SkinGaps::describe(const std::string& skin) const {
   return fmt::format("begin {:.3g} to {:.3g} units from skin '{}', which is {:.3g} units across", least, most,
                      skin, skin_size);
+}
+
+bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
+                 std::vector<V3f>& positions, std::vector<RootAddress>& roots) {
+  if (params.attach == Attachment::kNone) return false;
+  const SkinBinding binding(rest, job);
+  const auto stay = [&](const std::string& why) {
+    job.progress.warn(to_string(params.strands_file.position) + ": the strands of " +
+                      params.strands_file.path.filename().string() + " " + why +
+                      "; they stay where the file puts them and do not follow the skin (attach: skin makes "
+                      "them follow it, attach: none omits this warning)");
+    std::fill(roots.begin(), roots.end(), RootAddress{});
+    return false;
+  };
+  if (binding.empty()) {
+    if (params.attach == Attachment::kAuto) return stay("have no skin to follow: all its faces are holes");
+    throw Error(ErrorKind::kInput, params.strands_file.position,
+                "attach: skin needs a skin to follow: every face of this one is a hole");
+  }
+  const auto place = [&](size_t i) { return rest.evaluate(roots[i].face, roots[i].u, roots[i].v).position; };
+  std::vector<float> gaps(positions.size());
+  job.for_each(positions.size(), 256, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      roots[i] = binding.nearest(positions[i]);
+      gaps[i] = (place(i) - positions[i]).length();
+    }
+  });
+  const SkinGaps all = SkinGaps::of(gaps, rest.control_bounds());
+  if (params.attach == Attachment::kAuto && all.far()) return stay(all.describe(params.skin.name));
+  job.for_each(positions.size(), 4096, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) positions[i] = place(i);
+  });
+  return true;
 }
 
 }  // namespace pelage

@@ -9,6 +9,10 @@
 
 namespace pelage {
 
+class LimitSurface;
+struct Job;
+struct RootAddress;
+
 /// Whether the strands of a file follow the skin of their groom.
 enum class Attachment { kAuto, kSkin, kNone };
 template <>
@@ -21,7 +25,7 @@ struct SkinGaps {
   float least = 0, median = 0, most = 0;
   float skin_size = 0;  ///< diagonal of the skin's box
 
-  /// `gaps`: one per strand; reordered.
+  /// `gaps`: one per strand, reordered.
   static SkinGaps of(std::vector<float>& gaps, const Box3f& skin);
 
   /// Fraction of the skin's size. Hair that was made for a skin begins on it or a little above or below; a
@@ -32,5 +36,14 @@ struct SkinGaps {
   /// "begin 97 to 103 units from skin 'rat', which is 5.2 units across"
   std::string describe(const std::string& skin) const;
 };
+
+struct GroomParams;
+
+/// Finds the place on the skin of every strand of `params.strands_file`, which begin at `positions`, and
+/// moves these there. False, with nothing changed, when the strands are not to follow the skin; `job` is
+/// warned of those that are too far from it. Throws Error (kInput) when they must follow a skin without
+/// faces.
+bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
+                 std::vector<V3f>& positions, std::vector<RootAddress>& roots);
 
 }  // namespace pelage

@@ -88,13 +88,14 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                                            std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
                                            const Job& job) {
   check_combination(name, params, rest != nullptr);
+  const std::string owner = "groom '" + name + "'";
   auto impl = std::make_unique<Impl>();
   impl->role = params.role;
   impl->source.rest = std::move(rest);
   impl->source.points = params.points;
   if (!params.strands_file.empty()) {
     // Strands that do not follow the skin grow as on none.
-    impl->source.imported.emplace(params, impl->source.rest.get(), "groom '" + name + "'", job);
+    impl->source.imported.emplace(params, impl->source.rest.get(), owner, job);
     if (impl->source.imported->stands_free()) impl->source.rest = nullptr;
   }
   impl->stack.emplace(with_width(params));
@@ -106,8 +107,9 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   // Two coats of one skin must not grow from the same places because neither was given a seed.
   const uint64_t name_hash = pelage::content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
-  const PrepareContext context{impl->source.rest.get(),           textures,      job, {},
-                               hash64(seed, random_use("groom")), params.points, {},  "groom '" + name + "'"};
+  PrepareContext context{impl->source.rest.get(),           textures,      job, {},
+                         hash64(seed, random_use("groom")), params.points, {}};
+  context.owner = owner;
   impl->operator_seed = context.seed;
   const GroomIdentity identity(params, seed, stack, impl->source.rest.get());
   impl->hash = ContentHasher()

@@ -8,44 +8,10 @@
 
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "groom/attachment.h"
 #include "groom/named_strands.h"
-#include "groom/skin_binding.h"
 
 namespace pelage {
-
-bool ImportedStrands::bind(const GroomParams& params, const LimitSurface& rest, const Job& job,
-                           std::vector<V3f>& positions, std::vector<RootAddress>& roots) const {
-  if (params.attach == Attachment::kNone) return false;
-  const SkinBinding binding(rest, job);
-  const auto stay = [&](const std::string& why) {
-    job.progress.warn(
-        to_string(params.strands_file.position) + ": the strands of " +
-        params.strands_file.path.filename().string() + " " + why +
-        "; they stay where the file puts them and do not follow the skin (attach: skin makes them follow "
-        "it; attach: none is what this file gets, without the warning)");
-    return false;
-  };
-  if (binding.empty()) {
-    if (params.attach == Attachment::kAuto) return stay("find no face to follow: all of the skin are holes");
-    throw Error(ErrorKind::kInput, params.strands_file.position,
-                "attach: skin needs a skin to follow: every face of this one is a hole");
-  }
-  std::vector<RootAddress> found(positions.size());
-  std::vector<V3f> places(positions.size());
-  std::vector<float> gaps(positions.size());
-  job.for_each(positions.size(), 256, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      found[i] = binding.nearest(positions[i]);
-      places[i] = rest.evaluate(found[i].face, found[i].u, found[i].v).position;
-      gaps[i] = (places[i] - positions[i]).length();
-    }
-  });
-  const SkinGaps all = SkinGaps::of(gaps, rest.control_bounds());
-  if (params.attach == Attachment::kAuto && all.far()) return stay(all.describe(params.skin.name));
-  positions = std::move(places);
-  roots = std::move(found);
-  return true;
-}
 
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
@@ -53,15 +19,13 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
         return StrandReader(params.strands_file.path, {params.basis, params.default_width});
       })) {
   // Of each strand: first point, root and id in the order of the file; then what is kept, in the order of
-  // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand.
-  // Where the skin may hold them, also the nearest place on it and how far that is.
+  // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand
+  // or, before that is known, its distance from the skin.
   constexpr size_t kMaking = sizeof(V3f) + sizeof(RootAddress) + sizeof(uint32_t);
-  constexpr size_t kKept = sizeof(RootAddress) + 4 * sizeof(uint32_t);
-  constexpr size_t kBinding = sizeof(V3f) + sizeof(RootAddress) + sizeof(float);
-  const size_t of_strand = kMaking + kKept + std::max(rest ? kBinding : 0, sizeof(V3f));
+  constexpr size_t kKept = sizeof(RootAddress) + 4 * sizeof(uint32_t) + sizeof(V3f);
   const size_t claimed = reader_.strands_in_file();
   const MemoryCharge making =
-      reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * of_strand),
+      reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * (kMaking + kKept)),
               fmt::format("{}: the roots of the {} strands of {}", owner, claimed,
                           params.strands_file.path.string()));
   std::vector<V3f> positions;
@@ -78,7 +42,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   });
   const size_t count = positions.size();
   std::vector<RootAddress> roots(count);
-  free_ = !rest || !bind(params, *rest, job, positions, roots);
+  free_ = !rest || !follow_skin(params, *rest, job, positions, roots);
   follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);
   roots = {};
   ids = {};

@@ -15,8 +15,8 @@ namespace pelage {
 class ImportedStrands {
  public:
   /// Throws Error (kInput) when the file cannot be read, Error (kMemory) before it is, Error (kStopped).
-  /// `rest` may be null; `owner` is for messages. The job's
-  /// progress is warned of strands that are too far from the skin to follow it.
+  /// `rest` may be null; `owner` is for messages. The job is warned of strands that are too far from the skin
+  /// to follow it.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 
@@ -47,11 +47,6 @@ class ImportedStrands {
   size_t bytes() const;
 
  private:
-  /// Finds the place on the skin of every strand that begins at `positions`, and moves these there. False,
-  /// with nothing changed, when the strands are not to follow the skin.
-  bool bind(const GroomParams& params, const LimitSurface& rest, const Job& job, std::vector<V3f>& positions,
-            std::vector<RootAddress>& roots) const;
-
   void find_reach(std::span<const V3f> roots, const Job& job);
   Strands read(size_t begin, size_t end) const;
 

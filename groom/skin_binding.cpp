@@ -19,7 +19,7 @@ struct SkinBinding::Impl {
   MemoryCharge charge;
   Impl(SkinMesh&& m, const Job& job)
       : mesh(std::move(m)),
-        tree(mesh, 0),
+        tree(mesh, 0, &job),
         charge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(mesh.bytes() + tree.bytes())) {}
 };
 
@@ -31,12 +31,13 @@ SkinMesh tessellate_evenly(const LimitSurface& rest, const Job& job) {
   TessellationOptions options;
   // About a hundred thousand quads, whatever the cage.
   const double faces = std::max(1.0, static_cast<double>(rest.topology().face_count()));
-  options.max_rate = std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
+  options.max_rate =
+      rest.topology().is_flat() ? 1 : std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
   constexpr double kBytesPerQuad = 300;  // its vertex, two triangles and the tree over them
   require_room(job.ledger, static_cast<int64_t>(faces * options.max_rate * options.max_rate * kBytesPerQuad),
                "finding the roots of strands of a file on their skin");
   job.check_stop();
-  return tessellate(std::span(&rest, 1), everywhere, options, job.workers);
+  return tessellate(std::span(&rest, 1), everywhere, options, job);
 }
 
 /// Parameters of a point of a triangle, by its barycentric coordinates.

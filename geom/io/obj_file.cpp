@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "base/job.h"
 #include "geom/io/obj_scanner.h"
 
 namespace pelage {
@@ -30,7 +31,8 @@ V3f read_position(ObjScanner& scanner) {
 /// Reads one file. References to what may stand further down are checked when all of it is known.
 class ObjReader {
  public:
-  ObjReader(std::string_view text, const std::string& file) : scanner_(text, file) {}
+  ObjReader(std::string_view text, const std::string& file, const Job* job)
+      : scanner_(text, file), job_(job) {}
 
   ControlMesh read();
 
@@ -53,6 +55,7 @@ class ObjReader {
   void complete_uv();
 
   ObjScanner scanner_;
+  const Job* job_;  // null: cannot be stopped
   ControlMesh mesh_;
   std::vector<int> face_lines_;
   std::vector<Reference> vertex_references_;  // of tags
@@ -63,7 +66,8 @@ class ObjReader {
 
 ControlMesh ObjReader::read() {
   std::string_view keyword;
-  while (scanner_.next_statement(keyword)) {
+  for (size_t statement = 0; scanner_.next_statement(keyword); ++statement) {
+    if (job_ && statement % 4096 == 0) job_->check_stop();
     if (keyword == "v") {
       mesh_.positions.push_back(read_position(scanner_));
     } else if (keyword == "vt") {
@@ -297,7 +301,13 @@ void ObjReader::complete_uv() {
 
 ControlMesh read_obj(const std::filesystem::path& path) {
   const std::string text = read_file(path, kLongestFile);
-  return ObjReader(text, path.string()).read();
+  return ObjReader(text, path.string(), nullptr).read();
+}
+
+ControlMesh read_obj(const std::filesystem::path& path, const Job& job) {
+  const std::string text = read_file(path, kLongestFile);
+  job.check_stop();
+  return ObjReader(text, path.string(), &job).read();
 }
 
 std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t expected) {

@@ -286,6 +286,15 @@ TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   }
 }
 
+struct WarningLog final : Progress {
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  void warn(std::string_view line) override { lines.emplace_back(line); }
+  bool cancelled() const override { return false; }
+  std::vector<std::string> lines;
+};
+
 // A file in another unit or of another character is drawn where it is, and somebody says so.
 TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
   const TemporaryFolder folder;
@@ -301,10 +310,9 @@ TEST_F(GroomTest, StrandsFarFromTheirSkinStayWhereTheyAre) {
     for (const char* attach : {"auto", "skin", "none"}) {
       GroomParams params = scene_text::read<GroomParams>(std::string("skin: ball\nattach: ") + attach);
       params.strands_file = {path, {"scene.yaml", 7, 3}};
-      std::vector<std::string> warnings;
-      GroomCacheHooks hooks;
-      hooks.warn = [&](const std::string& line) { warnings.push_back(line); };
-      const auto groom = Groom::create("g", params, rest_, textures_, workers_, ledger_, hooks);
+      WarningLog log;
+      const std::vector<std::string>& warnings = log.lines;
+      const auto groom = Groom::create("g", params, rest_, textures_, Job{workers_, ledger_, log});
       const bool is_far = away == 100 && *attach == 'a';
       EXPECT_EQ(groom->grows_on_skin(), *attach != 'n' && !is_far) << away << attach;
       ASSERT_EQ(warnings.size(), is_far ? 1u : 0u) << away << attach;
@@ -337,15 +345,15 @@ TEST_F(GroomTest, StrandsOfAFileNeedAFaceToFollow) {
       holes.positions);
   GroomParams params = scene_text::read<GroomParams>("skin: ball");
   params.strands_file = {path, {"scene.yaml", 7, 3}};
-  EXPECT_FALSE(Groom::create("g", params, rest, textures_, workers_, ledger_)->grows_on_skin());
+  EXPECT_FALSE(Groom::create("g", params, rest, textures_, job_)->grows_on_skin());
   params.attach = Attachment::kSkin;
   try {
-    Groom::create("g", params, rest, textures_, workers_, ledger_);
+    Groom::create("g", params, rest, textures_, job_);
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.problems().front().position.line, 7);
   }
-  EXPECT_THROW(Groom::create("g", params, nullptr, textures_, workers_, ledger_), Error);
+  EXPECT_THROW(Groom::create("g", params, nullptr, textures_, job_), Error);
 }
 
 TEST_F(GroomTest, FreeStrandsGoWhereTheyAreTaken) {
