@@ -42,8 +42,8 @@ class FileWindows {
 /// checked against its length. Thread safety: const members may be called from any thread.
 class RawStrands {
  public:
-  RawStrands(const std::filesystem::path& path, const char* format, const StrandReadOptions& options)
-      : file(path), format(format), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
+  RawStrands(const std::filesystem::path& path, const char* format_name, const StrandReadOptions& options)
+      : file(path), format(format_name), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
   virtual ~RawStrands() = default;
 
   /// Where the points of a strand, or of what comes after the last, begin.

@@ -57,6 +57,28 @@ TEST(LightSet, ProbabilitiesSumToOneAndGiveUsefulLightsTheirShare) {
   }
 }
 
+TEST(LightSet, LightsThatLobesPointAtAreChosenMoreOften) {
+  const LightSet set = many_lights(10);
+  TestRandom random(5);
+  std::vector<float> plain(set.size()), aimed(set.size());
+  for (int i = 0; i < 300; ++i) {
+    const V3f from = random.direction() * random.between(0, 2);
+    const V3f aim = *set.light(size_t(i) % 9).middle(from);
+    // All of what is scattered goes into a cone of 0.2 rad about `aim`.
+    const auto lobe = [&](const V3f& wi) {
+      return wi.dot(aim) > std::cos(0.2f) ? 1 / (2 * kPi * (1 - std::cos(0.2f))) : 0;
+    };
+    set.probabilities(from, V3f(0), plain);
+    set.probabilities(from, V3f(0), lobe, aimed);
+    ASSERT_NEAR(std::accumulate(aimed.begin(), aimed.end(), 0.0), 1, 1e-5);
+    const size_t at = size_t(i) % 9;
+    if (plain[at] > 0 && plain[at] < 0.9f) {
+      ASSERT_GT(aimed[at], plain[at]);
+    }
+    for (size_t k = 0; k < set.size(); ++k) ASSERT_EQ(aimed[k] > 0, plain[k] > 0);
+  }
+}
+
 TEST(LightSet, ChoosesInProportion) {
   const LightSet set = many_lights(12);
   const V3f from(0.3f, -0.2f, 0.5f), tangent(0, 0, 1);
