@@ -84,7 +84,7 @@ void FileWindows::read_bytes(uint64_t offset, void* to, size_t count) {
 
 void read_point_parts(FileWindows& file, uint64_t offset, int components, size_t count, float* points) {
   const size_t n = static_cast<size_t>(components);
-  std::vector<float> chunk(kChunk * n);
+  std::vector<float> chunk(std::min(kChunk, count) * n);
   for (size_t begin = 0; begin < count; begin += kChunk) {
     const size_t size = std::min(kChunk, count - begin);
     file.read(offset + begin * n * sizeof(float), std::span(chunk.data(), size * n));

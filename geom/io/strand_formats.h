@@ -28,7 +28,8 @@ class FileWindows {
   }
 
  private:
-  static constexpr size_t kBytes = 16 << 10, kWindows = 6;
+  // Larger blocks of the heap would be pages of their own (base/heap.h), made and dropped for every read.
+  static constexpr size_t kBytes = 12 << 10, kWindows = 6;
   struct Window {
     uint64_t begin = 0, used = 0;
     std::vector<std::byte> bytes;

@@ -108,7 +108,10 @@ TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
   };
   EXPECT_NE(refused({{"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}}).find("the film"),
             std::string::npos);
-  EXPECT_NE(refused({{"render.memory", "2M"},
+  EXPECT_NE(refused({{"render.memory", "2M"}, {"grooms.coat.strands", "100000"}})
+                .find("groom 'coat': placing 100000 strands: needs 23."),
+            std::string::npos);
+  EXPECT_NE(refused({{"render.memory", "30M"},
                      {"grooms.coat.strands", "100000"},
                      {"grooms.coat.leaf_strands", "100000"}})
                 .find("the largest chunk (of walker.coat) needs"),
