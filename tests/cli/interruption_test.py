@@ -9,7 +9,7 @@ import unittest
 from program_scene import ProgramTest
 
 ProgramTest.PELAGE = sys.argv.pop(1)
-ENDLESS = ["--set", "render.samples=1000000", "--set", "image={width: 640, height: 360}"]
+LONG = ["--set", "render.samples=3000", "--set", "image={width: 640, height: 360}"]
 
 
 class Interruption(ProgramTest):
@@ -33,21 +33,21 @@ class Interruption(ProgramTest):
     def test_each_signal_has_its_exit_code_and_leaves_a_picture(self):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)):
             (self.path / "a.exr").unlink(missing_ok=True)
-            process = self.start_render("-o", "a.exr", "--stats", "a.json", *ENDLESS, stage="render")
+            process = self.start_render("-o", "a.exr", "--stats", "a.json", *LONG, stage="render")
             got, err = self.interrupt(process, number)
             self.assertEqual(got, code, err)
             self.assertIn("pelage:partial", self.run_pelage("info", "a.exr")[0])
             json.loads((self.path / "a.json").read_text())
 
     def test_a_request_that_comes_twice_at_once_is_one_except_from_the_keyboard(self):
-        process = self.start_render("-o", "a.exr", *ENDLESS, stage="render")
+        process = self.start_render("-o", "a.exr", *LONG, stage="render")
         got, err = self.interrupt(process, signal.SIGTERM, signal.SIGTERM)
         self.assertEqual(got, 143, err)
         self.assertTrue((self.path / "a.exr").exists())
 
     def test_ignored_signals_stay_ignored(self):
         ignore = lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)
-        process = self.start_render("-o", "a.exr", *ENDLESS, stage="render", preexec_fn=ignore)
+        process = self.start_render("-o", "a.exr", *LONG, stage="render", preexec_fn=ignore)
         got, err = self.interrupt(process, signal.SIGHUP, signal.SIGINT)
         self.assertEqual(got, 130, err)
 
@@ -65,7 +65,8 @@ class Interruption(ProgramTest):
         self.keeps("--set", "materials.fur={model: yan}", stage="tables of a medulla")
 
     def test_a_picture_of_no_samples_replaces_nothing_when_boxes_are_measured(self):
-        self.keeps("--set", "grooms.coat.strands=400000", "--set", "grooms.coat.leaf_strands=1000",
+        self.keeps("--set", "grooms.coat.strands=60000", "--set", "grooms.coat.points=60", "--set",
+                   "grooms.coat.leaf_strands=200",
                    "--set", "render.lod.enabled=false", "--threads", "1", stage="bound")
 
     def test_what_a_killed_run_left_is_swept_by_the_next(self):
