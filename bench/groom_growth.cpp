@@ -135,6 +135,7 @@ double grow_all(const Coat& coat, const PosedSkin& pose, const Workers& workers,
 }
 
 void growth(benchmark::State& state) {
+  const Workers one(1);
   const auto strands = static_cast<double>(coat().groom->follicles().size());
   double best = 1e30, root = 1e30;
   int64_t bytes = 0;
@@ -157,6 +158,7 @@ double cpu_of_growth(const Coat& coat, const PosedSkin& pose, const Workers& wor
 
 /// What is frozen, and whether the coat is grown at both ends of a shutter.
 void growth_from_cache(benchmark::State& state, bool colored, const char* freeze, bool moving) {
+  const Workers one(1);
   const Coat plain({colored, ""}), cached({colored, freeze});
   const auto pose = [&](const Coat& coat) { return moving ? coat.moving() : coat.pose(); };
   const auto strands = static_cast<double>(plain.groom->follicles().size());

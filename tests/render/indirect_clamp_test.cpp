@@ -12,7 +12,7 @@ namespace {
 struct ClampScene : PathScene {
   ClampScene() : PathScene(24, 24) {
     ChiangParams fibre;
-    fibre.sigma_a = Rgb(0.1f, 0.2f, 0.4f);
+    fibre.absorption = Rgb(0.1f, 0.2f, 0.4f);
     add_fur(furball(300, 0.5f, 0.02f), fibre);
     SphereLightParams spark;
     spark.position = V3f(-2, 3, 2);
