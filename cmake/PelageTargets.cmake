@@ -47,9 +47,15 @@ function(pelage_test_program target room label)
   target_precompile_headers(${target} REUSE_FROM pelage_test_headers)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   if(NOT PELAGE_SANITIZE)
-    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES
-                         DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST
-                         PROPERTIES LABELS "${room};${label}" TIMEOUT 900)
+    gtest_discover_tests(${target} TEST_PREFIX ${room}. NO_PRETTY_VALUES TEST_LIST ${target}_TESTS
+                         DISCOVERY_TIMEOUT 120 DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+    # PROPERTIES above cannot hold a list.
+    set(labels ${CMAKE_CURRENT_BINARY_DIR}/${target}_labels.cmake)
+    file(WRITE ${labels} "foreach(test IN LISTS ${target}_TESTS)
+  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${room};${label}\")
+endforeach()
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels})
     return()
   endif()
   list(LENGTH ARG_SOURCES shards)

@@ -24,7 +24,7 @@ constexpr int64_t kInMemoryShare = 4, kTileCacheShare = 8;
 /// Reading a larger image may take a second, and is shown.
 constexpr int64_t kLargeImage = int64_t(16) << 20;
 /// What an image claims up to here is reserved at once, more only when it is there.
-constexpr size_t kReservedAtOnce = size_t(1) << 30;
+constexpr size_t kReservedAtOnce = size_t(1) << 24;
 
 bool has_room(const MemoryLedger& ledger, int64_t bytes) {
   return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
