@@ -91,7 +91,7 @@ TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
     const bool pays = turn == FurTurn::kWhereItPays && GetParam().name == "combed";
     EXPECT_EQ(groom.tree.view().frame.turned, (turn == FurTurn::kAlways && !moves) || pays);
     const Queries q = queries(GetParam(), groom);
-    EXPECT_GT(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
+    EXPECT_GE(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
     for (const double share : {1.0, 0.25, 0.0}) {
       const FlushDenormals flush;
       MemoryLedger ledger;
@@ -221,7 +221,7 @@ TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
     ASSERT_EQ(fur.occluded(ray, {}, 0, counts), bool(truth));
     met += bool(hit);
   }
-  EXPECT_GT(met, 50);
+  EXPECT_GT(met, static_cast<int>(kRays / 10));
 }
 
 TEST(PagedFur, answers_alike_for_any_number_of_threads) {
