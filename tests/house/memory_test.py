@@ -42,7 +42,6 @@ HOSTILE = {
     "clump centres": (grown(20000, 20, "{clump: {spacing: 0.0022}}, "), ""),
     "five million follicles": (grown(5_000_000), ""),
     "a hundred million follicles": (grown(100_000_000), ""),
-    "long strands": (grown(3000, 1024), ""),
     "a million animals": (grown(1000), "crowds: {c: {of: [a], count: 1000000, area: {type: rectangle, size: [9000, 9000]}}}"),
 }
 
