@@ -13,13 +13,12 @@
 #include "render/accel/flush_denormals.h"
 #include "tests/render/fur_paging.h"
 #include "tests/support/allocation_meter.h"
-#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kStrands = 300;
-constexpr uint64_t kRays = repetitions(500);
+constexpr uint64_t kRays = 500;  // fewer would make too few faults to compare
 
 /// A page for each of `threads` and `share` of the rest.
 PagedFurOptions budget(StoredGroom& groom, double share, int threads, size_t waiting_rays = 100) {
@@ -91,7 +90,7 @@ TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
     const bool pays = turn == FurTurn::kWhereItPays && GetParam().name == "combed";
     EXPECT_EQ(groom.tree.view().frame.turned, (turn == FurTurn::kAlways && !moves) || pays);
     const Queries q = queries(GetParam(), groom);
-    EXPECT_GE(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
+    EXPECT_GT(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
     for (const double share : {1.0, 0.25, 0.0}) {
       const FlushDenormals flush;
       MemoryLedger ledger;
