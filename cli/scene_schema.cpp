@@ -47,12 +47,12 @@ const Schema<SkinParams>& SkinParams::schema() {
   static const Schema<SkinParams> table = [] {
     Schema<SkinParams> s("skin", "A subdivision surface, or a mesh as it is, that fur grows on.");
     s.key("mesh", &SkinParams::mesh, {.help = "OBJ file of the control cage at rest", .required = true});
-    s.key(
-        "scheme", &SkinParams::scheme,
-        {.help = "Subdivision scheme. none: no subdivision, polygons as they are, for dense meshes such as "
-                 "scans: faces of more than three corners are cut into triangles where they lie at rest, and "
-                 "the normals that hair stands along and light falls on are interpolated between the "
-                 "vertices. It takes about 250 bytes a triangle; catmull-clark takes 4,500 to 14,000"});
+    s.key("scheme", &SkinParams::scheme,
+          {.help = "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as "
+                   "scans: it cuts "
+                   "them into triangles and interpolates normals between the vertices, for hair and for "
+                   "shading. It "
+                   "takes about 250 bytes a triangle; `catmull-clark` takes 4,500 to 14,000"});
     s.key("boundary", &SkinParams::boundary,
           {.help = "Whether corners of the boundary stay sharp, or are rounded like its edges"});
     s.key("poses", &SkinParams::poses,

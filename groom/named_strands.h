@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Throws what is wrong with the content of a file that a scene names: at the place of the name, with the
-/// place in the file in front of each message.
+/// Rethrows an error in the content of a file that a scene names. The position becomes that of the name in
+/// the scene; each message begins with the position in the file.
 [[noreturn]] void throw_where_named(const Error& error, const AssetPath& file);
 
 /// What `work` returns. Errors of kind kInput go through throw_where_named().

@@ -44,7 +44,7 @@ struct PrepareContext {
   std::span<const std::unique_ptr<Operator>> preceding;  ///< prepared already
   uint64_t seed = 0;  ///< of this operator: changes when the groom's does, differs between equal operators
   int points = 8;     ///< of a grown strand
-  SourcePosition position = {};  ///< where the operator stands in the scene, for errors
+  SourcePosition position = {};  ///< of the operator in the scene file, for errors
   std::string owner = {};        ///< for messages: "groom 'coat'"
 };
 

@@ -92,10 +92,13 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("seed", &RenderParams::seed, {.help = "Of all random numbers of the picture"});
     s.key(
         "memory", &RenderParams::memory,
-        {.help = "Limit for all that is held of a scene and all that making it takes for a moment (strands, "
-                 "trees, skins, grooms, crowds, caches, textures and film together), but for the program and "
-                 "its libraries. What can be made again is dropped when room is needed; what does not fit is "
-                 "refused by name before it is made"});
+        {.help =
+             "Maximum memory for everything a scene needs, temporary memory included: strands, trees, skins, "
+             "grooms, crowds, caches, textures and film. The program and its libraries come on top. Data "
+             "that "
+             "can be made again is dropped when memory runs short; anything else that does not fit is "
+             "refused "
+             "by name before it is made"});
     s.key("bvh", &RenderParams::bvh, {.help = "Trees that are kept between runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Colours of grown strands are held as seldom and as coarsely as loses nothing that shows; "

@@ -21,7 +21,7 @@ class StrandReader {
  public:
   using Visit = std::function<void(size_t first, const Strands& strands)>;
 
-  /// Opens the file and checks what it says about itself. Throws Error (kInput).
+  /// Opens the file and checks its header against its length. Throws Error (kInput).
   StrandReader(const std::filesystem::path& path, const StrandReadOptions& options);
   ~StrandReader();
   StrandReader(StrandReader&&) noexcept;

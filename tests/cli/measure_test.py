@@ -12,34 +12,13 @@ import unittest
 import xml.etree.ElementTree
 import zlib
 
+import program_scene
+
 PELAGE = sys.argv.pop(1)
-SCENE = """pelage: 1
-camera: {position: [3, 2, 8], look_at: [0, 0, 0], fov: 40, shutter: [-0.25, 0.25]}
-image: {width: 24, height: 16}
-skins: {cube: {mesh: cube.obj}}
-grooms:
-  coat:
-    skin: cube
-    strands: 400
-    points: 5
-    leaf_strands: 50
-    operators: [{length: {value: 0.4}}, {width: {root: 0.02, tip: 0.005}}]
+SCENE = program_scene.SCENE.replace("    operators:", """    leaf_strands: 50
     cache: {directory: cache, freeze: width}
-materials:
-  hide: {model: lambert, color: 0.4}
-  fur: {model: cone-shell, color: [0.6, 0.4, 0.2]}
-characters: {box: {parts: [{skin: cube, material: hide, grooms: {coat: fur}}]}}
-lights: {sky: {type: environment, radiance: 0.3}}
-render: {samples: 2, bounces: 1}
-"""
-CUBE = "\n".join(f"v {x} {y} {z}" for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)) + """
-f 1 3 4 2
-f 5 6 8 7
-f 1 2 6 5
-f 3 7 8 4
-f 1 5 7 3
-f 2 4 8 6
-"""
+    operators:""")
+CUBE = program_scene.CUBE
 
 
 def check_png(data):
