@@ -137,4 +137,10 @@ void AtomicFile::commit() {
   temporary_.clear();
 }
 
+void write_file(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.write(bytes);
+  file.commit();
+}
+
 }  // namespace pelage

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pelage {
@@ -52,5 +53,8 @@ class AtomicFile {
   std::filesystem::path temporary_;
   int descriptor_ = -1;
 };
+
+/// Writes a whole file as AtomicFile does. Throws Error (kFailed).
+void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace pelage

@@ -3,7 +3,7 @@
 
 #include "base/ledger.h"
 #include "bench/bumpy_ball.h"
-#include "render/render_scene.h"
+#include "render/scene/render_scene.h"
 
 namespace pelage {
 

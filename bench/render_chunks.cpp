@@ -136,7 +136,7 @@ void chunks_over_one_scene(benchmark::State& state) {
   options.memory_limit = uint64_t(16) << 30;
   const ChunkAccel accel(
       options.eager ? std::vector<ChunkBounds>(chunks.contents().size()) : measured_bounds(chunks), chunks,
-      options, ledger, workers, progress);
+      options, Job{workers, ledger, progress});
   TraceThread warm;
   seconds(accel, rays.camera, false, warm);
   seconds(accel, rays.gather, false, warm);

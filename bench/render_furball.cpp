@@ -29,8 +29,8 @@
 
 #include "base/parallel.h"
 #include "bench/ball_scene.h"
-#include "render/path/frame_geometry.h"
-#include "render/path/frame_loop.h"
+#include "render/frame/frame_geometry.h"
+#include "render/frame/frame_loop.h"
 
 namespace pelage {
 namespace {
@@ -63,7 +63,7 @@ void furball(benchmark::State& state) {
   RenderScene scene = ball_scene(make_bumpy_ball(static_cast<size_t>(state.range(0))), fibre,
                                  {kWidth, kHeight, 64, static_cast<int>(state.range(1)), 8000}, ledger);
   scene.render.light_samples = static_cast<int>(state.range(2));
-  const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
+  const auto geometry = FrameGeometry::make(scene, {workers, ledger, progress}, statistics);
   const FilmLayers layers;
   const Stopwatch clock;
   double cpu_s = 0;
@@ -71,7 +71,7 @@ void furball(benchmark::State& state) {
     scene.render.seed = seed;
     auto film = std::make_unique<Film>(kWidth, kHeight, layers, ledger);
     const PathTracer tracer(scene, geometry->accel(), layers, {});
-    FrameLoop loop(tracer, workers, progress, *film, clock);
+    FrameLoop loop(tracer, {workers, ledger, progress}, *film, clock);
     const double start = cpu_seconds();
     loop.pass([samples](size_t, uint32_t) { return samples; }, false);
     cpu_s = cpu_seconds() - start;

@@ -16,7 +16,7 @@
 #include "bench/yardstick.h"
 #include "render/accel/flush_denormals.h"
 #include "render/fibre/fibre_material.h"
-#include "render/path/frame_geometry.h"
+#include "render/frame/frame_geometry.h"
 #include "render/sampling/sample_stream.h"
 #include "render/sampling/warp.h"
 
@@ -30,7 +30,7 @@ class IncoherentRays {
  public:
   IncoherentRays()
       : scene_(ball_scene(make_bumpy_ball(kStrands), ChiangParams{}, {960, 540, 1, 1, 8000}, ledger_)),
-        geometry_(FrameGeometry::make(scene_, workers_, progress_, ledger_, statistics_)) {
+        geometry_(FrameGeometry::make(scene_, {workers_, ledger_, progress_}, statistics_)) {
     const FlushDenormals flush;
     for (uint32_t i = 0; rays_.size() < kRays; ++i) {
       SampleStream stream(5, i, 0, 0);

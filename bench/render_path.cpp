@@ -11,7 +11,7 @@
 #include "bench/ball_scene.h"
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
-#include "render/path/frame_geometry.h"
+#include "render/frame/frame_geometry.h"
 #include "render/path/path_integrator.h"
 
 namespace pelage {
@@ -103,7 +103,7 @@ void path_over_bare_rays(benchmark::State& state) {
   const BumpyBall ball = make_bumpy_ball(static_cast<size_t>(state.range(0)));
   const RenderScene scene =
       ball_scene(ball, ConeShellParams{}, {kWidth, kHeight, 16, static_cast<int>(state.range(1))}, ledger);
-  const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
+  const auto geometry = FrameGeometry::make(scene, {workers, ledger, progress}, statistics);
   const EmbreeScene bare({{&ball.strands, 0, {}}}, {&ball.skin}, {}, ledger, workers);
 
   const FilmLayers layers = FilmLayers::make({{"key", false}, {"rim", false}, {"sky", true}}, kLobeGroups);

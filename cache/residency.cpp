@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 
 namespace pelage {
 namespace {
@@ -275,16 +274,16 @@ void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
                           of_text(grower_.name(slot)), memory_text(needed), remedy));
 }
 
-void Residency::grow_all(const Workers& workers, Progress& progress) {
+void Residency::grow_all(const Job& job) {
   keeps_all_ = true;
-  progress.begin("grow", static_cast<double>(slots_.size()));
-  workers.for_each(slots_.size(), 1, [&](WorkRange range) {
-    for (size_t slot = range.begin; slot < range.end && !progress.cancelled(); ++slot) {
+  job.progress.begin("grow", static_cast<double>(slots_.size()));
+  job.workers.for_each(slots_.size(), 1, [&](WorkRange range) {
+    for (size_t slot = range.begin; slot < range.end && !job.progress.cancelled(); ++slot) {
       pin_slowly(static_cast<uint32_t>(slot), 0);
-      progress.advance(1);
+      job.progress.advance(1);
     }
   });
-  progress.end();
+  job.progress.end();
 }
 
 ResidencyCounts Residency::counts() const {

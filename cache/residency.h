@@ -16,14 +16,11 @@
 #include <vector>
 
 #include "base/check.h"
-#include "base/ledger.h"
+#include "base/job.h"
 #include "cache/clock_ring.h"
 #include "cache/growth_turns.h"
 
 namespace pelage {
-
-class Progress;
-class Workers;
 
 /// Something that can be dropped and made again.
 class Resident {
@@ -120,7 +117,7 @@ class Residency {
 
   /// Grows everything and never evicts again; before the first visit. Leaves early when `progress` is
   /// cancelled. Throws Error (kMemory) when it does not fit.
-  void grow_all(const Workers& workers, Progress& progress);
+  void grow_all(const Job& job);
 
   size_t slot_count() const { return slots_.size(); }
   ResidencyCounts counts() const;

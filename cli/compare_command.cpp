@@ -5,80 +5,19 @@
 #include <fmt/format.h>
 
 #include "base/file.h"
-#include "base/job.h"
-#include "base/progress_stage.h"
 #include "cli/commands.h"
-#include "cli/compare/comparison.h"
-#include "cli/compare/contact_sheet.h"
-#include "cli/compare/light_side.h"
-#include "cli/measure/machine.h"
-#include "cli/measure/process.h"
 #include "cli/output_files.h"
-#include "cli/report/png.h"
-#include "cli/report/report_csv.h"
-#include "cli/report/report_html.h"
-#include "cli/report/report_json.h"
 #include "cli/report_error.h"
-#include "render/fibre/fibre_material.h"
+#include "cli/run.h"
+#include "lab/compare/compare_models.h"
+#include "lab/compare/contact_sheet.h"
+#include "lab/report/machine.h"
+#include "lab/report/png.h"
+#include "lab/report/report_files.h"
+#include "lab/runs/process.h"
 
 namespace pelage {
 namespace {
-
-void write_whole(const std::filesystem::path& path, const std::string& bytes) {
-  AtomicFile file(path);
-  file.write(bytes);
-  file.commit();
-}
-
-/// The materials of a scene under each model in turn.
-class ModelMaterials {
- public:
-  ModelMaterials(std::vector<MaterialParams> materials, std::filesystem::path tables, const Job& job)
-      : materials_(std::move(materials)), tables_(std::move(tables)), job_(job) {}
-
-  void choose(const std::string& model) {
-    LambertCylinderParams white;
-    white.color = Field(Rgb(1));
-    white_ = with_fibre_model(white, model);
-    if (auto* yan = std::get_if<YanParams>(&white_)) yan->tables.path = tables_;
-    white_ = with_tables(white_, job_);
-  }
-  std::vector<MaterialParams> in_color() const {
-    std::vector<MaterialParams> all;
-    for (const MaterialParams& material : materials_) {
-      const FibreParams* looks = fibre_params(material);
-      if (!looks || material.index() == white_.index()) {
-        all.push_back(looks ? with_tables(material, job_) : material);
-      } else {
-        all.push_back(white_);
-        std::visit(
-            [&]<class P>(P& p) {
-              if constexpr (std::is_base_of_v<FibreParams, P>) {
-                p.color = looks->color;
-                p.opacity = looks->opacity;
-              }
-            },
-            all.back());
-      }
-    }
-    return all;
-  }
-  std::vector<MaterialParams> in_white() const {
-    LambertParams skin;
-    skin.color = Field(Rgb(1));
-    std::vector<MaterialParams> all;
-    for (const MaterialParams& material : materials_)
-      all.push_back(fibre_params(material) ? white_ : MaterialParams(skin));
-    return all;
-  }
-  const MaterialParams& white() const { return white_; }
-
- private:
-  std::vector<MaterialParams> materials_;
-  std::filesystem::path tables_;
-  const Job& job_;
-  MaterialParams white_;
-};
 
 void check_fur(const SceneDescription& scene, const std::string& input) {
   for (const auto& character : scene.characters.items) {
@@ -87,46 +26,6 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
     }
   }
   throw Error(ErrorKind::kInput, input + ": no character of this scene has fur to compare models on");
-}
-
-/// Adds what there is to say of one model. Throws Error (kStopped) once the user wants to stop.
-void compare_model(const std::string& model, const SceneDescription& scene, const Job& job,
-                   ModelMaterials& materials, FrameComparer& comparer, Comparison& comparison) {
-  materials.choose(model);
-  for (const LightSide& side : kLightSides) {
-    const auto lights = lights_from(side, scene.camera, scene.frames.frames.front());
-    ComparedFrame frame = comparer.render(materials.in_color(), lights, model, side.name);
-    job.check_stop();
-    job.progress.advance(1);
-    job.progress.note(fmt::format("{}, light from the {}: {:.1f} CPU s, relMSE {:.3f}, mean luminance {:.3f}",
-                                  model, side.name, frame.cpu_s, frame.noise, frame.luminance));
-    comparison.frames.push_back(std::move(frame));
-  }
-  const double furnace = comparer.furnace(materials.in_white());
-  job.check_stop();
-  comparison.furnace[model] = furnace;
-  job.progress.advance(1);
-  comparison.fibres.push_back(compare_single_fibre(model, materials.white(), job));
-  job.progress.advance(1);
-}
-
-/// One model after the other until all are done or the user wants to stop.
-Comparison compare(const Options& options, const SceneDescription& scene, Assets& assets, Run& run,
-                   const std::filesystem::path& folder) {
-  const std::vector<std::string>& models = options.models.empty() ? fibre_model_names() : options.models;
-  const Job job{run.workers(), run.ledger(), run.display()};
-  ModelMaterials materials(assets.materials, folder / "tables", job);
-  FrameComparer comparer(scene, assets, run);
-  Comparison comparison;
-  // The furnace and the single fibre count as a picture each.
-  const ProgressStage stage(run.display(), "compare",
-                            static_cast<double>(models.size() * (kLightSides.size() + 2)));
-  try {
-    for (const std::string& model : models) compare_model(model, scene, job, materials, comparer, comparison);
-  } catch (const Error& error) {
-    if (error.kind() != ErrorKind::kStopped) throw;
-  }
-  return comparison;
 }
 
 }  // namespace
@@ -139,12 +38,12 @@ int run_compare(const Options& options) {
   const std::filesystem::path folder = options.output.empty()
                                            ? std::filesystem::path(options.input).stem().string() + "_compare"
                                            : options.output;
-  // A folder that takes nothing is found before anything is rendered.
-  write_whole(folder / "report.json", "{}\n");
+  claim_report_folder(folder);
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
 
   const double load_before = load_average();
-  const Comparison comparison = compare(options, scene, *assets, run, folder);
+  const Comparison comparison = compare_models(
+      scene, *assets, options.models.empty() ? fibre_model_names() : options.models, folder, run.job());
   const bool interrupted = run.display().cancelled();
   if (!comparison.frames.empty()) {
     Report report = comparison_report(comparison, scene);
@@ -158,12 +57,10 @@ int run_compare(const Options& options) {
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));
     if (interrupted) report.abstract = "Interrupted: only a part was done. " + report.abstract;
     report.runs = fibres_json(comparison.fibres);
-    write_whole(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)));
+    write_file(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)));
     if (!comparison.fibres.empty())
-      write_whole(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)));
-    write_whole(folder / "report.json", report_json(report));
-    write_whole(folder / "report.csv", csv_text(report.data));
-    write_whole(folder / "report.html", report_html(report));
+      write_file(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)));
+    write_report(folder, report);
     std::cout << (folder / "report.html").string() << "\n";
   }
   run.finish(options);

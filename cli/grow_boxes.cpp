@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/compose.h"
 #include "procedurals/bounding.h"
-#include "render/path/frame_chunks.h"
+#include "render/frame/frame_chunks.h"
+#include "world/compose.h"
 
 namespace pelage {
 
@@ -18,7 +18,7 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
   for (const int frame : scene.frames.frames) {
     const double began = run.seconds();
     const World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
-    const FrameChunks chunks(world.scene, run.workers(), run.ledger());
+    const FrameChunks chunks(world.scene, run.job());
     std::vector<const Procedural*> remembering;
     for (const Procedural* leaf : chunks.leaves()) {
       if (leaf->bounds_record()) remembering.push_back(leaf);
@@ -27,9 +27,7 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
     const bool reduced = std::any_of(world.scene.fur.begin(), world.scene.fur.end(),
                                      [](const FurPart& part) { return part.lod.has_value(); });
     BoundingCounts counts;
-    bound_chunks(
-        bounding, remembering, run.workers(), run.display(), run.ledger(),
-        [&](const std::string& line) { run.display().warn(line); }, &counts);
+    bound_chunks(bounding, remembering, run.job(), &counts);
     if (run.display().cancelled()) return false;
     const double seconds = run.seconds() - began;
     run.statistics().stages_s["bound"] += seconds;

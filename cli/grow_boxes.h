@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cli/assets.h"
 #include "cli/run.h"
-#include "cli/scene_schema.h"
+#include "world/assets.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
 

@@ -7,17 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
 #include "cli/commands.h"
-#include "cli/compose.h"
-#include "cli/counted.h"
 #include "cli/grow_boxes.h"
 #include "cli/output_files.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
 #include "groom/cache_report.h"
+#include "world/compose.h"
 
 namespace pelage {
 

@@ -4,10 +4,10 @@
 #include <string>
 
 #include "base/content_store.h"
-#include "cli/scene_schema.h"
 #include "geom/io/strand_file.h"
 #include "geom/mesh.h"
 #include "image/exr.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
 

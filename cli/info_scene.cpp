@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "cli/counted.h"
+#include "base/counted.h"
 #include "cli/info.h"
 
 namespace pelage {

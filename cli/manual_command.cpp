@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "cli/commands.h"
-#include "cli/scene_schema.h"
 #include "scene/document.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
 

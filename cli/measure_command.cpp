@@ -5,16 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "base/file.h"
+#include "base/counted.h"
 #include "cli/commands.h"
-#include "cli/counted.h"
-#include "cli/measure/experiments.h"
-#include "cli/measure/machine.h"
-#include "cli/report/report_csv.h"
-#include "cli/report/report_html.h"
-#include "cli/report/report_json.h"
+#include "cli/progress_display.h"
 #include "cli/report_error.h"
 #include "cli/signals.h"
+#include "lab/measure/experiments.h"
+#include "lab/report/machine.h"
+#include "lab/report/report_files.h"
 
 namespace pelage {
 namespace {
@@ -53,24 +51,6 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   return setup;
 }
 
-void write_whole(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
-// Those of an earlier report are not left beside these.
-void write_figures(const std::filesystem::path& folder, const Report& report) {
-  std::vector<std::filesystem::path> old;
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("figure-") && name.ends_with(".svg")) old.push_back(entry.path());
-  }
-  for (const auto& path : old) std::filesystem::remove(path, ignored);
-  for (const auto& [name, svg] : report_figures(report)) write_whole(folder / name, svg);
-}
-
 std::string picture_text(const SceneDescription& scene) {
   return fmt::format("{} x {} pixels, {}, {}, frame {}, shutter {:g} to {:g}, seed {}", scene.image.width,
                      scene.image.height, counted(scene.render.samples, "sample"),
@@ -104,8 +84,7 @@ int run_measure(const Options& options) {
   ProgressDisplay display(options.progress, &SignalGuard::interrupted);
   const SceneDescription scene = load_scene(options.input, options.overrides);
   const MeasureSetup setup = setup_of(options, scene);
-  write_whole(setup.folder / "report.json",
-              "{}\n");  // a folder that takes nothing is found before anything is run
+  claim_report_folder(setup.folder);
 
   auto facts = machine_facts();
   const double load_before = load_average();
@@ -129,10 +108,8 @@ int run_measure(const Options& options) {
   if (interrupted) report.abstract = "Interrupted: only some variants were run. " + report.abstract;
   report.runs = runs_json(measured.outcomes);
 
-  write_whole(setup.folder / "report.json", report_json(report));
-  write_whole(setup.folder / "report.csv", csv_text(report.data));
-  write_whole(setup.folder / "report.html", report_html(report));
-  write_figures(setup.folder / "figures", report);
+  write_report(setup.folder, report);
+  write_report_figures(setup.folder, report);
   std::cout << (setup.folder / "report.html").string() << "\n";
   if (interrupted) return SignalGuard::exit_code();
   // A refused budget, or one so small that it takes too long, is an answer where budgets are the question;

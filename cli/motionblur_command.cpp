@@ -7,7 +7,7 @@ namespace pelage {
 
 int run_motion_blur(const Options& options) {
   return run_post_frames(options, [&](const std::string& input, const std::string& output, Run& run) {
-    return blur_file(input, output, options.motion_blur, run.workers(), run.display(), run.ledger());
+    return blur_file(input, output, options.motion_blur, run.job());
   });
 }
 

@@ -10,11 +10,11 @@
 #include <CLI/Formatter.hpp>
 
 #include "base/nearest_name.h"
-#include "cli/frames.h"
+#include "base/version.h"
 #include "cli/post_flags.h"
-#include "cli/version.h"
 #include "groom/curve_basis_names.h"
-#include "render/fibre/fibre_oracle.h"
+#include "lab/compare/fibre_oracle.h"
+#include "world/frames.h"
 
 namespace pelage {
 namespace {

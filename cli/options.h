@@ -44,7 +44,7 @@ enum class ProgressStyle {
 struct Options {
   Command command = Command::kManual;
   std::string input;   ///< SCENE, FILE or IN
-  std::string output;  ///< -o or OUT; may hold a place for the frame number (cli/frames.h)
+  std::string output;  ///< -o or OUT; may hold a place for the frame number (world/frames.h)
   std::vector<Override>
       overrides;  ///< --set, then the flags that stand for scene values (--frames, --memory)
   std::optional<std::string> stats;       ///< --stats

@@ -9,7 +9,7 @@
 
 #include "base/nearest_name.h"
 #include "base/value_readers.h"
-#include "cli/frames.h"
+#include "world/frames.h"
 
 namespace pelage {
 namespace {

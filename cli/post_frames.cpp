@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/counted.h"
-#include "cli/frames.h"
+#include "base/counted.h"
 #include "cli/output_files.h"
+#include "world/frames.h"
 
 namespace pelage {
 namespace {

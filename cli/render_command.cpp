@@ -4,18 +4,18 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/heap.h"
 #include "base/memory_budget.h"
+#include "base/version.h"
 #include "cli/commands.h"
-#include "cli/compose.h"
-#include "cli/counted.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/run.h"
-#include "cli/version.h"
 #include "render/film/frame_header.h"
-#include "render/path/frame_layers.h"
+#include "render/frame/frame_layers.h"
 #include "render/path/path_integrator.h"
+#include "world/compose.h"
 
 namespace pelage {
 
@@ -106,8 +106,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   run.statistics().characters += world.characters;
   run.statistics().characters_in_frame += world.characters_in_frame;
   const double posed = run.seconds();
-  const FrameResult result =
-      render_frame(world.scene, run.workers(), run.display(), run.ledger(), run.statistics());
+  const FrameResult result = render_frame(world.scene, run.job(), run.statistics());
   count(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()), run.statistics());
   if (result.mean_samples == 0) {
     say_nothing_was_written(path, run);

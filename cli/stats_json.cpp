@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
-#include "cli/version.h"
+#include "base/version.h"
 
 namespace pelage {
 namespace {
@@ -74,9 +74,7 @@ std::string statistics_json(const Statistics& s) {
 }
 
 void write_statistics(const std::filesystem::path& path, const Statistics& statistics) {
-  AtomicFile file(path);
-  file.write(statistics_json(statistics));
-  file.commit();
+  write_file(path, statistics_json(statistics));
 }
 
 }  // namespace pelage

@@ -7,7 +7,7 @@ namespace pelage {
 
 int run_stereo(const Options& options) {
   return run_post_frames(options, [&](const std::string& input, const std::string& output, Run& run) {
-    return stereo_file(input, output, options.stereo, run.workers(), run.display(), run.ledger());
+    return stereo_file(input, output, options.stereo, run.job());
   });
 }
 

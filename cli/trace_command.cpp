@@ -3,9 +3,9 @@
 
 #include "base/file.h"
 #include "cli/commands.h"
-#include "cli/compose.h"
-#include "cli/lab/lab_tracer.h"
 #include "cli/run.h"
+#include "lab/rays/lab_tracer.h"
+#include "world/compose.h"
 
 namespace pelage {
 namespace {
@@ -32,9 +32,7 @@ void write_result(const std::string& path, const LabResult& result, const Run& r
                               {"limit_bytes", result.limit_bytes},
                               {"build_cpu_s", result.build_cpu_s}};
   for (const auto& [kind, cost] : result.rays) json["kinds"][kind] = json_of(cost);
-  AtomicFile file(path);
-  file.write(json.dump(2) + "\n");
-  file.commit();
+  write_file(path, json.dump(2) + "\n");
 }
 
 }  // namespace
@@ -49,9 +47,9 @@ int run_trace(const Options& options) {
     const SceneDescription scene = load_scene(options.input, options.overrides);
     const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
     const World world = compose(scene, *assets, scene.frames.frames.front(), run.job());
-    result = prepare_lab(world.scene, store, static_cast<size_t>(options.rays), run.workers(), run.display());
+    result = prepare_lab(world.scene, store, static_cast<size_t>(options.rays), run.job());
   } else {
-    result = trace_lab_rays(variant, store, run.workers(), run.display());
+    result = trace_lab_rays(variant, store, run.job());
   }
   if (run.display().cancelled()) return SignalGuard::exit_code();
   if (options.stats) write_result(*options.stats, result, run);

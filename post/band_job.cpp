@@ -162,22 +162,21 @@ void BandJob::write_band(ExrWriter& writer, Band band, const Workers& workers) {
   }
 }
 
-void BandJob::run(const std::filesystem::path& output, const Workers& workers, Progress& progress,
-                  MemoryLedger& ledger, PostReport& report) {
+void BandJob::run(const std::filesystem::path& output, const Job& job, PostReport& report) {
   std::vector<ExrOutputPart> headers;
   for (const Part& part : parts) headers.push_back(part.part);
   next_band(0);  // refuses a budget that is too small before anything is written
-  ExrWriter writer(output, *reader, std::move(headers), workers.thread_count());
-  const MemoryCharge fixed(ledger, MemoryTag::kFilm, fixed_bytes());
+  ExrWriter writer(output, *reader, std::move(headers), job.workers.thread_count());
+  const MemoryCharge fixed(job.ledger, MemoryTag::kFilm, fixed_bytes());
   report.bands = 0;
   report.window = window;
   for (int row = 0; row < window.height(); row = band_.last) {
     const Band band = next_band(row);
-    const MemoryCharge charge(ledger, MemoryTag::kFilm, band_bytes(band));
+    const MemoryCharge charge(job.ledger, MemoryTag::kFilm, band_bytes(band));
     make_band(band);
-    report.cancelled = progress.cancelled();
+    report.cancelled = job.progress.cancelled();
     if (report.cancelled) return;
-    write_band(writer, band, workers);
+    write_band(writer, band, job.workers);
     ++report.bands;
   }
   writer.commit();

@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/ledger.h"
+#include "base/job.h"
 #include "base/parallel.h"
-#include "base/progress.h"
 #include "post/motion_blur.h"
 #include "post/view_image.h"
 
@@ -79,8 +78,7 @@ class BandJob {
 
   /// Throws Error: kInput and kFailed as the reader and the writer do, kMemory when the budget does not hold
   /// the narrowest band. Fills `cancelled`, `window` and `bands` of the report.
-  void run(const std::filesystem::path& output, const Workers& workers, Progress& progress,
-           MemoryLedger& ledger, PostReport& report);
+  void run(const std::filesystem::path& output, const Job& job, PostReport& report);
 
   /// What the fields of the views hold.
   int64_t field_bytes() const;

@@ -89,60 +89,59 @@ int64_t scratch_bytes(const BlurFileParams& params, size_t channels, int threads
 }  // namespace
 
 PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
-                     const BlurFileParams& params, const Workers& workers, Progress& progress,
-                     MemoryLedger& ledger) {
+                     const BlurFileParams& params, const Job& job) {
   PostReport report;
-  ExrReader reader(input, workers.thread_count());
+  ExrReader reader(input, job.workers.thread_count());
   const std::vector<NamedChannel> channels = name_channels(reader.parts());
   if (channels.empty()) throw Error(ErrorKind::kInput, {input.string(), 0, 0}, "has no channels");
 
   check_sharp(reader.parts().front(), report);
 
-  BandJob job;
-  job.reader = &reader;
-  job.channels = &channels;
-  job.scale = params.file.scale;
-  job.longest_fill = params.file.longest_fill.value_or(kDefaultSeam);
-  job.memory = params.file.memory;
-  job.scratch_bytes = scratch_bytes(params, channels.size(), workers.thread_count());
+  BandJob bands;
+  bands.reader = &reader;
+  bands.channels = &channels;
+  bands.scale = params.file.scale;
+  bands.longest_fill = params.file.longest_fill.value_or(kDefaultSeam);
+  bands.memory = params.file.memory;
+  bands.scratch_bytes = scratch_bytes(params, channels.size(), job.workers.thread_count());
   for (const std::string& view : views_of(channels, reader.parts())) {
     MovingView moving;
     moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
     if (moving.image->own().empty()) continue;
-    moving.field = make_field(*moving.image, params, view, job.field_bytes(), workers, report);
+    moving.field = make_field(*moving.image, params, view, bands.field_bytes(), job.workers, report);
     if (moving.field) report.longest = std::max(report.longest, longest_of(*moving.field));
     if (!moving.field && moving.image->layers().has_colors()) {
       report.notes.push_back("no motion vectors" + of_view(view) + ": copied");
     }
-    job.views.push_back(std::move(moving));
+    bands.views.push_back(std::move(moving));
   }
   const auto moving =
-      std::count_if(job.views.begin(), job.views.end(), [](const auto& v) { return !!v.field; });
+      std::count_if(bands.views.begin(), bands.views.end(), [](const auto& v) { return !!v.field; });
   if (moving == 0) {
-    const bool has_vectors = std::any_of(job.views.begin(), job.views.end(), [](const auto& v) {
+    const bool has_vectors = std::any_of(bands.views.begin(), bands.views.end(), [](const auto& v) {
       return v.image->layers().motion().has_value();
     });
     if (has_vectors) {
-      fail_missing(*job.views.front().image, "colours to blur", "name their layer with --color-layer");
+      fail_missing(*bands.views.front().image, "colours to blur", "name their layer with --color-layer");
     }
-    fail_missing(*job.views.front().image, what_was_named("motion vectors", params.file.layers.motion),
+    fail_missing(*bands.views.front().image, what_was_named("motion vectors", params.file.layers.motion),
                  "name their layer with --motion-layer");
   }
-  check_named_layers(job.views, params.file.layers);
+  check_named_layers(bands.views, params.file.layers);
   const std::vector<float> times = shutter_times(params.shutter, report.longest);
   report.steps = static_cast<int>(times.size());
   const float largest_time = std::max(std::abs(times.front()), std::abs(times.back()));
-  if (std::any_of(job.views.begin(), job.views.end(), [&](const MovingView& view) {
+  if (std::any_of(bands.views.begin(), bands.views.end(), [&](const MovingView& view) {
         return view.field && StepLists::is_needed(*view.field, largest_time);
       })) {
-    job.scratch_bytes += static_cast<int64_t>(StepLists::bytes_needed()) * workers.thread_count();
+    bands.scratch_bytes += static_cast<int64_t>(StepLists::bytes_needed()) * job.workers.thread_count();
   }
 
-  job.window = reader.parts().front().data;
+  bands.window = reader.parts().front().data;
   for (size_t p = 0; p < reader.parts().size(); ++p) {
     const ExrPart& part = reader.parts()[p];
     BandJob::Part out{{p, part}, {}};
-    for (const MovingView& view : job.views) {
+    for (const MovingView& view : bands.views) {
       bool is_inside = false;
       for (size_t i : view.image->own()) is_inside |= channels[i].part == p;
       if (!is_inside || !view.field) continue;
@@ -160,25 +159,25 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
       const float middle = params.shutter.centre, half = params.shutter.length / 2;
       out.part.header.attributes["pelage:shutter"] = V2f(middle - half, middle + half);
     }
-    enclose(job.window, out.part.header.data);
-    job.parts.push_back(std::move(out));
+    enclose(bands.window, out.part.header.data);
+    bands.parts.push_back(std::move(out));
   }
 
-  job.reach = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band) -> RowRange {
+  bands.reach = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band) -> RowRange {
     if (view.field)
-      return rows_reaching(*view.field, target, job.window.width(), band.first, band.last, times);
+      return rows_reaching(*view.field, target, bands.window.width(), band.first, band.last, times);
     const int height = view.image->canvas().height();
     return {std::clamp(band.first + target.origin_y, 0, height),
             std::clamp(band.last + target.origin_y, 0, height)};
   };
-  job.process = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band,
-                    const PostLayers& layers) {
+  bands.process = [&](const MovingView& view, const WarpTarget& target, BandJob::Band band,
+                      const PostLayers& layers) {
     if (view.field) {
-      const BlurJob blur{view.field.get(), target, times, job.window.width(), band.first, band.last};
-      blur_rows(blur, layers, params.tiling, workers, progress);
+      const BlurJob blur{view.field.get(), target, times, bands.window.width(), band.first, band.last};
+      blur_rows(blur, layers, params.tiling, job.workers, job.progress);
       return;
     }
-    const RowRange rows = job.reach(view, target, band);
+    const RowRange rows = bands.reach(view, target, band);
     for (const PostChannel& channel : layers.channels) {
       for (int y = rows.first; y < rows.last; ++y) {
         for (int x = 0; x < view.image->canvas().width(); ++x) {
@@ -187,9 +186,9 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
       }
     }
   };
-  progress.begin("blur", static_cast<double>(job.window.height()) * static_cast<double>(moving));
-  job.run(output, workers, progress, ledger, report);
-  progress.end();
+  job.progress.begin("blur", static_cast<double>(bands.window.height()) * static_cast<double>(moving));
+  bands.run(output, job, report);
+  job.progress.end();
   return report;
 }
 

@@ -16,7 +16,6 @@ struct BlurFileParams {
 /// to the display window. Throws Error (kInput) when no view has vectors or one has no depth, and as BandJob
 /// does.
 PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
-                     const BlurFileParams& params, const Workers& workers, Progress& progress,
-                     MemoryLedger& ledger);
+                     const BlurFileParams& params, const Job& job);
 
 }  // namespace pelage

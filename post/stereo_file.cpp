@@ -157,33 +157,32 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
 }  // namespace
 
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
-                       const StereoFileParams& params, const Workers& workers, Progress& progress,
-                       MemoryLedger& ledger) {
+                       const StereoFileParams& params, const Job& job) {
   PostReport report;
-  ExrReader reader(input, workers.thread_count());
+  ExrReader reader(input, job.workers.thread_count());
   const std::vector<NamedChannel> channels = name_channels(reader.parts());
   if (channels.empty()) refuse(reader, "has no channels");
   const std::string view = pick_view(reader, views_of(channels, reader.parts()), params);
 
-  BandJob job;
-  job.reader = &reader;
-  job.channels = &channels;
-  job.scale = params.file.scale;
-  job.memory = params.file.memory;
-  job.extra_planes = 2;
+  BandJob bands;
+  bands.reader = &reader;
+  bands.channels = &channels;
+  bands.scale = params.file.scale;
+  bands.memory = params.file.memory;
+  bands.extra_planes = 2;
   MovingView moving;
   moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
   const ViewImage& image = *moving.image;
   const StereoCamera camera = params.parallax.empty() ? pick_camera(image, params) : StereoCamera();
-  moving.field = make_field(image, params, camera, workers, report);
+  moving.field = make_field(image, params, camera, job.workers, report);
   const FlowField& field = *moving.field;
   report.longest = std::max(std::abs(field.low().x), std::abs(field.high().x));
 
   const Overhang by = overhang(field, {0, 1});
-  job.window = image.canvas();
+  bands.window = image.canvas();
   const int most = image.largest_reach();
-  job.window.x0 = std::max(job.window.x0 - std::min(by.left, most), image.limits().x0);
-  job.window.x1 = std::min(job.window.x1 + std::min(by.right, most), image.limits().x1);
+  bands.window.x0 = std::max(bands.window.x0 - std::min(by.left, most), image.limits().x0);
+  bands.window.x1 = std::min(bands.window.x1 + std::min(by.right, most), image.limits().x1);
   const int width_px = image.limits().x1 - image.limits().x0;
   if (params.parallax.empty() && report.longest > static_cast<float>(width_px)) {
     report.warnings.push_back(
@@ -191,28 +190,29 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
                     "--eye-separation and --convergence",
                     static_cast<double>(report.longest), width_px));
   }
-  plan_parts(job, image, view, camera);
-  job.views.push_back(std::move(moving));
-  check_named_layers(job.views, params.file.layers);
+  plan_parts(bands, image, view, camera);
+  bands.views.push_back(std::move(moving));
+  check_named_layers(bands.views, params.file.layers);
 
-  const int margin = stereo_margin(params.filter), height = job.window.height();
+  const int margin = stereo_margin(params.filter), height = bands.window.height();
   const int strip_rows = std::max(1, params.strip_rows);
   const bool is_box = params.filter == StereoFilter::kBox;
-  const auto width = static_cast<size_t>(job.window.width());
+  const auto width = static_cast<size_t>(bands.window.width());
   const size_t counts = 8 + 64 + (is_box ? 4 * channels.size() : 0);  // of a pixel of the strip
-  job.scratch_bytes =
+  bands.scratch_bytes =
       static_cast<int64_t>(
-          WorkBuffer::bytes_needed({0, 0, job.window.width(), strip_rows + 2 * margin}, job.scale) +
+          WorkBuffer::bytes_needed({0, 0, bands.window.width(), strip_rows + 2 * margin}, bands.scale) +
           width * static_cast<size_t>(strip_rows) * counts +
-          (is_box ? 0 : LanczosResolve::bytes_needed(job.window.width(), image.own().size(), job.scale))) *
-      workers.thread_count();
-  job.longest_fill = params.file.longest_fill.value_or(kFillEverything);
-  job.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
-    return rows_reaching(*v.field, target, job.window.width(), std::max(0, band.first - margin),
+          (is_box ? 0
+                  : LanczosResolve::bytes_needed(bands.window.width(), image.own().size(), bands.scale))) *
+      job.workers.thread_count();
+  bands.longest_fill = params.file.longest_fill.value_or(kFillEverything);
+  bands.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
+    return rows_reaching(*v.field, target, bands.window.width(), std::max(0, band.first - margin),
                          std::min(height, band.last + margin), {1.0f});
   };
-  job.process = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band,
-                    const PostLayers& layers) {
+  bands.process = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band,
+                      const PostLayers& layers) {
     StereoJob stereo;
     stereo.field = v.field.get();
     stereo.target = target;
@@ -221,18 +221,18 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
     const PixelBox& canvas = v.image->canvas();
     const PixelBox& display = camera_part(*v.image).display;
     stereo.ends = {canvas.x0 <= display.x0, canvas.x1 >= display.x1};
-    stereo.longest_fill = job.longest_fill;
-    stereo.width = job.window.width();
+    stereo.longest_fill = bands.longest_fill;
+    stereo.width = bands.window.width();
     stereo.height = height;
     stereo.first_row = band.first;
     stereo.last_row = band.last;
-    stereo.invented = job.extra_plane(0);
-    stereo.missing = job.extra_plane(1);
-    stereo_rows(stereo, layers, strip_rows, workers, progress);
+    stereo.invented = bands.extra_plane(0);
+    stereo.missing = bands.extra_plane(1);
+    stereo_rows(stereo, layers, strip_rows, job.workers, job.progress);
   };
-  progress.begin("other eye", height);
-  job.run(output, workers, progress, ledger, report);
-  progress.end();
+  job.progress.begin("other eye", height);
+  bands.run(output, job, report);
+  job.progress.end();
   return report;
 }
 

@@ -24,8 +24,7 @@ struct StereoFileParams {
 /// stayed empty (`hole`). Matrices of the camera, if there are any, become the other eye's. Throws Error:
 /// kInput when the view, its depth or a camera is missing, and as BandJob does.
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
-                       const StereoFileParams& params, const Workers& workers, Progress& progress,
-                       MemoryLedger& ledger);
+                       const StereoFileParams& params, const Job& job);
 
 /// Focal length in pixels from the matrices worldToCamera and worldToNDC of a header, in its standard
 /// meaning (row vectors, NDC from 0 to 1); nothing where they are missing or singular.

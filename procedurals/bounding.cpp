@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/bounding.h"
 
-#include "base/parallel.h"
-#include "base/progress.h"
 #include "procedurals/measured_bounds.h"
 
 namespace pelage {
@@ -16,14 +14,13 @@ Box3f scaled(const Box3f& box, float factor) {
 
 /// Boxes that need no strand.
 std::vector<ChunkBounds> stated_bounds(const BoundingOptions& options,
-                                       std::span<const Procedural* const> chunks, const Workers& workers,
-                                       Progress& progress) {
+                                       std::span<const Procedural* const> chunks, const Job& job) {
   std::vector<ChunkBounds> bounds(chunks.size());
-  workers.for_each(chunks.size(), 1, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end && !progress.cancelled(); ++i) {
+  job.workers.for_each(chunks.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
       const Box3f box = chunks[i]->bound(bound_span(options.strategy));
       bounds[i].boxes = {options.strategy == BoundingStrategy::kUser ? scaled(box, options.factor) : box};
-      progress.advance(1);
+      job.progress.advance(1);
     }
   });
   return bounds;
@@ -45,24 +42,23 @@ bool measures_strands(BoundingStrategy strategy) {
 int bound_keys(BoundingStrategy strategy) { return strategy == BoundingStrategy::kLinear ? 2 : 1; }
 
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
-                                      std::span<const Procedural* const> chunks, const Workers& workers,
-                                      Progress& progress, MemoryLedger& ledger, const WarningSink& warn,
+                                      std::span<const Procedural* const> chunks, const Job& job,
                                       BoundingCounts* counts) {
   if (options.strategy == BoundingStrategy::kNone) return std::vector<ChunkBounds>(chunks.size());
-  progress.begin("bound", static_cast<double>(chunks.size()));
+  job.progress.begin("bound", static_cast<double>(chunks.size()));
   std::vector<ChunkBounds> bounds;
   BoundingCounts found;
   if (measures_strands(options.strategy)) {
-    MeasuredBounds measured(options, chunks, warn);
-    measured.read(workers, progress);
-    measured.measure(workers, progress, ledger);
+    MeasuredBounds measured(options, chunks, [&](const std::string& line) { job.progress.warn(line); });
+    measured.read(job);
+    measured.measure(job);
     found = measured.counts();
     bounds = std::move(measured).bounds();
   } else {
-    bounds = stated_bounds(options, chunks, workers, progress);
+    bounds = stated_bounds(options, chunks, job);
     for (const ChunkBounds& chunk : bounds) found.area += area_of(chunk);
   }
-  progress.end();
+  job.progress.end();
   if (counts) {
     counts->measured += found.measured;
     counts->remembered += found.remembered;

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "base/content_store.h"
+#include "base/job.h"
 #include "procedurals/chunk_bounds.h"
 #include "procedurals/procedural.h"
 
 namespace pelage {
 
 class MemoryLedger;
-class Progress;
-class Workers;
 
 struct BoundingOptions {
   BoundingStrategy strategy = BoundingStrategy::kExact;
@@ -36,14 +35,13 @@ struct BoundingCounts {
 };
 
 /// The boxes of all chunks, which are leaves, in their order. What is measured is remembered beside the
-/// caches of the grooms (Procedural::bounds_record); a damaged side file is told to `warn` and written anew.
-/// The result is the same for any number of workers, measured or remembered. Strands that are grown to be
-/// measured are charged to the chunks while they exist; they are few at a time and gone afterwards. kNone
+/// caches of the grooms (Procedural::bounds_record); a damaged side file is reported as a warning and written
+/// anew. The result is the same for any number of workers, measured or remembered. Strands that are grown to
+/// be measured are charged to the chunks while they exist; they are few at a time and gone afterwards. kNone
 /// gives no boxes: whoever grows everything knows better ones. Throws what growing throws. Leaves early when
-/// `progress` is cancelled, with chunks of no box.
+/// the job is cancelled, with chunks of no box.
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
-                                      std::span<const Procedural* const> chunks, const Workers& workers,
-                                      Progress& progress, MemoryLedger& ledger, const WarningSink& warn,
+                                      std::span<const Procedural* const> chunks, const Job& job,
                                       BoundingCounts* counts = nullptr);
 
 }  // namespace pelage

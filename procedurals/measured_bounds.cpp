@@ -72,9 +72,9 @@ void MeasuredBounds::drop_parts(uint32_t chunk) {
   if (options_.in_one_part) bounds_[chunk] = std::move(bounds_[chunk]).in_one_part();
 }
 
-void MeasuredBounds::read(const Workers& workers, Progress& progress) {
-  workers.for_each(families_.size(), 1, [&](WorkRange range) {
-    for (size_t f = range.begin; f < range.end && !progress.cancelled(); ++f) {
+void MeasuredBounds::read(const Job& job) {
+  job.workers.for_each(families_.size(), 1, [&](WorkRange range) {
+    for (size_t f = range.begin; f < range.end && !job.progress.cancelled(); ++f) {
       const Family& family = families_[f];
       std::vector<ChunkBounds> read = read_bounds(family.record, span_, keys_, warn_);
       for (size_t i = 0; i < read.size(); ++i) {
@@ -83,26 +83,26 @@ void MeasuredBounds::read(const Workers& workers, Progress& progress) {
         keep(chunk, std::move(read[i]));
         drop_parts(chunk);
         known_[chunk] = true;
-        progress.advance(1);
+        job.progress.advance(1);
       }
     }
   });
 }
 
-void MeasuredBounds::measure(const Workers& workers, Progress& progress, MemoryLedger& ledger) {
+void MeasuredBounds::measure(const Job& job) {
   std::vector<uint32_t> unknown;
   for (uint32_t i = 0; i < chunks_.size(); ++i) {
     if (!known_[i]) unknown.push_back(i);
   }
-  workers.for_each(unknown.size(), 1, [&](WorkRange range) {
-    for (size_t u = range.begin; u < range.end && !progress.cancelled(); ++u) {
+  job.workers.for_each(unknown.size(), 1, [&](WorkRange range) {
+    for (size_t u = range.begin; u < range.end && !job.progress.cancelled(); ++u) {
       const Procedural& chunk = *chunks_[unknown[u]];
       {
-        const MemoryCharge passing(ledger, MemoryTag::kChunks, growth_bytes(chunk));
+        const MemoryCharge passing(job.ledger, MemoryTag::kChunks, growth_bytes(chunk));
         keep(unknown[u], chunk.exact_bounds(span_, keys_));
       }
       settle(unknown[u]);
-      progress.advance(1);
+      job.progress.advance(1);
     }
   });
 }

@@ -21,9 +21,9 @@ class MeasuredBounds {
                  const WarningSink& warn);
 
   /// Takes what side files remember.
-  void read(const Workers& workers, Progress& progress);
+  void read(const Job& job);
   /// Measures the rest, and writes each side file when the last of its chunks is known.
-  void measure(const Workers& workers, Progress& progress, MemoryLedger& ledger);
+  void measure(const Job& job);
 
   BoundingCounts counts() const;
   std::vector<ChunkBounds> bounds() && { return std::move(bounds_); }

@@ -198,44 +198,42 @@ struct alignas(64) ChunkAccel::Scratch {
 };
 
 ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
-                       const ChunkAccelOptions& options, MemoryLedger& ledger, const Workers& workers,
-                       Progress& progress)
-    : options_(options), patterns_(ledger) {
+                       const ChunkAccelOptions& options, const Job& job)
+    : options_(options), patterns_(job.ledger) {
   const size_t chunks = bounds.size();
   const auto threads = static_cast<size_t>(options.threads);
   scratch_ = std::make_unique<Scratch[]>(threads);
   for (size_t i = 0; i < threads; ++i) scratch_[i].seen.resize(chunks);
-  charges_.emplace_back(ledger, MemoryTag::kChunks,
+  charges_.emplace_back(job.ledger, MemoryTag::kChunks,
                         static_cast<int64_t>(threads * chunks * sizeof(uint32_t)));
-  growth_ = std::make_unique<Growth>(grower, bounds, options_, device_, patterns_, ledger, progress);
+  growth_ = std::make_unique<Growth>(grower, bounds, options_, device_, patterns_, job.ledger, job.progress);
 
-  if (!options.eager) build_tree(bounds, ledger, workers);
-  residency_ = std::make_unique<Residency>(*growth_, chunks, options.threads,
-                                           MemoryBudget{options.memory_limit}, ledger, MemoryTag::kChunks);
+  if (!options.eager) build_tree(bounds, job);
+  residency_ = std::make_unique<Residency>(
+      *growth_, chunks, options.threads, MemoryBudget{options.memory_limit}, job.ledger, MemoryTag::kChunks);
   if (!options.eager) {
-    int64_t all = ledger.budgeted();
+    int64_t all = job.ledger.budgeted();
     for (uint32_t chunk = 0; chunk < chunks; ++chunk)
       all += static_cast<int64_t>(growth_->reserve_bytes(chunk));
     fits_ = options.memory_limit == 0 || all <= static_cast<int64_t>(options.memory_limit);
     return;
   }
-  residency_->grow_all(workers, progress);
-  if (progress.cancelled()) return;
+  residency_->grow_all(job);
+  if (job.progress.cancelled()) return;
   for (uint32_t chunk = 0; chunk < chunks; ++chunk) {
     bounds[chunk] = growth_->learned(chunk)->bounds();
     if (growth_->in_fur_tree(chunk)) bounds[chunk] = std::move(bounds[chunk]).in_one_part();
   }
-  build_tree(bounds, ledger, workers);
+  build_tree(bounds, job);
 }
 
 ChunkAccel::~ChunkAccel() = default;
 
-void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger,
-                            const Workers& workers) {
+void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, const Job& job) {
   given_parts_.reserve(bounds.size());
   for (const ChunkBounds& chunk : bounds) given_parts_.push_back(static_cast<uint32_t>(chunk.part_count()));
-  tree_ = std::make_unique<ChunkTree>(bounds, workers);
-  charges_.emplace_back(ledger, MemoryTag::kChunks,
+  tree_ = std::make_unique<ChunkTree>(bounds, job.workers);
+  charges_.emplace_back(job.ledger, MemoryTag::kChunks,
                         static_cast<int64_t>(tree_->bytes() + bounds.size() * sizeof(uint32_t)));
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "base/ledger.h"
+#include "base/job.h"
 #include "cache/residency.h"
 #include "procedurals/chunk_bounds.h"
 #include "render/accel/accel.h"
@@ -16,9 +16,6 @@
 #include "render/accel/fur_chunk_file.h"
 
 namespace pelage {
-
-class Progress;
-class Workers;
 
 struct ChunkAccelOptions {
   AccelKind kind = AccelKind::kEmbree;  ///< of flat strands; round ones and skins are Embree's
@@ -51,7 +48,7 @@ class ChunkAccel final : public Accel {
   /// outlive the accelerator. When `progress` is cancelled meanwhile, the accelerator is not to be used.
   /// Throws Error: kMemory when the limit is too small, and what the grower throws where all is grown.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ChunkAccelOptions& options,
-             MemoryLedger& ledger, const Workers& workers, Progress& progress);
+             const Job& job);
   ~ChunkAccel() override;
 
   Hit closest(const Ray& ray, TraceThread& thread) const override;
@@ -67,7 +64,7 @@ class ChunkAccel final : public Accel {
   class Growth;
   struct Scratch;
 
-  void build_tree(const std::vector<ChunkBounds>& bounds, MemoryLedger& ledger, const Workers& workers);
+  void build_tree(const std::vector<ChunkBounds>& bounds, const Job& job);
   template <class Far, class Visit>
   void visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
                     const Visit& visit) const;

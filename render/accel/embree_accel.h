@@ -9,7 +9,7 @@
 #include "geom/strands.h"
 #include "geom/tessellation.h"
 #include "render/accel/accel.h"
-#include "render/render_params.h"
+#include "render/scene/render_params.h"
 
 namespace pelage {
 

@@ -6,7 +6,7 @@
 #include "render/accel/chunk_geometry.h"
 #include "render/accel/embree_device.h"
 #include "render/accel/packed_strands.h"
-#include "render/render_params.h"
+#include "render/scene/render_params.h"
 
 namespace pelage {
 

@@ -4,7 +4,7 @@
 #include "geom/strands.h"
 #include "render/accel/accel.h"
 #include "render/accel/embree_api.h"
-#include "render/render_params.h"
+#include "render/scene/render_params.h"
 
 namespace pelage {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/fibre/wigner.h"
-#include "render/surface/material.h"
+#include "render/material/material.h"
 
 namespace pelage {
 

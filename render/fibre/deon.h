@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "render/fibre/absorption.h"
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/fibre_params.h"
 #include "render/fibre/separable_bsdf.h"
+#include "render/material/absorption.h"
+#include "render/material/fibre_params.h"
 
 namespace pelage {
 

@@ -7,7 +7,7 @@
 #include "base/job.h"
 #include "render/fibre/coat_color.h"
 #include "render/fibre/fibre_bsdf.h"
-#include "render/surface/material.h"
+#include "render/material/material.h"
 
 namespace pelage {
 

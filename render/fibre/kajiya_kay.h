@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "render/fibre/fibre_frame.h"
-#include "render/fibre/fibre_params.h"
 #include "render/fibre/fibre_value.h"
 #include "render/fibre/longitudinal.h"
+#include "render/material/fibre_params.h"
 
 namespace pelage {
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <optional>
 
-#include "render/fibre/absorption.h"
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/fibre_params.h"
 #include "render/fibre/separable_bsdf.h"
+#include "render/material/absorption.h"
+#include "render/material/fibre_params.h"
 
 namespace pelage {
 

@@ -11,7 +11,7 @@
 #include "base/parallel.h"
 #include "render/fibre/medulla_bsdf.h"
 #include "render/fibre/path_lengths.h"
-#include "render/fibre/yan_params.h"
+#include "render/material/yan_params.h"
 
 namespace pelage {
 

@@ -8,7 +8,7 @@
 #include "render/fibre/medulla_tables.h"
 #include "render/fibre/path_lengths.h"
 #include "render/fibre/wigner_scatter.h"
-#include "render/fibre/yan_params.h"
+#include "render/material/yan_params.h"
 
 namespace pelage {
 

@@ -5,10 +5,10 @@
 
 #include "base/memory_budget.h"
 #include "base/stopwatch.h"
-#include "render/path/frame_geometry.h"
-#include "render/path/frame_layers.h"
-#include "render/path/frame_loop.h"
-#include "render/path/sample_schedule.h"
+#include "render/frame/frame_geometry.h"
+#include "render/frame/frame_layers.h"
+#include "render/frame/frame_loop.h"
+#include "render/frame/sample_schedule.h"
 #include "render/sampling/adaptive_rule.h"
 
 namespace pelage {
@@ -24,22 +24,21 @@ FilmLayers film_layers(const RenderScene& scene) {
 
 }  // namespace
 
-FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progress& progress,
-                         MemoryLedger& ledger, Statistics& statistics, const PathOptions& options) {
+FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
+                         const PathOptions& options) {
   const Stopwatch clock;
   const FilmLayers layers = film_layers(scene);
-  ledger.set_limit(scene.render.memory.bytes);
-  require_room(ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
-  FrameResult result{Film(scene.image.width, scene.image.height, layers, ledger)};
-  const auto geometry = FrameGeometry::make(scene, workers, progress, ledger, statistics);
+  job.ledger.set_limit(scene.render.memory.bytes);
+  require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
+  FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
+  const auto geometry = FrameGeometry::make(scene, job, statistics);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
   const PathTracer tracer(scene, geometry->accel(), result.film.layers(), options);
-  FrameLoop loop(tracer, workers, progress, result.film, clock);
-  const ScheduleEnd end =
-      SampleSchedule(loop, scene.render, workers, progress, clock, geometry->fits()).run();
+  FrameLoop loop(tracer, job, result.film, clock);
+  const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry->fits()).run();
   result.partial = end.partial;
   result.time_limited = end.time_limited;
   result.samples = loop.least_given();

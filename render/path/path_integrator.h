@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/ledger.h"
-#include "base/progress.h"
+#include "base/job.h"
 #include "base/statistics.h"
 #include "render/film/film.h"
 #include "render/path/path_tracer.h"
-#include "render/render_scene.h"
+#include "render/scene/render_scene.h"
 
 namespace pelage {
-
-class Workers;
 
 /// What a render leaves.
 struct FrameResult {
@@ -30,7 +27,7 @@ struct FrameResult {
 /// The same scene gives the same film for any number of threads, unless the time limit is met. Adds rays,
 /// strands, rejected samples and stage times to `statistics`. Throws Error; nothing is thrown out of the
 /// render loops.
-FrameResult render_frame(const RenderScene& scene, const Workers& workers, Progress& progress,
-                         MemoryLedger& ledger, Statistics& statistics, const PathOptions& options = {});
+FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
+                         const PathOptions& options = {});
 
 }  // namespace pelage

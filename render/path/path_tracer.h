@@ -9,7 +9,7 @@
 
 #include "render/film/film.h"
 #include "render/film/filter_sampler.h"
-#include "render/path/frame_shading.h"
+#include "render/frame/frame_shading.h"
 #include "render/sampling/sample_stream.h"
 
 namespace pelage {

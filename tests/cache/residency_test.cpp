@@ -267,7 +267,7 @@ TEST_F(ResidencyTest, EagerlyGrowsEverythingOnce) {
   make(100, 4, 120);
   const Workers workers(4);
   NoProgress progress;
-  residency_->grow_all(workers, progress);
+  residency_->grow_all({workers, ledger_, progress});
   EXPECT_EQ(residency_->counts().expansions, 100);
   for (uint32_t slot = 0; slot < 100; ++slot) {
     EXPECT_TRUE(residency_->is_resident(slot));
@@ -284,7 +284,11 @@ TEST_F(ResidencyTest, EagerlyRefusesWhatDoesNotFit) {
   make(100, 4, 60);
   const Workers workers(4);
   NoProgress progress;
-  const std::string text = text_of([&] { residency_->grow_all(workers, progress); }, ErrorKind::kMemory);
+  const std::string text = text_of(
+      [&] {
+        residency_->grow_all({workers, ledger_, progress});
+      },
+      ErrorKind::kMemory);
   EXPECT_NE(text.find("render.memory"), std::string::npos) << text;
   EXPECT_LE(grower_.live_peak(), int64_t(60 * kBytes));
   residency_.reset();
@@ -303,7 +307,8 @@ TEST_F(ResidencyTest, EagerlyStopsWhenCancelled) {
     std::atomic<int> done_{0};
   } progress;
   make(100, 2, 500);
-  residency_->grow_all(Workers(2), progress);
+  const Workers workers(2);
+  residency_->grow_all({workers, ledger_, progress});
   EXPECT_GE(residency_->counts().expansions, 10);
   EXPECT_LE(residency_->counts().expansions, 12);
 }

@@ -10,7 +10,7 @@
 #include "base/file.h"
 #include "base/temporary_folder.h"
 #include "cli/commands.h"
-#include "cli/measure/picture_difference.h"
+#include "lab/pictures/picture_difference.h"
 
 namespace pelage {
 namespace {

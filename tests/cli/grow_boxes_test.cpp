@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
-#include "tests/cli/small_scene.h"
+#include "tests/world/small_scene.h"
 
 namespace pelage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "geom/io/strand_file.h"
-#include "tests/cli/small_scene.h"
+#include "tests/world/small_scene.h"
 
 namespace pelage {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "base/temporary_folder.h"
 #include "cli/commands.h"
-#include "cli/measure/lod_pictures.h"
-#include "cli/measure/picture_difference.h"
-#include "cli/measure/run_statistics.h"
 #include "image/exr.h"
+#include "lab/measure/lod_pictures.h"
+#include "lab/pictures/picture_difference.h"
+#include "lab/runs/run_statistics.h"
 
 namespace pelage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/version.h"
+#include "base/version.h"
 
 namespace pelage {
 namespace {

@@ -8,7 +8,7 @@
 #include "cli/commands.h"
 #include "cli/signals.h"
 #include "image/exr.h"
-#include "tests/cli/small_scene.h"
+#include "tests/world/small_scene.h"
 
 namespace pelage {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/temporary_folder.h"
 #include "render/accel/fur_chunk_file.h"
 #include "tests/fuzz/corpus.h"
-#include "tests/render/fur_grooms.h"
+#include "tests/render/accel/fur/fur_grooms.h"
 
 namespace pelage {
 namespace {

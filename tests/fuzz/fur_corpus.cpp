@@ -3,7 +3,7 @@
 #include "base/temporary_folder.h"
 #include "render/accel/fur/fur_page_file.h"
 #include "tests/fuzz/corpus.h"
-#include "tests/render/fur_grooms.h"
+#include "tests/render/accel/fur/fur_grooms.h"
 
 namespace pelage {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/check.h"
-#include "cli/scene_schema.h"
 #include "tests/fuzz/fuzz_targets.h"
+#include "world/scene_schema.h"
 
 namespace pelage {
 namespace {

@@ -74,14 +74,14 @@ TEST(Beachball, OneEyeIsMadeOfTheOther) {
   StereoFileParams params;
   params.parallax = "disparityR";
   params.file.scale = 4;
-  stereo_file(beachball(), folder.path() / "a.exr", params, Workers(), progress, ledger);
+  stereo_file(beachball(), folder.path() / "a.exr", params, {Workers(), ledger, progress});
   EXPECT_GT(psnr(folder.path() / "a.exr", false), 50);
   EXPECT_GT(psnr(folder.path() / "a.exr", true), 55);
   // By depth: its parallax is -333.3 / Z, parallel cameras.
   params.parallax.clear();
   params.focal_pixels = 333.312f;
   params.eye_separation = 1;
-  stereo_file(beachball(), folder.path() / "b.exr", params, Workers(), progress, ledger);
+  stereo_file(beachball(), folder.path() / "b.exr", params, {Workers(), ledger, progress});
   EXPECT_GT(psnr(folder.path() / "b.exr", true), 50);
   EXPECT_GT(psnr(folder.path() / "b.exr", false), 40);
 }
@@ -114,7 +114,7 @@ TEST(Beachball, ItsVectorsPointRightAndUp) {
   params.shutter = {0, 1, 1};
   const V2f before = centre(beachball());
   const PostReport report =
-      blur_file(beachball(), folder.path() / "moved.exr", params, Workers(), progress, ledger);
+      blur_file(beachball(), folder.path() / "moved.exr", params, {Workers(), ledger, progress});
   EXPECT_NEAR(report.longest, 60.2f, 0.1f);
   const V2f moved = centre(folder.path() / "moved.exr") - before;
   // The outline moves by (39.6, 38.1), the middle of the ball, which is nearer, by more.
@@ -131,7 +131,7 @@ TEST(Beachball, KeepsItsTenParts) {
   params.file.scale = 1;
   params.shutter.steps = 2;
   const std::filesystem::path out = folder.path() / "out.exr";
-  blur_file(beachball(), out, params, Workers(), progress, ledger);
+  blur_file(beachball(), out, params, {Workers(), ledger, progress});
   const ExrReader before(beachball()), after(out);
   ASSERT_EQ(after.parts().size(), 10u);
   for (size_t p = 0; p < 10; ++p) {

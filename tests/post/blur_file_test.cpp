@@ -21,7 +21,7 @@ class BlurFile : public testing::Test {
     NoProgress progress;
     MemoryLedger ledger;
     const PostReport report =
-        blur_file(path(input), path(output), params_, Workers(threads), progress, ledger);
+        blur_file(path(input), path(output), params_, {Workers(threads), ledger, progress});
     charged_ = ledger.peak(MemoryTag::kFilm);
     return report;
   }
@@ -371,7 +371,7 @@ TEST_F(BlurFile, LeavesNothingWhenItIsStopped) {
   } stopped;
   write_exr(path("in.exr"), still_image(32, 32));
   MemoryLedger ledger;
-  EXPECT_TRUE(blur_file(path("in.exr"), path("out.exr"), params_, Workers(2), stopped, ledger).cancelled);
+  EXPECT_TRUE(blur_file(path("in.exr"), path("out.exr"), params_, {Workers(2), ledger, stopped}).cancelled);
   EXPECT_FALSE(std::filesystem::exists(path("out.exr")));
   EXPECT_EQ(ledger.current(MemoryTag::kFilm), 0);
 }

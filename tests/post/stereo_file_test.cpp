@@ -16,7 +16,7 @@ class StereoFile : public testing::Test {
   PostReport run(const std::string& input, const std::string& output) {
     NoProgress progress;
     MemoryLedger ledger;
-    const PostReport report = stereo_file(path(input), path(output), params_, Workers(2), progress, ledger);
+    const PostReport report = stereo_file(path(input), path(output), params_, {Workers(2), ledger, progress});
     charged_ = ledger.peak(MemoryTag::kFilm);
     return report;
   }

@@ -21,6 +21,19 @@ namespace {
 constexpr BoundingStrategy kHolding[] = {BoundingStrategy::kConservative, BoundingStrategy::kExact,
                                          BoundingStrategy::kExactShutter, BoundingStrategy::kLinear};
 
+class WarningReceiver final : public Progress {
+ public:
+  explicit WarningReceiver(WarningSink receive) : receive_(std::move(receive)) {}
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  void warn(std::string_view line) override { receive_(std::string(line)); }
+  bool cancelled() const override { return false; }
+
+ private:
+  WarningSink receive_;
+};
+
 void expect_no_warning(const std::string& line) { ADD_FAILURE() << line; }
 
 std::vector<ChunkBounds> bounds_of(const std::vector<const Procedural*>& chunks,
@@ -28,9 +41,9 @@ std::vector<ChunkBounds> bounds_of(const std::vector<const Procedural*>& chunks,
                                    const WarningSink& warn = expect_no_warning,
                                    BoundingCounts* counts = nullptr) {
   MemoryLedger ledger;
-  NoProgress progress;
-  const std::vector<ChunkBounds> bounds =
-      bound_chunks(options, chunks, Workers(threads), progress, ledger, warn, counts);
+  const Workers workers(threads);
+  WarningReceiver progress(warn);
+  const std::vector<ChunkBounds> bounds = bound_chunks(options, chunks, {workers, ledger, progress}, counts);
   EXPECT_EQ(ledger.budgeted(), 0);
   EXPECT_EQ(bounds.size(), chunks.size());
   return bounds;
@@ -445,8 +458,8 @@ TEST(Bounding, LeavesEarlyWhenCancelled) {
   } progress;
   const RandomCoat coat(2, {});
   MemoryLedger ledger;
-  const auto bounds =
-      bound_chunks({BoundingStrategy::kExact}, coat.chunks, Workers(2), progress, ledger, expect_no_warning);
+  const Workers workers(2);
+  const auto bounds = bound_chunks({BoundingStrategy::kExact}, coat.chunks, {workers, ledger, progress});
   EXPECT_EQ(progress.done, 0);
   for (const ChunkBounds& chunk : bounds) EXPECT_TRUE(chunk.boxes.empty());
 }

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lab/compare/compared_frame.h"
+#include "lab/compare/single_fibre.h"
+
+namespace pelage {
+
+/// All that comparing the models of a scene's fur found; less where the user stopped it.
+struct Comparison {
+  std::vector<ComparedFrame> frames;
+  std::vector<SingleFibre> fibres;
+  std::map<std::string, double> furnace;  ///< by model: see FrameComparer::furnace
+};
+
+/// The report without the facts of the machine: tables of cost, noise and energy, the contact sheet and the
+/// single fibres. `comparison` has frames.
+Report comparison_report(const Comparison& comparison, const SceneDescription& scene);
+
+/// What a plotter wants: of every fibre the energies around and along it, of the model and traced, as JSON.
+std::string fibres_json(const std::vector<SingleFibre>& fibres);
+
+}  // namespace pelage

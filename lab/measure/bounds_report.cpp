@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/measure/bounds_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/counted.h"
+#include "base/parallel.h"
+#include "lab/measure/memory_plots.h"
+#include "lab/runs/outcome_table.h"
+#include "lab/runs/spread.h"
+
+namespace pelage {
+namespace {
+
+constexpr const char* kStrategies =
+    "none grows everything up front; rays are tested against boxes measured on what was grown. user scales "
+    "the conservative box about its centre by a factor. conservative bounds by skin patch, strand lengths "
+    "and each operator's reach. exact grows each chunk once in a first pass and keeps the boxes of its "
+    "parts, which hold the whole frame interval; exact-shutter holds what the shutter sees; linear has boxes "
+    "that move linearly over the shutter.";
+constexpr const char* kTerms =
+    "An expansion is the growth of a chunk for use (the first pass is not one: it is the stage bound), a "
+    "re-expansion one after an eviction, a false expansion that of a chunk which was the answer to no ray: "
+    "what a ray met in it, if anything, lay behind something nearer. Box areas are sums of surface areas "
+    "over all leaves of all coats: of the box around each leaf, and of the boxes of its parts, which rays "
+    "are tested against; boxes that move count with the mean of shutter open and close. Box tests and chunk "
+    "visits are per ray of any kind, tests of boxes that a chunk learned when it was grown included: how "
+    "many "
+    "those are depends a little on which thread comes first. The boxes that none measures are not summed up.";
+constexpr const char* kCold =
+    "Caches: variants marked cold begin every run with an empty cache folder, compute the offsets of the "
+    "operators and the boxes of their strategy and store both; the variant of the same name without the mark "
+    "reads them. none, user and conservative need no stored boxes and read the offsets that exact, cold "
+    "left.";
+constexpr const char* kUncached =
+    "The scene has no operator cache: every run grows its hair by its operators and computes its boxes.";
+
+const Outcome* find(const std::vector<Outcome>& outcomes, const std::string& id) {
+  const auto found =
+      std::find_if(outcomes.begin(), outcomes.end(), [&](const Outcome& o) { return o.variant.id == id; });
+  return found == outcomes.end() || !found->typical() ? nullptr : &*found;
+}
+
+std::string change(double after, double before) {
+  constexpr double kTooFew = 50;  // for a percentage to say anything
+  return before >= kTooFew ? fmt::format(" ({:+.0f} %)", 100 * (after / before - 1)) : "";
+}
+
+// "1.03 times the CPU time", or why that number says nothing: times of a machine that does other things too
+// differ from run to run.
+std::string time_text(const Outcome& a, const Outcome& b, const std::string& path, const char* name) {
+  const bool known = a.runs.size() > 1 && b.runs.size() > 1;
+  const bool apart = !known || a.least(path) > b.most(path) || a.most(path) < b.least(path);
+  return fmt::format("{} times the {}{}", spread_text(ratio_of(a, b, path)), name,
+                     apart ? "" : " (less than what runs of the same strategy differ by)");
+}
+
+// Says where the scene leaves bounds nothing to save.
+std::string touched_text(const Outcome& exact, const Outcome& conservative) {
+  const auto all = [](const Outcome& o) { return o.number("chunks_touched") >= 0.95 * o.number("chunks"); };
+  if (!all(exact) || !all(conservative)) return "";
+  return "Some ray needs nearly every chunk whatever its box, as is usual where light comes from all around "
+         "and everything is in the frame: what bounds can save here is not growth, only box tests and "
+         "visits. ";
+}
+
+// Other work on the machine slows runs down, and not all of them alike.
+std::string load_text(const std::vector<Outcome>& outcomes) {
+  double most = 0;
+  for (const Outcome& outcome : outcomes) {
+    for (const VariantRun& run : outcome.runs) most = std::max(most, run.load);
+  }
+  // A run that follows another finds that one's threads in the mean of the last minute.
+  if (most <= 1.5 * available_processors()) return "";
+  return fmt::format(
+      " The machine was busy with other things (a load of {:.0f} on {} processors): counts and memory are "
+      "what they are, times are not to be trusted.",
+      most, available_processors());
+}
+
+// What the numbers say of the strategies that the question is about.
+std::string findings(const std::vector<Outcome>& outcomes) {
+  const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
+                                   [](const Outcome& o) { return o.number("chunk_visits") > 0; });
+  if (!counted) return "No ray met a chunk in any run: they say nothing of what the strategies differ in.";
+  const Outcome *exact = find(outcomes, kExactId), *conservative = find(outcomes, kConservativeId),
+                *none = find(outcomes, kNoneId), *shutter = find(outcomes, kExactShutterId);
+  std::string text;
+  const auto against = [&](const char* name, const Outcome& a, const char* than, const Outcome& b) {
+    const double after = a.number("false_expansions"), before = b.number("false_expansions");
+    text += fmt::format(
+        "{} boxes instead of {} ones: {:.0f} false expansions instead of {:.0f}{}, {:.0f} expansions instead "
+        "of {:.0f}, {:.2f} times the box area, {}, {}. ",
+        name, than, after, before, change(after, before), a.number("expansions"), b.number("expansions"),
+        a.number("bounds_area") / b.number("bounds_area"), time_text(a, b, "wall_s", "wall time"),
+        time_text(a, b, "cpu_s", "CPU time"));
+  };
+  if (exact && conservative) {
+    against("Exact", *exact, "conservative", *conservative);
+    text += touched_text(*exact, *conservative);
+  }
+  if (exact && shutter) against("Shutter-aware", *shutter, "exact", *exact);
+  if (exact && none) {
+    text += fmt::format(
+        "Growth on demand with exact boxes instead of growing everything up front: {}, {:.2f} times the peak "
+        "resident set.",
+        time_text(*exact, *none, "wall_s", "wall time"),
+        exact->number("peak_rss_bytes") / none->number("peak_rss_bytes"));
+  }
+  const bool once =
+      std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.runs.size() < 2; });
+  if (once) text += " Each ran once: by how much times vary is not known.";
+  return text + load_text(outcomes);
+}
+
+using Differences = std::vector<std::optional<PictureDifference>>;
+
+void add_bounds_columns(Table& table, const std::vector<Outcome>& outcomes, const Differences& differences) {
+  const Outcome* exact = find(outcomes, kExactId);
+  const auto difference = [&](const Outcome& o) -> const std::optional<PictureDifference>& {
+    return differences[static_cast<size_t>(&o - outcomes.data())];
+  };
+  const auto relative = [&](const std::string& path) {
+    return [&, path](const Outcome& o) -> Cell {
+      const double area = o.number(path), reference = exact ? exact->number(path) : NAN;
+      return area > 0 && reference > 0 ? area / reference : NAN;
+    };
+  };
+  add_column(table, {"relative_bounds_area", "box area relative to exact", Quantity::kRatio}, outcomes,
+             relative("bounds_area"));
+  add_column(table, {"relative_part_bounds_area", "area of parts relative to exact", Quantity::kRatio},
+             outcomes, relative("part_bounds_area"));
+  add_column(
+      table, {"lost_pixels", "lost pixels", Quantity::kCount}, outcomes,
+      [&](const Outcome& o) -> Cell { return difference(o) ? double(difference(o)->differing) : NAN; });
+  add_column(table, {"lost_pixels_share", "of all", Quantity::kPercent}, outcomes,
+             [&](const Outcome& o) -> Cell {
+               return difference(o) ? double(difference(o)->differing) / double(difference(o)->pixels) : NAN;
+             });
+  add_column(table, {"largest_difference", "largest difference of R, G, B", Quantity::kRatio}, outcomes,
+             [&](const Outcome& o) -> Cell { return difference(o) ? difference(o)->largest : NAN; });
+}
+
+Section time_section(const Table& data, const std::vector<Outcome>& outcomes) {
+  std::vector<std::string> stages = keys_with(data, "stage_");
+  stages.insert(stages.begin(), "variant");
+  return {
+      "Time",
+      {select(data,
+              {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s",
+               "cpu_most_s", "first_pixel_s", "peak_rss_bytes", "lost_pixels", "lost_pixels_share",
+               "largest_difference"},
+              "Cost of each strategy, and what it does to the picture."),
+       stage_plot(data, outcomes,
+                  "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),
+       select(data, stages, "Wall time by stage.")}};
+}
+
+Section work_section(const Table& data, const std::vector<Outcome>& outcomes) {
+  BarPlot area = column_plot(data, outcomes, {"relative_bounds_area"}, "box area relative to exact",
+                             "Sum of the areas of the boxes of all leaves, relative to exact.");
+  BarPlot tests = column_plot(data, outcomes, {"box_tests_per_ray"}, "box tests per ray",
+                              "Tests of rays against boxes above what chunks hold.");
+  BarPlot in_vain = column_plot(data, outcomes, {"false_expansions"}, "chunks", "Chunks grown in vain.");
+  BarPlot visits = column_plot(data, outcomes, {"chunk_visits_per_ray"}, "chunk visits per ray",
+                               "Chunks that a ray was traced through.");
+  area.half = tests.half = visits.half = in_vain.half = true;
+  return {"Work",
+          {select(data,
+                  {"variant", "chunks", "expansions", "reexpansions", "false_expansions",
+                   "false_expansions_share", "relative_bounds_area", "relative_part_bounds_area",
+                   "box_tests_per_ray", "chunk_visits_per_ray", "strands_generated"},
+                  "Chunks grown, and boxes tested."),
+           in_vain, area, tests, visits}};
+}
+
+// Strategies that hold the same geometry in memory look the same over time.
+std::vector<Outcome> plotted(const std::vector<Outcome>& outcomes) {
+  std::vector<Outcome> result;
+  for (const Outcome& outcome : outcomes) {
+    const std::string& id = outcome.variant.id;
+    if (!id.starts_with("user") && (!id.ends_with("-cold") || id == std::string(kExactId) + "-cold"))
+      result.push_back(outcome);
+  }
+  return result;
+}
+
+// `all` and `results`: with the rows whose savings are switched off, which the ledger must explain too.
+Section memory_section(const Table& data, const std::vector<Outcome>& outcomes, const Table& all,
+                       const BoundsResults& results) {
+  std::vector<std::string> memory = keys_with(data, "memory_");
+  memory.insert(memory.begin(), {"variant", "peak_rss_bytes", "working_set_bytes", "bytes_per_strand"});
+  const std::vector<Outcome> few = plotted(outcomes);
+  Section section{"Memory",
+                  {select(data, memory,
+                          "Peak of the process, bytes of all chunks touched (skins too, which bytes per "
+                          "strand include), and the "
+                          "peak of each tag of the ledger."),
+                   resident_plot(few, "Resident memory over time (anonymous and file-backed).")}};
+  for (LinePlot& plot : tag_plots(few)) section.blocks.push_back(std::move(plot));
+  section.blocks.push_back(Paragraph{ledger_text(results.outcomes)});
+  section.blocks.push_back(ledger_table(all));
+  return section;
+}
+
+Section switch_section(const Table& data, const BoundsResults& results) {
+  Table table = select(
+      data,
+      {"variant", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s", "cpu_most_s",
+       "working_set_bytes", "bytes_per_strand", "memory_chunks_bytes", "memory_skins_bytes", "peak_rss_bytes",
+       "relative_bounds_area", "box_tests_per_ray", "lost_pixels", "largest_difference"},
+      "What each saving is worth: everything on (exact), then with one of them switched off or "
+      "on. All rows read warm caches.");
+  for (Column& column : table.columns) {
+    if (column.key == "lost_pixels") column.title = "pixels that differ";
+  }
+  std::vector<std::vector<Cell>> rows;
+  for (size_t i = 0; i < results.outcomes.size(); ++i) {
+    const std::string& id = results.outcomes[i].variant.id;
+    if (id == kExactId || id == kExactShutterId || i >= results.strategies) rows.push_back(table.rows[i]);
+  }
+  table.rows = std::move(rows);
+  return {"Small tricks, each with its switch",
+          {Paragraph{"render.compact_attributes keeps every attribute of a chunk in the most compact class "
+                     "(constant, uniform, varying, vertex) and with three digits: a pixel of few samples may "
+                     "differ where "
+                     "a random decision, such as to end a path, hangs on the last one, its mean does not; "
+                     "render.shared_topology keeps one refiner and one set of patch tables for all "
+                     "characters of one topology; render.bounds: exact-shutter bounds what the shutter sees "
+                     "instead of the whole frame interval."},
+           std::move(table)}};
+}
+
+Section picture_section(const BoundsResults& results) {
+  Section section{"Pictures", {}};
+  section.blocks.push_back(Paragraph{
+      "A lost pixel is one of which any channel of any layer has other bits than in the picture of "
+      "none, where everything is grown up front and no box can hide anything. Only user, whose boxes "
+      "are guesses, may lose any."});
+  if (results.picture) {
+    section.blocks.push_back(*results.picture);
+    std::get<Picture>(section.blocks.back()).half = true;
+  }
+  for (size_t i = 0; i < results.outcomes.size(); ++i) {
+    if (!results.differences[i] || results.differences[i]->differing == 0) continue;
+    Picture mask = results.differences[i]->mask;
+    mask.caption = fmt::format("{}: white where a pixel differs from none ({} of {}).",
+                               results.outcomes[i].variant.title, results.differences[i]->differing,
+                               results.differences[i]->pixels);
+    mask.half = true;
+    section.blocks.push_back(std::move(mask));
+  }
+  return section;
+}
+
+}  // namespace
+
+Report bounds_report(const BoundsResults& results) {
+  Report report;
+  report.title = "Bounding strategies";
+  report.data = outcome_table(results.outcomes);
+  add_bounds_columns(report.data, results.outcomes, results.differences);
+
+  const auto count = static_cast<std::ptrdiff_t>(results.strategies);
+  const std::vector<Outcome> strategies(results.outcomes.begin(), results.outcomes.begin() + count);
+  Table data = report.data;
+  data.rows.resize(results.strategies);
+  report.abstract = findings(strategies);
+  report.sections.push_back(
+      {"Method",
+       {Paragraph{fmt::format(
+            "Every variant renders the same frame, every hair of it, in a process of its own, {}, in rounds "
+            "over all "
+            "variants; numbers are those of the run of median wall time, least and most are the spread. {}",
+            counted(results.repeat, "time"), results.cached ? kCold : kUncached)},
+        Paragraph{kStrategies}, Paragraph{kTerms},
+        Paragraph{
+            "Memory over time is sampled every 10 ms; the kernel keeps the peak of the resident set (peak "
+            "RSS), file-backed pages included."}}});
+  report.sections.push_back(time_section(data, strategies));
+  report.sections.push_back(work_section(data, strategies));
+  report.sections.push_back(memory_section(data, strategies, report.data, results));
+  report.sections.push_back(switch_section(report.data, results));
+  report.sections.push_back(picture_section(results));
+  return report;
+}
+
+}  // namespace pelage

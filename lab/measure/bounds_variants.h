@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/runs/variant.h"
+#include "world/scene_schema.h"
+
+namespace pelage {
+
+/// One approximation or saving that can be switched off, and the variant without it. The variant with it is
+/// kExactId.
+struct Switch {
+  std::string title;  ///< "compact attributes"
+  Variant off;
+};
+
+constexpr const char* kExactId = "exact";
+constexpr const char* kNoneId = "none";
+constexpr const char* kConservativeId = "conservative";
+constexpr const char* kExactShutterId = "exact-shutter";
+
+/// What `measure bounds` runs: in this order, because a cold run fills the caches of the warm ones after it.
+struct BoundsVariants {
+  std::vector<Variant> run;
+  std::vector<std::string> shown;  ///< ids of the strategies in the order of the report
+  std::vector<Switch> switches;    ///< measured with strategy exact and warm caches
+};
+
+BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup& setup);
+
+}  // namespace pelage

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "image/exr.h"
+#include "lab/measure/experiments.h"
+#include "lab/pictures/picture_difference.h"
+#include "lab/pictures/picture_error.h"
+#include "lab/runs/outcome_table.h"
+
+namespace pelage {
+namespace {
+
+// Of render.samples, which is the most that a pixel gets.
+constexpr int kPlainShares[] = {16, 4};
+constexpr int kReferenceFactor = 2;
+
+void set(Variant& variant, const std::string& key, const std::string& value) {
+  variant.arguments.insert(variant.arguments.end(), {"--set", key + "=" + value});
+}
+
+/// Another seed for each variant: no two pictures share noise.
+Variant variant_of(const std::string& id, const std::string& title, int samples, size_t seed) {
+  Variant variant{id, title, "render", {}};
+  set(variant, "render.samples", std::to_string(samples));
+  set(variant, "render.seed", std::to_string(1000 + seed));
+  set(variant, "image.noise_layers", "true");
+  set(variant, "image.light_layers", "false");
+  return variant;
+}
+
+struct Row {
+  int plain = 0;        // samples of the plain picture that it is held against; 0: a reference
+  size_t plain_at = 0;  // its index
+  PictureError error;
+  bool known = false;
+};
+
+class Sweep {
+ public:
+  Sweep(int most, const MeasureSetup& setup, Progress& progress)
+      : most_(most), progress_(progress), runner_(setup, progress, 2 + 4 * std::size(kPlainShares)) {}
+
+  void run() {
+    for (const char* id : {"reference-a", "reference-b"}) {
+      Variant reference = variant_of(id, id, kReferenceFactor * most_, outcomes.size());
+      reference.once = true;
+      if (!add(reference, 0, 0)) return;
+    }
+    best = best_gain(read_exr(runner_.picture(outcomes[0].variant)));
+    for (const int share : kPlainShares) {
+      const int samples = std::max(1, most_ / share);
+      const size_t plain = outcomes.size();
+      if (!add(
+              variant_of(fmt::format("plain-{}", samples), fmt::format("plain, {}", samples), samples, plain),
+              samples, plain))
+        return;
+      // What plain sampling achieves is the noise budget of the others.
+      const std::string noise = fmt::format("{:g}", outcomes[plain].number("noise"));
+      const auto adaptive = [&](const char* id, const char* title, const char* rule, const char* goal) {
+        Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
+                                     most_, outcomes.size());
+        set(variant, "render.adaptive.rule", rule);
+        set(variant, "render.adaptive.goal", goal);
+        set(variant, "render.adaptive.noise", noise);
+        return add(variant, samples, plain);
+      };
+      if (!adaptive("frame", "two-stage, frame", "two-stage", "frame") ||
+          !adaptive("pixel", "two-stage, pixel", "two-stage", "pixel") ||
+          !adaptive("seed", "seed", "seed", "frame"))
+        return;
+    }
+  }
+
+  std::vector<Outcome> outcomes;
+  std::vector<Row> rows;
+  BestGain best{NAN, NAN};
+  const VariantRunner& runner() const { return runner_; }
+
+ private:
+  bool add(const Variant& variant, int plain, size_t plain_at) {
+    outcomes.push_back(runner_.run(variant));
+    Row row{plain, plain_at, {}, false};
+    if (plain > 0 && outcomes.back().succeeded()) {
+      const auto error =
+          picture_error_of_files(runner_.picture(variant), runner_.picture(outcomes[0].variant),
+                                 runner_.picture(outcomes[1].variant));
+      row.known = error.has_value();
+      row.error = error.value_or(PictureError{});
+    }
+    rows.push_back(row);
+    return outcomes.back().succeeded() && !progress_.cancelled();
+  }
+
+  int most_;
+  Progress& progress_;
+  VariantRunner runner_;
+};
+
+/// Plain samples per pixel that would leave the error of this row, over what it took.
+double gain(const std::vector<Row>& rows, const Row& row, double samples) {
+  const Row& plain = rows[row.plain_at];
+  if (!row.known || !plain.known) return NAN;
+  return plain.plain * plain.error.rel_mse / row.error.rel_mse / samples;
+}
+
+}  // namespace
+
+Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress) {
+  Sweep sweep(scene.render.samples, setup, progress);
+  sweep.run();
+  Measured measured;
+  measured.outcomes = std::move(sweep.outcomes);
+  const std::vector<Outcome>& outcomes = measured.outcomes;
+  Report& report = measured.report;
+  report.title = "Adaptive sampling";
+  report.data = outcome_table(outcomes);
+  const auto add = [&](const char* key, const char* title, Quantity quantity, const auto& value) {
+    add_column(report.data, {key, title, quantity}, outcomes, [&](const Outcome& o) -> Cell {
+      const Row& row = sweep.rows[static_cast<size_t>(&o - outcomes.data())];
+      return row.known ? value(row) : NAN;
+    });
+  };
+  add_column(report.data, {"noise", "noise", Quantity::kPercent}, outcomes,
+             [](const Outcome& o) -> Cell { return o.number("noise"); });
+  add("samples", "samples", Quantity::kRatio, [](const Row& r) { return r.error.samples; });
+  add("surface_samples", "on surfaces", Quantity::kRatio,
+      [](const Row& r) { return r.error.surface_samples; });
+  add("rel_mse", "relMSE", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse; });
+  add("bias", "bias", Quantity::kPercent, [](const Row& r) { return r.error.bias; });
+  add("gain", "fewer samples", Quantity::kRatio,
+      [&](const Row& r) { return gain(sweep.rows, r, r.error.samples); });
+  add("surface_gain", "on surfaces", Quantity::kRatio,
+      [&](const Row& r) { return gain(sweep.rows, r, r.error.surface_samples); });
+  add("inverse_surface_share", "1 / share of surfaces", Quantity::kRatio,
+      [](const Row& r) { return 1 / r.error.surface_share; });
+  add("inverse_coverage", "1 / coverage", Quantity::kRatio,
+      [](const Row& r) { return 1 / r.error.coverage; });
+
+  report.sections.push_back(
+      {"Method",
+       {Paragraph{fmt::format(
+           "Two pictures of {} samples and independent seeds are the truth. Plain pictures have the same "
+           "number of samples in every pixel; the noise that they state is the noise budget of the adaptive "
+           "ones, whose pixels get {} at most. All pictures have seeds of their own. relMSE is the mean over "
+           "pixels with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two truths, t is "
+           "their mean and m the mean of t. Fewer samples: those that plain sampling needs for the same "
+           "relMSE over those that were taken, in all and on pixels with alpha alone. Bias is that of the "
+           "mean luminance over these pixels. A rule that knew the variance of every pixel beforehand, and "
+           "spent nothing elsewhere, would take {:.2f} times fewer samples on pixels with alpha, {:.2f} "
+           "times fewer in all: counts in proportion to the root of the variance are the best that "
+           "there are.",
+           kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
+           sweep.best.all)}}});
+  report.sections.push_back({"Samples",
+                             {select(report.data,
+                                     {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "noise",
+                                      "samples", "surface_samples", "rel_mse", "bias", "gain", "surface_gain",
+                                      "inverse_surface_share", "inverse_coverage"},
+                                     "Samples and error.")}});
+  return measured;
+}
+
+}  // namespace pelage

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lab/runs/variant.h"
+
+namespace pelage {
+
+/// A number of one variant over that of another: by their typical runs, and the least and most that any two
+/// runs give.
+struct RatioSpread {
+  double typical = 0, least = 0, most = 0;
+};
+RatioSpread ratio_of(const Outcome& above, const Outcome& below, const std::string& path);
+
+/// "1.84 (1.79 to 1.90)"; without the spread where each variant ran once.
+std::string spread_text(const RatioSpread& ratio);
+
+}  // namespace pelage

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/progress.h"
+#include "lab/runs/process.h"
+#include "lab/runs/run_statistics.h"
+
+namespace pelage {
+
+/// What all variants of an experiment have in common.
+struct MeasureSetup {
+  std::filesystem::path program;  ///< run once per variant
+  std::filesystem::path folder;   ///< receives everything
+  std::string scene;
+  std::vector<std::string> arguments;  ///< for every run: --set, --threads
+  int repeat = 1;                      ///< runs of each variant
+  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is ended
+};
+
+/// One way to run the program.
+struct Variant {
+  std::string id;     ///< names its files: "exact-cold"
+  std::string title;  ///< for people: "exact, cold"
+  std::string command = "render";
+  std::vector<std::string> arguments;
+  bool once = false;  ///< not repeated: warming runs, and cold ones, which would be warm the second time
+  std::function<void()> prepare = {};  ///< called before each run
+};
+
+struct VariantRun {
+  std::vector<std::string> command;
+  ProcessEnd end;
+  std::string error;  ///< what it said when it did not succeed
+  double load = 0;    ///< load average (1 min) when it began
+  std::optional<RunStatistics> statistics;
+};
+
+/// What became of a variant.
+struct Outcome {
+  Variant variant;
+  std::vector<VariantRun> runs;
+
+  bool succeeded() const;      ///< every run
+  bool refused() const;        ///< exit code 4: the memory budget was too small, which is an answer
+  bool timed_out() const;      ///< a run took longer than it may
+  bool interrupted() const;    ///< stopped from outside, or never begun
+  std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
+  std::string error() const;   ///< of the run that did not succeed
+
+  /// The successful run of the median wall time; null when there is none.
+  const VariantRun* typical() const;
+  /// A number of that run's statistics, by path; not-a-number when it is not known.
+  double number(const std::string& path) const;
+  /// Least and most of it over all successful runs.
+  double least(const std::string& path) const;
+  double most(const std::string& path) const;
+};
+
+/// Runs variants, each in a process of its own, one at a time.
+class VariantRunner {
+ public:
+  /// `count` variants are expected, for the progress shown.
+  VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count);
+
+  /// Every variant gets ID.json (--stats), ID.exr or nothing (-o), and ID.log; further runs ID.2.json and so
+  /// on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be written.
+  Outcome run(const Variant& variant);
+  /// The same for many, in rounds: every variant once, then every one again, so that what changes on the
+  /// machine meanwhile falls on all alike. A variant that did not succeed is not run again.
+  std::vector<Outcome> run_in_rounds(const std::vector<Variant>& variants);
+
+  std::filesystem::path picture(const Variant& variant) const;
+
+ private:
+  VariantRun run_once(const Variant& variant, int repeat);
+  void note_failure(const Outcome& outcome);
+
+  const MeasureSetup& setup_;
+  Progress& progress_;
+  size_t count_ = 0, done_ = 0;
+};
+
+/// Every run with its command, end and statistics as a JSON array.
+std::string runs_json(const std::vector<Outcome>& outcomes);
+
+}  // namespace pelage

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/frame_chunks.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/error.h"
+#include "base/memory_budget.h"
+#include "base/parallel.h"
+#include "render/frame/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+/// What growing holds for a moment: a block of strands on its way through the operators, whose points and
+/// colours are rows of floats, twice where they are posed at several times.
+constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
+/// Most that a piece of skin costs, in triangles of about 250 bytes each: 1/256 of the budget, so that small
+/// budgets can hold many; but no less than what a leaf of some hundred strands takes, because every piece
+/// poses the faces around it too.
+size_t most_piece_cost(uint64_t memory_limit) {
+  constexpr uint64_t kLeast = 4096, kMost = 65536;
+  return memory_limit == 0 ? kMost : std::clamp<uint64_t>(memory_limit >> 16, kLeast, kMost);
+}
+
+size_t growth_bytes(const StrandCounts& n) {
+  if (n.strands == 0) return kGrowthBytes;
+  // Strands of one file may be longer than others of it.
+  const size_t points = 2 * (n.points / n.strands + 1);
+  return kGrowthBytes + kGrowthBytesPerPoint * points * (n.motion_keys > 1 ? 2 : 1);
+}
+
+const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part) {
+  const FibreParams* fibre = fibre_params(scene.materials[part.material]);
+  if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not one for fibres");
+  return *fibre;
+}
+
+}  // namespace
+
+FrameChunks::FrameChunks(const RenderScene& scene, const Job& job) : scene_(scene) {
+  for (uint32_t part = 0; part < scene.fur.size(); ++part) {
+    fibre_material(scene, scene.fur[part]);
+    for (const auto& procedural : scene.fur[part].procedurals) {
+      collect(*procedural, part, static_cast<uint32_t>(scales_.size()));
+      scales_.push_back(procedural->scale());
+    }
+  }
+  divide_skins(job);
+}
+
+void FrameChunks::divide_skins(const Job& job) {
+  size_t largest = 0;
+  for (const SkinPart& part : scene_.skins) largest = std::max(largest, part.skin->making_bytes({}));
+  const uint64_t limit = scene_.render.memory.bytes;
+  require_room(job.ledger, static_cast<int64_t>(largest), "the largest skin, posed to be divided");
+  const size_t at_once = std::min(static_cast<size_t>(job.workers.thread_count()), scene_.skins.size());
+  const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(at_once * largest) <=
+                                     static_cast<int64_t>(limit);
+  const MemoryCharge passing(job.ledger, MemoryTag::kChunks,
+                             static_cast<int64_t>(fit ? at_once * largest : largest));
+  const size_t most_cost = most_piece_cost(limit);
+  std::vector<std::vector<PieceOfSkin>> pieces(scene_.skins.size());
+  const auto divide = [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      const DeferredSkin& skin = *scene_.skins[i].skin;
+      for (SkinPiece& piece : skin.divide(scene_.camera.view(), most_cost)) {
+        const size_t making = skin.making_bytes(piece);
+        pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
+      }
+    }
+  };
+  if (fit) {
+    job.workers.for_each(pieces.size(), 1, divide);
+  } else {
+    divide({0, pieces.size()});
+  }
+  for (auto& of_skin : pieces) {
+    for (PieceOfSkin& piece : of_skin) pieces_.push_back(std::move(piece));
+  }
+}
+
+void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t coat) {
+  std::vector<std::unique_ptr<Procedural>> children = procedural.split();
+  if (children.empty()) {
+    leaves_.push_back(&procedural);
+    parts_.push_back(part);
+    coats_.push_back(coat);
+  }
+  for (std::unique_ptr<Procedural>& child : children) {
+    made_.push_back(std::move(child));
+    collect(*made_.back(), part, coat);
+  }
+}
+
+ChunkContents FrameChunks::grow(uint32_t chunk) const {
+  if (is_skin(chunk)) {
+    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
+  }
+  const FurPart& part = scene_.fur[parts_[chunk]];
+  const FibreParams& fibre = fibre_material(scene_, part);
+  FurContents fur;
+  fur.strands = leaves_[chunk]->generate();
+  strands_grown_.fetch_add(static_cast<int64_t>(fur.strands.strand_count()), std::memory_order_relaxed);
+  if (fur.strands.strand_count() > 0) {
+    find_attributes(fibre.color, fur.strands, part.name);  // throws for one that is missing
+    fur.opacity = point_opacities(fibre.opacity, fur.strands, part);
+  }
+  return {std::move(fur), parts_[chunk]};
+}
+
+ChunkCounts FrameChunks::counts(uint32_t chunk) const {
+  ChunkCounts counts;
+  if (is_skin(chunk)) {
+    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    counts.vertices = piece.piece.vertices;
+    counts.triangles = piece.piece.triangles;
+    counts.motion_keys = scene_.skins[piece.skin].skin->motion_keys();
+    counts.growth_bytes = piece.making_bytes;
+    return counts;
+  }
+  const StrandCounts strands = leaves_[chunk]->counts();
+  counts.strands = strands.strands;
+  counts.points = strands.points;
+  counts.segments = strands.segments;
+  counts.attribute_floats = strands.attribute_floats;
+  counts.motion_keys = static_cast<int>(strands.motion_keys);
+  counts.growth_bytes = growth_bytes(strands) + leaves_[chunk]->making_bytes();
+  return counts;
+}
+
+StrandScale FrameChunks::scale(uint32_t chunk) const {
+  return is_skin(chunk) ? StrandScale{} : scales_[coats_[chunk]];
+}
+
+std::string FrameChunks::name(uint32_t chunk) const {
+  return is_skin(chunk) ? scene_.skins[pieces_[chunk - leaves_.size()].skin].name
+                        : scene_.fur[parts_[chunk]].name;
+}
+
+bool FrameChunks::opaque() const {
+  return std::all_of(scene_.fur.begin(), scene_.fur.end(),
+                     [&](const FurPart& part) { return is_opaque(fibre_material(scene_, part).opacity); });
+}
+
+bool FrameChunks::in_fur_trees() const {
+  return scene_.render.accel == AccelKind::kFur && scene_.render.curves == CurveShape::kFlat;
+}
+
+size_t FrameChunks::bytes() const {
+  constexpr size_t kHeap = 16;  // of each block, its share of what the heap keeps and rounds
+  size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
+               (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
+               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]);
+  for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
+  for (const PieceOfSkin& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
+  return sum;
+}
+
+FrameChunks::Measuring FrameChunks::measuring(const Job& job) const {
+  // The strands of a leaf are charged where they are measured; the block on its way through the operators
+  // counts here.
+  Measuring most;
+  uint32_t which = 0;
+  size_t strands = 0;
+  for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const ChunkCounts n = counts(leaf);
+    const size_t own =
+        (n.points * static_cast<size_t>(n.motion_keys) * 4 + n.attribute_floats) * sizeof(float);
+    if (n.growth_bytes + own > most.block + strands) which = leaf;
+    most.block = std::max(most.block, n.growth_bytes);
+    strands = std::max(strands, own);
+  }
+  if (leaves_.empty()) return most;
+  const auto one = static_cast<int64_t>(most.block + strands);
+  require_room(job.ledger, one,
+               scene_.fur[parts_[which]].name + ": growing the largest of its parts, to be measured");
+  most.at_once = job.workers.thread_count();
+  if (job.ledger.limit() > 0) {
+    most.at_once = static_cast<int>(std::clamp<int64_t>(
+        (job.ledger.limit() - job.ledger.budgeted()) / std::max<int64_t>(1, one), 1, most.at_once));
+  }
+  return most;
+}
+
+std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& counts) const {
+  BoundingOptions options;
+  options.strategy = scene_.render.bounds;
+  options.factor = scene_.render.bounds_factor;
+  options.in_one_part = in_fur_trees();
+  std::optional<Workers> fewer;
+  MemoryCharge blocks;
+  if (measures_strands(options.strategy)) {
+    const Measuring measuring = this->measuring(job);
+    blocks = MemoryCharge(job.ledger, MemoryTag::kChunks,
+                          static_cast<int64_t>(measuring.block) * measuring.at_once);
+    if (measuring.at_once < job.workers.thread_count()) fewer.emplace(measuring.at_once);
+  }
+  std::vector<ChunkBounds> bounds =
+      bound_chunks(options, leaves_, {fewer ? *fewer : job.workers, job.ledger, job.progress}, &counts);
+  blocks = {};
+  for (const PieceOfSkin& piece : pieces_) {
+    ChunkBounds box;
+    box.keys = bound_keys(options.strategy);
+    box.boxes.assign(static_cast<size_t>(box.keys),
+                     scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(options.strategy)));
+    bounds.push_back(std::move(box));
+  }
+  return bounds;
+}
+
+}  // namespace pelage

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/frame_geometry.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+#include "base/stopwatch.h"
+#include "render/frame/stored_fur.h"
+
+namespace pelage {
+
+FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
+                             const ChunkAccelOptions& options, const Job& job)
+    : chunks_(std::move(chunks)),
+      chunks_charge_(job.ledger, MemoryTag::kChunks, static_cast<int64_t>(chunks_->bytes())),
+      stored_(options.file),
+      stored_charge_(job.ledger, MemoryTag::kChunks,
+                     options.file ? static_cast<int64_t>(options.file->bytes()) : 0),
+      accel_(std::move(bounds), *chunks_, options, job) {}
+
+std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Job& job,
+                                                         Statistics& statistics) {
+  const Stopwatch preparing;
+  auto chunks = std::make_unique<const FrameChunks>(scene, job);
+  const Stopwatch bounding;
+  BoundingCounts found;
+  std::vector<ChunkBounds> bounds = chunks->bounds(job, found);
+  const double bound_s = bounding.seconds();
+  statistics.stages_s["bound"] += bound_s;
+  if (job.progress.cancelled()) return nullptr;
+  statistics.chunks += static_cast<int64_t>(chunks->size());
+  statistics.bounds_area += found.area.chunks;
+  statistics.part_bounds_area += found.area.parts;
+
+  ChunkAccelOptions options;
+  options.kind = scene.render.accel;
+  options.chunk.shape = scene.render.curves;
+  options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
+  options.eager = scene.render.bounds == BoundingStrategy::kNone;
+  options.memory_limit = scene.render.memory.bytes;
+  options.threads = job.workers.thread_count();
+  options.opaque = chunks->opaque();
+  const Stopwatch storing;
+  const bool may_store = !options.eager && chunks->in_fur_trees();
+  const bool stores = !scene.render.bvh.file.empty() && may_store;
+  if (!scene.render.bvh.file.empty() && !may_store) {
+    job.progress.warn(
+        "render.bvh.file: only trees of accel: fur, curves: flat are kept, and none with bounds: none; "
+        "going on without");
+  }
+  if (stores) {
+    options.file = stored_fur(scene.render, *chunks, options, job);
+    if (job.progress.cancelled()) return nullptr;
+  }
+  const double store_s = storing.seconds();
+  if (stores) statistics.stages_s["store"] += store_s;
+  const Stopwatch growing;
+  std::unique_ptr<const FrameGeometry> geometry(
+      new FrameGeometry(std::move(chunks), std::move(bounds), options, job));
+  const double grow_s = options.eager ? growing.seconds() : 0;
+  if (options.eager) statistics.stages_s["grow"] += grow_s;
+  statistics.stages_s["prepare"] += preparing.seconds() - bound_s - store_s - grow_s;
+  return job.progress.cancelled() ? nullptr : std::move(geometry);
+}
+
+void FrameGeometry::add_to(Statistics& statistics) const {
+  const ResidencyCounts counts = accel_.counts();
+  statistics.strands_generated += chunks_->strands_grown();
+  if (stored_) {
+    statistics.chunks_read += stored_->chunks_read();
+    statistics.chunk_bytes_read += stored_->bytes_read();
+  }
+  statistics.chunks_touched += counts.touched;
+  statistics.expansions += counts.expansions;
+  statistics.reexpansions += counts.reexpansions;
+  statistics.false_expansions += counts.false_expansions;
+  statistics.evictions += counts.evictions;
+  statistics.residency_wait_s += counts.waited_s;
+  statistics.working_set_bytes = std::max(statistics.working_set_bytes, counts.working_set_bytes);
+}
+
+}  // namespace pelage

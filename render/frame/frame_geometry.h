@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "base/job.h"
+#include "base/statistics.h"
+#include "render/accel/chunk_accel.h"
+#include "render/frame/frame_chunks.h"
+
+namespace pelage {
+
+/// The geometry of a frame: chunks, the boxes around them, and what rays are traced with. Chunks are grown
+/// when a ray needs them, unless the scene asks for everything up front.
+class FrameGeometry {
+ public:
+  /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
+  /// the largest chunk. Returns null when cancelled.
+  static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Job& job,
+                                                   Statistics& statistics);
+
+  const Accel& accel() const { return accel_; }
+  /// Whether all chunks together fit the budget, so that none is ever evicted.
+  bool fits() const { return accel_.fits(); }
+  /// Adds what was grown, evicted and tested.
+  void add_to(Statistics& statistics) const;
+
+ private:
+  FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
+                const ChunkAccelOptions& options, const Job& job);
+
+  std::unique_ptr<const FrameChunks> chunks_;
+  MemoryCharge chunks_charge_;
+  std::shared_ptr<const FurChunkFile> stored_;
+  MemoryCharge stored_charge_;
+  ChunkAccel accel_;
+};
+
+}  // namespace pelage

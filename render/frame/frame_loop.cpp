@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/frame_loop.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "render/accel/flush_denormals.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kTileSide = 16;
+
+int tile_count(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
+
+}  // namespace
+
+FrameLoop::FrameLoop(const PathTracer& tracer, const Job& job, Film& film, const Stopwatch& clock)
+    : tracer_(tracer),
+      job_(job),
+      film_(film),
+      clock_(clock),
+      tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
+      costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
+      given_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())),
+      scratch_(static_cast<size_t>(job.workers.thread_count())) {
+  for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
+}
+
+uint32_t FrameLoop::least_given() const { return *std::min_element(given_.begin(), given_.end()); }
+
+double FrameLoop::mean_given() const {
+  return std::accumulate(given_.begin(), given_.end(), 0.0) / static_cast<double>(given_.size());
+}
+
+FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
+  const std::vector<Tile> tiles = scattered ? pelage::scattered(tiles_) : tiles_;
+  std::atomic<bool> cancelled{false}, out_of_time{false};
+  job_.workers.for_each(tiles.size(), 1, [&](WorkRange range) {
+    const FlushDenormals flush;
+    for (size_t i = range.begin; i < range.end; ++i) {
+      if (job_.progress.cancelled()) {
+        cancelled = true;
+        return;
+      }
+      if (clock_.seconds() > deadline_s) {
+        out_of_time = true;
+        return;
+      }
+      if (!trace(tiles[i], goal, scratch_[static_cast<size_t>(range.worker)])) {
+        cancelled = true;
+        return;
+      }
+      double none = 0;
+      if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
+    }
+  });
+  if (cancelled) return End::kCancelled;
+  return out_of_time ? End::kOutOfTime : End::kDone;
+}
+
+bool FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) {
+  const double began = clock_.seconds();
+  int64_t traced = 0;
+  bool stopped = false;
+  for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
+    for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
+      uint32_t& given =
+          given_[static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x)];
+      const uint32_t before = given;
+      stopped = !trace_pixel(x, y, goal, given, scratch);
+      traced += given - before;
+    }
+  }
+  TileCost& cost = costs_[tile_of(tile.x0, tile.y0)];
+  cost.seconds += clock_.seconds() - began;
+  cost.samples += static_cast<double>(traced);
+  job_.progress.advance(static_cast<double>(traced));
+  return !stopped;
+}
+
+bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch) {
+  constexpr uint32_t kBetweenLooks = 16;  // samples: a tile of many takes minutes
+  const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+  for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
+    for (; given < until; ++given) {
+      if (given % kBetweenLooks == 0 && job_.progress.cancelled()) return false;
+      tracer_.trace(x, y, given, scratch);
+      if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
+    }
+  }
+  return true;
+}
+
+size_t FrameLoop::tile_of(int x, int y) const {
+  return static_cast<size_t>(y / kTileSide) * static_cast<size_t>(tile_count(width())) +
+         static_cast<size_t>(x / kTileSide);
+}
+
+double FrameLoop::cost(size_t pixel) const {
+  const auto columns = static_cast<size_t>(width());
+  const TileCost& tile =
+      costs_[tile_of(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns))];
+  return tile.samples > 0 ? tile.seconds / tile.samples : 0;
+}
+
+void FrameLoop::add_to(Statistics& statistics) const {
+  statistics.samples_rejected += rejected_;
+  for (const PathScratch& scratch : scratch_) {
+    statistics.box_tests += scratch.thread.counts.box_tests;
+    statistics.chunk_visits += scratch.thread.counts.chunk_visits;
+    statistics.rays["camera"] += scratch.rays.camera;
+    statistics.rays["shadow"] += scratch.rays.shadow;
+    statistics.rays["indirect"] += scratch.rays.indirect;
+  }
+  statistics.clamped_fraction = std::max(statistics.clamped_fraction, clamped_fraction());
+}
+
+double FrameLoop::clamped_fraction() const {
+  int64_t lost = 0, indirect = 0;
+  for (const PathScratch& scratch : scratch_) {
+    lost += scratch.clamp.lost;
+    indirect += scratch.clamp.indirect;
+  }
+  return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
+}
+
+}  // namespace pelage

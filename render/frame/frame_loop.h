@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "base/job.h"
+#include "base/statistics.h"
+#include "base/stopwatch.h"
+#include "render/film/film.h"
+#include "render/frame/tile_order.h"
+#include "render/path/path_tracer.h"
+
+namespace pelage {
+
+/// Traces passes of samples over a film, tile by tile.
+class FrameLoop {
+ public:
+  /// How many samples a pixel should have that has `given`. Asked again until it has them; called by the
+  /// thread that traces the pixel.
+  using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
+  enum class End { kDone, kCancelled, kOutOfTime };
+
+  /// `clock` is what deadlines refer to.
+  FrameLoop(const PathTracer& tracer, const Job& job, Film& film, const Stopwatch& clock);
+
+  int width() const { return film_.width(); }
+  int height() const { return film_.height(); }
+  size_t pixel_count() const { return given_.size(); }
+  const Film& film() const { return film_; }
+  /// Samples that were traced for a pixel.
+  uint32_t given(size_t pixel) const { return given_[pixel]; }
+  uint32_t least_given() const;
+  double mean_given() const;
+
+  /// Brings every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, far from each
+  /// other, so that threads that begin together do not wait for the same fur. Samples of one pixel are added
+  /// in order by one thread. Once the clock passes `deadline` no more tiles are begun.
+  End pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
+
+  /// Seconds of one thread that a sample of the pixel's tile has taken so far.
+  double cost(size_t pixel) const;
+  /// What the clock said when the first tile was done.
+  double first_tile_s() const { return first_tile_s_; }
+  void add_to(Statistics& statistics) const;
+  /// Fraction of the indirect light that render.clamp_indirect took away.
+  double clamped_fraction() const;
+
+ private:
+  struct TileCost {
+    double seconds = 0, samples = 0;
+  };
+  /// False when it was cancelled in the middle.
+  bool trace(const Tile& tile, const Goal& goal, PathScratch& scratch);
+  bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch);
+  size_t tile_of(int x, int y) const;
+
+  const PathTracer& tracer_;
+  Job job_;
+  Film& film_;
+  const Stopwatch& clock_;
+  std::vector<Tile> tiles_;
+  std::vector<TileCost> costs_;       // of tiles row by row
+  std::vector<uint32_t> given_;       // by pixel
+  std::vector<PathScratch> scratch_;  // one per worker
+  std::atomic<int64_t> rejected_{0};
+  std::atomic<double> first_tile_s_{0};
+};
+
+}  // namespace pelage

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/frame_shading.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/hash.h"
+#include "geom/packed_direction.h"
+#include "geom/strand_point.h"
+#include "procedurals/coat_detail.h"
+#include "render/frame/skin_point.h"
+#include "render/frame/strand_fields.h"
+
+namespace pelage {
+namespace {
+
+/// Place over the whole strand of a place in one of its segments.
+float along_strand(const Strands& strand, const Hit& hit) {
+  const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
+  return (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
+}
+
+/// A place across a fibre that has nothing to do with where it was hit: the far field, one sample at a time.
+float random_offset(const Hit& hit) {
+  return signed_float(hash64(random_use("far field"), hit.strand_id, hit.segment,
+                             std::bit_cast<uint32_t>(hit.u), std::bit_cast<uint32_t>(hit.v)));
+}
+
+std::optional<Rgb> constant_of(const Field& field) {
+  return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
+}
+
+// Farthest place along a fibre where a ray is taken to have entered that passes the axis here, over the
+// radius. Beyond 83 degrees the fibre is no cylinder for so long.
+constexpr float kFarthestEntry = 8;
+
+/// How far along the tangent from where a ray is nearest to the axis it has met a fibre's surface, over the
+/// radius.
+float entry_place(const FibrePoint& at, float h) {
+  const FibreFrame frame(at.tangents[0], at.wo);
+  const float slant = frame.sin_theta_o() / frame.cos_theta_o();
+  return std::clamp(std::sqrt(std::max(0.0f, 1 - h * h)) * slant, -kFarthestEntry, kFarthestEntry);
+}
+
+// How far above the skin light starts that leaves it beside the hit, over the way to there: facets stand out
+// of the surface that they stand for.
+constexpr float kSkinRise = 0.08f;
+
+/// Numbers of what is seen and of the line of sight, not of the place where it was met: what changes a little
+/// from frame to frame must not draw anew.
+class SightDice {
+ public:
+  SightDice(const Ray& ray, uint64_t seen) : ray_(ray), seen_(seen) {}
+  float number(uint64_t use) const {
+    return unit_float(hash64(use, seen_, bits(0), bits(1) << 32 | bits(2)));
+  }
+  /// A place on a skin with this normal, evenly in a disc about the origin.
+  V3f on_skin(const V3f& normal, float radius) const {
+    const V3f side = normal.cross(std::abs(normal.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized();
+    const float angle = 2 * std::numbers::pi_v<float> * number(random_use("deputy: angle"));
+    const float distance = radius * std::sqrt(number(random_use("deputy: distance")));
+    return distance * (std::cos(angle) * side + std::sin(angle) * normal.cross(side));
+  }
+
+ private:
+  uint64_t bits(int i) const { return std::bit_cast<uint32_t>(ray_.direction[i]); }
+
+  const Ray& ray_;
+  uint64_t seen_;
+};
+
+/// One of the strands that a strand with reduced detail stands for, from which light goes on: were it to go
+/// on from the wide strand, it would find its way as clear as the line of sight, and the room empty where the
+/// others would be.
+struct Deputy {
+  V3f away{0};
+  bool meets_own = false;
+};
+
+Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
+                 const Strands& strand) {
+  Deputy deputy;
+  const StrandAttribute* packed = strand.find_attribute(kRootDetail);
+  const float spread = lod.spread(share);
+  if (!packed || packed->components != kRootDetailSize || !(spread > 0)) return deputy;
+  const SightDice dice(ray, hit.strand_id);
+  deputy.away = dice.on_skin(unpacked_line({packed->values[0], packed->values[1]}), spread);
+  deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
+  return deputy;
+}
+
+/// Never lighter than white, unless the colour itself is.
+Rgb tinted(const Rgb& color, const Rgb& tint) {
+  Rgb result;
+  for (int i = 0; i < 3; ++i) result[i] = std::min(color[i] * tint[i], std::max(color[i], 1.0f));
+  return result;
+}
+
+}  // namespace
+
+FrameShading::FrameShading(const RenderScene& scene)
+    : scene_(scene),
+      leaves_own_strand_(scene.render.accel == AccelKind::kFur && scene.render.curves == CurveShape::kFlat),
+      fibres_(scene.materials.size()),
+      skins_(scene.materials.size()) {
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
+      fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
+                               fibre->color.attribute_names()});
+    } else if (const auto* lambert = std::get_if<LambertParams>(&scene.materials[i])) {
+      skins_[i] = Skin{lambert->color, constant_of(lambert->color), std::nullopt};
+    } else if (const auto* glossy = std::get_if<GlossyParams>(&scene.materials[i])) {
+      skins_[i] = Skin{glossy->color, constant_of(glossy->color), *glossy};
+    }
+  }
+  for (const SkinPart& part : scene.skins) {
+    if (!skins_.at(part.material))
+      throw Error(ErrorKind::kInput, part.name + ": its material is not one for skins");
+  }
+}
+
+Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const {
+  if (fibre.constant_color) return *fibre.constant_color;
+  std::array<const StrandAttribute*, kMaxFieldAttributes> attributes;
+  for (size_t i = 0; i < fibre.attributes.size(); ++i)
+    attributes[i] = strand.find_attribute(fibre.attributes[i]);
+  return strand_color(fibre.color, strand, std::span(attributes).first(fibre.attributes.size()),
+                      scene_.fur[hit.part].rest.get(), {0, hit.segment, hit.u, v});
+}
+
+float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
+  if (!lod) return 1;
+  const StrandAttribute* detail = strand.find_attribute(kRootDetail);
+  if (detail && detail->components == kRootDetailSize) return unpacked_share(detail->values[2]);
+  return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
+}
+
+ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const {
+  const Fibre& fibre = *fibres_[scene_.fur[hit.part].material];
+  const StrandPoint point = strand_point(strand, 0, hit.segment, hit.u, ray.time);
+  const float v = along_strand(strand, hit);
+
+  FibrePoint at;
+  at.tangents.fill(point.tangent);
+  if (const ConeShellMaterial* shells = fibre.material.cone_shell()) {
+    for (LobeGroup lobe : {LobeGroup::kPrimary, LobeGroup::kSecondary}) {
+      const float place = shells->tangent_place(lobe, v, hit.strand_id, 0);
+      at.tangents[static_cast<size_t>(lobe)] = strand_tangent(strand, 0, place, ray.time);
+    }
+  }
+  at.wo = -ray.direction;
+  at.h = fibre.material.far_field() ? random_offset(hit) : std::clamp(hit.v, -1.0f, 1.0f);
+  at.color = tinted(fibre_color(fibre, strand, hit, v), scene_.fur[hit.part].tint);
+  const FibreBsdf bsdf = fibre.material.at(at);
+  const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
+  const float share = lod ? kept_share(hit, strand) : 1.0f;
+  if (share < 1 && leaves_own_strand_) {
+    Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
+    // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
+    // coat from the side are the upper edges of wide strands.
+    const float beside_axis = 1 - 1 / lod->gain(share);
+    deputy.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
+    return {point.position, point.tangent, point.radius / lod->gain(share), deputy.away, deputy.meets_own,
+            at.h,           bsdf};
+  }
+  // Flat strands are met where the ray is nearest to the axis, round ones where it enters.
+  const float entry = scene_.render.curves == CurveShape::kFlat ? entry_place(at, hit.v) : 0.0f;
+  return {point.position,
+          point.tangent,
+          point.radius,
+          ray.origin + hit.distance * ray.direction,
+          at.h,
+          bsdf,
+          point.radius * (entry + fibre.material.farther(at))};
+}
+
+Rgb FrameShading::skin_color(const SkinPart& part, const Skin& skin, const Hit& hit,
+                             const SkinMesh& triangle) const {
+  if (skin.constant_color) return *skin.constant_color;
+  FieldPoint point;
+  if (part.rest) {
+    const uint32_t face = triangle.faces[0];
+    const V2f place = skin_parameters(triangle, hit);
+    const V2f uv = part.rest->topology().texture_coordinates(face, place.x, place.y);
+    point.u = uv.x;
+    point.v = uv.y;
+    if (skin.color.dependence().surface) point.rest = part.rest->evaluate(face, place.x, place.y).position;
+  }
+  return skin.color.color(point);
+}
+
+ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const {
+  const SkinPart& part = scene_.skins[hit.part];
+  const Skin& skin = *skins_[part.material];
+  SkinPoint point = pelage::skin_point(triangle, ray, hit);
+  const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
+  if (part.lod && leaves_own_strand_) {
+    // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
+    // wide strands.
+    const V3f open = point.position - ray.time * point.shutter_motion;
+    const float share =
+        part.lod->share({.open = open, .close = open + point.shutter_motion, .normal = point.normal});
+    V3f away = SightDice(ray, hit.part).on_skin(point.normal, part.lod->spread(share));
+    const float rise = skin_rise(triangle, ray.time, point.normal, away);
+    away += (rise + kSkinRise * away.length()) * point.normal;
+    point.position += away;
+    point.start += away;
+  }
+  if (!skin.coat) return {point.position, point.start, LambertBsdf(color, point.normal)};
+  return {point.position, point.start,
+          GlossyBsdf(color, skin.coat->roughness, skin.coat->ior, point.normal, -ray.direction)};
+}
+
+ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+  return hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand)
+                                      : skin_point(ray, hit, met.triangle);
+}
+
+/// Pixels from the frame to the next one for a point seen at `time` of the shutter, which goes on moving as
+/// it does, on average, while the shutter is open; the camera moves as its keys say.
+V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const {
+  const Camera& camera = scene_.camera;
+  const float frames = camera.shutter_frames();
+  const V3f per_frame = frames > 0 ? shutter_motion / frames : V3f(0);
+  const V3f now = position + shutter_motion * (camera.frame_time() - time);
+  const auto from = camera.project_at_frame(now, 0);
+  const auto to = camera.project_at_frame(now + per_frame, 1);
+  if (!from || !to) return V2f(0);
+  return {to->x - from->x, to->y - from->y};
+}
+
+VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+  VisibleSurface surface;
+  const V3f position = ray.origin + hit.distance * ray.direction;
+  const Camera& camera = scene_.camera;
+  surface.depth = (position - camera.position(ray.time)).dot(camera.axis(ray.time));
+  if (hit.kind == HitKind::kSkin) {
+    const SkinPart& part = scene_.skins[hit.part];
+    const SkinPoint point = pelage::skin_point(met.triangle, ray, hit);
+    surface.normal = point.normal;
+    if (part.rest) {
+      const V2f place = skin_parameters(met.triangle, hit);
+      surface.root_uv = part.rest->topology().texture_coordinates(met.triangle.faces[0], place.x, place.y);
+    }
+    surface.forward = motion_in_image(position, point.shutter_motion, ray.time);
+    return surface;
+  }
+  const Strands& strand = met.strand;
+  surface.tangent = strand_point(strand, 0, hit.segment, hit.u, ray.time).tangent;
+  // The normal of a circular fibre at h, from the frame of the fibre and the ray.
+  const V3f across = surface.tangent.cross(-ray.direction);
+  const float length = across.length();
+  if (length > 1e-6f) {
+    const V3f ez = across / length;
+    const V3f ey = ez.cross(surface.tangent);
+    surface.normal = std::sqrt(std::max(0.0f, 1 - hit.v * hit.v)) * ey - hit.v * ez;
+  } else {
+    surface.normal = -ray.direction;
+  }
+  V3f motion(0);
+  if (strand.motion_keys() > 1) {
+    motion = strand_point(strand, 0, hit.segment, hit.u, 1).position -
+             strand_point(strand, 0, hit.segment, hit.u, 0).position;
+  }
+  surface.forward = motion_in_image(position, motion, ray.time);
+  surface.root_uv = strand.root_uv(0);
+  surface.id = static_cast<uint32_t>(hit.strand_id);
+  surface.left_out = 1 - kept_share(hit, strand);
+  return surface;
+}
+
+}  // namespace pelage

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/accel/accel.h"
+#include "render/fibre/fibre_material.h"
+#include "render/film/film.h"
+#include "render/light/scatter_point.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Turns hits into what the materials of a scene make of them. Refers to the scene for as long as it lives.
+/// `met` is what the accelerator left of the hit.
+/// Thread safety: const members may be called from any thread.
+class FrameShading {
+ public:
+  explicit FrameShading(const RenderScene& scene);
+
+  ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  /// What the film keeps of the first surface of a path.
+  VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+
+ private:
+  struct Fibre {
+    FibreMaterial material;
+    Field color;
+    std::optional<Rgb> constant_color;
+    std::vector<std::string> attributes;  // that the colour reads
+  };
+  struct Skin {
+    Field color;
+    std::optional<Rgb> constant_color;
+    std::optional<GlossyParams> coat;  // none: Lambert
+  };
+
+  /// The share of the strands that were kept where this one stands.
+  float kept_share(const Hit& hit, const Strands& strand) const;
+  ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
+  ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;
+  Rgb fibre_color(const Fibre& fibre, const Strands& strand, const Hit& hit, float v) const;
+  Rgb skin_color(const SkinPart& part, const Skin& skin, const Hit& hit, const SkinMesh& triangle) const;
+  V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
+
+  const RenderScene& scene_;
+  const bool leaves_own_strand_;
+  std::vector<std::optional<Fibre>> fibres_;  // by material
+  std::vector<std::optional<Skin>> skins_;    // by material
+};
+
+}  // namespace pelage

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/sample_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/parallel.h"
+#include "render/sampling/adaptive_rule.h"
+
+namespace pelage {
+namespace {
+
+/// `count`, a real number of any size, as a number of samples.
+uint32_t limited(double count, uint32_t least, uint32_t most) {
+  return std::max(least, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(most))));
+}
+
+/// Of the pilot, what is spent on finding out where something varies at all.
+constexpr uint32_t kProbeShare = 4;
+
+Pilot pilot_of(const Film& film) {
+  Pilot pilot{film.width(), film.height(), {}};
+  pilot.pixels.reserve(film.moments().size());
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      const PixelMoments& moments = film.moments()[pilot.pixels.size()];
+      pilot.pixels.push_back({static_cast<float>(moments.mean), static_cast<float>(moments.variance()),
+                              film.alpha(x, y) > 0, moments.count});
+    }
+  }
+  return pilot;
+}
+
+}  // namespace
+
+SampleSchedule::SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job,
+                               const Stopwatch& clock, bool stays)
+    : loop_(loop), params_(params), job_(job), clock_(clock), in_passes_(stays || params.time_limit > 0) {}
+
+double SampleSchedule::deadline() const {
+  const bool limited = params_.time_limit > 0 && loop_.least_given() > 0;
+  return limited ? double{params_.time_limit} : std::numeric_limits<double>::infinity();
+}
+
+ScheduleEnd SampleSchedule::run() {
+  End end = End::kDone;
+  if (!params_.adaptive) {
+    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * most());
+    end = uniform(most());
+  } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
+    end = two_stage();
+  } else {
+    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * most());
+    end = seed();
+  }
+  job_.progress.end();
+  return {end == End::kCancelled, cut_ || end == End::kOutOfTime};
+}
+
+SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
+  End end = End::kDone;
+  double last_pass_s = 0;  // of one sample per pixel
+  for (uint32_t given = 0; given < samples && end == End::kDone;) {
+    uint32_t next = in_passes_ ? std::min(samples, std::max(1u, 2 * given)) : samples;
+    if (params_.time_limit > 0 && given > 0) {
+      const double fits = std::max(0.0, (params_.time_limit - clock_.seconds()) / last_pass_s);
+      job_.progress.expect(static_cast<double>(loop_.pixel_count()) *
+                           std::min(static_cast<double>(samples), given + fits));
+      if (fits < 1) return End::kOutOfTime;
+      if (fits < next - given) next = given + static_cast<uint32_t>(fits);
+    }
+    const double began = clock_.seconds();
+    end = loop_.pass([next](size_t, uint32_t) { return next; }, in_passes_ && given == 0, deadline());
+    last_pass_s = std::max(1e-9, (clock_.seconds() - began) / (next - given));
+    given = next;
+  }
+  return end;
+}
+
+SampleSchedule::End SampleSchedule::pilot() {
+  const uint32_t pilot = std::min(most(), static_cast<uint32_t>(params_.adaptive->pilot));
+  const uint32_t probe = (pilot + kProbeShare - 1) / kProbeShare;
+  job_.progress.begin("pilot", static_cast<double>(loop_.pixel_count()) * pilot);
+  End end = uniform(probe);
+  if (end == End::kDone) {
+    const std::vector<uint8_t> worth = worth_a_pilot(pilot_of(loop_.film()));
+    const auto goal = [&](size_t pixel, uint32_t) { return worth[pixel] ? pilot : probe; };
+    double expected = 0;
+    for (size_t i = 0; i < worth.size(); ++i) expected += goal(i, 0);
+    job_.progress.expect(expected);
+    end = loop_.pass(goal, false, deadline());
+  }
+  job_.progress.end();
+  return end;
+}
+
+SampleSchedule::End SampleSchedule::two_stage() {
+  End end = pilot();
+  std::vector<uint32_t> before(loop_.pixel_count());
+  for (size_t i = 0; i < before.size(); ++i) before[i] = loop_.given(i);
+  const std::vector<uint32_t> counts = end == End::kDone ? second_stage_counts() : before;
+  double missing = 0;
+  for (size_t i = 0; i < before.size(); ++i) missing += counts[i] - before[i];
+  job_.progress.begin("render", missing);
+  for (uint32_t share : {8u, 4u, 2u, 1u}) {
+    if (share > 1 && !in_passes_) continue;
+    if (end != End::kDone) break;
+    const auto goal = [&](size_t pixel, uint32_t) {
+      return before[pixel] + (counts[pixel] - before[pixel] + share - 1) / share;
+    };
+    end = loop_.pass(goal, false, deadline());
+  }
+  return end;
+}
+
+std::vector<uint32_t> SampleSchedule::second_stage_counts() {
+  const std::vector<float> wanted = two_stage_counts(pilot_of(loop_.film()), *params_.adaptive, most());
+  const auto count = [&](size_t pixel, double factor) {
+    return limited(whole_blocks(std::min<double>(factor * wanted[pixel], most())), loop_.given(pixel),
+                   most());
+  };
+  double factor = 1;
+  if (params_.time_limit > 0) {
+    const double left = (params_.time_limit - clock_.seconds()) * job_.workers.thread_count();
+    const auto cost = [&](double tried) {
+      double sum = 0;
+      for (size_t i = 0; i < wanted.size(); ++i) sum += loop_.cost(i) * (count(i, tried) - loop_.given(i));
+      return sum;
+    };
+    if (cost(1) > left) {
+      cut_ = true;
+      double low = 0, high = 1;
+      for (int step = 0; step < 30; ++step) {
+        factor = 0.5 * (low + high);
+        (cost(factor) > left ? high : low) = factor;
+      }
+      factor = low;
+    }
+  }
+  std::vector<uint32_t> counts(wanted.size());
+  for (size_t i = 0; i < counts.size(); ++i) counts[i] = count(i, factor);
+  return counts;
+}
+
+SampleSchedule::End SampleSchedule::seed() {
+  const auto batch = static_cast<uint32_t>(params_.adaptive->batch);
+  const double noise = params_.adaptive->noise;
+  const std::vector<PixelMoments>& moments = loop_.film().moments();
+  End end = End::kDone;
+  for (uint32_t cap = in_passes_ ? std::min(batch, most()) : most(); end == End::kDone;) {
+    const auto goal = [&](size_t pixel, uint32_t given) {
+      if (given > 0 && looks_converged(moments[pixel], noise)) return given;
+      return std::min(cap, given + batch);
+    };
+    end = loop_.pass(goal, loop_.given(0) == 0 && in_passes_, deadline());
+    // What pixels that go on will need, if they vary as they did.
+    double expected = 0;
+    bool done = true;
+    for (size_t i = 0; i < loop_.pixel_count(); ++i) {
+      const uint32_t given = loop_.given(i);
+      const PixelMoments& m = moments[i];
+      if (given >= most() || (given > 0 && looks_converged(m, noise))) {
+        expected += given;
+        continue;
+      }
+      done = false;
+      const double needed = m.variance() * std::pow(kConfidence / (noise * m.mean), 2);
+      expected += limited(needed, given, most());
+    }
+    job_.progress.expect(expected);
+    if (done) break;
+    cap = cap > most() / 2 ? most() : 2 * cap;
+  }
+  return end;
+}
+
+}  // namespace pelage

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/field.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Most attributes that one field of a fibre material may read.
+inline constexpr size_t kMaxFieldAttributes = 8;
+
+/// A place on a strand.
+struct StrandPlace {
+  size_t strand = 0;
+  uint32_t segment = 0;
+  float u = 0;
+  float v = 0;  ///< over the whole strand: 0 at the root, 1 at the tip
+};
+
+/// The attributes that `field` reads, in the order of its names. Throws Error (kInput) when the strands of
+/// the part named `part` lack one.
+std::vector<const StrandAttribute*> find_attributes(const Field& field, const Strands& strands,
+                                                    const std::string& part);
+
+/// The colour of a field of a fibre material at a place on a strand; `attributes` as find_attributes() gives
+/// them.
+Rgb strand_color(const Field& field, const Strands& strands,
+                 std::span<const StrandAttribute* const> attributes, const LimitSurface* rest,
+                 const StrandPlace& place);
+
+/// Whether a field of a fibre material says that strands are opaque everywhere.
+inline bool is_opaque(const Field& opacity) { return opacity.is_constant() && opacity.value({}) >= 1; }
+
+/// Opacity at every control point, or nothing when it is 1 everywhere.
+std::vector<float> point_opacities(const Field& opacity, const Strands& strands, const FurPart& part);
+
+}  // namespace pelage

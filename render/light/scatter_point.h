@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "render/fibre/fibre_bsdf.h"
+#include "render/light/exit_circle.h"
+#include "render/surface/glossy.h"
+#include "render/surface/lambert.h"
+
+namespace pelage {
+
+/// A vertex of a path: where light is scattered, and how. Fibres and skins alike, in terms of lobe groups and
+/// of rho = f cos(theta_i) as FibreBsdf has it.
+class ScatterPoint {
+ public:
+  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface; `h` across it, as
+  /// the fibre's model was told. Most light leaves it at the point of the axis that is `farther` along the
+  /// tangent.
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
+               const FibreBsdf& bsdf, float farther = 0)
+      : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
+  /// The same of a strand that stands for many: light leaves one of them, which is `away` from it; the strand
+  /// itself may be in its way (`meets_own`).
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool meets_own, float h,
+               const FibreBsdf& bsdf)
+      : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
+    meets_own_ = meets_own;
+  }
+  /// A point of a skin: `start` is where rays that leave it begin.
+  ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
+      : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
+  ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
+      : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
+
+  /// Where light sampling looks from, before exit() says on which lines light gets there.
+  const V3f& position() const { return exit_.center; }
+  /// Unit tangent of a fibre, the null vector on a skin.
+  const V3f& tangent() const { return exit_.tangent; }
+  /// Where light leaves, as near lights see it; a point on a skin.
+  const ExitCircle& exit() const { return exit_; }
+
+  /// Whether rays that start here may meet the strand that was hit, near this place too.
+  bool meets_own() const { return meets_own_; }
+
+  FibreValue eval(const V3f& wi) const {
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->eval(wi));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->eval(wi));
+  }
+
+  std::optional<FibreSample> sample(const V3f& u) const {
+    if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->sample(u);
+    if (const auto* skin = std::get_if<LambertBsdf>(&bsdf_)) return as_fibre(skin->sample({u.x, u.y}));
+    return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
+  }
+
+  /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never under
+  /// the surface of the fibre, which does not shadow itself. Light that meets a fibre evenly across its width
+  /// leaves it so. The circle is about the hit's own place along the fibre, so that a bent fibre does not
+  /// cover it.
+  V3f start(const V3f& wi) const {
+    const float radius = exit_.radius;
+    if (radius == 0) return surface_;
+    const V3f side = wi - wi.dot(tangent()) * tangent();
+    const float length2 = side.length2();
+    if (length2 < 1e-6f) return surface_;
+    const V3f from_axis = exit_.outside(side / std::sqrt(length2));
+    // Far from the origin a few units in the last place are more than a thousandth of a thin fibre.
+    const float largest = std::max({std::abs(position_.x), std::abs(position_.y), std::abs(position_.z)});
+    return position_ + (kJustOutside * radius + 0x1p-21f * largest) * from_axis;
+  }
+
+ private:
+  static constexpr float kJustOutside = 1.001f;
+
+  /// Surfaces in the groups of fibres: what skin scatters is diffuse, its coat the primary highlight.
+  static FibreValue as_fibre(const SurfaceValue& value) { return {{value.rho, Rgb(0), Rgb(0)}, value.pdf}; }
+  static FibreValue as_fibre(const GlossyValue& value) {
+    return {{value.diffuse, Rgb(value.specular), Rgb(0)}, value.pdf};
+  }
+  template <class Sample>
+  static std::optional<FibreSample> as_fibre(const std::optional<Sample>& sample) {
+    if (!sample) return std::nullopt;
+    return FibreSample{sample->wi, as_fibre(sample->value)};
+  }
+
+  V3f position_;
+  V3f surface_;
+  ExitCircle exit_;
+  bool meets_own_ = false;
+  std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
+};
+
+}  // namespace pelage

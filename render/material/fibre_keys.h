@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/material/fibre_params.h"
+
+// Keys that models of fibres share.
+
+namespace pelage {
+
+inline constexpr const char* kColorHelp =
+    "Colour of much such fur together, turned into absorption; unused where a preset, absorption or melanin "
+    "is given";
+
+template <class P>
+void add_color_keys(Schema<P>& s, const char* help) {
+  s.key("color", static_cast<Field P::*>(&P::color), {.help = help, .min = 0, .max = 1});
+  s.key("opacity", static_cast<Field P::*>(&P::opacity),
+        {.help = "How much of what lies behind a strand it hides", .min = 0, .max = 1});
+}
+
+template <class P>
+void add_absorption_keys(Schema<P>& s) {
+  using Amount = std::optional<float> P::*;
+  s.key(
+      "preset", static_cast<HairPreset P::*>(&P::preset),
+      {.help =
+           "Pigments to start from; absorption, eumelanin and pheomelanin below take their place. What the "
+           "pigments absorb is measured [dEon11, after Donner and Jensen 2006]; the amounts are a guide for "
+           "people (blond, brown, black) and guesses for red hair and all animals"});
+  s.key("absorption", static_cast<std::optional<Rgb> P::*>(&P::absorption),
+        {.unit = "per radius of the fibre",
+         .help = "Absorption coefficient; that of the pigments is added",
+         .min = 0,
+         .max = 1000});
+  s.key("eumelanin", static_cast<Amount>(&P::eumelanin),
+        {.help = "Concentration of the black and brown pigment: 0.3 is blond, 1.3 brown, 8 black",
+         .min = 0,
+         .max = 100});
+  s.key("pheomelanin", static_cast<Amount>(&P::pheomelanin),
+        {.help = "Concentration of the red and yellow pigment", .min = 0, .max = 100});
+}
+
+template <class P>
+void add_eta_key(Schema<P>& s) {
+  s.key("eta", &P::eta, {.help = "Index of refraction of the fibre", .min = 1.05, .max = 3});
+}
+
+inline KeyOptions field_key() {
+  return {.help =
+              "near: what a ray meets depends on where across the fibre it does; far: all places across "
+              "count alike"};
+}
+template <class P>
+void add_field_key(Schema<P>& s) {
+  s.key("field", &P::field, field_key());
+}
+
+}  // namespace pelage

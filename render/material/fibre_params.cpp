@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/material/fibre_params.h"
+
+#include "render/material/absorption.h"
+#include "render/material/fibre_keys.h"
+
+namespace pelage {
+
+const Schema<LambertCylinderParams>& LambertCylinderParams::schema() {
+  static const Schema<LambertCylinderParams> table = [] {
+    using P = LambertCylinderParams;
+    Schema<P> s("lambert-cylinder",
+                "Fur as opaque tubes that reflect evenly: nothing goes through. The baseline that the other "
+                "models are compared with.");
+    add_color_keys(s, "Colour of much such fur together, turned into albedo; unused where that is given");
+    s.key("albedo", &P::albedo,
+          {.help = "Fraction of the light that a fibre reflects, by channel", .min = 0, .max = 1});
+    add_field_key(s);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
+  static const Schema<KajiyaKayParams> table = [] {
+    using P = KajiyaKayParams;
+    Schema<P> s("kajiya-kay",
+                "Fur by Kajiya and Kay (1989): a diffuse term and one highlight about the strand, here "
+                "normalised. Albedos that sum to more than 1 are scaled down.");
+    add_color_keys(
+        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the diffuse term");
+    s.key("diffuse", &P::diffuse,
+          {.help = "Albedo of the diffuse term, times color; without it, found from color",
+           .min = 0,
+           .max = 1});
+    s.key("specular", &P::specular,
+          {.help = "Albedo of the highlight, not coloured by the fibre", .min = 0, .max = 1});
+    s.key("exponent", &P::exponent, {.help = "Of the highlight: larger is sharper", .min = 1, .max = 1000});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<MarschnerParams>& MarschnerParams::schema() {
+  static const Schema<MarschnerParams> table = [] {
+    using P = MarschnerParams;
+    Schema<P> s(
+        "marschner",
+        "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. As published it gives back "
+        "nearly twice what it gets, and a coat of pale fur then gives back without end; see variant.");
+    add_color_keys(s, kColorHelp);
+    add_absorption_keys(s);
+    add_eta_key(s);
+    s.key(
+        "alpha", &P::alpha,
+        {.unit = "degrees",
+         .help = "Shift of the R lobe, negative toward the root; TT is shifted by -1/2 and TRT by -3/2 of it",
+         .min = -20,
+         .max = 20});
+    s.key("beta", &P::beta,
+          {.unit = "degrees",
+           .help = "Width of the R lobe in theta_h; TT has half and TRT twice that",
+           .min = 0.5,
+           .max = 45});
+    s.key("azimuthal_width", &P::azimuthal_width,
+          {.unit = "degrees",
+           .help = "Blur of all lobes around the fibre, in place of the paper's special case for caustics",
+           .min = 0.5,
+           .max = 60});
+    s.key("variant", &P::variant,
+          {.help = "The lobes as published, or half as high, about what their energy calls for"});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<DeonParams>& DeonParams::schema() {
+  static const Schema<DeonParams> table = [] {
+    using P = DeonParams;
+    Schema<P> s("deon",
+                "Hair by d'Eon et al. (2011): lobes R, TT, TRT and all longer ways, energy-conserving.");
+    add_color_keys(s, kColorHelp);
+    add_absorption_keys(s);
+    add_eta_key(s);
+    s.key("alpha", &P::alpha,
+          {.unit = "degrees",
+           .help = "As in marschner: the R lobe has its peak at theta_i = -theta_o + 2 alpha",
+           .min = -20,
+           .max = 20});
+    s.key("beta", &P::beta,
+          {.unit = "degrees",
+           .help = "Width of the R lobe in theta_i; TT has half and TRT twice that",
+           .min = 0.1,
+           .max = 60});
+    s.key("azimuthal_width", &P::azimuthal_width,
+          {.unit = "degrees", .help = "Blur of the lobes around the fibre", .min = 0.1, .max = 90});
+    add_field_key(s);
+    return s;
+  }();
+  return table;
+}
+
+const Schema<ChiangParams>& ChiangParams::schema() {
+  static const Schema<ChiangParams> table = [] {
+    using P = ChiangParams;
+    Schema<P> s("chiang",
+                "Hair and fur by Chiang et al. (2016): the lobes of d'Eon seen from near, with perceptually "
+                "even roughness.");
+    add_color_keys(s, kColorHelp);
+    add_absorption_keys(s);
+    add_eta_key(s);
+    s.key("beta_m", &P::beta_m, {.help = "Roughness along the fibre", .min = 0.02, .max = 1});
+    s.key("beta_n", &P::beta_n, {.help = "Roughness around the fibre", .min = 0.02, .max = 1});
+    s.key(
+        "alpha", &P::alpha,
+        {.unit = "degrees",
+         .help = "Tilt of the cuticle's scales: moves the primary highlight to the tip and the secondary to "
+                 "the root",
+         .min = -10,
+         .max = 10});
+    add_field_key(s);
+    return s;
+  }();
+  return table;
+}
+
+namespace {
+
+struct Pigments {
+  float eumelanin = 0, pheomelanin = 0;
+};
+Pigments pigments_of(HairPreset preset) {
+  switch (preset) {
+    case HairPreset::kNone:
+    case HairPreset::kPolarBear:
+      return {};
+    case HairPreset::kHumanBlond:
+      return {0.3f, 0};
+    case HairPreset::kHumanBrown:
+      return {1.3f, 0};
+    case HairPreset::kHumanRed:
+      return {0.2f, 0.6f};
+    case HairPreset::kHumanBlack:
+    case HairPreset::kPanther:
+      return {8, 0};
+    case HairPreset::kFox:
+      return {0.1f, 0.9f};
+    case HairPreset::kMouse:
+      return {0.5f, 0.15f};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Rgb> given_absorption(const AbsorptionParams& params) {
+  if (!params.absorption && !params.eumelanin && !params.pheomelanin && params.preset == HairPreset::kNone)
+    return std::nullopt;
+  // An absorption that is given takes the preset's place.
+  const Pigments pigments = params.absorption ? Pigments{} : pigments_of(params.preset);
+  return params.absorption.value_or(Rgb(0)) +
+         melanin_absorption(params.eumelanin.value_or(pigments.eumelanin),
+                            params.pheomelanin.value_or(pigments.pheomelanin));
+}
+
+Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color) {
+  const std::optional<Rgb> given = given_absorption(params);
+  return given ? *given : by_color(color);
+}
+
+}  // namespace pelage

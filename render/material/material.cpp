@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/material/material.h"
+
+#include "render/material/fibre_keys.h"
+
+namespace pelage {
+
+namespace {
+
+constexpr double kNarrowest = 1;  // degrees; below, float directions no longer resolve a shell at the poles
+constexpr double kWidest =
+    90;  // the half width of the whole sphere; the literal weight would go negative beyond
+
+}  // namespace
+
+const Schema<LambertParams>& LambertParams::schema() {
+  static const Schema<LambertParams> table = [] {
+    Schema<LambertParams> s("lambert",
+                            "A surface that reflects evenly in all directions: skin, eyes, ground.");
+    s.key("color", &LambertParams::color,
+          {.help = "Fraction of the light that is reflected, by channel", .min = 0, .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<GlossyParams>& GlossyParams::schema() {
+  static const Schema<GlossyParams> table = [] {
+    Schema<GlossyParams> s("glossy", "A surface under a clear coat: eyes, noses.");
+    s.key("color", &GlossyParams::color,
+          {.help = "Fraction of the light that the base reflects, by channel", .min = 0, .max = 1});
+    s.key("roughness", &GlossyParams::roughness,
+          {.help = "Of the coat: 0 is a mirror, 1 is matt", .min = 0, .max = 1});
+    s.key("ior", &GlossyParams::ior, {.help = "Index of refraction of the coat", .min = 1, .max = 3});
+    return s;
+  }();
+  return table;
+}
+
+const Schema<ConeShellParams>& ConeShellParams::schema() {
+  static const Schema<ConeShellParams> table = [] {
+    using P = ConeShellParams;
+    Schema<P> s(
+        "cone-shell",
+        "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two highlights, "
+        "each a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
+    add_color_keys(
+        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the fibre's lobes");
+    s.key("diffuse", &P::diffuse,
+          {.help = "Albedo of the diffuse lobe, times color; without it, found from color so that a white "
+                   "fibre absorbs nothing",
+           .min = 0,
+           .max = 1});
+    s.key("balance", &P::balance,
+          {.help =
+               "Where the diffuse lobe scatters: 1 back to the viewer's side, 0 evenly, -1 through the fibre",
+           .min = -1,
+           .max = 1});
+    s.key("primary", &P::primary,
+          {.help = "Albedo of the primary highlight, not coloured by the fibre", .min = 0, .max = 1});
+    s.key("primary_width", &P::primary_width,
+          {.unit = "degrees",
+           .help = "Half width of the primary highlight",
+           .min = kNarrowest,
+           .max = kWidest});
+    s.key("primary_shift", &P::primary_shift,
+          {.unit = "fractions of the strand",
+           .help = "Where along the strand the tangent is taken; negative moves the highlight to the tip",
+           .min = -1,
+           .max = 1});
+    s.key("primary_jitter", &P::primary_jitter,
+          {.unit = "fractions of the strand",
+           .help = "Random part of the shift, different for each strand, to break the highlight up",
+           .min = 0,
+           .max = 1});
+    s.key("primary_tilt", &P::primary_tilt,
+          {.unit = "degrees",
+           .help = "Tilts the highlight's cone toward the root (positive) or the tip; works on straight "
+                   "strands too",
+           .min = -45,
+           .max = 45});
+    s.key("secondary", &P::secondary,
+          {.help = "Albedo of the secondary highlight, times color", .min = 0, .max = 1});
+    s.key("secondary_width", &P::secondary_width,
+          {.unit = "degrees",
+           .help = "Half width of the secondary highlight",
+           .min = kNarrowest,
+           .max = kWidest});
+    s.key("secondary_shift", &P::secondary_shift,
+          {.unit = "fractions of the strand",
+           .help = "As primary_shift; positive moves it to the root",
+           .min = -1,
+           .max = 1});
+    s.key("secondary_jitter", &P::secondary_jitter,
+          {.unit = "fractions of the strand", .help = "As primary_jitter", .min = 0, .max = 1});
+    s.key("secondary_tilt", &P::secondary_tilt,
+          {.unit = "degrees", .help = "As primary_tilt", .min = -45, .max = 45});
+    s.key("variant", &P::variant,
+          {.help = "Weight across a shell: soft edges that the Wigner sampler draws exactly, or the literal "
+                   "cosine"});
+    return s;
+  }();
+  return table;
+}
+
+const FibreParams* fibre_params(const MaterialParams& material) {
+  return std::visit(
+      []<class P>(const P& params) -> const FibreParams* {
+        if constexpr (std::is_base_of_v<FibreParams, P>) return &params;
+        return nullptr;
+      },
+      material);
+}
+
+MaterialParams with_textures(MaterialParams material, TextureLibrary& textures) {
+  std::visit(
+      [&](auto& params) {
+        params.color = params.color.with_textures(textures);
+        if constexpr (requires { params.opacity; }) params.opacity = params.opacity.with_textures(textures);
+      },
+      material);
+  return material;
+}
+
+}  // namespace pelage

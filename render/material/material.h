@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "base/schema.h"
+#include "base/value_readers.h"
+#include "image/field.h"
+#include "render/material/fibre_params.h"
+#include "render/material/yan_params.h"
+
+namespace pelage {
+
+/// A diffuse skin.
+struct LambertParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "lambert";
+  Field color{Rgb(0.5f)};
+  static const Schema<LambertParams>& schema();
+};
+
+/// A diffuse skin under a clear coat: eyes, noses.
+struct GlossyParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "glossy";
+  Field color{Rgb(0.5f)};
+  float roughness = 0.1f;
+  float ior = 1.5f;
+  static const Schema<GlossyParams>& schema();
+};
+
+/// Which weight the specular shells have, see render/fibre/cone_shell.h.
+enum class ShellVariant { kWigner, kLiteral };
+template <>
+struct EnumNames<ShellVariant> {
+  static constexpr const char* names[] = {"wigner", "literal"};
+};
+
+/// Fur by the cone-shell model of "Rendering Fur in Life of Pi".
+struct ConeShellParams : FibreParams {
+  static constexpr const char* kTypeKey = "model";
+  static constexpr const char* kTypeName = "cone-shell";
+  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; none: from the colour
+  float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
+  Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
+  float primary_width = 12;      ///< half width of its shell, degrees
+  float primary_shift = -0.03f;  ///< along-strand shift of the tangent lookup, in v
+  float primary_jitter = 0.05f;  ///< random part of the shift, per strand
+  float primary_tilt = 0;        ///< added to the inclination of the shell, degrees
+  Rgb secondary{0.12f};          ///< albedo of the secondary highlight, times color
+  float secondary_width = 20;
+  float secondary_shift = 0.08f;
+  float secondary_jitter = 0.08f;
+  float secondary_tilt = 0;
+  ShellVariant variant = ShellVariant::kWigner;
+  static const Schema<ConeShellParams>& schema();
+};
+
+using MaterialParams =
+    std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams, KajiyaKayParams,
+                 MarschnerParams, DeonParams, ChiangParams, YanFastParams, YanParams>;
+
+/// What all models of fibres have; null for a material of skins.
+const FibreParams* fibre_params(const MaterialParams& material);
+
+class TextureLibrary;
+
+/// The material with the maps of its fields read. Throws Error (kInput) where the scene names a missing one.
+MaterialParams with_textures(MaterialParams material, TextureLibrary& textures);
+
+}  // namespace pelage

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lod/simplification.h"
+#include "procedurals/deferred_skin.h"
+#include "procedurals/procedural.h"
+#include "render/camera/camera.h"
+#include "render/film/film_layers.h"
+#include "render/light/light_set.h"
+#include "render/material/material.h"
+#include "render/scene/render_params.h"
+
+namespace pelage {
+
+/// Fur of one groom on one character: procedurals that share a fibre material.
+struct FurPart {
+  std::string name;  ///< "rat.under"
+  std::vector<std::unique_ptr<Procedural>> procedurals;
+  size_t material = 0;
+  /// The skin that the strands grow on, in rest pose, for material fields that depend on the rest position;
+  /// may be null, then strands rest at their roots.
+  std::shared_ptr<const LimitSurface> rest;
+  Rgb tint{1};                             ///< multiplies the colour of the strands
+  std::optional<Simplification> lod = {};  ///< by which detail was reduced
+};
+
+/// A skin. Texture coordinates of its hits are asked of the topology of `rest`, rest positions of `rest`
+/// itself; where that is null, both are zero.
+struct SkinPart {
+  std::string name;
+  std::shared_ptr<const DeferredSkin> skin;
+  std::shared_ptr<const LimitSurface> rest;
+  size_t material = 0;
+  Rgb tint{1};                             ///< multiplies its colour
+  std::optional<Simplification> lod = {};  ///< of the densest coat on it, where detail was reduced
+};
+
+/// Everything that a renderer needs to know of one frame. World space.
+struct RenderScene {
+  std::vector<FurPart> fur;
+  std::vector<SkinPart> skins;
+  std::vector<MaterialParams> materials;  ///< with their textures loaded
+  LightSet lights;
+  Camera camera;
+  ImageParams image;
+  RenderParams render;
+};
+
+}  // namespace pelage

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "render/film/filter_sampler.h"
+#include "render/film/frame_header.h"
+#include "tests/render/film/film_picture.h"
+
+namespace pelage {
+namespace {
+
+const float kInfinity = std::numeric_limits<float>::infinity();
+
+FilmLayers two_lights() { return FilmLayers::make({{"key", false}, {"sky", true}}, 2); }
+
+TEST(FilmLayers, NameLightsAndLobes) {
+  const FilmLayers layers = two_lights();
+  EXPECT_EQ(layers.names, (std::vector<std::string>{"key.diffuse", "key.primary", "sky.diffuse",
+                                                    "sky.primary", "sky.emission"}));
+  EXPECT_EQ(layers.scattered(1, 1), 3u);
+  EXPECT_EQ(layers.emitted(1), 4u);
+  EXPECT_TRUE(FilmLayers{}.empty());
+}
+
+TEST(Film, AveragesSamplesAndDropsWhatIsNotFinite) {
+  MemoryLedger ledger;
+  Film film(3, 2, two_lights(), ledger);
+  EXPECT_GT(ledger.current(MemoryTag::kFilm), 0);
+  std::vector<Rgb> parts(5, Rgb(0));
+  FilmSample sample;
+  sample.radiance = Rgb(1, 2, 3);
+  sample.alpha = 1;
+  parts[3] = Rgb(1, 2, 3);
+  EXPECT_TRUE(film.add(2, 1, sample, parts));
+  sample.radiance = Rgb(3, 0, 0);
+  sample.alpha = 0;
+  parts[3] = Rgb(3, 0, 0);
+  EXPECT_TRUE(film.add(2, 1, sample, parts));
+  sample.radiance.y = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(film.add(2, 1, sample, parts));
+  sample.radiance.y = 0;
+  parts[0].z = kInfinity;
+  EXPECT_FALSE(film.add(2, 1, sample, parts));
+
+  EXPECT_EQ(film.samples(2, 1), 2u);
+  EXPECT_EQ(film.radiance(2, 1), Rgb(2, 1, 1.5f));
+  EXPECT_EQ(film.alpha(2, 1), 0.5f);
+  EXPECT_EQ(film.layer(2, 1, 3), Rgb(2, 1, 1.5f));
+  EXPECT_EQ(film.samples(0, 0), 0u);
+  EXPECT_EQ(film.radiance(0, 0), Rgb(0));
+}
+
+TEST(Film, KeepsTheDataOfTheFrontMostSampleWithinThePixel) {
+  MemoryLedger ledger;
+  Film film(1, 1, {}, ledger);
+  const auto add = [&](float depth, uint32_t id, bool inside) {
+    FilmSample sample;
+    sample.surface.depth = depth;
+    sample.surface.id = id;
+    sample.inside_pixel = inside;
+    film.add(0, 0, sample, {});
+  };
+  EXPECT_EQ(film.surface(0, 0).depth, kInfinity);
+  add(2, 1, false);
+  EXPECT_EQ(film.surface(0, 0).id, 1u);
+  add(5, 2, true);  // farther, but within the pixel
+  EXPECT_EQ(film.surface(0, 0).id, 2u);
+  add(3, 3, false);
+  EXPECT_EQ(film.surface(0, 0).id, 2u);
+  add(4, 4, true);
+  EXPECT_EQ(film.surface(0, 0).id, 4u);
+  add(4, 5, true);  // equally near: the earlier sample stays
+  EXPECT_EQ(film.surface(0, 0).id, 4u);
+}
+
+TEST(Film, WritesEveryChannelByItsName) {
+  MemoryLedger ledger;
+  Film film(2, 1, two_lights(), ledger);
+  FilmSample sample;
+  sample.radiance = Rgb(0.5f);
+  sample.alpha = 1;
+  sample.surface = {3, V3f(0, 1, 0), V3f(1, 0, 0), V2f(2, -1), V2f(0.25f, 0.75f), 77};
+  film.add(1, 0, sample, std::vector<Rgb>(5, Rgb(0.1f)));
+  const ExrImage image = picture_of(film);
+  for (const char* name : {"R", "G", "B", "A", "key.diffuse.R", "sky.emission.B"}) {
+    ASSERT_TRUE(image.find(name)) << name;
+    EXPECT_EQ(image.find(name)->type, ChannelType::kHalf) << name;
+  }
+  const auto value = [&](const char* name, size_t pixel) {
+    const ExrChannel* channel = image.find(name);
+    EXPECT_TRUE(channel && channel->type == ChannelType::kFloat) << name;
+    return channel ? channel->pixels[pixel] : 0.0f;
+  };
+  EXPECT_EQ(value("Z", 0), kInfinity);
+  EXPECT_EQ(value("Z", 1), 3);
+  EXPECT_EQ(value("N.Y", 1), 1);
+  EXPECT_EQ(value("tangent.X", 1), 1);
+  EXPECT_EQ(value("forward.u", 1), 2);
+  EXPECT_EQ(value("forward.v", 1), -1);
+  EXPECT_EQ(value("root.u", 1), 0.25f);
+  EXPECT_EQ(value("root.v", 1), 0.75f);
+  ASSERT_TRUE(image.find("id"));
+  EXPECT_EQ(image.find("id")->ids, (std::vector<uint32_t>{kNoStrand, 77}));
+  EXPECT_EQ(image.channels.size(), 4u + 15 + 1 + 3 + 3 + 2 + 2 + 1);
+}
+
+TEST(Film, RowsAreThoseOfTheWholePicture) {
+  MemoryLedger ledger;
+  FilmLayers layers = two_lights();
+  layers.noise = layers.lod = true;
+  Film film(3, 5, layers, ledger);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 3; ++x) {
+      FilmSample sample;
+      sample.radiance = Rgb(static_cast<float>(x + 3 * y));
+      sample.surface.id = static_cast<uint32_t>(x + 3 * y);
+      sample.surface.depth = static_cast<float>(1 + x + 3 * y);
+      for (int i = 0; i <= x; ++i) film.add(x, y, sample, std::vector<Rgb>(5, Rgb(0.1f)));
+    }
+  }
+  const std::vector<ExrChannel> whole = film.exr_rows(0, 5), some = film.exr_rows(1, 4);
+  ASSERT_EQ(some.size(), whole.size());
+  const auto part = [](const auto& all) {
+    return all.empty() ? all : std::decay_t<decltype(all)>(all.begin() + 3, all.begin() + 12);
+  };
+  for (size_t i = 0; i < some.size(); ++i) {
+    EXPECT_EQ(some[i].name, whole[i].name);
+    EXPECT_EQ(some[i].type, whole[i].type);
+    EXPECT_EQ(some[i].pixels, part(whole[i].pixels)) << some[i].name;
+    EXPECT_EQ(some[i].ids, part(whole[i].ids)) << some[i].name;
+  }
+}
+
+TEST(FrameHeader, CarriesWhatAPictureWasMadeFrom) {
+  FrameHeader header;
+  header.samples = 16;
+  header.partial = true;
+  header.scene_hash = "0123";
+  const auto attributes = exr_attributes(header, Camera(CameraParams{}, 1, 4, 3));
+  EXPECT_EQ(std::get<int>(attributes.at("pelage:samples")), 16);
+  EXPECT_EQ(std::get<int>(attributes.at("pelage:partial")), 1);
+  EXPECT_EQ(std::get<std::string>(attributes.at("pelage:sceneHash")), "0123");
+  EXPECT_TRUE(std::holds_alternative<M44f>(attributes.at("worldToCamera")));
+  EXPECT_TRUE(std::holds_alternative<M44f>(attributes.at("worldToNDC")));
+}
+
+/// Largest distance between the empirical distribution of many offsets and the filter's own (Kolmogorov).
+class FilterSamplerTest : public testing::TestWithParam<PixelFilter> {};
+
+TEST_P(FilterSamplerTest, OffsetsAreDistributedAsTheFilter) {
+  const FilterSampler sampler(GetParam());
+  constexpr size_t kSamples = 100000;
+  std::vector<float> x(kSamples);
+  double sum = 0;
+  for (size_t i = 0; i < kSamples; ++i) {
+    const V2f offset = sampler.offset({unit_float(hash64(i, 1)), unit_float(hash64(i, 2))});
+    ASSERT_LE(std::abs(offset.x), sampler.radius());
+    ASSERT_LE(std::abs(offset.y), sampler.radius());
+    x[i] = offset.x;
+    sum += offset.y;
+  }
+  EXPECT_NEAR(sum / kSamples, 0, 0.006);
+  std::sort(x.begin(), x.end());
+  double distance = 0;
+  for (size_t i = 0; i < kSamples; ++i) {
+    distance = std::max(distance, std::abs(sampler.cumulative(x[i]) - (double(i) + 0.5) / kSamples));
+  }
+  EXPECT_LT(distance, 2.2 / std::sqrt(double(kSamples)));  // 1e-4 of all seeds are farther
+  EXPECT_NEAR(sampler.cumulative(-sampler.radius()), 0, 1e-12);
+  EXPECT_NEAR(sampler.cumulative(sampler.radius()), 1, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Filters, FilterSamplerTest,
+                         testing::Values(PixelFilter::kBox, PixelFilter::kBlackmanHarris));
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/map_check.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/world/small_scene.h"
+
+namespace pelage {
+namespace {
+
+/// What is wrong with a scene whose groom has these lines, and whose materials have these colours: the lines
+/// of the scene, and all text.
+struct Refusal {
+  std::vector<int> lines;
+  std::string text;
+};
+
+class MapCheckTest : public testing::Test {
+ protected:
+  Refusal refusal(const std::string& groom, const std::string& hide = "0.5", const std::string& fur = "0.5") {
+    files_.write("scene.yaml", R"(pelage: 1
+skins: {cube: {mesh: cube.obj}, mapped: {mesh: mapped.obj}}
+grooms:
+  coat: {)" + groom + R"(}
+materials:
+  hide: {model: lambert, color: )" +
+                                   hide + R"(}
+  fur: {model: cone-shell, color: )" +
+                                   fur + R"(}
+characters:
+  walker: {parts: [{skin: )" + (groom.find("mapped") < groom.size() ? "mapped" : "cube") +
+                                   R"(, material: hide, grooms: {coat: fur}}]}
+)");
+    const SceneDescription scene = load_scene(files_.path("scene.yaml"), {});
+    std::map<std::string, Assets::Skin> skins;
+    skins["mapped"].cage.face_uv = {0, 0, 0};
+    skins["cube"];
+    Refusal refusal;
+    try {
+      check_maps(scene, skins);
+    } catch (const Error& error) {
+      refusal.text = error.what();
+      for (const Problem& problem : error.problems()) refusal.lines.push_back(problem.position.line);
+    }
+    return refusal;
+  }
+
+  SmallScene files_;
+};
+
+using Lines = std::vector<int>;
+
+TEST_F(MapCheckTest, FindsEveryMapOnAMeshWithoutTextureCoordinates) {
+  const std::string map = "{map: spots.png}";
+  const std::string in_product = "{product: [0.5, {map: spots.png, channel: r}]}";
+  EXPECT_EQ(refusal("skin: cube, strands: 9").lines, Lines{});
+  EXPECT_EQ(refusal("skin: cube, strands: 9, density: " + in_product).lines, Lines{4});
+  EXPECT_EQ(refusal("skin: cube, strands: 9, operators: [{length: {value: " + in_product + "}}]").lines,
+            Lines{4});
+  EXPECT_EQ(
+      refusal("skin: cube, strands: 9, operators: [{clump: {levels: [{spacing: 1, amount: " + map + "}]}}]")
+          .lines,
+      Lines{4});
+  EXPECT_EQ(refusal("skin: cube, strands: 9", map).lines, Lines{6});
+  EXPECT_EQ(refusal("skin: cube, strands: 9", "0.5", map).lines, Lines{7});
+  EXPECT_EQ(refusal("skin: cube, strands: 9", "0.5", "0.5, opacity: " + map).lines, Lines{7});
+  const std::string all = refusal("skin: cube, strands: 9, density: " + map).text;
+  for (const char* part : {"scene.yaml:4:", "map spots.png", "mesh cube.obj", "skin 'cube'", "vt lines"})
+    EXPECT_NE(all.find(part), std::string::npos) << all;
+}
+
+TEST_F(MapCheckTest, AcceptsWhatNeedsNone) {
+  const std::string map = "{map: spots.png}";
+  EXPECT_EQ(refusal("skin: mapped, strands: 9, density: " + map, map, map).lines, Lines{});
+  EXPECT_EQ(refusal("skin: cube, strands: 9, operators: [{length: {value: {noise: {}}}}]",
+                    "{ramp: {along: y, knots: [[0, 1], [1, 0]]}}")
+                .lines,
+            Lines{});
+}
+
+TEST_F(MapCheckTest, StrandsOnNoSkinHaveNone) {
+  const std::string map = "{map: spots.png}";
+  EXPECT_EQ(refusal("strands_file: a.hair", "0.5", map).lines, Lines{7});
+  EXPECT_EQ(refusal("skin: mapped, strands_file: a.hair", "0.5", map).lines, Lines{});
+  EXPECT_EQ(refusal("skin: mapped, attach: none, strands_file: a.hair", "0.5", map).lines, Lines{7});
+}
+
+}  // namespace
+}  // namespace pelage

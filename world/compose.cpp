@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one page where everything meets: what the scene describes becomes the world of one frame.
+#include "world/compose.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "procedurals/fur.h"
+#include "procedurals/strand_nature.h"
+#include "world/drawn_characters.h"
+
+namespace pelage {
+
+namespace {
+
+size_t material_index(const SceneDescription& scene, const NameReference& material) {
+  size_t index = 0;
+  while (scene.materials.items[index].name != material.name) ++index;  // load_scene checked that it exists
+  return index;
+}
+
+/// Poses a frame's characters one after the other.
+class Composer {
+ public:
+  Composer(const SceneDescription& scene, const Assets& assets, double frame, const Job& job, World& world)
+      : scene_(scene),
+        assets_(assets),
+        frame_(frame),
+        job_(job),
+        world_(world),
+        lod_view_(lod_camera().lod_view()),
+        poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
+
+  void add_all() {
+    const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
+    const std::vector<bool> in_full =
+        characters_in_full(drawn, scene_.render.lod.in_full, lod_view_.open.position, frame_);
+    for (size_t i = 0; i < drawn.size(); ++i) {
+      job_.check_stop();
+      add(drawn[i], scene_.render.lod.enabled && !in_full[i]);
+    }
+  }
+
+ private:
+  Camera lod_camera() const {
+    const std::optional<CameraParams>& own = scene_.render.lod.camera.own;
+    return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height) : world_.scene.camera;
+  }
+
+  void add(const DrawnCharacter& character, bool reduced) {
+    Box3f box;
+    for (size_t part = 0; part < character.params->parts.size(); ++part)
+      add_part(character, part, reduced, box);
+    if (!has_coat(character)) return;
+    ++world_.characters;
+    if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
+  }
+
+  void add_part(const DrawnCharacter& character, size_t index, bool reduced, Box3f& box) {
+    const PartParams& part = character.params->parts[index];
+    const Assets::Skin& skin = assets_.skins.at(part.skin.name);
+    CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
+    if (!scene_.render.shared_topology) pose.topology = own_topology(part.skin.name);
+    for (const auto& groom : part.grooms.items) {
+      if (assets_.grooms.at(groom.name)->needs_closest_point())
+        pose.push_out_view = world_.scene.camera.view();
+    }
+    const Rgb tint = character.member ? character.member->tint : Rgb(1);
+    const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
+    charge(posed->bytes());
+    box.extendBy(posed->bound(BoundSpan::kShutter));
+    const size_t own = world_.scene.skins.size();
+    world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
+                                  material_index(scene_, part.material), tint});
+    for (const auto& groom : part.grooms.items) {
+      const auto& coat = assets_.grooms.at(groom.name);
+      FurPart fur{
+          character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
+      if (reduced) {
+        fur.lod = simplification(*coat, skin.rest.get(), *posed);
+        std::optional<Simplification>& densest = world_.scene.skins[own].lod;
+        if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
+      }
+      fur.procedurals.push_back(
+          std::make_unique<FurProcedural>(coat, posed, fur.lod, reduced ? lie(coat, skin.rest) : nullptr));
+      box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
+      world_.scene.fur.push_back(std::move(fur));
+      count(*coat, *posed);
+    }
+  }
+
+  Simplification simplification(const Groom& groom, const LimitSurface* rest,
+                                const PosedCharacterSkin& skin) {
+    auto known = natures_.find(&groom);
+    if (known == natures_.end())
+      known =
+          natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, job_.workers))
+              .first;
+    StrandNature nature = known->second;
+    nature.width *= skin.scale();
+    nature.length *= skin.scale() * skin.length();
+    nature.area_share *= skin.length();
+    nature.density /= skin.scale() * skin.scale();
+    SimplificationParams lod = scene_.render.lod;
+    // Some dozen strands that stand alone: leaving any out saves nothing and shows.
+    if (groom.role() == StrandRole::kWhisker) lod.motion_blur = lod.depth_of_field = lod.turned_away = false;
+    const float budget = groom.role() == StrandRole::kGuard     ? lod.guard
+                         : groom.role() == StrandRole::kWhisker ? lod.whisker
+                                                                : lod.under;
+    return {lod, lod_view_, nature, budget};
+  }
+
+  /// Null where blur does not ask for it.
+  std::shared_ptr<const CoatLie> lie(const std::shared_ptr<const Groom>& groom,
+                                     const std::shared_ptr<const LimitSurface>& rest) {
+    const V2f shutter = scene_.camera.shutter;
+    if (!groom->grows_on_skin() || !scene_.render.lod.motion_blur || !(shutter.y > shutter.x) ||
+        groom->role() == StrandRole::kWhisker)
+      return {};
+    std::shared_ptr<const CoatLie>& known = lies_[groom.get()];
+    if (!known) known = std::make_shared<const CoatLie>(*groom, rest, job_.workers);
+    return known;
+  }
+
+  /// What sharing a topology saves is measured by not doing it.
+  std::shared_ptr<const SurfaceTopology> own_topology(const std::string& skin) {
+    const SkinParams& params = scene_.skins.find(skin)->value;
+    auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
+                                            params.mesh.path.string());
+    charge(topology->bytes());
+    return topology;
+  }
+
+  void count(const Groom& groom, const PosedCharacterSkin& skin) {
+    const auto strands = static_cast<int64_t>(groom.follicles().size());
+    world_.strands_described += strands;
+    if (seen_.emplace(&groom, skin.hash().low, skin.hash().high, skin.length()).second)
+      world_.strands_unique += strands;
+  }
+
+  void charge(size_t bytes) {
+    world_.charges.emplace_back(job_.ledger, MemoryTag::kSkins, static_cast<int64_t>(bytes));
+  }
+
+  const SceneDescription& scene_;
+  const Assets& assets_;
+  const double frame_;
+  const Job& job_;
+  World& world_;
+  const LodView lod_view_;
+  std::shared_ptr<PoseCache> poses_;
+  std::map<const Groom*, StrandNature> natures_;
+  std::map<const Groom*, std::shared_ptr<const CoatLie>> lies_;
+  std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
+};
+
+}  // namespace
+
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
+  std::vector<std::unique_ptr<Light>> lights;
+  for (const auto& [name, position, params] : scene.lights.items) {
+    lights.push_back(make_light(name, params, frame, assets.textures, job.ledger));
+  }
+  World world{{{},
+               {},
+               assets.materials,
+               LightSet(std::move(lights)),
+               Camera(scene.camera, frame, scene.image.width, scene.image.height),
+               scene.image,
+               scene.render},
+              0,
+              0,
+              0,
+              0,
+              {}};
+  Composer(scene, assets, frame, job, world).add_all();
+  return world;
+}
+
+}  // namespace pelage

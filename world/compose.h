@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/scene/render_scene.h"
+#include "world/assets.h"
+#include "world/scene_schema.h"
+
+namespace pelage {
+
+/// One frame, ready to be rendered.
+struct World {
+  RenderScene scene;
+  int64_t strands_described = 0;
+  int64_t strands_unique = 0;       ///< coats of equal poses counted once
+  int64_t characters = 0;           ///< those with a coat
+  int64_t characters_in_frame = 0;  ///< of these, those whose bound meets the camera's view
+  std::vector<MemoryCharge> charges;
+};
+
+/// Poses everything for a frame: skins, coats, materials, lights, camera. Throws Error (kInput) for missing
+/// poses and images, Error (kStopped).
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
+
+}  // namespace pelage

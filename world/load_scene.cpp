@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "base/nearest_name.h"
+#include "image/exr_file.h"
+#include "scene/document_hash.h"
+#include "world/leaf_sizes.h"
+#include "world/scene_schema.h"
+
+namespace pelage {
+namespace {
+
+template <class T>
+void check_name(const NameReference& reference, const char* what, const Named<T>& known, Problems& problems) {
+  if (known.find(reference.name)) return;
+  std::string message = "there is no " + std::string(what) + " " + quote(reference.name);
+  message += known.items.empty() ? "; the scene has none" : suggest(reference.name, known.names());
+  problems.add(reference.position, std::move(message));
+}
+
+bool is_fibre(const MaterialParams& material) { return fibre_params(material) != nullptr; }
+
+void check_material(const SceneDescription& scene, const NameReference& reference, bool for_fibres,
+                    Problems& problems) {
+  const auto* material = scene.materials.find(reference.name);
+  if (!material) {
+    check_name(reference, "material", scene.materials, problems);
+  } else if (is_fibre(material->value) != for_fibres) {
+    problems.add(reference.position, quote(reference.name) + " is a material for " +
+                                         (for_fibres ? "skins, not for strands" : "strands, not for skins"));
+  }
+}
+
+void check_part(const SceneDescription& scene, const PartParams& part, Problems& problems) {
+  check_name(part.skin, "skin", scene.skins, problems);
+  check_material(scene, part.material, false, problems);
+  for (const auto& [name, position, material] : part.grooms.items) {
+    const auto* groom = scene.grooms.find(name);
+    if (!groom) {
+      check_name({name, position}, "groom", scene.grooms, problems);
+    } else if (!groom->value.skin.name.empty() && groom->value.skin.name != part.skin.name) {
+      problems.add(position, "groom " + quote(name) + " grows on the skin " + quote(groom->value.skin.name) +
+                                 ", not on " + quote(part.skin.name));
+    }
+    check_material(scene, material, true, problems);
+  }
+}
+
+// By file in the order of first mention, then by line: what a reader of the files expects.
+std::vector<Problem> in_file_order(std::vector<Problem> problems) {
+  std::map<std::string, size_t> files;
+  for (const Problem& problem : problems) files.try_emplace(problem.position.file, files.size());
+  std::stable_sort(problems.begin(), problems.end(), [&](const Problem& a, const Problem& b) {
+    const auto key = [&](const Problem& p) {
+      return std::tuple(files.at(p.position.file), p.position.line, p.position.column);
+    };
+    return key(a) < key(b);
+  });
+  return problems;
+}
+
+// Whether a groom says how many strands it has, once.
+void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
+  const bool counted = groom.value.strands || groom.value.density,
+             from_file = !groom.value.strands_file.empty();
+  if (!counted && !from_file && !groom.value.skin.name.empty()) {
+    problems.add(groom.position, "groom " + quote(groom.name) +
+                                     " needs `strands` (how many) or `density` (how many per square unit)");
+  } else if (counted && from_file) {
+    problems.add(groom.position, "groom " + quote(groom.name) +
+                                     " has its strands from a file: `strands` and `density` mean nothing");
+  }
+}
+
+// Names that reach layers of a picture, which it would cut at a zero byte or at its longest, and mix then.
+void check_layer_name(const std::string& what, const std::string& name, const SourcePosition& position,
+                      Problems& problems) {
+  constexpr size_t kLongestName = kLongestExrName - 15;  // which is enough for ".secondary.R"
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (name.size() > kLongestName) {
+    problems.add(position, fmt::format("the name of {} {} has {} bytes, at most {} are accepted", what,
+                                       quote(name), name.size(), kLongestName));
+  } else if (std::any_of(name.begin(), name.end(), is_control)) {
+    problems.add(position, "the name of " + what + " " + quote(name) + " has a control character in it");
+  }
+}
+
+void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& item, Problems& problems) {
+  const CrowdParams& crowd = item.value;
+  const auto refuse = [&](const std::string& why) {
+    problems.add(item.position, "crowd " + quote(item.name) + why);
+  };
+  if (crowd.of.empty()) refuse(" is made of no character");
+  for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
+  const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
+  if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
+}
+
+}  // namespace
+
+void check_references(const SceneDescription& scene, Problems& problems) {
+  for (const auto& [name, position, groom] : scene.grooms.items) {
+    if (!groom.skin.name.empty()) {
+      check_name(groom.skin, "skin", scene.skins, problems);
+    } else if (groom.strands_file.empty()) {
+      problems.add(position, "groom " + quote(name) + " needs a skin to grow on, or a strands_file");
+    }
+    check_strands({name, position, groom}, problems);
+    if (const std::optional<Problem> problem = check_freeze(groom))
+      problems.add(problem->position, problem->message);
+  }
+  for (const auto& [name, position, character] : scene.characters.items) {
+    if (character.parts.empty()) problems.add(position, "character " + quote(name) + " has no parts");
+    for (const PartParams& part : character.parts) check_part(scene, part, problems);
+    for (const V3f& disc : character.footprint) {
+      if (!(disc.z >= 0))
+        problems.add(position, "character " + quote(name) +
+                                   ": a disc [x, z, radius] of the footprint has a negative radius");
+    }
+  }
+  for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
+  for (const auto& light : scene.lights.items)
+    check_layer_name("light", light.name, light.position, problems);
+  for (const auto& groom : scene.grooms.items)
+    check_layer_name("groom", groom.name, groom.position, problems);
+}
+
+namespace {
+
+void check_shutter(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (scene.camera.shutter.x <= scene.camera.shutter.y) return;
+  problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
+}
+
+void collect_files(const Value& value, std::set<std::string>& files) {
+  if (value.position().line > 0) files.insert(value.position().file);  // a flag has no lines
+  if (value.is_map()) {
+    for (const Value::Entry& entry : value.entries()) collect_files(entry.value, files);
+  }
+  if (value.is_list()) {
+    for (const Value& item : value.items()) collect_files(item, files);
+  }
+}
+
+/// The scene file, and those from which some value has come.
+std::vector<std::filesystem::path> files_of(const Value& document, const std::filesystem::path& path) {
+  std::set<std::string> files{path.string()};
+  collect_files(document, files);
+  return {files.begin(), files.end()};
+}
+
+}  // namespace
+
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+  Problems problems;
+  SceneDescription scene;
+  if (const std::optional<Value> document = load_document(path, overrides, problems)) {
+    const ContentHash hash = document_hash(*document);
+    scene.files = files_of(*document, path);
+    scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
+    // A name that is missing because its block could not be read would be blamed twice.
+    if (SceneDescription::schema().read(*document, scene, problems)) {
+      check_references(scene, problems);
+      check_shutter(scene, *document, problems);
+    }
+  }
+  if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
+  choose_leaf_sizes(scene);
+  return scene;
+}
+
+}  // namespace pelage

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/keyed.h"
+#include "base/value_readers.h"
+#include "geom/limit_surface.h"
+#include "groom/groom_params.h"
+#include "procedurals/crowd.h"
+#include "render/camera/camera.h"
+#include "render/film/film_layers.h"
+#include "render/light/light_params.h"
+#include "render/material/material.h"
+#include "render/scene/render_params.h"
+#include "scene/document.h"
+#include "world/frames.h"
+
+namespace pelage {
+
+// The scene file as one value (design.md section 8). What is below a block of another room is that room's.
+
+/// `pelage:`, the version of the scene format.
+struct FormatVersion {
+  int number = 1;
+};
+template <>
+struct ValueReader<FormatVersion> {
+  static bool read(const Value&, const KeyOptions&, FormatVersion& out, Problems&);
+  static std::string type_name() { return "1"; }
+  static std::string print(const FormatVersion&) { return "1"; }
+};
+
+struct UnitsParams {
+  float meters_per_unit = 0.01f;
+  float fps = 24;
+  static const Schema<UnitsParams>& schema();
+};
+
+/// A posed cage per frame, or per some frames. Character frame `first` shows pose `first`; between poses,
+/// positions blend linearly.
+struct PosesParams {
+  AssetPath files;  ///< with a place for the number, see world/frames.h
+  int first = 1;
+  int count = 1;
+  double frames_per_pose = 1;
+  bool cycle = false;  ///< pose first + count is pose first again; else the ends hold
+  static const Schema<PosesParams>& schema();
+};
+
+struct SkinParams {
+  AssetPath mesh;
+  SubdivisionScheme scheme = SubdivisionScheme::kCatmullClark;
+  BoundaryRule boundary = BoundaryRule::kEdgeAndCorner;
+  std::optional<PosesParams> poses;
+  static const Schema<SkinParams>& schema();
+};
+
+/// One skin of a character and the grooms that grow on it.
+struct PartParams {
+  NameReference skin;
+  NameReference material;
+  Named<NameReference> grooms;       ///< name of a groom -> name of its material
+  std::optional<PosesParams> poses;  ///< instead of those of the skin
+  static const Schema<PartParams>& schema();
+};
+
+/// Scale first, then rotation, then translation.
+struct TransformParams {
+  Keyed<V3f> translate{V3f(0)};
+  Keyed<V3f> rotate{V3f(0)};  ///< degrees about x, y, z, in this order
+  Keyed<float> scale{1.0f};
+  static const Schema<TransformParams>& schema();
+};
+
+struct CharacterParams {
+  std::vector<PartParams> parts;
+  TransformParams transform;
+  float frame_offset = 0;     ///< added to the frame to get the pose
+  Footprint footprint;        ///< discs (x, z, radius) on the ground, of an animal of scale 1
+  std::optional<bool> drawn;  ///< none: unless a crowd is made of it
+  static const Schema<CharacterParams>& schema();
+};
+
+/// All that a scene file says.
+struct SceneDescription {
+  FormatVersion pelage;
+  UnitsParams units;
+  FrameList frames;
+  CameraParams camera;
+  ImageParams image;
+  Named<SkinParams> skins;
+  Named<GroomParams> grooms;
+  Named<MaterialParams> materials;
+  Named<CharacterParams> characters;
+  Named<CrowdParams> crowds;
+  Named<LightParams> lights;
+  RenderParams render;
+  std::string hash;  ///< of the document with its overrides, not of the files it names
+  std::vector<std::filesystem::path> files;  ///< that the document was read from: the scene, what it includes
+  static const Schema<SceneDescription>& schema();
+};
+
+/// Adds a problem for every name that nothing in the scene has, with the nearest one, and for what cannot go
+/// together: a groom on a part with another skin, a fibre material on a skin.
+void check_references(const SceneDescription& scene, Problems& problems);
+
+/// Reads a scene and checks all of it that needs no other file. Throws Error (kInput) with every mistake, in
+/// file order.
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides);
+
+}  // namespace pelage
