@@ -49,7 +49,11 @@ Module::Module(const std::string& name) {
     }
     looked += " " + candidate.string();
   }
-  throw Error(ErrorKind::kFailed, "module " + name + " not found; looked for" + looked);
+  // Programs that link an installed Pelage carry its folder of modules in their run path.
+  const std::string file = "lib" + name + ".so";
+  handle_ = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle_) throw Error(ErrorKind::kFailed, "module " + name + " not found; looked for" + looked);
+  path_ = file;
 }
 
 Module::~Module() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include <Imath/ImathBox.h>
 #include <Imath/ImathColor.h>
 #include <Imath/ImathMatrix.h>
@@ -21,6 +23,8 @@ using Imath::V3f;
 using Rgb = Imath::Color3f;
 
 /// Rec. 709 luminance of a linear colour.
+/// Its largest component, of a vector or a colour.
+inline float max_component(const V3f& v) { return std::max({v.x, v.y, v.z}); }
 inline float luminance(const Rgb& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
 /// Right-handed orthonormal frame of a follicle or surface point: tangent along the surface's u direction,

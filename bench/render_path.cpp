@@ -12,7 +12,7 @@
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
 #include "render/frame/frame_geometry.h"
-#include "render/path/path_integrator.h"
+#include "render/render_frame.h"
 
 namespace pelage {
 namespace {
@@ -48,13 +48,13 @@ class Recorder final : public Accel {
 
 /// Processor seconds of all paths of the picture.
 double trace_paths(const RenderScene& scene, const PathTracer& tracer, Film& film) {
-  PathScratch scratch;
+  const auto scratch = tracer.make_scratch();
   const double start = cpu_seconds();
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       for (int sample = 0; sample < scene.render.samples; ++sample) {
-        tracer.trace(x, y, static_cast<uint32_t>(sample), scratch);
-        film.add(x, y, scratch.sample, scratch.by_layer);
+        tracer.trace(x, y, static_cast<uint32_t>(sample), *scratch);
+        film.add(x, y, scratch->sample, scratch->by_layer);
       }
     }
   }

@@ -140,7 +140,6 @@ std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rf
 int run_grow(const Options& options) {
   Run run(options);
   SceneDescription scene = load_scene(options.input, options.overrides);
-  run.ledger().set_limit(scene.render.memory.bytes);
   // What other programs are given must not depend on the picture's size or the camera.
   if (!options.output.empty() && !options.lod) scene.render.lod.enabled = false;
   if (!options.groom.empty() && !scene.grooms.find(options.groom)) {

@@ -6,16 +6,11 @@
 
 #include "base/counted.h"
 #include "base/heap.h"
-#include "base/memory_budget.h"
-#include "base/version.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
 #include "cli/run.h"
-#include "render/film/frame_header.h"
-#include "render/frame/frame_layers.h"
-#include "render/path/path_integrator.h"
-#include "world/compose.h"
+#include "world/world.h"
 
 namespace pelage {
 
@@ -43,38 +38,6 @@ void check_files(const Options& options, const SceneDescription& scene, const st
 std::string samples_text(const FrameResult& result) {
   if (result.mean_samples == result.samples) return counted(result.samples, "sample");
   return fmt::format("{:.1f} samples on average", result.mean_samples);
-}
-
-// The picture's film is as large as the scene says: what comes before it must leave room for it.
-MemoryCharge reserve_film(const SceneDescription& scene, MemoryLedger& ledger) {
-  std::vector<FilmLayers::LightInfo> lights;
-  for (const auto& [name, position, light] : scene.lights.items)
-    lights.push_back({name, std::visit([](const auto& params) { return params.visible; }, light)});
-  std::vector<MaterialParams> materials;
-  for (const auto& material : scene.materials.items) materials.push_back(material.value);
-  const FilmLayers layers = frame_layers(scene.image, scene.render, lights, materials);
-  return reserve(ledger, MemoryTag::kFilm, Film::bytes_needed(scene.image.width, scene.image.height, layers),
-                 fmt::format("the film of {} x {} pixels", scene.image.width, scene.image.height));
-}
-
-FrameHeader header_of(const SceneDescription& scene, int frame, const FrameResult& result, double seconds) {
-  FrameHeader header;
-  header.frame = frame;
-  header.shutter = scene.camera.shutter;
-  header.frames_per_second = scene.units.fps;
-  header.meters_per_unit = scene.units.meters_per_unit;
-  header.seed = scene.render.seed;
-  header.samples = result.samples;
-  header.mean_samples = result.mean_samples;
-  if (scene.render.adaptive)
-    header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
-  header.time_limited = result.time_limited;
-  header.partial = result.partial;
-  header.render_seconds = seconds;
-  header.peak_memory_bytes = peak_rss_bytes();
-  header.program_version = version();
-  header.scene_hash = scene.hash;
-  return header;
 }
 
 // Adds what a frame took to the numbers of the run.
@@ -106,7 +69,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   run.statistics().characters += world.characters;
   run.statistics().characters_in_frame += world.characters_in_frame;
   const double posed = run.seconds();
-  const FrameResult result = render_frame(world.scene, run.job(), run.statistics());
+  const FrameResult result = render(world, run.job(), run.statistics());
   count(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()), run.statistics());
   if (result.mean_samples == 0) {
     say_nothing_was_written(path, run);
@@ -114,16 +77,10 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   }
   const double seconds = run.seconds() - began;
   give_back_heap();  // the chunks of the frame are gone
-  const Film& film = result.film;
   const std::string place = place_of(result, path);
   if (place != path)
     run.display().warn(path + ": kept as it was, since some pixels of the new picture have no sample yet");
-  run.stage("write", [&] {
-    write_exr(
-        place, film.width(), film.height(),
-        exr_attributes(header_of(scene, frame, result, seconds), world.scene.camera),
-        [&film](int y0, int y1) { return film.exr_rows(y0, y1); }, run.workers(), run.ledger());
-  });
+  run.stage("write", [&] { write_frame(place, world, result, seconds, run.job()); });
   const std::string clamped =
       scene.render.clamp_indirect > 0
           ? fmt::format(", {:.2g} % of the indirect light clamped", 100 * result.clamped_fraction)
@@ -139,7 +96,6 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
 int run_render(const Options& options) {
   Run run(options);
   const SceneDescription scene = load_scene(options.input, options.overrides);
-  run.ledger().set_limit(scene.render.memory.bytes);
   const std::string output = output_name(options, scene.frames);
   if (std::filesystem::path(output).extension() != ".exr") {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");
@@ -150,7 +106,7 @@ int run_render(const Options& options) {
   bool complete = true;
   std::string path = frame_file_name(output, scene.frames.frames.front());
   try {
-    MemoryCharge film = reserve_film(scene, run.ledger());
+    MemoryCharge film = reserve_film(scene, run.job());
     const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
     for (const auto& [name, groom] : assets->grooms) {
       run.statistics().strands_dropped += groom->strands_dropped();

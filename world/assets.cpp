@@ -89,6 +89,7 @@ std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& as
 
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job) {
   MemoryLedger& ledger = job.ledger;
+  ledger.set_limit(scene.render.memory.bytes);
   require_room_for_strands(scene, job);
   auto assets = std::make_unique<Assets>(ledger, &job.progress);
   SharedTopologies topologies;

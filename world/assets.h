@@ -38,8 +38,8 @@ struct Assets {
 };
 
 /// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
-/// operators, coats with a cache from there; who stands where. Throws Error (kInput), Error
-/// (kMemory) before anything is made that `render.memory` has no room for, Error (kStopped).
+/// operators, coats with a cache from there; who stands where. Sets the limit of the ledger. Throws Error
+/// (kInput), Error (kMemory) before anything is made that `render.memory` has no room for, Error (kStopped).
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/version.h"
 #include "procedurals/fur.h"
 #include "procedurals/strand_nature.h"
 #include "world/drawn_characters.h"
@@ -156,6 +157,20 @@ class Composer {
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };
 
+FrameHeader header_of(const SceneDescription& scene, double frame) {
+  FrameHeader header;
+  header.frame = frame;
+  header.shutter = scene.camera.shutter;
+  header.frames_per_second = scene.units.fps;
+  header.meters_per_unit = scene.units.meters_per_unit;
+  header.seed = scene.render.seed;
+  if (scene.render.adaptive)
+    header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
+  header.program_version = version();
+  header.scene_hash = scene.hash;
+  return header;
+}
+
 }  // namespace
 
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
@@ -174,6 +189,7 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               0,
               0,
               0,
+              header_of(scene, frame),
               {}};
   Composer(scene, assets, frame, job, world).add_all();
   return world;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "render/film/frame_header.h"
 #include "render/scene/render_scene.h"
 #include "world/assets.h"
 #include "world/scene_schema.h"
@@ -17,6 +18,7 @@ struct World {
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
   int64_t characters = 0;           ///< those with a coat
   int64_t characters_in_frame = 0;  ///< of these, those whose bound meets the camera's view
+  FrameHeader header;               ///< what the file of the picture will say, but for what rendering adds
   std::vector<MemoryCharge> charges;
 };
 

@@ -110,6 +110,6 @@ void check_references(const SceneDescription& scene, Problems& problems);
 
 /// Reads a scene and checks all of it that needs no other file. Throws Error (kInput) with every mistake, in
 /// file order.
-SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides);
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 }  // namespace pelage

@@ -9,7 +9,7 @@
 #include "base/stopwatch.h"
 #include "lab/compare/light_side.h"
 #include "lab/pictures/picture_difference.h"
-#include "render/path/path_integrator.h"
+#include "render/render_frame.h"
 #include "world/compose.h"
 
 namespace pelage {

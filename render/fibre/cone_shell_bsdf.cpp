@@ -12,8 +12,6 @@ constexpr float kDiffuseScale = 1.0f / (kPi * kPi);
 /// Added to the luminance of each lobe that scatters at all when lobes are chosen, so that none is starved.
 constexpr float kChoiceFloor = 1e-3f;
 
-float largest(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
-
 /// Unit vector perpendicular to `tangent` on the side of `wo`; any when they are parallel.
 V3f perpendicular_toward(const V3f& wo, const V3f& tangent) {
   const V3f side = wo - wo.dot(tangent) * tangent;
@@ -27,8 +25,8 @@ V3f perpendicular_toward(const V3f& wo, const V3f& tangent) {
 }  // namespace
 
 ConeShellMaterial::ConeShellMaterial(const ConeShellParams& params)
-    : diffuse(
-          params.diffuse.value_or(std::max(0.0f, 1 - largest(params.primary) - largest(params.secondary)))),
+    : diffuse(params.diffuse.value_or(
+          std::max(0.0f, 1 - max_component(params.primary) - max_component(params.secondary)))),
       balance(params.balance),
       primary(params.primary),
       secondary(params.secondary),
@@ -55,7 +53,7 @@ ConeShellBsdf::ConeShellBsdf(const ConeShellMaterial& material, const Rgb& color
               ConeShell(material.secondary_shape, material.variant, wo.dot(tangents[2]))},
       albedos_{color * material.diffuse, material.primary, color * material.secondary} {
   const Rgb sum = albedo();
-  const float most = largest(sum);
+  const float most = max_component(sum);
   if (most > 1.0f) {
     for (Rgb& lobe : albedos_) lobe *= 1.0f / most;
   }

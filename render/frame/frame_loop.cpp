@@ -16,16 +16,18 @@ int tile_count(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 
 }  // namespace
 
-FrameLoop::FrameLoop(const PathTracer& tracer, const Job& job, Film& film, const Stopwatch& clock)
-    : tracer_(tracer),
+FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock)
+    : integrator_(integrator),
       job_(job),
       film_(film),
       clock_(clock),
       tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
       costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
-      given_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())),
-      scratch_(static_cast<size_t>(job.workers.thread_count())) {
-  for (size_t i = 0; i < scratch_.size(); ++i) scratch_[i].thread.worker = static_cast<int>(i);
+      given_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())) {
+  for (int worker = 0; worker < job.workers.thread_count(); ++worker) {
+    scratch_.push_back(integrator.make_scratch());
+    scratch_.back()->thread.worker = worker;
+  }
 }
 
 uint32_t FrameLoop::least_given() const { return *std::min_element(given_.begin(), given_.end()); }
@@ -48,7 +50,7 @@ FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline
         out_of_time = true;
         return;
       }
-      if (!trace(tiles[i], goal, scratch_[static_cast<size_t>(range.worker)])) {
+      if (!trace(tiles[i], goal, *scratch_[static_cast<size_t>(range.worker)])) {
         cancelled = true;
         return;
       }
@@ -60,7 +62,7 @@ FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline
   return out_of_time ? End::kOutOfTime : End::kDone;
 }
 
-bool FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) {
+bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch) {
   const double began = clock_.seconds();
   int64_t traced = 0;
   bool stopped = false;
@@ -80,13 +82,13 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, PathScratch& scratch) 
   return !stopped;
 }
 
-bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch) {
+bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch) {
   constexpr uint32_t kBetweenLooks = 16;  // samples: a tile of many takes minutes
   const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
   for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
     for (; given < until; ++given) {
       if (given % kBetweenLooks == 0 && job_.progress.cancelled()) return false;
-      tracer_.trace(x, y, given, scratch);
+      integrator_.trace(x, y, given, scratch);
       if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
     }
   }
@@ -107,21 +109,21 @@ double FrameLoop::cost(size_t pixel) const {
 
 void FrameLoop::add_to(Statistics& statistics) const {
   statistics.samples_rejected += rejected_;
-  for (const PathScratch& scratch : scratch_) {
-    statistics.box_tests += scratch.thread.counts.box_tests;
-    statistics.chunk_visits += scratch.thread.counts.chunk_visits;
-    statistics.rays["camera"] += scratch.rays.camera;
-    statistics.rays["shadow"] += scratch.rays.shadow;
-    statistics.rays["indirect"] += scratch.rays.indirect;
+  for (const auto& scratch : scratch_) {
+    statistics.box_tests += scratch->thread.counts.box_tests;
+    statistics.chunk_visits += scratch->thread.counts.chunk_visits;
+    statistics.rays["camera"] += scratch->rays.camera;
+    statistics.rays["shadow"] += scratch->rays.shadow;
+    statistics.rays["indirect"] += scratch->rays.indirect;
   }
   statistics.clamped_fraction = std::max(statistics.clamped_fraction, clamped_fraction());
 }
 
 double FrameLoop::clamped_fraction() const {
   int64_t lost = 0, indirect = 0;
-  for (const PathScratch& scratch : scratch_) {
-    lost += scratch.clamp.lost;
-    indirect += scratch.clamp.indirect;
+  for (const auto& scratch : scratch_) {
+    lost += scratch->clamp.lost;
+    indirect += scratch->clamp.indirect;
   }
   return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
 }

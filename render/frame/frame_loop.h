@@ -5,14 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "base/job.h"
 #include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "render/film/film.h"
+#include "render/frame/sample_integrator.h"
 #include "render/frame/tile_order.h"
-#include "render/path/path_tracer.h"
 
 namespace pelage {
 
@@ -25,7 +26,7 @@ class FrameLoop {
   enum class End { kDone, kCancelled, kOutOfTime };
 
   /// `clock` is what deadlines refer to.
-  FrameLoop(const PathTracer& tracer, const Job& job, Film& film, const Stopwatch& clock);
+  FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
@@ -54,18 +55,18 @@ class FrameLoop {
     double seconds = 0, samples = 0;
   };
   /// False when it was cancelled in the middle.
-  bool trace(const Tile& tile, const Goal& goal, PathScratch& scratch);
-  bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, PathScratch& scratch);
+  bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
+  bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch);
   size_t tile_of(int x, int y) const;
 
-  const PathTracer& tracer_;
+  const SampleIntegrator& integrator_;
   Job job_;
   Film& film_;
   const Stopwatch& clock_;
   std::vector<Tile> tiles_;
-  std::vector<TileCost> costs_;       // of tiles row by row
-  std::vector<uint32_t> given_;       // by pixel
-  std::vector<PathScratch> scratch_;  // one per worker
+  std::vector<TileCost> costs_;                          // of tiles row by row
+  std::vector<uint32_t> given_;                          // by pixel
+  std::vector<std::unique_ptr<SampleScratch>> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};
   std::atomic<double> first_tile_s_{0};
 };

@@ -4,36 +4,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/mis.h"
-
 namespace pelage {
 namespace {
 
 /// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
 enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-/// Points on lights among which one shadow ray chooses.
-constexpr uint32_t kCandidates = 4;
-constexpr float kGolden = 0.6180339887f;
-
-/// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
-constexpr float kJustBefore = 1 - 1e-4f;
-
-float largest(const Rgb& c) { return std::max({c.x, c.y, c.z}); }
-
 /// Of the light about it, what a surface shows: roughly, pale fur less than skin.
 constexpr float kShown = 0.5f;
 
 /// How likely roulette lets a path go on that has this weight: what it may still bring, over what the pixel
 /// shows [Vorba16]. By the weight alone, paths would end that bring as much as others: in pale fur a quarter
 /// fewer rays, and two thirds more variance.
-float survival(const Rgb& weight) { return std::min(1.0f, largest(weight) / kShown); }
+float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
 }  // namespace
 
+struct PathTracer::Scratch final : SampleScratch {
+  DirectLightScratch direct;
+};
+
 /// The state of a path at its current vertex.
 struct PathTracer::Path {
-  Path(const FilmLayers& film_layers, const SampleStream& numbers, PathScratch& memory)
+  Path(const FilmLayers& film_layers, const SampleStream& numbers, Scratch& memory)
       : layers(film_layers), stream(numbers), scratch(memory) {}
 
   void seek(uint32_t draw) { stream.seek(kFirstVertex + kVertexDraws * vertex + draw); }
@@ -60,7 +53,7 @@ struct PathTracer::Path {
 
   const FilmLayers& layers;
   SampleStream stream;
-  PathScratch& scratch;
+  Scratch& scratch;
   uint32_t vertex = 0;
   uint32_t random = 0;  // decides at semi-transparent crossings
   float time = 0;
@@ -77,10 +70,11 @@ PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmL
       accel_(accel),
       layers_(layers),
       options_(options),
+      direct_(scene.lights, scene.render.light_samples, options.direct),
       shading_(scene),
       filter_(scene.image.filter) {}
 
-Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, PathScratch& scratch) const {
+Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, Scratch& scratch) const {
   stream.seek(kFilm);
   const V2f offset = filter_.offset(stream.next2d());
   V2f lens(0.5f);
@@ -104,7 +98,7 @@ Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, PathScratch& scra
 }
 
 /// Lights that the camera sees directly, in front of `distance`.
-void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch) const {
+void PathTracer::see_lights(const Ray& ray, float distance, Scratch& scratch) const {
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights.light(i);
     if (!light.visible()) continue;
@@ -115,45 +109,15 @@ void PathTracer::see_lights(const Ray& ray, float distance, PathScratch& scratch
   }
 }
 
-/// Direct light by points on lights: of several points the ones that shadow rays go to are drawn in
-/// proportion to what would arrive if nothing stood in between [Talbot05].
 void PathTracer::sample_lights(const ScatterPoint& point, Path& path) const {
-  const auto rays = static_cast<uint32_t>(scene_.render.light_samples);
-  const uint32_t count = rays * kCandidates;
+  DirectLightScratch& scratch = path.scratch.direct;
   path.seek(kLight);
-  const V2f u = path.stream.next2d();
-  std::vector<LightPoint>& points = path.scratch.light_points;
-  points.clear();
-  double total = 0;
-  for (uint32_t k = 0; k < count; ++k) {
-    // Every point alone is anywhere with equal chance; together they are a lattice, the lights in turn.
-    const float turn = u.y + static_cast<float>(k) * kGolden;
-    const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
-                 std::min(turn - std::floor(turn), kBelowOne));
-    if (const auto sample = light_point(point, at, path)) {
-      points.push_back(*sample);
-      total += sample->luminance;
-    }
-  }
-  if (points.empty()) return;
+  const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
+  const double total = direct_.propose(point, path.stream.next2d(), lobe_pdf, scratch);
+  if (!(total > 0)) return;
   path.seek(kLightChoice);
-  const double step = total / rays;
-  double next = path.stream.next1d() * step, sum = 0;
-  for (const LightPoint& at : points) {
-    sum += at.luminance;
-    int chosen = 0;
-    for (; next < sum; next += step) ++chosen;
-    if (chosen > 0) shadow_ray(point, at, static_cast<float>(chosen * step / (at.luminance * count)), path);
-  }
-}
-
-/// The density that points on a light count with against directions drawn from the lobes, by that of one of
-/// them. All points count where a lobe would find the light by rare chance, although few of them are asked
-/// for their visibility: small lights that are bright are the noise of long paths. An environment is found by
-/// every ray that gets out, so there only the shadow rays count.
-float PathTracer::competing_pdf(float pdf, float distance) const {
-  const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
-  return pdf * points * static_cast<float>(scene_.render.light_samples);
+  direct_.choose(total, path.stream.next1d(), scratch,
+                 [&](const LightPoint& to, float factor) { shadow_ray(point, to, factor, path); });
 }
 
 bool PathTracer::is_last(const Path& path) const {
@@ -168,35 +132,11 @@ float PathTracer::arriving_pdf(const FibreValue& value, const Path& path) const 
   return value.pdf * survival(path.weight * (value.total() / value.pdf));
 }
 
-std::optional<LightPoint> PathTracer::light_point(const ScatterPoint& point, const V2f& u,
-                                                  const Path& path) const {
-  const LightSet::Choice choice = LightSet::choose(path.scratch.light_probabilities, u.x);
-  if (!(choice.probability > 0)) return std::nullopt;
-  const auto seen = scene_.lights.light(choice.light).sample(point.position(), {choice.remapped, u.y});
-  if (!seen || !(seen->pdf > 0)) return std::nullopt;
-  const auto sample = point.exit().toward(*seen);
-  if (!sample) return std::nullopt;
-  LightPoint result;
-  result.light = choice.light;
-  result.direction = sample->direction;
-  result.distance = sample->distance;
-  result.value = point.eval(sample->direction);
-  const float pdf = choice.probability * sample->pdf;
-  const float weight =
-      options_.direct == DirectLight::kBoth
-          ? power_weight(competing_pdf(pdf, sample->distance), arriving_pdf(result.value, path))
-          : 1.0f;
-  result.arriving = sample->radiance * (weight / pdf);
-  result.luminance = luminance(result.value.total() * result.arriving);
-  if (!(result.luminance > 0)) return std::nullopt;
-  return result;
-}
-
 void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const {
   Ray ray;
   ray.origin = point.start(to.direction);
   ray.direction = to.direction;
-  ray.far = to.distance * kJustBefore;
+  ray.far = to.distance * DirectLight::kJustBefore;
   ray.time = path.time;
   if (!point.meets_own()) ray.start = path.hit.start;
   ++path.scratch.rays.shadow;
@@ -208,30 +148,22 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
 /// `shadowed`, what lies between has yet to be found out.
 void PathTracer::gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                bool shadowed, Path& path) const {
-  const V3f from = point.exit().origin(ray.direction);
-  for (size_t i = 0; i < scene_.lights.size(); ++i) {
-    const Light& light = scene_.lights.light(i);
-    const auto hit = light.intersect(from, ray.direction);
-    if (!hit || hit->distance > distance || !(largest(hit->radiance) > 0)) continue;
-    float weight = 1;
-    if (options_.direct == DirectLight::kBoth) {
-      const float pdf = path.scratch.light_probabilities[i] * point.exit().pdf(light, ray.direction, *hit);
-      weight = power_weight(lobe_pdf, competing_pdf(pdf, hit->distance));
-    }
-    if (shadowed) {
-      Ray shadow = ray;
-      shadow.far = hit->distance * kJustBefore;
-      ++path.scratch.rays.shadow;
-      weight *= accel_.transmittance(shadow, path.scratch.thread);
-    }
-    if (weight > 0) path.add(i, path.first, path.throughput * hit->radiance * weight);
-  }
+  direct_.meet(point, ray.direction, distance, lobe_pdf, path.scratch.direct,
+               [&](size_t light, const LightHit& hit, float weight) {
+                 if (shadowed) {
+                   Ray shadow = ray;
+                   shadow.far = hit.distance * DirectLight::kJustBefore;
+                   ++path.scratch.rays.shadow;
+                   weight *= accel_.transmittance(shadow, path.scratch.thread);
+                 }
+                 if (weight > 0) path.add(light, path.first, path.throughput * hit.radiance * weight);
+               });
 }
 
 /// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
 bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   const bool last = is_last(path);
-  if (last && options_.direct == DirectLight::kLightsOnly) return false;
+  if (last && options_.direct == DirectTechniques::kLightsOnly) return false;
   path.seek(kLobe);
   const auto sample = point.sample(path.stream.next3d());
   if (!sample) return false;
@@ -242,7 +174,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
     path.throughput *= value.total() / value.pdf;
   }
   path.weight *= value.total() / value.pdf;
-  if (!(largest(path.weight) > 0)) return false;
+  if (!(max_component(path.weight) > 0)) return false;
 
   Ray ray;
   ray.origin = point.start(sample->wi);
@@ -264,7 +196,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ray.random = ++path.random;
   ++path.scratch.rays.indirect;
   const Hit hit = accel_.closest(ray, path.scratch.thread);
-  if (options_.direct != DirectLight::kLightsOnly) {
+  if (options_.direct != DirectTechniques::kLightsOnly) {
     gather_lights(point, ray, hit.distance, value.pdf * survived, false, path);
   }
   path.ray = ray;
@@ -272,11 +204,13 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   return static_cast<bool>(hit);
 }
 
-void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) const {
+std::unique_ptr<SampleScratch> PathTracer::make_scratch() const { return std::make_unique<Scratch>(); }
+
+void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) const {
+  auto& scratch = static_cast<Scratch&>(memory);
   scratch.sample = FilmSample{};
   scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.by_layer.assign(layers_.size(), Rgb(0));
-  scratch.light_probabilities.resize(scene_.lights.size());
 
   const auto seed = static_cast<uint64_t>(scene_.render.seed);
   const auto px = static_cast<uint32_t>(x), py = static_cast<uint32_t>(y);
@@ -296,10 +230,8 @@ void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) cons
 
   for (;; ++path.vertex) {
     const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
-    scene_.lights.probabilities(
-        point.position(), point.tangent(), [&](const V3f& wi) { return point.eval(wi).pdf; },
-        scratch.light_probabilities);
-    if (options_.direct != DirectLight::kLobesOnly) sample_lights(point, path);
+    direct_.begin(point, scratch.direct);
+    if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path);
     if (!sample_lobes(point, path)) return;
   }
 }

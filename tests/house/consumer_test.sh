@@ -9,7 +9,12 @@ trap 'rm -rf "$scratch"' EXIT
 cmake --install "$1" --prefix "$scratch/prefix" >"$scratch/install.log"
 cmake -S "$source_dir" -B "$scratch/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$scratch/prefix"
 cmake --build "$scratch/build"
-said=$("$scratch/build/consumer")
+# A scene to a picture, in thirty lines: the program that the README shows. It loads textures from a module.
+examples=$(cd "$source_dir/../../examples" && pwd)
+"$scratch/build/consumer" "$examples/tuft.yaml" "$scratch/out.exr"
+[ -s "$scratch/out.exr" ]
+
+said=$("$scratch/build/strands")
 echo "$said"
 [ "$said" = "2 strands, 6 points, box -0.100 -0.100 -0.100 to 3.100 2.100 0.100" ]
 

@@ -72,6 +72,47 @@ def read_shared_libraries(text):
             for name, where in table_rows(text, "### Shared libraries")}
 
 
+def read_walls(text):
+    """Folder of a room -> the folders of the same room that it may include; in the order of the table."""
+    if "### Inner walls" not in text:
+        return {}
+    return {re.fullmatch(r"`([a-z]+/[a-z]+)/`", folder).group(1): may_include.split() if may_include != "–" else []
+            for folder, _, may_include in table_rows(text, "### Inner walls")}
+
+
+def wall_violations(root, text):
+    """One line for each include between two folders of a room that the table of inner walls does not allow."""
+    walls = read_walls(text)
+    order = list(walls)
+    found = []
+    for folder, may_include in walls.items():
+        room = folder.split("/")[0]
+        for other in may_include:
+            if f"{room}/{other}" not in order[:order.index(folder)]:
+                found.append(f"the table lets {folder} include {other}, which is no folder above it")
+    walled_rooms = {folder.split("/")[0] for folder in walls}
+    for room in sorted(walled_rooms):
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix not in (".h", ".cpp", ".inl"):
+                continue
+            inside = path.relative_to(root).as_posix()
+            own = "/".join(inside.split("/")[:2])
+            if inside.count("/") == 1:  # in the room itself
+                continue
+            if own not in walls:
+                found.append(f"{inside}: {own} is not in the table of inner walls")
+                continue
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match or match.group(1) != '"' or not match.group(2).startswith(room + "/"):
+                    continue
+                parts = match.group(2).split("/")
+                other = parts[1] if len(parts) > 2 else "."
+                if f"{room}/{other}" != own and other not in walls[own]:
+                    found.append(f"{inside}:{number}: {own} may not include {match.group(2)}")
+    return found
+
+
 def library_of(header):
     return next((name for name, pattern in LIBRARY_HEADERS.items() if re.match(pattern, header)), None)
 
@@ -109,7 +150,7 @@ def violations(root, text):
                         allowed = inside.startswith(owners.get(library, "nowhere") + "/")
                 if not allowed:
                     found.append(f"{inside}:{number}: {room.name} may not include {header}")
-    return found
+    return found + wall_violations(root, text)
 
 
 def source_root():

@@ -20,6 +20,12 @@ TABLES = """
 |---|---|
 | fmt | all |
 | Highway | geom |
+
+### Inner walls
+| folder | lives there | may include |
+|---|---|---|
+| `render/accel/` | - | – |
+| `render/path/` | - | accel |
 """
 
 
@@ -63,6 +69,20 @@ class PlantedIncludes(unittest.TestCase):
     def test_system(self):
         for header in ("<vector>", "<string_view>", "<cmath>", "<sys/stat.h>", "<unistd.h>"):
             self.assert_allowed("base/a.cpp", header)
+
+    def test_inner_walls(self):
+        self.assert_allowed("render/path/a.h", '"render/accel/b.h"')
+        self.assert_allowed("render/accel/fur/a.h", '"render/accel/b.h"')
+        self.assert_allowed("render/a.h", '"render/path/b.h"')
+        self.assert_refused("render/accel/a.h", '"render/path/b.h"')
+        self.assert_refused("render/accel/fur/a.h", '"render/path/b.h"')
+        self.assert_refused("render/accel/a.h", '"render/b.h"')
+        self.assertEqual(self.found("render/new/a.h", '"base/b.h"'),
+                         ["render/new/a.h: render/new is not in the table of inner walls"])
+
+    def test_wall_that_looks_upward(self):
+        upward = TABLES.replace("| `render/accel/` | - | – |", "| `render/accel/` | - | path |")
+        self.assertEqual(len(rooms.violations(pathlib.Path("/nowhere"), upward)), 1)
 
     def test_table_that_looks_upward(self):
         upward = TABLES.replace("| base |", "| base render |")

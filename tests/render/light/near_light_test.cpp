@@ -53,7 +53,8 @@ ChiangParams fibre() {
 
 V3f axis_of(float slant) { return {0, std::cos(slant), std::sin(slant)}; }
 
-Estimate rendered(const NearLight& light, float slant, CurveShape shape, int64_t seed, DirectLight direct) {
+Estimate rendered(const NearLight& light, float slant, CurveShape shape, int64_t seed,
+                  DirectTechniques direct) {
   PathScene scene(16, 16);
   const V3f axis = axis_of(slant);
   scene.add_fur(one_strand({-8.0f * axis, -3.0f * axis, 3.0f * axis, 8.0f * axis}, kRadius), fibre());
@@ -65,7 +66,7 @@ Estimate rendered(const NearLight& light, float slant, CurveShape shape, int64_t
   scene.camera.fov = kFov;
   scene.render.curves = shape;
   scene.render.bounces = 0;
-  scene.render.samples = direct == DirectLight::kBoth ? 16 : 160;
+  scene.render.samples = direct == DirectTechniques::kBoth ? 16 : 160;
   PathOptions options;
   options.direct = direct;
   return estimate(16, [&](uint32_t run) {
@@ -128,7 +129,7 @@ TEST(NearLight, IsSeenFromWhereLightLeavesTheFibre) {
     const Estimate truth = traced(light);
     for (CurveShape shape : {CurveShape::kFlat, CurveShape::kRound}) {
       const std::string where = light.name + (shape == CurveShape::kFlat ? ", flat" : ", round");
-      expect_same(rendered(light, 0, shape, 100, DirectLight::kBoth), truth, where);
+      expect_same(rendered(light, 0, shape, 100, DirectTechniques::kBoth), truth, where);
     }
   }
 }
@@ -138,8 +139,8 @@ TEST(NearLight, IsSeenFromWhereLightLeavesTheFibre) {
 TEST(NearLight, ShinesAlikeOnFlatAndRoundFibres) {
   const NearLight& light = kLights[1];
   for (float slant : {-0.5f, 0.5f}) {
-    expect_same(rendered(light, slant, CurveShape::kFlat, 200, DirectLight::kBoth),
-                rendered(light, slant, CurveShape::kRound, 300, DirectLight::kBoth),
+    expect_same(rendered(light, slant, CurveShape::kFlat, 200, DirectTechniques::kBoth),
+                rendered(light, slant, CurveShape::kRound, 300, DirectTechniques::kBoth),
                 light.name + ", slanted by " + std::to_string(slant));
   }
 }
@@ -148,10 +149,10 @@ TEST(NearLight, ShinesAlikeOnFlatAndRoundFibres) {
 TEST(NearLight, IsTheSameBySamplesOfItAndOfLobes) {
   for (const NearLight& light : kLights) {
     const float slant = 0.1f;
-    const Estimate both = rendered(light, slant, CurveShape::kFlat, 400, DirectLight::kBoth);
-    expect_same(rendered(light, slant, CurveShape::kFlat, 500, DirectLight::kLightsOnly), both,
+    const Estimate both = rendered(light, slant, CurveShape::kFlat, 400, DirectTechniques::kBoth);
+    expect_same(rendered(light, slant, CurveShape::kFlat, 500, DirectTechniques::kLightsOnly), both,
                 light.name + ", lights");
-    expect_same(rendered(light, slant, CurveShape::kFlat, 600, DirectLight::kLobesOnly), both,
+    expect_same(rendered(light, slant, CurveShape::kFlat, 600, DirectTechniques::kLobesOnly), both,
                 light.name + ", lobes");
   }
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/path/path_integrator.h"
+#include "render/render_frame.h"
 #include "render/sampling/adaptive_rule.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/film/film_picture.h"

@@ -72,8 +72,8 @@ TEST(PathEstimators, LightsLobesAndBothAgree) {
   FurryScene scene;
   scene.render.bounces = 1;
   PathOptions both, lights, lobes;
-  lights.direct = DirectLight::kLightsOnly;
-  lobes.direct = DirectLight::kLobesOnly;
+  lights.direct = DirectTechniques::kLightsOnly;
+  lobes.direct = DirectTechniques::kLobesOnly;
   const Estimate with_both = estimate(scene, both, 0);
   const Estimate with_lights = estimate(scene, lights, 100);
   const Estimate with_lobes = estimate(scene, lobes, 200);

@@ -209,7 +209,8 @@ TEST(PathClosedForm, ASphereLightAboveAPlane) {
   scene.add_light("lamp", lamp);
   scene.camera.position = V3f(6, 4, 0);
   scene.camera.fov = 0.1f;
-  for (DirectLight direct : {DirectLight::kBoth, DirectLight::kLightsOnly, DirectLight::kLobesOnly}) {
+  for (DirectTechniques direct :
+       {DirectTechniques::kBoth, DirectTechniques::kLightsOnly, DirectTechniques::kLobesOnly}) {
     PathOptions options;
     options.direct = direct;
     const PictureMean picture = picture_mean(scene.run(options).film);

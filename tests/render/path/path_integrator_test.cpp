@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/path/path_integrator.h"
-
 #include <atomic>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "render/render_frame.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/film/film_picture.h"
 #include "tests/render/path/path_scene.h"

@@ -11,7 +11,7 @@
 #include "image/texture_library.h"
 #include "procedurals/fixed.h"
 #include "render/light/light_params.h"
-#include "render/path/path_integrator.h"
+#include "render/render_frame.h"
 #include "render/sampling/sample_stream.h"
 #include "render/sampling/warp.h"
 

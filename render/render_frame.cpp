@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/path/path_integrator.h"
+#include "render/render_frame.h"
 
 #include <algorithm>
 
@@ -22,6 +22,16 @@ FilmLayers film_layers(const RenderScene& scene) {
   return frame_layers(scene.image, scene.render, lights, scene.materials);
 }
 
+std::unique_ptr<const SampleIntegrator> make_integrator(const RenderScene& scene, const Accel& accel,
+                                                        const FilmLayers& layers,
+                                                        const PathOptions& options) {
+  switch (scene.render.integrator) {
+    case Integrator::kPath:
+      break;
+  }
+  return std::make_unique<PathTracer>(scene, accel, layers, options);
+}
+
 }  // namespace
 
 FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
@@ -36,8 +46,8 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& s
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
-  const PathTracer tracer(scene, geometry->accel(), result.film.layers(), options);
-  FrameLoop loop(tracer, job, result.film, clock);
+  const auto integrator = make_integrator(scene, geometry->accel(), result.film.layers(), options);
+  FrameLoop loop(*integrator, job, result.film, clock);
   const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry->fits()).run();
   result.partial = end.partial;
   result.time_limited = end.time_limited;

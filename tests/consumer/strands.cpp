@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "geom/strands.h"
+
 #include <cstdio>
 #include <utility>
 
 #include "base/error.h"
 #include "geom/curve_bounds.h"
-#include "geom/strands.h"
 
 /// Two straight hairs of width 0.2 along y, and the box that holds them.
 int main() try {

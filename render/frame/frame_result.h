@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/job.h"
-#include "base/statistics.h"
 #include "render/film/film.h"
-#include "render/path/path_tracer.h"
-#include "render/scene/render_scene.h"
 
 namespace pelage {
 
-/// What a render leaves.
+/// A rendered frame.
 struct FrameResult {
   Film film;
   uint32_t samples = 0;         ///< paths that every pixel has got
@@ -20,14 +16,5 @@ struct FrameResult {
   bool partial = false;         ///< cancelled: some pixels have fewer than asked for, perhaps none
   double first_tile_s = 0;      ///< seconds until the first tile had its first samples
 };
-
-/// Renders one frame: bounds all chunks, and traces paths in passes over the whole image (SampleSchedule), so
-/// that a picture cancelled at any time is a valid one of fewer samples.
-///
-/// The same scene gives the same film for any number of threads, unless the time limit is met. Adds rays,
-/// strands, rejected samples and stage times to `statistics`. Throws Error; nothing is thrown out of the
-/// render loops.
-FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
-                         const PathOptions& options = {});
 
 }  // namespace pelage

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/vector.h"
+#include "render/fibre/fibre_value.h"
+
+namespace pelage {
+
+/// The limit on light of single paths (render.clamp_indirect), and what it took away.
+struct IndirectClamp {
+  float limit = 0;  ///< luminance; 0 is none
+  int64_t lost = 0,
+          indirect = 0;  ///< luminance of all samples in parts of 65,536: integers add up in any order
+
+  /// The part that is kept of light that reaches the camera as lobes[g] * light, summed over lobe groups g.
+  float keep(const Rgb* lobes, const Rgb& light) {
+    if (limit == 0) return 1;
+    float all = 0;
+    for (int g = 0; g < kLobeGroups; ++g) all += luminance(lobes[g] * light);
+    const float kept = all > limit ? limit / all : 1;
+    indirect += in_parts(all);
+    lost += in_parts(all * (1 - kept));
+    return kept;
+  }
+
+ private:
+  static int64_t in_parts(float value) {
+    return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);  // nothing of what is not a number
+  }
+};
+
+}  // namespace pelage

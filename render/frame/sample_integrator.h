@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "render/accel/accel.h"
+#include "render/film/film.h"
+#include "render/film/indirect_clamp.h"
+
+namespace pelage {
+
+/// Rays traced, by kind.
+struct RayCounts {
+  int64_t camera = 0, shadow = 0, indirect = 0;
+};
+
+/// Memory of one thread, reused from sample to sample. An integrator adds its own.
+struct SampleScratch {
+  virtual ~SampleScratch() = default;
+
+  FilmSample sample;          ///< the result
+  std::vector<Rgb> by_layer;  ///< its radiance divided among the layers of the film
+  RayCounts rays;
+  IndirectClamp clamp;
+  TraceThread thread;
+};
+
+/// What FrameLoop drives: samples of pixels, each a function of (scene, pixel, number of the sample) alone.
+/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+class SampleIntegrator {
+ public:
+  virtual ~SampleIntegrator() = default;
+  virtual std::unique_ptr<SampleScratch> make_scratch() const = 0;
+  /// Leaves the result in `scratch`, which make_scratch() made.
+  virtual void trace(int x, int y, uint32_t sample, SampleScratch& scratch) const = 0;
+};
+
+}  // namespace pelage

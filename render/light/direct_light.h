@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "base/vector.h"
+#include "render/light/light_set.h"
+#include "render/light/mis.h"
+#include "render/light/scatter_point.h"
+#include "render/sampling/sample_stream.h"
+
+namespace pelage {
+
+/// Which techniques estimate direct light: both, combined by the power heuristic, or one alone. All converge
+/// to the same picture; one alone is for tests and comparisons.
+enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
+
+/// A point on a light that a shadow ray may go to.
+struct LightPoint {
+  size_t light = 0;
+  V3f direction{0};
+  float distance = 0;
+  FibreValue value;     ///< of the scattering towards it
+  Rgb arriving{0};      ///< radiance, weighted, over the density of one point
+  float luminance = 0;  ///< of what that scatters
+};
+
+/// Memory of one thread, reused from point to point.
+struct DirectLightScratch {
+  std::vector<float> probabilities;  ///< of choosing each light, at the current point
+  std::vector<LightPoint> points;
+};
+
+/// Direct light at a scatter point. Where a shadow ray goes is drawn from several points on lights, which are
+/// chosen by importance, by what they would scatter if they were not occluded: evaluating a fibre costs a
+/// small part of tracing a ray [Talbot05]. Directions drawn from the lobes are the other technique; the two
+/// are weighted by the power heuristic [Veach97, section 9.2]. Lights are transparent to rays and to each
+/// other.
+///
+/// At each point: begin(); propose() and choose() for shadow rays; meet() for a ray drawn from the lobes. The
+/// caller traces the rays.
+/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+class DirectLight {
+ public:
+  /// `lights` outlives it. `rays`: shadow rays at each point.
+  DirectLight(const LightSet& lights, int rays, DirectTechniques techniques)
+      : lights_(lights), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
+
+  /// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
+  static constexpr float kJustBefore = 1 - 1e-4f;
+
+  DirectTechniques techniques() const { return techniques_; }
+
+  /// The probabilities of the lights at a point.
+  void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
+    scratch.probabilities.resize(lights_.size());
+    lights_.probabilities(
+        point.position(), point.tangent(), [&](const V3f& wi) { return point.eval(wi).pdf; },
+        scratch.probabilities);
+  }
+
+  /// Points on lights, and the sum of their luminances, which is 0 where no light arrives. `u`: two random
+  /// numbers. `lobe_pdf(value)`: the density with which the other technique finds a direction of that value.
+  template <class LobePdf>
+  double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
+                 DirectLightScratch& scratch) const;
+
+  /// Calls `shadow(point, factor)` for the proposed points that shadow rays go to: light arrives there as
+  /// point.arriving * factor unless the ray is blocked. `u`: a random number.
+  template <class Shadow>
+  void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
+
+  /// Calls `found(light, hit, weight)` for each light that a ray in `direction`, drawn from the lobes with
+  /// density `lobe_pdf`, meets before `distance`.
+  template <class Found>
+  void meet(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
+            const DirectLightScratch& scratch, const Found& found) const;
+
+ private:
+  /// Points on lights among which one shadow ray chooses.
+  static constexpr uint32_t kCandidates = 4;
+  static constexpr float kGolden = 0.6180339887f;
+
+  /// The density that points on a light count with against directions drawn from the lobes, by that of one
+  /// of them. All points count where a lobe would find the light by rare chance, although few of them are
+  /// asked for their visibility: small lights that are bright are the noise of long paths. An environment is
+  /// found by every ray that gets out, so there only the shadow rays count.
+  float competing_pdf(float pdf, float distance) const {
+    const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
+    return pdf * points * static_cast<float>(rays_);
+  }
+  template <class LobePdf>
+  std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
+                                        const DirectLightScratch& scratch) const;
+
+  const LightSet& lights_;
+  const uint32_t rays_;
+  const DirectTechniques techniques_;
+};
+
+template <class LobePdf>
+double DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
+                            DirectLightScratch& scratch) const {
+  const uint32_t count = rays_ * kCandidates;
+  scratch.points.clear();
+  double total = 0;
+  for (uint32_t k = 0; k < count; ++k) {
+    // Every point alone is anywhere with equal chance; together they are a lattice, the lights in turn.
+    const float turn = u.y + static_cast<float>(k) * kGolden;
+    const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
+                 std::min(turn - std::floor(turn), kBelowOne));
+    if (const auto sample = light_point(point, at, lobe_pdf, scratch)) {
+      scratch.points.push_back(*sample);
+      total += sample->luminance;
+    }
+  }
+  return total;
+}
+
+template <class LobePdf>
+std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, const V2f& u,
+                                                   const LobePdf& lobe_pdf,
+                                                   const DirectLightScratch& scratch) const {
+  const LightSet::Choice choice = LightSet::choose(scratch.probabilities, u.x);
+  if (!(choice.probability > 0)) return std::nullopt;
+  const auto seen = lights_.light(choice.light).sample(point.position(), {choice.remapped, u.y});
+  if (!seen || !(seen->pdf > 0)) return std::nullopt;
+  const auto sample = point.exit().toward(*seen);
+  if (!sample) return std::nullopt;
+  LightPoint result;
+  result.light = choice.light;
+  result.direction = sample->direction;
+  result.distance = sample->distance;
+  result.value = point.eval(sample->direction);
+  const float pdf = choice.probability * sample->pdf;
+  const float weight = techniques_ == DirectTechniques::kBoth
+                           ? power_weight(competing_pdf(pdf, sample->distance), lobe_pdf(result.value))
+                           : 1.0f;
+  result.arriving = sample->radiance * (weight / pdf);
+  result.luminance = luminance(result.value.total() * result.arriving);
+  if (!(result.luminance > 0)) return std::nullopt;
+  return result;
+}
+
+template <class Shadow>
+void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
+                         const Shadow& shadow) const {
+  // Systematic resampling: points are drawn in proportion to what arrives if nothing stands in between.
+  const double step = total / rays_;
+  const auto count = static_cast<float>(rays_ * kCandidates);
+  double next = u * step, sum = 0;
+  for (const LightPoint& point : scratch.points) {
+    sum += point.luminance;
+    int chosen = 0;
+    for (; next < sum; next += step) ++chosen;
+    if (chosen > 0) shadow(point, static_cast<float>(chosen * step / (point.luminance * count)));
+  }
+}
+
+template <class Found>
+void DirectLight::meet(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
+                       const DirectLightScratch& scratch, const Found& found) const {
+  const V3f from = point.exit().origin(direction);
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    const Light& light = lights_.light(i);
+    const auto hit = light.intersect(from, direction);
+    if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) continue;
+    float weight = 1;
+    if (techniques_ == DirectTechniques::kBoth) {
+      const float pdf = scratch.probabilities[i] * point.exit().pdf(light, direction, *hit);
+      weight = power_weight(lobe_pdf, competing_pdf(pdf, hit->distance));
+    }
+    found(i, *hit, weight);
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/job.h"
+#include "base/statistics.h"
+#include "render/frame/frame_result.h"
+#include "render/path/path_tracer.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Renders one frame with the integrator of the scene (render.integrator): bounds all chunks, and takes
+/// samples in passes over the whole image (SampleSchedule), so that a picture cancelled at any time is a
+/// valid one of fewer samples.
+///
+/// The same scene gives the same film for any number of threads, unless the time limit is met. Adds rays,
+/// strands, rejected samples and stage times to `statistics`. Throws Error; nothing is thrown out of the
+/// render loops.
+FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
+                         const PathOptions& options = {});
+
+}  // namespace pelage
