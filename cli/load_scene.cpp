@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/nearest_name.h"
+#include "cli/asset_files.h"
 #include "cli/leaf_sizes.h"
 #include "cli/scene_schema.h"
 #include "image/exr_file.h"
@@ -170,6 +171,8 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
+  const std::vector<std::filesystem::path> assets = asset_files(scene);
+  scene.files.insert(scene.files.end(), assets.begin(), assets.end());
   choose_leaf_sizes(scene);
   return scene;
 }
