@@ -6,7 +6,7 @@
 namespace pelage {
 
 void Job::check_stop() const {
-  if (progress.cancelled()) throw Error(ErrorKind::kStopped, "stopped before a picture was begun");
+  if (progress.cancelled()) throw Error(ErrorKind::kStopped, "stopped before the work was done");
 }
 
 void Job::for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const {

@@ -152,6 +152,7 @@ int run_grow(const Options& options) {
   check_stats(options, scene.files);
   if (!options.output.empty()) {
     check_stats(options, {options.output});
+    check_replaces_none("-o", options.output, scene.files);
     prepare_output(options.output);
   }
   const int frame = scene.frames.frames.front();

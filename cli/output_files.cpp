@@ -12,8 +12,8 @@ void check_replaces_none(const std::string& flag, const std::filesystem::path& o
   for (const std::filesystem::path& file : kept) {
     if (same_file(output, file)) {
       throw Error(ErrorKind::kArguments, flag + " " + output.string() + ": this would replace " +
-                                             (file == output ? "the same file" : file.string()) +
-                                             ", which this run reads or writes itself; choose another name");
+                                             (file == output ? "a file that" : file.string() + ", which") +
+                                             " this run reads or writes itself; choose another name");
     }
   }
 }

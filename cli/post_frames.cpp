@@ -48,7 +48,7 @@ int run_post_frames(const Options& options, const PostWork& work) {
     const double began = run.seconds();
     const PostReport report = work(input, output, run);
     for (const std::string& warning : report.warnings) {
-      run.display().warn(fmt::format("{}: warning: {}", input, warning));
+      run.display().warn(fmt::format("{}: {}", input, warning));
     }
     for (const std::string& note : report.notes) run.display().note(fmt::format("{}: {}", input, note));
     if (report.cancelled) return SignalGuard::exit_code();

@@ -174,7 +174,10 @@ void ProgressDisplay::draw_line(Stage& stage, bool last, double now_s) {
   const std::string tail = last     ? fmt::format("{:.1f} s", elapsed_s)
                            : left_s ? duration_text(*left_s) + " left"
                                     : duration_text(elapsed_s) + " so far";
-  target_.write(fmt::format("{}: {} %, {}\n", title(stage), percent, tail));
+  const bool stopped = last && percent < 100 && (percent == 0 || cancelled());
+  const std::string state = percent > 0 || !stopped ? fmt::format("{} %", percent) : "";
+  const std::string_view how = !stopped ? "" : state.empty() ? "stopped" : "stopped at ";
+  target_.write(fmt::format("{}: {}{}, {}\n", title(stage), how, state, tail));
 }
 
 void ProgressDisplay::draw_json(Stage& stage, bool last, double now_s) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run.h"
 
+#include <exception>
+
 #include "cli/stats_json.h"
 
 namespace pelage {
@@ -45,12 +47,13 @@ void Run::finish(const Options& options) {
   if (options.stats) write_statistics(*options.stats, statistics_);
 }
 
-Run::StageTimer::StageTimer(Run& run, std::string_view name) : run_(run), name_(name), began_(run.seconds()) {
+Run::StageTimer::StageTimer(Run& run, std::string_view name)
+    : run_(run), name_(name), began_(run.seconds()), exceptions_(std::uncaught_exceptions()) {
   run_.display_.begin(name_, 1);
 }
 
 Run::StageTimer::~StageTimer() {
-  run_.display_.advance(1);
+  if (std::uncaught_exceptions() == exceptions_) run_.display_.advance(1);
   run_.display_.end();
   run_.statistics_.stages_s[name_] += run_.seconds() - began_;
 }

@@ -46,6 +46,7 @@ class Run {
     Run& run_;
     std::string name_;
     double began_;
+    int exceptions_;
   };
 
   MemorySampler::Clock::time_point start_ = MemorySampler::Clock::now();

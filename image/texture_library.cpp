@@ -175,7 +175,7 @@ TextureLibrary::~TextureLibrary() = default;
 
 void TextureLibrary::check_stop() const {
   if (progress_ && progress_->cancelled())
-    throw Error(ErrorKind::kStopped, "stopped before a picture was begun");
+    throw Error(ErrorKind::kStopped, "stopped before the work was done");
 }
 
 const ImageReader& TextureLibrary::reader() {

@@ -170,6 +170,8 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
+  const std::vector<std::filesystem::path> assets = asset_files(scene);
+  scene.files.insert(scene.files.end(), assets.begin(), assets.end());
   choose_leaf_sizes(scene);
   return scene;
 }

@@ -100,7 +100,8 @@ struct SceneDescription {
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< of the document with its overrides, not of the files it names
-  std::vector<std::filesystem::path> files;  ///< that the document was read from: the scene, what it includes
+  /// That the document was read from: the scene, what it includes; and what these name, see asset_files().
+  std::vector<std::filesystem::path> files;
   static const Schema<SceneDescription>& schema();
 };
 

@@ -38,6 +38,23 @@ class Output(ProgramTest):
         self.assertEqual((self.path / "scene.yaml").read_text(), scene)
         self.assertFalse((self.path / "a.exr").exists())
 
+    def test_nothing_that_the_scene_names_is_replaced(self):
+        scene = self.path / "scene.yaml"
+        text = scene.read_text()
+        self.render("-o", "sky.exr")
+        self.run_pelage("grow", "scene.yaml", "-o", "guides.hair", "--quiet")
+        text = text.replace("radiance: 0.3", "file: sky.exr").replace("color: 0.4", "color: {map: sky.exr}")
+        scene.write_text(text.replace("operators: [", "operators: [{guides: {file: guides.hair}}, "))
+        os.symlink("guides.hair", self.path / "link.hair")
+        before = {name: (self.path / name).read_bytes() for name in self.names()}
+        self.refuses("-o", "a.exr", "--stats", "cube.obj", says="cube.obj")
+        self.refuses("-o", "a.exr", "--stats", "guides.hair", says="guides.hair")
+        self.refuses("-o", "./sky.exr", says="sky.exr")
+        for output in ("guides.hair", "link.hair"):
+            _, err = self.run_pelage("grow", "scene.yaml", "-o", output, "--quiet", code=2)
+            self.assertIn("guides.hair", err)
+        self.assertEqual({name: (self.path / name).read_bytes() for name in self.names()}, before)
+
     def test_other_commands_refuse_it_too(self):
         self.render("-o", "a.exr")
         before = (self.path / "a.exr").read_bytes()

@@ -48,6 +48,21 @@ TEST(ProgressDisplay, LinesComeNowAndThenAndAtTheEnd) {
   EXPECT_TRUE(recorder.writes.empty()) << "half a second is not worth a line: " << recorder.writes[0];
 }
 
+TEST(ProgressDisplay, WorkThatWasStoppedIsNotSaidToBeDone) {
+  Recorder recorder;
+  bool cancelled = false;
+  ProgressDisplay display(ProgressStyle::kPlain, recorder.target(), [&] { return cancelled; });
+  display.begin("read", 1);
+  display.begin("grow", 100);
+  recorder.now_s += 2;
+  display.advance(11);
+  cancelled = true;
+  display.end();
+  display.end();
+  EXPECT_EQ(recorder.writes,
+            (std::vector<std::string>{"grow: stopped at 11 %, 2.0 s\n", "read: stopped, 2.0 s\n"}));
+}
+
 TEST(ProgressDisplay, LinesSayWhichFrameOfHowMany) {
   Recorder recorder;
   ProgressDisplay display(ProgressStyle::kPlain, recorder.target(), kNever);
