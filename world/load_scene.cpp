@@ -9,6 +9,7 @@
 #include "base/nearest_name.h"
 #include "image/exr_file.h"
 #include "scene/document_hash.h"
+#include "world/asset_files.h"
 #include "world/leaf_sizes.h"
 #include "world/scene_schema.h"
 
