@@ -1,6 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 # install, and what find_package(pelage) needs afterwards.
 include(CMakePackageConfigHelpers)
+
+# What others may build on (docs/LIBRARY.md). Only these headers are installed, and what they include.
+set(public_headers
+  base/error.h base/schema.h base/stopwatch.h
+  image/exr.h
+  geom/strands.h geom/curve_bounds.h geom/io/strand_file.h geom/io/strand_reader.h
+  render/fibre/fibre_material.h render/material/material.h
+  post/pelage_post.h
+  world/world.h
+  lab/compare/compare_models.h lab/measure/experiments.h lab/report/report.h)
+set(installed_headers)
+while(public_headers)
+  list(POP_FRONT public_headers header)
+  if(header IN_LIST installed_headers)
+    continue()
+  endif()
+  list(APPEND installed_headers ${header})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${PROJECT_SOURCE_DIR}/${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pelage/${folder})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${header})
+  file(STRINGS ${PROJECT_SOURCE_DIR}/${header} includes REGEX "^#include \"")
+  list(TRANSFORM includes REPLACE "^#include \"([^\"]+)\".*" "\\1")
+  list(APPEND public_headers ${includes})
+endwhile()
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pelage)
 configure_package_config_file(cmake/pelageConfig.cmake.in ${CMAKE_BINARY_DIR}/pelageConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -29,8 +29,6 @@ function(pelage_library name)
   list(TRANSFORM ARG_PRIVATE_LIBS PREPEND pelage::dep_)
   target_link_libraries(pelage_${name} PUBLIC ${ARG_DEPS} ${ARG_PUBLIC_LIBS} PRIVATE ${ARG_PRIVATE_LIBS})
   install(TARGETS pelage_${name} EXPORT pelage ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-  install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pelage/${name}
-          FILES_MATCHING PATTERN "*.h")
 endfunction()
 
 # One test program. Every TEST in it becomes a test of CTest's own; with a sanitizer, where every start of a program

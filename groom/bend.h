@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -18,14 +18,12 @@ struct BendParams {
 };
 
 /// Bends strands towards a direction, more and more from root to tip. Keeps every segment's length.
-class Bend final : public Operator {
+class Bend final : public OperatorOf<BendParams> {
  public:
-  using Params = BendParams;
   static constexpr const char* kName = "bend";
-  explicit Bend(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
@@ -34,7 +32,6 @@ class Bend final : public Operator {
  private:
   float largest_angle() const;  // radians
 
-  Params params_;
   uint64_t seed_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "groom/strand_batch.h"
 #include "image/field.h"
 
@@ -41,14 +41,12 @@ struct ClumpParams {
 /// that would grow longer than it was is scaled back about its root, fully unless it is shorter than 1.5
 /// times the distance to its centre. Where a strand and its centre diverge by 30 degrees, half the amount
 /// shortens it by 3 %.
-class Clump final : public Operator {
+class Clump final : public OperatorOf<ClumpParams> {
  public:
-  using Params = ClumpParams;
   static constexpr const char* kName = "clump";
-  explicit Clump(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   bool learns_from_preceding() const override { return true; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
@@ -77,7 +75,6 @@ class Clump final : public Operator {
   float strongest(const Level& level) const;
   Pull pull() const;
 
-  Params params_;
   uint64_t seed_ = 0;
   std::vector<Level> levels_;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -15,14 +15,12 @@ struct ColorParams {
 };
 
 /// Colours strands: the attribute "color" that materials may ask for.
-class Color final : public Operator {
+class Color final : public OperatorOf<ColorParams> {
  public:
-  using Params = ColorParams;
   static constexpr const char* kName = "color";
-  explicit Color(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   std::optional<AttributeClass> colors() const override;
   Brightness brightness(uint64_t seed, uint64_t strand_id) const override;
   bool replaces_colors() const override { return !params_.value.dependence().attributes; }
@@ -36,7 +34,6 @@ class Color final : public Operator {
   StrandReach reach_after(const StrandReach& before) const override { return before; }
 
  private:
-  Params params_;
   uint64_t seed_ = 0;
 };
 

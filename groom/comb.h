@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -17,14 +17,12 @@ struct CombParams {
 };
 
 /// Lays strands over in a direction along the skin. Keeps every segment's length.
-class Comb final : public Operator {
+class Comb final : public OperatorOf<CombParams> {
  public:
-  using Params = CombParams;
   static constexpr const char* kName = "comb";
-  explicit Comb(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
@@ -32,8 +30,6 @@ class Comb final : public Operator {
 
  private:
   float largest_turn(const StrandReach& before) const;
-
-  Params params_;
 };
 
 }  // namespace pelage

@@ -87,12 +87,7 @@ float Curl::displacement_bound(const StrandReach& before) const {
 }
 
 StrandReach Curl::reach_after(const StrandReach& before) const {
-  const float moved = displacement_bound(before);
-  StrandReach after = before;
-  after.distance += moved;
-  after.length += 2.0f * moved * static_cast<float>(before.segments);
-  if (moved > 0) after.lean = std::numbers::pi_v<float>;
-  return after;
+  return before.displaced(displacement_bound(before));
 }
 
 }  // namespace pelage

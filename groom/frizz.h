@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -15,21 +15,18 @@ struct FrizzParams {
 };
 
 /// Makes each strand wander sideways in its own way.
-class Frizz final : public Operator {
+class Frizz final : public OperatorOf<FrizzParams> {
  public:
-  using Params = FrizzParams;
   static constexpr const char* kName = "frizz";
-  explicit Frizz(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
-  Params params_;
   uint64_t seed_ = 0;
 };
 

@@ -8,7 +8,7 @@
 #include "base/schema.h"
 #include "base/value_readers.h"
 #include "geom/strands.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "groom/root_grid.h"
 #include "image/field.h"
 
@@ -36,14 +36,12 @@ struct GuidesParams {
 /// R is the distance of the first guide that is left out, or the radius if that is less, so that the coat is
 /// continuous where the set of nearest guides changes. A strand that has no guide within the radius stays as
 /// it was.
-class Guides final : public Operator {
+class Guides final : public OperatorOf<GuidesParams> {
  public:
-  using Params = GuidesParams;
   static constexpr const char* kName = "guides";
-  explicit Guides(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   float coverage(const V3f& rest_position, const V3f& normal) const override;
   bool restricts_coverage() const override { return params_.spread.has_value(); }
@@ -54,7 +52,6 @@ class Guides final : public Operator {
  private:
   bool every_strand_has_one() const;
 
-  Params params_;
   std::shared_ptr<const GuideSet> guides_;
   RootGrid near_;                               // for interpolation
   RootGrid covered_;                            // for coverage

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -18,21 +18,18 @@ struct LengthParams {
 };
 
 /// Scales each strand about its root until it is as long as asked.
-class Length final : public Operator {
+class Length final : public OperatorOf<LengthParams> {
  public:
-  using Params = LengthParams;
   static constexpr const char* kName = "length";
-  explicit Length(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
-  Params params_;
   uint64_t seed_ = 0;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -17,21 +17,18 @@ struct NoiseParams {
 };
 
 /// Pushes neighbouring strands about together, by noise over the rest skin.
-class Noise final : public Operator {
+class Noise final : public OperatorOf<NoiseParams> {
  public:
-  using Params = NoiseParams;
   static constexpr const char* kName = "noise";
-  explicit Noise(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
-  Params params_;
   uint32_t seed_ = 0;
 };
 

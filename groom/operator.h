@@ -31,6 +31,16 @@ struct StrandReach {
   float radius = 0;                        ///< widest
   float lean = std::numbers::pi_v<float>;  ///< largest angle of any segment to the normal of its root
   int segments = 7;                        ///< most segments of a control polygon
+
+  /// After points moved by up to `displacement`, each on its own, while roots stayed: neighbours may move
+  /// apart, and segments may turn any way.
+  StrandReach displaced(float displacement) const {
+    StrandReach after = *this;
+    after.distance += displacement;
+    after.length += 2.0f * displacement * static_cast<float>(segments);
+    if (displacement > 0) after.lean = std::numbers::pi_v<float>;
+    return after;
+  }
 };
 
 /// How much of where strands stand on the rest skin something reads.

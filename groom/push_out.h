@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -20,14 +20,12 @@ struct PushOutParams {
 /// After it no point of a strand's curve lies inside a closed skin, and control points keep a distance from
 /// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as that allows; a strand
 /// that finds no way out is drawn back along itself to where it last was outside.
-class PushOut final : public Operator {
+class PushOut final : public OperatorOf<PushOutParams> {
  public:
-  using Params = PushOutParams;
   static constexpr const char* kName = "push_out";
-  explicit PushOut(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   bool reads_rest_only() const override { return false; }
   RestUse rest_use() const override {
     return params_.offset.dependence().rest ? RestUse::kPositions : RestUse::kNone;
@@ -37,9 +35,6 @@ class PushOut final : public Operator {
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
   StrandReach reach_after(const StrandReach& before) const override;
-
- private:
-  Params params_;
 };
 
 }  // namespace pelage

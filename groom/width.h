@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/schema.h"
-#include "groom/operator.h"
+#include "groom/operator_of.h"
 #include "image/field.h"
 
 namespace pelage {
@@ -17,14 +17,12 @@ struct WidthParams {
 };
 
 /// Sets the thickness of strands from root to tip.
-class Width final : public Operator {
+class Width final : public OperatorOf<WidthParams> {
  public:
-  using Params = WidthParams;
   static constexpr const char* kName = "width";
-  explicit Width(Params params) : params_(std::move(params)) {}
+  using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  std::vector<ParameterText> parameters() const override { return Params::schema().describe(params_); }
   bool attributes_only() const override { return true; }
   RestUse rest_use() const override {
     const bool rest = params_.root.dependence().rest || params_.tip.dependence().rest;
@@ -37,7 +35,6 @@ class Width final : public Operator {
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
-  Params params_;
   uint64_t seed_ = 0;
 };
 

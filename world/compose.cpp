@@ -3,13 +3,12 @@
 #include "world/compose.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <tuple>
 
 #include "base/version.h"
+#include "procedurals/coat_detail.h"
 #include "procedurals/fur.h"
-#include "procedurals/strand_nature.h"
 #include "world/drawn_characters.h"
 
 namespace pelage {
@@ -32,6 +31,7 @@ class Composer {
         job_(job),
         world_(world),
         lod_view_(lod_camera().lod_view()),
+        detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
         poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
 
   void add_all() {
@@ -80,49 +80,16 @@ class Composer {
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
       if (reduced) {
-        fur.lod = simplification(*coat, skin.rest.get(), *posed);
+        fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
         if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
       }
-      fur.procedurals.push_back(
-          std::make_unique<FurProcedural>(coat, posed, fur.lod, reduced ? lie(coat, skin.rest) : nullptr));
+      fur.procedurals.push_back(std::make_unique<FurProcedural>(
+          coat, posed, fur.lod, reduced ? detail_.lie(*coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
     }
-  }
-
-  Simplification simplification(const Groom& groom, const LimitSurface* rest,
-                                const PosedCharacterSkin& skin) {
-    auto known = natures_.find(&groom);
-    if (known == natures_.end())
-      known =
-          natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, job_.workers))
-              .first;
-    StrandNature nature = known->second;
-    nature.width *= skin.scale();
-    nature.length *= skin.scale() * skin.length();
-    nature.area_share *= skin.length();
-    nature.density /= skin.scale() * skin.scale();
-    SimplificationParams lod = scene_.render.lod;
-    // Some dozen strands that stand alone: leaving any out saves nothing and shows.
-    if (groom.role() == StrandRole::kWhisker) lod.motion_blur = lod.depth_of_field = lod.turned_away = false;
-    const float budget = groom.role() == StrandRole::kGuard     ? lod.guard
-                         : groom.role() == StrandRole::kWhisker ? lod.whisker
-                                                                : lod.under;
-    return {lod, lod_view_, nature, budget};
-  }
-
-  /// Null where blur does not ask for it.
-  std::shared_ptr<const CoatLie> lie(const std::shared_ptr<const Groom>& groom,
-                                     const std::shared_ptr<const LimitSurface>& rest) {
-    const V2f shutter = scene_.camera.shutter;
-    if (!groom->grows_on_skin() || !scene_.render.lod.motion_blur || !(shutter.y > shutter.x) ||
-        groom->role() == StrandRole::kWhisker)
-      return {};
-    std::shared_ptr<const CoatLie>& known = lies_[groom.get()];
-    if (!known) known = std::make_shared<const CoatLie>(*groom, rest, job_.workers);
-    return known;
   }
 
   /// What sharing a topology saves is measured by not doing it.
@@ -151,9 +118,8 @@ class Composer {
   const Job& job_;
   World& world_;
   const LodView lod_view_;
+  CoatDetail detail_;
   std::shared_ptr<PoseCache> poses_;
-  std::map<const Groom*, StrandNature> natures_;
-  std::map<const Groom*, std::shared_ptr<const CoatLie>> lies_;
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };
 
