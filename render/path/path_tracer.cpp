@@ -297,8 +297,7 @@ void PathTracer::trace(int x, int y, uint32_t sample, PathScratch& scratch) cons
   for (;; ++path.vertex) {
     const ScatterPoint point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
     scene_.lights.probabilities(
-        point.position(), point.tangent(), [&](const V3f& wi) { return point.eval(wi).pdf; },
-        scratch.light_probabilities);
+        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.light_probabilities);
     if (options_.direct != DirectLight::kLobesOnly) sample_lights(point, path);
     if (!sample_lobes(point, path)) return;
   }
