@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/fibre/tangle.h"
 #include "tests/render/fibre_models.h"
 
 namespace pelage {
@@ -79,6 +80,21 @@ TEST(FibreWeight, OfMarschnerAveragesToTheIntegral) {
       EXPECT_NEAR(w.mean / integral, 1, 0.021) << params.beta << ' ' << params.absorption->x << ' ' << theta;
     }
   }
+}
+
+/// A halved lobe loses energy, so a tangle of such fibres is dark; single samples of great weight make walks
+/// that look as if they gained without end, and then all pale colours get too much absorption.
+TEST(FibreWeight, ATangleOfHalvedMarschnerHasAnEnd) {
+  const MarschnerMaterial material{MarschnerParams{}};
+  const auto brightness = [&](float absorption) {
+    return tangle_reflectance(
+        [&](const TangleHit& hit, const V3f& u) {
+          return material.at(FibreFrame(hit.tangent, hit.wo), hit.h, Rgb(absorption)).sample(u);
+        },
+        2048);
+  };
+  EXPECT_NEAR(brightness(0.0004f), 0.335, 0.03);
+  EXPECT_NEAR(brightness(0.02f), 0.265, 0.03);
 }
 
 /// Lobes of the others are drawn exactly: a sample weighs the albedo, but for hue.
