@@ -31,6 +31,7 @@
 #include "bench/ball_scene.h"
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_loop.h"
+#include "render/path/path_tracer.h"
 
 namespace pelage {
 namespace {

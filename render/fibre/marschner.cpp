@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "render/fibre/dielectric.h"
+
 namespace pelage {
 namespace {
 
-/// The proposal is a little wider around the fibre, because exit azimuths move with theta_d, and a part of it
-/// goes everywhere.
-constexpr float kWider = 1.25f;
-constexpr float kEverywhere = 0.05f;
 /// Where both directions lie along the fibre, 1 / cos^2(theta_d) has no bound.
 constexpr float kLeastCosine = 1e-2f;
+/// The part of all samples that goes everywhere: far from all peaks the lobes are not known well.
+constexpr float kEverywhere = 0.01f;
 
 }  // namespace
 
@@ -23,69 +23,103 @@ MarschnerMaterial::MarschnerMaterial(const MarschnerParams& params)
   const float alpha = params.alpha * (kPi / 180), beta = params.beta * (kPi / 180);
   alpha_ = {alpha, -alpha / 2, -3 * alpha / 2};
   beta_ = {beta, beta / 2, 2 * beta};
-  for (int p = 0; p < kLobes; ++p) {
-    proposal_.longitudinal[p] = LongitudinalLobe(4 * beta_[p] * beta_[p]);
-    proposal_.set_tilt(p, -2 * alpha_[p]);
-  }
-  proposal_.longitudinal[kLobes] = LongitudinalLobe(1);
-  proposal_.azimuthal.fill(WrappedGaussian(kWider * params.azimuthal_width * (kPi / 180)));
 }
 
 MarschnerBsdf MarschnerMaterial::at(const FibreFrame& frame, float h, const Rgb& absorption) const {
   return {*this, frame, h, absorption_.value_or(absorption)};
 }
 
-SeparableBsdf<WrappedGaussian> MarschnerBsdf::proposal(const MarschnerMaterial& material,
-                                                       const FibreFrame& frame, float h, const Rgb& sigma) {
-  const FibreCrossing crossing(material.eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
-  std::array<Rgb, kFibreLobes> amplitudes =
-      attenuations(crossing.reflectance, transmittance(sigma, crossing.leg()));
-  amplitudes[3] = kEverywhere * (amplitudes[0] + amplitudes[1] + amplitudes[2]);
-  return {material.proposal_,
-          frame,
-          {crossing.exit_azimuth(0), crossing.exit_azimuth(1), crossing.exit_azimuth(2)},
-          amplitudes};
-}
-
 MarschnerBsdf::MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h,
                              const Rgb& sigma)
     : material_(&material),
+      frame_(frame),
       h_(h),
       sigma_(sigma),
-      theta_o_(std::atan2(frame.sin_theta_o(), frame.cos_theta_o())),
-      proposal_(proposal(material, frame, h, sigma)) {
-  albedo_ = proposal_.albedo() * (2 * material.scale_ / (1 + kEverywhere));
+      theta_o_(std::atan2(frame.sin_theta_o(), frame.cos_theta_o())) {
+  float total = 0;
+  for (int p = 0; p < kLobes; ++p) {
+    lobes_[p] = HalfAngleLobe(material.alpha_[p], material.beta_[p], theta_o_,
+                              [&](float theta_h) { return energy(p, theta_h); });
+    total += choice_[p] = lobes_[p].energy();
+  }
+  for (float& c : choice_) c = total > 0 ? c * (1 - kEverywhere) / total : 0;
+}
+
+MarschnerBsdf::Crossing MarschnerBsdf::crossing(float theta_d) const {
+  const float cos_d = std::max(std::cos(theta_d), kLeastCosine);
+  return {FibreCrossing(material_->eta_, 0, std::sin(theta_d), cos_d, h_), cos_d};
+}
+
+/// What the fibre gives back by one lobe at theta_h, over the Gaussian of theta_h and but for a constant
+/// factor: d omega has another cos(theta_i), d theta_i is 2 d theta_h. On average of channels, and as
+/// FibreCrossing has it, without its angles: a new point of a strand asks nine times.
+float MarschnerBsdf::energy(int lobe, float theta_h) const {
+  const float cos_i = std::max(0.0f, std::cos(2 * theta_h - theta_o_));
+  const float cos_d = std::max(std::cos(theta_o_ - theta_h), kLeastCosine);
+  const float slant = cos_i / cos_d, eta = material_->eta_;
+  const float cos2_d = cos_d * cos_d, across2 = h_ * h_;
+  const float f = dielectric_reflectance(cos_d * std::sqrt(std::max(0.0f, 1 - across2)), eta);
+  if (lobe == 0) return f * (slant * slant);
+  const float inside2 = eta * eta - 1 + cos2_d;
+  const float leg = 2 * eta * std::sqrt(std::max(0.0f, inside2 - across2 * cos2_d)) / inside2;
+  const Rgb t = transmittance(sigma_, leg);
+  const float passed = (1 - f) * (1 - f) / 3 * (slant * slant);
+  return lobe == 1 ? passed * (t.x + t.y + t.z) : passed * f * t.dot(t);
 }
 
 FibreValue MarschnerBsdf::eval(const V3f& wi) const {
-  const FibreAngles a = proposal_.frame().angles(wi);
+  const FibreAngles a = frame_.angles(wi);
   const float theta_i = std::atan2(a.sin_theta, a.cos_theta);
-  const float theta_h = 0.5f * (theta_i + theta_o_), theta_d = 0.5f * (theta_o_ - theta_i);
-  const float cos_d = std::max(std::cos(theta_d), kLeastCosine);
-  const FibreCrossing crossing(material_->eta_, 0, std::sin(theta_d), cos_d, h_);
+  const float theta_h = 0.5f * (theta_i + theta_o_);
+  const Crossing c = crossing(0.5f * (theta_o_ - theta_i));
   const std::array<Rgb, kFibreLobes> amplitudes =
-      attenuations(crossing.reflectance, transmittance(sigma_, crossing.leg()));
-  const float common = material_->scale_ * a.cos_theta / (cos_d * cos_d);
-  std::array<float, MarschnerMaterial::kLobes> d;
-  for (int p = 0; p < MarschnerMaterial::kLobes; ++p) {
+      attenuations(c.geometry.reflectance, transmittance(sigma_, c.geometry.leg()));
+  const float common = material_->scale_ * a.cos_theta / (c.cos_d * c.cos_d);
+  // d theta_h / d omega but for d phi; at the poles themselves there is no density.
+  const float measure = 0.5f / std::max(a.cos_theta, 1e-6f);
+  std::array<float, kLobes> d;
+  float pdf = 0;
+  for (int p = 0; p < kLobes; ++p) {
     const float x = (theta_h - material_->alpha_[p]) / material_->beta_[p];
     const float m = std::exp(-0.5f * x * x) / (std::sqrt(2 * kPi) * material_->beta_[p]);
-    d[p] = common * m * material_->azimuthal_.density(wrapped_angle(a.phi - crossing.exit_azimuth(p)));
+    const float n = material_->azimuthal_.density(wrapped_angle(a.phi - c.geometry.exit_azimuth(p)));
+    d[p] = common * m * n;
+    pdf += choice_[p] * lobes_[p].density(theta_h) * n;
   }
   FibreValue value;
   value[LobeGroup::kPrimary] = amplitudes[0] * d[0];
   value[LobeGroup::kDiffuse] = amplitudes[1] * d[1];
   value[LobeGroup::kSecondary] = amplitudes[2] * d[2];
-  value.pdf = proposal_.eval(a).pdf;
+  value.pdf = pdf * measure + everywhere() * (0.25f / kPi);
   return value;
 }
 
+float MarschnerBsdf::everywhere() const { return 1 - (choice_[0] + choice_[1] + choice_[2]); }
+
 std::optional<FibreSample> MarschnerBsdf::sample(const V3f& u) const {
+  int p = 0;
+  float rest = u.z;
+  while (p < kLobes && rest >= choice_[p]) rest -= choice_[p++];
   FibreSample s;
-  s.wi = proposal_.draw(u);
+  if (p == kLobes) {
+    s.wi = uniform_direction({u.x, u.y});
+  } else {
+    const float theta_h = lobes_[p].sample(u.y);
+    const float theta_i = std::clamp(2 * theta_h - theta_o_, -kPi / 2, kPi / 2);
+    const float phi =
+        crossing(theta_o_ - theta_h).geometry.exit_azimuth(p) + material_->azimuthal_.sample(u.x);
+    s.wi = frame_.direction(std::sin(theta_i), std::cos(theta_i), phi);
+  }
   s.value = eval(s.wi);
   if (!(s.value.pdf > 0)) return std::nullopt;
   return s;
+}
+
+Rgb MarschnerBsdf::albedo() const {
+  const FibreCrossing at_view(material_->eta_, 0, frame_.sin_theta_o(), frame_.cos_theta_o(), h_);
+  const std::array<Rgb, kFibreLobes> a =
+      attenuations(at_view.reflectance, transmittance(sigma_, at_view.leg()));
+  return (a[0] + a[1] + a[2]) * (2 * material_->scale_);
 }
 
 }  // namespace pelage

@@ -4,8 +4,11 @@
 #include <array>
 #include <optional>
 
+#include "render/fibre/attenuation.h"
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/separable_bsdf.h"
+#include "render/fibre/fibre_frame.h"
+#include "render/fibre/fibre_value.h"
+#include "render/fibre/half_angle_lobe.h"
 #include "render/material/absorption.h"
 #include "render/material/fibre_params.h"
 
@@ -28,7 +31,6 @@ class MarschnerMaterial {
   std::optional<Rgb> absorption_;
   std::array<float, kLobes> alpha_, beta_;  // radians, in theta_h
   WrappedGaussian azimuthal_;
-  LobeWidths<WrappedGaussian> proposal_;
 };
 
 /// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h:
@@ -42,20 +44,32 @@ class MarschnerBsdf {
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
 
   FibreValue eval(const V3f& wi) const;
-  /// Drawn from the energy-conserving lobes of the same widths.
+  /// Draws theta_h from the lobes, then the azimuth about where light leaves at that theta_d. Attenuations,
+  /// exit azimuths and the measure depend on theta_d: lobes about theta_o would miss the brightest light of
+  /// slanted fibres.
   std::optional<FibreSample> sample(const V3f& u) const;
-  /// Approximate: what the energy-conserving lobes have, times 2 as published.
-  Rgb albedo() const { return albedo_; }
+  /// Approximate: attenuations as at theta_o, times 2 as published.
+  Rgb albedo() const;
 
  private:
-  static SeparableBsdf<WrappedGaussian> proposal(const MarschnerMaterial& material, const FibreFrame& frame,
-                                                 float h, const Rgb& sigma);
+  static constexpr int kLobes = MarschnerMaterial::kLobes;
+  /// What light at one theta_d meets.
+  struct Crossing {
+    FibreCrossing geometry;
+    float cos_d;
+  };
+  Crossing crossing(float theta_d) const;
+  float energy(int lobe, float theta_h) const;
+  /// The part of samples that goes everywhere: all of them where every lobe is black.
+  float everywhere() const;
+
   const MarschnerMaterial* material_;
+  FibreFrame frame_;
   float h_;
   Rgb sigma_;
   float theta_o_;
-  Rgb albedo_;
-  SeparableBsdf<WrappedGaussian> proposal_;
+  std::array<HalfAngleLobe, kLobes> lobes_;
+  std::array<float, kLobes> choice_;
 };
 
 }  // namespace pelage

@@ -58,8 +58,7 @@ class DirectLight {
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
     scratch.probabilities.resize(lights_.size());
     lights_.probabilities(
-        point.position(), point.tangent(), [&](const V3f& wi) { return point.eval(wi).pdf; },
-        scratch.probabilities);
+        point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
   /// Points on lights, and the sum of their luminances, which is 0 where no light arrives. `u`: two random

@@ -38,10 +38,12 @@ class LightSet {
   /// The same where lobes scatter light with the density `lobes(direction)` per solid angle: lights towards
   /// which they scatter much are chosen more often. A narrow lobe that points at a small bright light, which
   /// is chosen by rare chance, is the brightest noise of paths through fur. Half of each importance does
-  /// without the density, since the middle of a large light says little about the rest of it.
+  /// without the density, since the middle of a large light says little about the rest of it. No tangent is
+  /// asked for: the bound on cos(theta_i) would dim lights along the fibre, which R, TT and TRT scatter as
+  /// brightly as others when the fibre is seen at a slant.
   template <class Density>
-  void probabilities(const V3f& from, const V3f& tangent, const Density& lobes, std::span<float> out) const {
-    importances(from, tangent, out);
+  void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
+    importances(from, V3f(0), out);
     for (size_t i = 0; i < size() && size() > 1; ++i) {
       if (!(out[i] > 0.0f)) continue;
       const std::optional<V3f> middle = lights_[i]->middle(from);

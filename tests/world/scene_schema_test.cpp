@@ -192,19 +192,6 @@ TEST_F(SceneSchema, LevelOfDetailHasACameraOfItsOwn) {
   EXPECT_EQ(problems(kScene, {{"render.lod.enabled", "true"}, {"render.lod.quality", "2"}}), Lines{});
 }
 
-TEST_F(SceneSchema, IsOutlinedByInfo) {
-  EXPECT_EQ(describe_scene(load(kScene)).substr(0, 55),
-            "scene, 1280 x 720 pixels, frames 1-4, 64 samples, 4 bou");
-  const std::string text = describe_scene(
-      load(std::string(kScene) + "crowds: {pack: {of: [rat], count: 7, area: {type: disc}}}\n"));
-  for (const char* part :
-       {"2 skins\n", "12 poses", "under: 1000 strands of 8 points on rat, under: length, clump\n",
-        "rat: rat in hide with under in fur, loose in fur; eyes in hide\n", "1 crowds\n  pack: 7 of rat\n",
-        "key: sphere\n"}) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-  }
-}
-
 TEST_F(SceneSchema, EveryKeyIsExplained) {
   const std::string manual = manual_text(SceneDescription::schema());
   for (const char* part : {"\ncamera\n", "\ncone-shell\n", "\ncurl\n", "\nenvironment\n", "\npart\n"}) {

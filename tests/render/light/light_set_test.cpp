@@ -69,7 +69,7 @@ TEST(LightSet, LightsThatLobesPointAtAreChosenMoreOften) {
       return wi.dot(aim) > std::cos(0.2f) ? 1 / (2 * kPi * (1 - std::cos(0.2f))) : 0;
     };
     set.probabilities(from, V3f(0), plain);
-    set.probabilities(from, V3f(0), lobe, aimed);
+    set.probabilities(from, lobe, aimed);
     ASSERT_NEAR(std::accumulate(aimed.begin(), aimed.end(), 0.0), 1, 1e-5);
     const size_t at = size_t(i) % 9;
     if (plain[at] > 0 && plain[at] < 0.9f) {
@@ -77,6 +77,25 @@ TEST(LightSet, LightsThatLobesPointAtAreChosenMoreOften) {
     }
     for (size_t k = 0; k < set.size(); ++k) ASSERT_EQ(aimed[k] > 0, plain[k] > 0);
   }
+}
+
+/// Fibres that are seen at a slant scatter along themselves as brightly as across: lobes say how much, no
+/// cosine does.
+TEST(LightSet, LightsAlongAFibreCountByItsLobes) {
+  std::vector<std::unique_ptr<Light>> lights;
+  for (const V3f& at : {V3f(0, 0, 5), V3f(5, 0, 0), V3f(0, 3, 4)}) {
+    lights.push_back(std::make_unique<SphereLight>("s", at, 0.2f, Rgb(1), false));
+  }
+  const LightSet set(std::move(lights));
+  std::vector<float> even(3), along(3);
+  set.probabilities(
+      V3f(0), [](const V3f&) { return 0.25f / kPi; }, even);
+  for (const float p : even) EXPECT_NEAR(p, 1.0f / 3, 1e-6);
+  // A lobe about the tangent z, as R, TT and TRT are seen from along the fibre.
+  set.probabilities(
+      V3f(0), [](const V3f& wi) { return wi.z > 0.9f ? 1 / (2 * kPi * 0.1f) : 0; }, along);
+  EXPECT_GT(along[0], 0.75f);
+  EXPECT_NEAR(along[1], along[2], 1e-6);
 }
 
 TEST(LightSet, ChoosesInProportion) {

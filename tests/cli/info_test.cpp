@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/info.h"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+TEST(InfoScene, OutlinesWhatASceneHolds) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "s.yaml";
+  std::ofstream(path) << R"(pelage: 1
+frames: 1-4
+skins:
+  rat: {mesh: rat.obj, poses: {files: "walk.%04d.obj", count: 12}}
+  eyes: {mesh: eyes.obj}
+grooms:
+  under: {skin: rat, strands: 1000, operators: [{length: {value: 1}}, {clump: {spacing: 1}}]}
+  loose: {strands_file: a.hair}
+materials:
+  hide: {model: lambert}
+  fur: {model: cone-shell}
+characters:
+  rat:
+    parts:
+      - {skin: rat, material: hide, grooms: {under: fur, loose: fur}}
+      - {skin: eyes, material: hide}
+crowds: {pack: {of: [rat], count: 7, area: {type: disc}}}
+lights:
+  key: {type: sphere, radius: 2}
+)";
+  const std::string text = describe_scene(load_scene(path));
+  EXPECT_EQ(text.substr(0, 55), "scene, 1280 x 720 pixels, frames 1-4, 64 samples, 4 bou");
+  for (const char* part :
+       {"2 skins\n", "12 poses", "under: 1000 strands of 8 points on rat, under: length, clump\n",
+        "rat: rat in hide with under in fur, loose in fur; eyes in hide\n", "1 crowds\n  pack: 7 of rat\n",
+        "key: sphere\n"}) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  }
+}
+
+}  // namespace
+}  // namespace pelage
