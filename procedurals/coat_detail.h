@@ -1,38 +1,68 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
+#include <cmath>
 #include <memory>
+#include <vector>
 
-#include "base/job.h"
+#include "geom/strand_scale.h"
+#include "groom/groom.h"
 #include "lod/simplification.h"
 #include "procedurals/coat_lie.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
 
-/// What level of detail makes of the coats of a frame. What it has to know of a groom is measured once,
-/// however many characters wear it.
+/// Attribute of strands with reduced detail: packed_line() of the normal of the skin at their roots when the
+/// shutter opens, and packed_share() of what is kept there.
+inline constexpr const char* kRootDetail = "root detail";
+inline constexpr int kRootDetailSize = 3;
+
+/// A share as a multiple of 1/255, finer the less it is; 1 stays 1.
+inline float packed_share(float share) { return std::round(255 * std::sqrt(share)) / 255; }
+inline float unpacked_share(float packed) { return packed * packed; }
+
+/// Which strands of one coat on one character are worth growing, each decided from where its own root stands
+/// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
+///
+/// Immutable. Thread safety: const members may be called from any thread.
 class CoatDetail {
  public:
-  /// `job` outlives it. `shutter`: when it opens and closes, in frames.
-  CoatDetail(const SimplificationParams& params, const LodView& view, const V2f& shutter, const Job& job)
-      : params_(params), view_(view), blurs_(params.motion_blur && shutter.y > shutter.x), job_(job) {}
+  /// `lie` tells blur along strands from blur across them; null: strands lie anyhow.
+  CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
+             const Simplification& simplification, std::shared_ptr<const CoatLie> lie);
 
-  /// Of a groom on the skin of a character. `rest`: null for a groom on no skin. Whiskers, some dozen strands
-  /// that stand alone, are thinned by size only: leaving out more saves nothing and shows.
-  Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
+  const Groom& groom() const { return *groom_; }
+  const Simplification& simplification() const { return simplification_; }
 
-  /// How its strands lie, which motion blur asks for; null where it does not.
-  std::shared_ptr<const CoatLie> lie(const Groom& groom, const std::shared_ptr<const LimitSurface>& rest);
+  /// How many strands of a leaf, the first ones, are looked at: no other may be kept.
+  size_t candidates(size_t leaf) const;
+
+  /// What is kept of a leaf.
+  struct Choice {
+    std::vector<uint32_t> strands;  ///< by number in the leaf
+    std::vector<float> width;
+    std::vector<float> contrast;
+    std::vector<float> detail;     ///< kRootDetail
+    std::vector<float> tolerance;  ///< for fewer control points
+    KeptStrands kept() const { return {strands, width, contrast}; }
+  };
+  /// `pose` must hold the faces of the candidates.
+  Choice choose(size_t leaf, const SkinPose& pose) const;
+
+  /// No strand is widened by more; none by less that does not fade.
+  float most_width_factor() const { return most_width_factor_; }
+  float least_width_factor() const { return least_width_factor_; }
 
  private:
-  const SimplificationParams params_;
-  const LodView view_;
-  const bool blurs_;
-  const Job& job_;
-  std::map<const Groom*, StrandNature> natures_;
-  std::map<const Groom*, std::shared_ptr<const CoatLie>> lies_;
+  std::shared_ptr<const Groom> groom_;
+  Simplification simplification_;
+  std::shared_ptr<const CoatLie> lie_;
+  float first_out_ = 1;  // no strand of this priority or behind it is kept
+  float most_width_factor_ = 1, least_width_factor_ = 1;
 };
+
+/// Of a whole coat; `detail` is null where every strand is grown.
+StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail);
 
 }  // namespace pelage

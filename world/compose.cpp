@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/version.h"
-#include "procedurals/coat_detail.h"
+#include "procedurals/detail_policy.h"
 #include "procedurals/fur.h"
 #include "world/drawn_characters.h"
 
@@ -118,7 +118,7 @@ class Composer {
   const Job& job_;
   World& world_;
   const LodView lod_view_;
-  CoatDetail detail_;
+  DetailPolicy detail_;
   std::shared_ptr<PoseCache> poses_;
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };

@@ -20,7 +20,7 @@ void feed(Tool&& tool, const std::filesystem::path& input, Params params) {
   NoProgress progress;
   MemoryLedger ledger;
   try {
-    tool(input, folder.path() / "out.exr", params, workers, progress, ledger);
+    tool(input, folder.path() / "out.exr", params, Job{workers, ledger, progress});
     PELAGE_CHECK(ledger.peak(MemoryTag::kFilm) <= kBudget);
   } catch (const Error& error) {
     PELAGE_CHECK(error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kMemory);

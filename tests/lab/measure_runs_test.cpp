@@ -39,7 +39,7 @@ class MeasureRuns : public testing::Test {
     NoProgress progress;
     Variant variant;
     variant.id = variant.title = "one";
-    return VariantRunner(setup, display, 1).run(variant);
+    return VariantRunner(setup, progress, 1).run(variant);
   }
 
   TemporaryFolder folder_;

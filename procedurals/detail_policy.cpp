@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "procedurals/coat_detail.h"
+#include "procedurals/detail_policy.h"
 
 #include "procedurals/strand_nature.h"
 
 namespace pelage {
 
-Simplification CoatDetail::simplification(const Groom& groom, const LimitSurface* rest,
-                                          const PosedCharacterSkin& skin) {
+Simplification DetailPolicy::simplification(const Groom& groom, const LimitSurface* rest,
+                                            const PosedCharacterSkin& skin) {
   auto known = natures_.find(&groom);
   if (known == natures_.end()) {
     known =
@@ -27,8 +27,8 @@ Simplification CoatDetail::simplification(const Groom& groom, const LimitSurface
   return {params, view_, nature, budget};
 }
 
-std::shared_ptr<const CoatLie> CoatDetail::lie(const Groom& groom,
-                                               const std::shared_ptr<const LimitSurface>& rest) {
+std::shared_ptr<const CoatLie> DetailPolicy::lie(const Groom& groom,
+                                                 const std::shared_ptr<const LimitSurface>& rest) {
   if (!blurs_ || !groom.grows_on_skin() || groom.role() == StrandRole::kWhisker) return {};
   std::shared_ptr<const CoatLie>& known = lies_[&groom];
   if (!known) known = std::make_shared<const CoatLie>(groom, rest, job_.workers);
