@@ -7,18 +7,27 @@
 
 namespace pelage {
 
-/// A stage of a Progress that ends with its scope, also when something is thrown.
+/// A stage of a Progress that ends with its scope, also when something is thrown. Nothing is shown of one
+/// that will be over in a moment.
 class ProgressStage {
  public:
-  ProgressStage(Progress& progress, std::string_view name, double total) : progress_(progress) {
-    progress_.begin(name, total);
+  ProgressStage(Progress& progress, std::string_view name, double total, bool worth_showing = true)
+      : progress_(progress), shown_(worth_showing) {
+    if (shown_) progress_.begin(name, total);
   }
-  ~ProgressStage() { progress_.end(); }
+  ~ProgressStage() {
+    if (shown_) progress_.end();
+  }
   ProgressStage(const ProgressStage&) = delete;
   ProgressStage& operator=(const ProgressStage&) = delete;
 
+  void advance(double amount) const {
+    if (shown_) progress_.advance(amount);
+  }
+
  private:
   Progress& progress_;
+  const bool shown_;
 };
 
 }  // namespace pelage

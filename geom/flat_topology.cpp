@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/release.h"
 #include "geom/polygon_cut.h"
 
 namespace pelage {
@@ -150,7 +151,7 @@ void fill_flat_topology(const ControlMesh& mesh, const std::function<void()>& ch
     std::transform(cut.corners.begin(), cut.corners.end(), impl.uv.begin(),
                    [&](uint32_t corner) { return mesh.uv[mesh.face_uv[corner]]; });
   }
-  cut.corners = {};
+  release(cut.corners);
   // Each triangle is a face of its own.
   cage.first_corner.resize(count + 1);
   cage.first_ptex.resize(count + 1);

@@ -48,20 +48,19 @@ void split(std::span<const V3f> positions, std::vector<uint32_t>& ids, uint32_t 
 FollicleTree FollicleTree::over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
                                 std::span<const uint32_t> ids, int leaf_strands, const Job& job,
                                 std::vector<uint32_t>& order) {
-  PELAGE_CHECK(leaf_strands > 0 && rest_positions.size() == roots.size() && ids.size() == roots.size());
+  const size_t count = rest_positions.size();
+  PELAGE_CHECK(leaf_strands > 0 && ids.size() == count && (roots.empty() || roots.size() == count));
   FollicleTree tree;
-  order.resize(roots.size());
+  order.resize(count);
   std::iota(order.begin(), order.end(), 0u);
-  if (roots.empty()) return tree;
-  split(rest_positions, order, 0, static_cast<uint32_t>(roots.size()), static_cast<uint32_t>(leaf_strands),
-        job, tree.leaves_);
+  if (count == 0) return tree;
+  split(rest_positions, order, 0, static_cast<uint32_t>(count), static_cast<uint32_t>(leaf_strands), job,
+        tree.leaves_);
   tree.leaves_.shrink_to_fit();
-  tree.ids_.reserve(roots.size());
+  tree.ids_.reserve(count);
+  for (uint32_t i : order) tree.ids_.push_back(ids[i]);
   tree.roots_.reserve(roots.size());
-  for (uint32_t i : order) {
-    tree.ids_.push_back(ids[i]);
-    tree.roots_.push_back(roots[i]);
-  }
+  for (size_t i = 0; i < roots.size(); ++i) tree.roots_.push_back(roots[order[i]]);
   return tree;
 }
 

@@ -59,7 +59,8 @@ class FollicleTree {
   /// Empty where the density is 0 everywhere. Throws Error (kInput) when more than kMaxFollicles are asked
   /// for, Error (kMemory) before anything is made that the ledger has no room for, Error (kStopped).
   static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Job& job);
-  /// The same hierarchy over given places with ascending ids. `order` receives the place of each follicle.
+  /// The same hierarchy over given places with ascending ids; without roots where they are on no skin.
+  /// `order` receives the place of each follicle.
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
                            std::span<const uint32_t> ids, int leaf_strands, const Job& job,
                            std::vector<uint32_t>& order);
@@ -68,6 +69,8 @@ class FollicleTree {
   static FollicleTree of(std::vector<Leaf> leaves, std::vector<uint32_t> ids, std::vector<RootAddress> roots);
 
   size_t size() const { return ids_.size(); }
+  /// Whether its follicles stand on a skin: those of a file may stand free.
+  bool has_roots() const { return !roots_.empty(); }
   std::span<const Leaf> leaves() const { return leaves_; }
   uint64_t id(size_t follicle) const { return ids_[follicle]; }
   const RootAddress& root(size_t follicle) const { return roots_[follicle]; }

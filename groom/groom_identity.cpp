@@ -2,7 +2,7 @@
 #include "groom/groom_identity.h"
 
 #include "base/error.h"
-#include "base/mapped_file.h"
+#include "base/file_hash.h"
 #include "geom/limit_surface.h"
 #include "groom/growth_identity.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 std::string hash_of_file(const std::filesystem::path& file) {
   try {
-    return to_string(content_hash(MappedFile(file).bytes()));
+    return to_string(file_hash(file));
   } catch (const Error&) {
     return "missing";
   }

@@ -92,8 +92,10 @@ const Schema<GroomParams>& GroomParams::schema() {
         "leaf_strands", &GroomParams::leaf_strands,
         {.help =
              "Most strands that are grown together; changes no pixel. By default 500 with "
-             "render.bvh.file; else 8000, or 2000, 500 or 125, so few that 400 chunks of 80 bytes a control "
-             "point fit render.memory where all fur may not; 8000 for coats with a cache or from a file",
+             "render.bvh.file; else 8000 or 2000, 500, 125 (of long strands 31 or 7), so few that 400 chunks "
+             "of "
+             "80 bytes a control point (of a file 32, and 8 where all fur fits) fit render.memory; 8000 for "
+             "coats with a cache",
          .min = 1,
          .max = 1e6,
          .default_text = "8000 or fewer"});

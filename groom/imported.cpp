@@ -8,6 +8,8 @@
 
 #include "base/job.h"
 #include "base/memory_budget.h"
+#include "base/progress_stage.h"
+#include "base/release.h"
 #include "groom/attachment.h"
 #include "groom/named_strands.h"
 
@@ -28,12 +30,17 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * (kMaking + kKept)),
               fmt::format("{}: the roots of the {} strands of {}", owner, claimed,
                           params.strands_file.path.string()));
+  // The file is read twice, a point in some 0.1 us each time.
+  constexpr size_t kWorthShowing = 2'000'000;
+  const ProgressStage stage(job.progress, "read strands", 2 * static_cast<double>(claimed),
+                            reader_.points_in_file() >= kWorthShowing);
   std::vector<V3f> positions;
   std::vector<uint32_t> ids;
   positions.reserve(claimed);
   ids.reserve(claimed);
   where_named(params.strands_file, [&] {
     reader_.scan(job, [&](size_t, const Strands& strands) {
+      stage.advance(static_cast<double>(strands.strand_count()));
       for (size_t s = 0; s < strands.strand_count(); ++s) {
         positions.push_back(strands.point(strands.first_point(s)));
         ids.push_back(static_cast<uint32_t>(strands.id(s)));
@@ -43,26 +50,29 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   const size_t count = positions.size();
   std::vector<RootAddress> roots(count);
   free_ = !rest || !follow_skin(params, *rest, job, positions, roots);
+  if (free_) release(roots);
   follicles_ = FollicleTree::over(positions, roots, ids, params.leaf_size(), job, place_);
-  roots = {};
-  ids = {};
+  release(roots);
+  release(ids);
   if (free_) {
     free_roots_.reserve(count);
     for (const uint32_t place : place_) free_roots_.push_back(positions[place]);
   }
-  find_reach(positions, job);
+  if (reader_.repairs().dropped == 0) release(place_);
+  find_reach(positions, job, stage);
 }
 
 /// `roots`: of all strands, by their numbers. Reads the file from its beginning to its end once more, which
 /// costs less than to look for the strands of each leaf.
-void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job) {
+void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job, const ProgressStage& stage) {
   std::vector<uint32_t> leaf_of(roots.size());
   for (uint32_t leaf = 0; leaf < follicles_.leaves().size(); ++leaf) {
     const FollicleTree::Leaf& range = follicles_.leaves()[leaf];
-    for (uint32_t f = range.begin; f < range.end; ++f) leaf_of[place_[f]] = leaf;
+    for (uint32_t f = range.begin; f < range.end; ++f) leaf_of[places()[f]] = leaf;
   }
   reach_.assign(follicles_.leaves().size(), {0, 0, 0, std::numbers::pi_v<float>, 1});
   reader_.read_all(job, [&](size_t first, const Strands& strands) {
+    stage.advance(static_cast<double>(strands.strand_count()));
     for (size_t s = 0; s < strands.strand_count(); ++s) {
       StrandReach& reach = reach_[leaf_of[first + s]];
       const V3f& root = roots[first + s];
@@ -84,7 +94,7 @@ void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job) {
 
 /// Of follicles of one leaf.
 Strands ImportedStrands::read(size_t begin, size_t end) const {
-  return reader_.read(std::span(place_).subspan(begin, end - begin));
+  return reader_.read(places().subspan(begin, end - begin));
 }
 
 size_t ImportedStrands::run_length(size_t begin, size_t end) const {
@@ -126,12 +136,12 @@ std::vector<StrandAttribute> ImportedStrands::attributes(std::span<const uint32_
     varies |= attribute.frequency != AttributeClass::kConstant;
   }
   // A few strands at a time: their points are read along with them.
-  std::vector<uint32_t> places;
+  std::vector<uint32_t> wanted;
   for (size_t begin = 0; varies && begin < follicles.size(); begin += kBlockStrands) {
-    places.clear();
+    wanted.clear();
     for (const uint32_t f : follicles.subspan(begin, std::min(kBlockStrands, follicles.size() - begin)))
-      places.push_back(place_[f]);
-    const Strands strands = reader_.read(places);
+      wanted.push_back(places()[f]);
+    const Strands strands = reader_.read(wanted);
     for (StrandAttribute& to : result) {
       if (to.frequency == AttributeClass::kConstant) continue;
       const std::vector<float>& from = strands.find_attribute(to.name)->values;

@@ -9,6 +9,8 @@
 
 namespace pelage {
 
+class ProgressStage;
+
 /// The strands of a file as the start of a groom: each is bound to the nearest place of the rest skin, or
 /// stands free. The strands stay in the file; only where they are is held. Immutable. Thread safety: const
 /// members may be called from any thread.
@@ -25,7 +27,7 @@ class ImportedStrands {
   bool stands_free() const { return free_; }
   CurveBasis basis() const { return reader_.basis(); }
   const StrandRepairs& repairs() const { return reader_.repairs(); }
-  int strand_points(size_t follicle) const { return static_cast<int>(reader_.points(place_[follicle])); }
+  int strand_points(size_t follicle) const { return static_cast<int>(reader_.points(places()[follicle])); }
 
   int most_points() const { return static_cast<int>(reader_.most_points()); }
 
@@ -47,13 +49,15 @@ class ImportedStrands {
   size_t bytes() const;
 
  private:
-  void find_reach(std::span<const V3f> roots, const Job& job);
+  void find_reach(std::span<const V3f> roots, const Job& job, const ProgressStage& stage);
   Strands read(size_t begin, size_t end) const;
+  /// Number of the strand of each follicle; ascends within a leaf.
+  std::span<const uint32_t> places() const { return place_.empty() ? follicles_.ids() : place_; }
 
   StrandReader reader_;
   bool free_ = true;
   FollicleTree follicles_;
-  std::vector<uint32_t> place_;     // number of the strand of each follicle; ascends within a leaf
+  std::vector<uint32_t> place_;     // empty where every strand of the file is usable: its id is its number
   std::vector<V3f> free_roots_;     // of strands that stand free
   std::vector<StrandReach> reach_;  // per leaf
 };

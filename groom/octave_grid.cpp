@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "base/release.h"
 
 namespace pelage {
 namespace {
@@ -21,7 +22,7 @@ int32_t cell_of(float coordinate) {
 
 void OctaveGrid::rebuild(size_t expected, float radius) {
   cell_ = 2.0f * radius * smallest_;
-  heads_ = {};  // the old ones go before the new ones are made
+  release(heads_);  // the old ones go before the new ones are made
   heads_.assign(std::max<size_t>(std::bit_ceil(2 * expected), 64), kNone);
   for (uint32_t i = 0; i < items_.size(); ++i) link(i);
 }

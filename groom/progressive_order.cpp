@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/hash.h"
+#include "base/release.h"
 #include "base/stoppable_sort.h"
 #include "groom/octave_grid.h"
 
@@ -134,7 +135,7 @@ std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates,
         static_cast<double>(joined) < join ? static_cast<size_t>(std::ceil(join)) - joined : 0;
     tried.clear();
     if (waiting.size(level) + joining > tried.capacity()) {
-      tried = {};  // the old ones go before room for more is made
+      release(tried);  // the old ones go before room for more is made
       tried.reserve(waiting.size(level) + joining);
     }
     const auto add = [&](uint32_t i) { tried.emplace_back(region_of(candidates[i], box.min, inverse), i); };

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/hash.h"
+#include "base/release.h"
 #include "groom/small_float.h"
 
 namespace pelage {
@@ -52,15 +53,15 @@ StrandCodes::StrandCodes(const StrandBatch& batch, const CodeOptions& options)
     plain |= !fits[s];
   }
   if (!plain) {
-    floats = {};
+    release(floats);
     return;
   }
   for (size_t s = 0; s < count; ++s) {
     if (fits[s]) decode(s, options);
   }
   for (size_t i = kClump + 1; i < kColumns; ++i) columns[i] = {};
-  steps = {};
-  shape = {};
+  release(steps);
+  release(shape);
 }
 
 void StrandCodes::take_floats(const StrandBatch& batch) {

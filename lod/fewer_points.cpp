@@ -14,17 +14,9 @@ namespace {
 constexpr uint32_t kFewerPoints[] = {4, 5};
 
 bool stays_within(const PointFit& fit, const Strands& strands, size_t strand, float tolerance) {
-  const float limit = tolerance * tolerance;
   for (int key = 0; key < strands.motion_keys(); ++key) {
-    const float* points = &strands.points(key)[size_t(strands.first_point(strand)) * 4];
-    for (size_t row = 0; row < fit.error_rows(); ++row) {
-      const std::span<const float> weights = fit.error(row);
-      float off[3] = {};
-      for (size_t p = 0; p < weights.size(); ++p) {
-        for (size_t axis = 0; axis < 3; ++axis) off[axis] += weights[p] * points[4 * p + axis];
-      }
-      if (!(off[0] * off[0] + off[1] * off[1] + off[2] * off[2] <= limit)) return false;
-    }
+    if (!fit.stays_within(&strands.points(key)[size_t(strands.first_point(strand)) * 4], tolerance))
+      return false;
   }
   return true;
 }

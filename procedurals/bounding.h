@@ -34,6 +34,9 @@ struct BoundingCounts {
   BoundsArea area;         ///< of all chunks, in all parts that they had
 };
 
+/// What measuring the strands of a leaf holds: them, and what divides them, but not what growing them takes.
+size_t measuring_bytes(const StrandCounts& counts);
+
 /// The boxes of all chunks, which are leaves, in their order. What is measured is remembered beside the
 /// caches of the grooms (Procedural::bounds_record); a damaged side file is reported as a warning and written
 /// anew. The result is the same for any number of workers, measured or remembered. Strands that are grown to

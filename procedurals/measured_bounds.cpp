@@ -10,17 +10,12 @@
 #include "procedurals/segment_parts.h"
 
 namespace pelage {
-namespace {
+namespace {}  // namespace
 
-/// Bytes of the strands of a chunk, and of what divides them, while it is measured.
-int64_t growth_bytes(const Procedural& chunk) {
-  const StrandCounts counts = chunk.counts();
-  return static_cast<int64_t>((counts.points * counts.motion_keys * 4 + counts.attribute_floats) *
-                                  sizeof(float) +
-                              SegmentParts::bytes_bound(counts.segments, counts.motion_keys));
+size_t measuring_bytes(const StrandCounts& counts) {
+  return (counts.points * counts.motion_keys * 4 + counts.attribute_floats) * sizeof(float) +
+         SegmentParts::bytes_bound(counts.segments, counts.motion_keys);
 }
-
-}  // namespace
 
 bool MeasuredBounds::Family::is_complete() const {
   return std::find(chunks.begin(), chunks.end(), kNone) == chunks.end();
@@ -98,7 +93,8 @@ void MeasuredBounds::measure(const Job& job) {
     for (size_t u = range.begin; u < range.end && !job.progress.cancelled(); ++u) {
       const Procedural& chunk = *chunks_[unknown[u]];
       {
-        const MemoryCharge passing(job.ledger, MemoryTag::kChunks, growth_bytes(chunk));
+        const MemoryCharge passing(job.ledger, MemoryTag::kChunks,
+                                   static_cast<int64_t>(measuring_bytes(chunk.counts())));
         keep(unknown[u], chunk.exact_bounds(span_, keys_));
       }
       settle(unknown[u]);

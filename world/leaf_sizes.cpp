@@ -3,22 +3,51 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "geom/io/strand_reader.h"
 
 namespace pelage {
 namespace {
 
-constexpr uint64_t kChunksInMemory = 400;
+constexpr uint64_t kChunksInMemory = 400, kChunksOfFileInMemory = 32;
+constexpr uint64_t kLeastChunksInMemory = 8;    // where all fits; growing one takes twice its bytes
 constexpr uint64_t kBytesPerControlPoint = 80;  // of a chunk; half of them are its tree
-constexpr int kStep = 4, kFewestStrands = 125;  // boxes and indices of chunks must not outweigh them
-constexpr int kStoredStrands = 500;             // some 250 KiB
+constexpr int kStep = 4;
+// Boxes and indices of chunks must not outweigh them.
+constexpr uint64_t kFewestStrands = 125, kFewestPoints = 8000, kFewestLongStrands = 8;
+constexpr int kStoredStrands = 500;  // some 250 KiB
 
-uint64_t bytes_of(const GroomParams& groom, int64_t strands) {
-  return static_cast<uint64_t>(strands) * static_cast<uint64_t>(groom.points) * kBytesPerControlPoint;
+/// What a coat is before it is made.
+struct Extent {
+  std::optional<uint64_t> strands;  // nothing where it goes by the area of the skin
+  uint64_t points = 0;              // of a strand
+};
+
+Extent extent_of(const GroomParams& groom) {
+  Extent extent;
+  extent.points = static_cast<uint64_t>(groom.points);
+  if (groom.strands) extent.strands = static_cast<uint64_t>(*groom.strands);
+  if (groom.strands_file.empty()) return extent;
+  try {
+    const StrandReader file(groom.strands_file.path, {groom.basis, groom.default_width});
+    extent.strands = file.strands_in_file();
+    extent.points = file.points_in_file() / std::max<uint64_t>(1, *extent.strands) + 1;
+  } catch (const Error&) {
+    // Whoever makes the coat says what is wrong with its file.
+  }
+  return extent;
 }
 
+uint64_t bytes_of(uint64_t strands, uint64_t points) { return strands * points * kBytesPerControlPoint; }
+
+using Extents = std::map<std::string, Extent>;  // by coat
+
 /// Of all characters in full detail; nothing where a coat does not say how many strands it has.
-std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene) {
+std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene, const Extents& extents) {
   uint64_t bytes = 0;
   for (const auto& [name, position, character] : scene.characters.items) {
     uint64_t animals = 1;
@@ -29,19 +58,20 @@ std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene) {
     }
     for (const PartParams& part : character.parts) {
       for (const auto& coat : part.grooms.items) {
-        const GroomParams& groom = scene.grooms.find(coat.name)->value;
-        if (!groom.strands) return {};
-        bytes += animals * bytes_of(groom, *groom.strands);
+        const Extent& extent = extents.at(coat.name);
+        if (!extent.strands) return {};
+        bytes += animals * bytes_of(*extent.strands, extent.points);
       }
     }
   }
   return bytes;
 }
 
-int strands_that_fit(const GroomParams& groom, uint64_t limit) {
-  int strands = GroomParams::kMostLeafStrands;
-  while (strands > kFewestStrands && bytes_of(groom, strands) * kChunksInMemory > limit) strands /= kStep;
-  return strands;
+int strands_that_fit(uint64_t points, uint64_t chunks, uint64_t limit) {
+  const uint64_t fewest = std::clamp(kFewestPoints / points, kFewestLongStrands, kFewestStrands);
+  uint64_t strands = GroomParams::kMostLeafStrands;
+  while (strands > fewest && bytes_of(strands, points) * chunks > limit) strands /= kStep;
+  return static_cast<int>(strands);
 }
 
 }  // namespace
@@ -49,10 +79,15 @@ int strands_that_fit(const GroomParams& groom, uint64_t limit) {
 void choose_leaf_sizes(SceneDescription& scene) {
   const bool stored = !scene.render.bvh.file.path.empty();
   const uint64_t limit = scene.render.memory.bytes;
-  if (!stored && (limit == 0 || bytes_of_fur(scene).value_or(limit + 1) <= limit)) return;
+  if (!stored && limit == 0) return;
+  Extents extents;
+  for (const auto& [name, position, groom] : scene.grooms.items) extents[name] = extent_of(groom);
+  const bool fits = bytes_of_fur(scene, extents).value_or(limit + 1) <= limit;
   for (auto& [name, position, groom] : scene.grooms.items) {
-    if (groom.leaf_strands || groom.cache || !groom.strands_file.empty()) continue;
-    groom.leaf_strands = stored ? kStoredStrands : strands_that_fit(groom, limit);
+    const bool from_file = !groom.strands_file.empty();
+    if (groom.leaf_strands || groom.cache || (stored && from_file)) continue;
+    const uint64_t chunks = fits ? kLeastChunksInMemory : from_file ? kChunksOfFileInMemory : kChunksInMemory;
+    groom.leaf_strands = stored ? kStoredStrands : strands_that_fit(extents.at(name).points, chunks, limit);
   }
 }
 

@@ -36,6 +36,7 @@ StrandReader::~StrandReader() = default;
 StrandReader::StrandReader(StrandReader&&) noexcept = default;
 
 size_t StrandReader::strands_in_file() const { return raw_->strand_count; }
+size_t StrandReader::points_in_file() const { return raw_->first_point(raw_->strand_count); }
 CurveBasis StrandReader::basis() const { return raw_->basis; }
 std::span<const StrandAttribute> StrandReader::attributes() const { return raw_->attributes; }
 

@@ -28,6 +28,8 @@ class StrandReader {
 
   /// How many strands the file claims, for estimates before scan().
   size_t strands_in_file() const;
+  /// The points of all of them.
+  size_t points_in_file() const;
   /// Reads the whole file once, a few at a time, and hands out all usable strands in order; `first` is the
   /// number of the first of them. Called once, before everything that follows. Throws Error (kInput), Error
   /// (kStopped).

@@ -7,13 +7,16 @@
 #include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/parallel.h"
+#include "render/accel/embree_chunk.h"
+#include "render/accel/fur_chunk.h"
 #include "render/frame/strand_fields.h"
 
 namespace pelage {
 namespace {
 
 /// What growing holds for a moment: a block of strands on its way through the operators, whose points and
-/// colours are rows of floats, twice where they are posed at several times.
+/// colours are rows of floats, and as much again for what operators or reading a file need beside it; more
+/// where they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
 /// Most that a piece of skin costs, in triangles of about 250 bytes each: 1/256 of the budget, so that small
 /// budgets can hold many; but no less than what a leaf of some hundred strands takes, because every piece
@@ -25,9 +28,8 @@ size_t most_piece_cost(uint64_t memory_limit) {
 
 size_t growth_bytes(const StrandCounts& n) {
   if (n.strands == 0) return kGrowthBytes;
-  // Strands of one file may be longer than others of it.
-  const size_t points = 2 * (n.points / n.strands + 1);
-  return kGrowthBytes + kGrowthBytesPerPoint * points * (n.motion_keys > 1 ? 2 : 1);
+  const size_t points = std::max(n.longest, n.points / n.strands + 1);
+  return kGrowthBytes + 2 * kGrowthBytesPerPoint * points * (n.motion_keys > 1 ? 2 : 1);
 }
 
 const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part) {
@@ -162,20 +164,27 @@ FrameChunks::Measuring FrameChunks::measuring(const Job& job) const {
   // The strands of a leaf are charged where they are measured; the block on its way through the operators
   // counts here.
   Measuring most;
+  // A chunk that is grown again for a ray takes its tree too: what would do for that is said at once.
+  const bool read = !scene_.render.bvh.file.path.empty();
   uint32_t which = 0;
-  size_t strands = 0;
+  size_t strands = 0, largest = 0;
   for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
     const ChunkCounts n = counts(leaf);
-    const size_t own =
-        (n.points * static_cast<size_t>(n.motion_keys) * 4 + n.attribute_floats) * sizeof(float);
-    if (n.growth_bytes + own > most.block + strands) which = leaf;
+    const size_t own = measuring_bytes(leaves_[leaf]->counts());
+    const size_t chunk = read             ? 0
+                         : in_fur_trees() ? FurChunk::bytes_bound(n, FurChunkOptions())
+                                          : EmbreeChunk::bytes_bound(n);
+    if (const size_t whole = std::max(chunk, n.growth_bytes + own); whole > largest) {
+      largest = whole;
+      which = leaf;
+    }
     most.block = std::max(most.block, n.growth_bytes);
     strands = std::max(strands, own);
   }
   if (leaves_.empty()) return most;
   const auto one = static_cast<int64_t>(most.block + strands);
-  require_room(job.ledger, one,
-               scene_.fur[parts_[which]].name + ": growing the largest of its parts, to be measured");
+  require_room(job.ledger, std::max(one, static_cast<int64_t>(largest)),
+               scene_.fur[parts_[which]].name + ": growing the largest of its parts");
   most.at_once = job.workers.thread_count();
   if (job.ledger.limit() > 0) {
     most.at_once = static_cast<int>(std::clamp<int64_t>(

@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file_hash.h"
+#include "base/mapped_file.h"
 #include "base/temporary_folder.h"
 
 namespace pelage {
@@ -303,6 +305,19 @@ TEST(ContentStore, BelievesOtherUsersOnlyInFoldersThatAreSharedByName) {
   // Its own, in place of the other's.
   EXPECT_TRUE(store_texts(store, {"mine"}, warnings));
   EXPECT_TRUE(store.open("test", kKey, warnings.sink()));
+}
+
+TEST(FileHash, IsThatOfAllBytes) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "f";
+  for (const size_t bytes : {size_t(0), size_t(9), (size_t(256) << 10), size_t(1'000'003)}) {
+    std::string all(bytes, 'x');
+    for (size_t i = 0; i < bytes; ++i) all[i] = static_cast<char>(mix64(i));
+    std::ofstream(path) << all;
+    EXPECT_EQ(file_hash(path), content_hash(std::as_bytes(std::span(all)))) << bytes;
+  }
+  EXPECT_THROW(file_hash(folder.path()), Error);
+  EXPECT_THROW(file_hash(folder.path() / "none"), Error);
 }
 
 TEST(MappedFile, HoldsEveryByteAndRefusesWhatIsNoFile) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What grooms hold while they are made is what they asked for, or they are refused before.
 #include <atomic>
+#include <limits>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "base/temporary_folder.h"
+#include "geom/io/strand_file.h"
 #include "groom/clump.h"
+#include "groom/groom.h"
 #include "tests/groom/operator_harness.h"
 #include "tests/groom/scene_text.h"
 #include "tests/support/allocation_meter.h"
@@ -89,6 +93,85 @@ TEST_F(GroomMemoryTest, ClumpCentresAreRefusedByNameOrChargedAsTheyAre) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
     EXPECT_NE(std::string(error.what()).find("clump centres (spacing 0.02)"), std::string::npos)
         << error.what();
+  }
+}
+
+TEST_F(GroomMemoryTest, StrandsThatStandFreeHoldTheirPlacesAlone) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "free.hair";
+  StrandArrays arrays;
+  arrays.first_point = {0};
+  constexpr uint32_t kStrands = 50'000;
+  for (uint32_t s = 0; s < kStrands; ++s) {
+    const float x = static_cast<float>(s % 200), z = static_cast<float>(s / 200);
+    arrays.points.insert(arrays.points.end(), {x, 0, z, 0.1f, x, 1, z, 0.1f});
+    arrays.first_point.push_back(2 * (s + 1));
+    arrays.ids.push_back(s);
+  }
+  write_strands(path, Strands(StrandArrays(arrays)));
+  GroomParams params;
+  params.strands_file = {path, {}};
+  const auto before = static_cast<int64_t>(live_bytes());
+  auto free = Groom::create("free", params, nullptr, textures_, job_);
+  // Of each its number and its first point; and what there is of a coat whatever its size.
+  EXPECT_LE(static_cast<int64_t>(live_bytes()) - before, kStrands * 16 + (1 << 16));
+  free = {};
+
+  // Behind one that cannot be used, numbers and ids differ.
+  arrays.points[8 * 70] = std::numeric_limits<float>::quiet_NaN();
+  write_strands(path, Strands(std::move(arrays)));
+  const auto fewer = Groom::create("fewer", params, nullptr, textures_, job_);
+  ASSERT_EQ(fewer->follicles().size(), kStrands - 1);
+  for (size_t leaf = 0; leaf < fewer->follicles().leaves().size(); ++leaf) {
+    const Strands strands = fewer->grow(leaf, {});
+    for (size_t s = 0; s < strands.strand_count(); ++s) {
+      const auto id = static_cast<float>(strands.id(s));
+      ASSERT_EQ(strands.point(2 * s).x + 200 * strands.point(2 * s).z, id);
+    }
+  }
+}
+
+/// Adds up what a stage says of itself.
+class KeepsAccount final : public Progress {
+ public:
+  void begin(std::string_view stage, double total) override {
+    stages_.emplace_back(std::string(stage), total);
+  }
+  void advance(double amount) override { done_ += amount; }
+  void end() override { ++ended_; }
+  bool cancelled() const override { return false; }
+
+  std::vector<std::pair<std::string, double>> stages_;
+  double done_ = 0;
+  int ended_ = 0;
+};
+
+TEST_F(GroomMemoryTest, ReadingManyPointsShowsItsProgress) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "many.hair";
+  for (const uint32_t points : {20u, 1000u}) {
+    StrandArrays arrays;
+    arrays.first_point = {0};
+    for (uint32_t s = 0; s < 2000; ++s) {
+      for (uint32_t p = 0; p < points; ++p)
+        arrays.points.insert(arrays.points.end(), {static_cast<float>(s), static_cast<float>(p), 0, 0.1f});
+      arrays.first_point.push_back((s + 1) * points);
+      arrays.ids.push_back(s);
+    }
+    write_strands(path, Strands(std::move(arrays)));
+    GroomParams params;
+    params.strands_file = {path, {}};
+    KeepsAccount progress;
+    Groom::create("many", params, nullptr, textures_, Job{workers_, ledger_, progress});
+    if (points < 1000) {
+      EXPECT_TRUE(progress.stages_.empty());
+      EXPECT_EQ(progress.done_, 0);
+    } else {
+      ASSERT_EQ(progress.stages_.size(), 1u);
+      EXPECT_EQ(progress.stages_[0].first, "read strands");
+      EXPECT_EQ(progress.done_, progress.stages_[0].second);
+      EXPECT_EQ(progress.ended_, 1);
+    }
   }
 }
 

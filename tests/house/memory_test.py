@@ -42,6 +42,7 @@ HOSTILE = {
     "clump centres": (grown(20000, 20, "{clump: {spacing: 0.0022}}, "), ""),
     "five million follicles": (grown(5_000_000), ""),
     "a hundred million follicles": (grown(100_000_000), ""),
+    "long strands": (grown(3000, 1024), ""),
     "a million animals": (grown(1000), "crowds: {c: {of: [a], count: 1000000, area: {type: rectangle, size: [9000, 9000]}}}"),
 }
 
@@ -102,6 +103,26 @@ class Memory(unittest.TestCase):
     def test_many_imported_strands(self):
         hair_file(self.folder / "many.hair", 100_000, 8)
         self.render(self.scene("{strands_file: many.hair}"))
+
+    def test_many_long_imported_strands(self):
+        """Small parts of them fit: they are not refused, with detail reduced or in full."""
+        hair_file(self.folder / "strings.hair", 3000, 1024)
+        for lod in ("true", "false"):
+            with self.subTest(lod=lod):
+                self.assertEqual(self.render(self.scene("{strands_file: strings.hair}"), f"render.lod.enabled={lod}"), "")
+
+    def test_strings_among_short_strands(self):
+        """One block of strands takes as many rows as its longest strand has points."""
+        with open(self.folder / "uneven.hair", "wb") as file:
+            lengths = [6000 if strand % 1000 == 500 else 8 for strand in range(8000)]
+            points = sum(lengths)
+            header = struct.pack("<4sIIIIfffff", b"HAIR", len(lengths), points, 3, 0, 0.01, 0, 0.5, 0.4, 0.3)
+            file.write(header + bytes(128 - len(header)))
+            file.write(struct.pack(f"<{len(lengths)}H", *(length - 1 for length in lengths)))
+            for strand, length in enumerate(lengths):
+                x = strand % 90 / 45 - 1
+                file.write(b"".join(struct.pack("<3f", x, p / length, strand / 8000) for p in range(length)))
+        self.render(self.scene("{strands_file: uneven.hair}"))
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@
 
 #include "base/hash.h"
 #include "geom/curve.h"
+#include "lod/point_fit.h"
 
 namespace pelage {
 namespace {
@@ -61,8 +62,10 @@ float farthest_apart(const Strands& a, const Strands& b, size_t strand) {
   return most;
 }
 
-TEST(FewerPoints, CurvesStayWithinTheTolerance) {
-  const Strands full = some_strands(300, 8, 0.01f);
+class FewerPointsOf : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(FewerPointsOf, CurvesStayWithinTheTolerance) {
+  const Strands full = some_strands(300, GetParam(), 0.01f);
   for (const float tolerance : {0.001f, 0.01f, 0.03f, 0.2f}) {
     const std::vector<float> each(300, tolerance);
     const Strands fewer = with_fewer_points(Strands(full), each);
@@ -71,9 +74,17 @@ TEST(FewerPoints, CurvesStayWithinTheTolerance) {
     if (tolerance > 0.1f) {
       EXPECT_EQ(fewer.point_count(), 300u * 4);
     } else if (tolerance < 0.002f) {
-      EXPECT_GT(fewer.point_count(), 300u * 7);
+      EXPECT_GT(fewer.point_count(), 300u * (GetParam() - 1));
     }
   }
+}
+
+// The largest whose error is one matrix, the smallest of which two curves are compared, and many.
+INSTANTIATE_TEST_SUITE_P(Points, FewerPointsOf, testing::Values(8, 64, 65, 300));
+
+TEST(PointFit, HoldsWhatGrowsWithTheNumberOfPoints) {
+  EXPECT_LT(PointFit(4096, 5).bytes(), 4096u * 64);
+  EXPECT_LT(PointFit(64, 5).bytes(), 64u * 2048);
 }
 
 TEST(FewerPoints, EndsAndEverythingPerStrandStay) {

@@ -33,6 +33,37 @@ RectangleAreaParams turned_rectangle() {
 // A body with a hooked tail.
 const Footprint kRat = {V3f(0, 6, 3), V3f(0, 0, 4), V3f(0, -6, 3), V3f(4, -10, 0.5f), V3f(8, -8, 0.5f)};
 
+class CountsStages final : public Progress {
+ public:
+  void begin(std::string_view, double total) override {
+    ++begun_;
+    total_ = total;
+  }
+  void advance(double amount) override { done_ += amount; }
+  void end() override { ++ended_; }
+  bool cancelled() const override { return false; }
+
+  int begun_ = 0, ended_ = 0;
+  double total_ = 0, done_ = 0;
+};
+
+TEST(CrowdProgress, IsShownOfManyAnimals) {
+  const Workers workers(1);
+  RectangleAreaParams wide;
+  wide.size = V2f(2000, 2000);
+  for (const size_t count : {100, 20'000}) {
+    CrowdRules rules;
+    rules.footprints.assign(count, {V3f(0, 0, 1)});
+    MemoryLedger ledger;
+    CountsStages progress;
+    place_crowd(GroundArea(wide), rules, Job{workers, ledger, progress});
+    EXPECT_EQ(progress.begun_, count > 1000 ? 1 : 0);
+    EXPECT_EQ(progress.ended_, progress.begun_);
+    EXPECT_EQ(progress.done_ > 0, count > 1000);
+    EXPECT_LE(progress.done_, progress.total_);
+  }
+}
+
 class CrowdPlacementTest : public testing::TestWithParam<AreaParams> {
  protected:
   static CrowdRules rules(size_t count, const Footprint& footprint, float spacing, float variation = kPi) {

@@ -96,6 +96,7 @@ TEST_F(FurTest, CountsWhatItWillGrow) {
     const Strands strands = leaf->generate();
     EXPECT_EQ(counts.strands, strands.strand_count());
     EXPECT_EQ(counts.points, strands.point_count());
+    EXPECT_EQ(counts.longest, strands.strand_points(0));
     EXPECT_EQ(counts.segments, strands.point_count() - strands.strand_count());
     EXPECT_EQ(counts.motion_keys, 2u);
     size_t floats = 0;

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_folder.h"
+#include "geom/io/strand_file.h"
+
 namespace pelage {
 namespace {
 
@@ -65,10 +68,39 @@ TEST(LeafSizes, DoNotFollowTheLimitWhereACacheBelongsToThem) {
   EXPECT_EQ(leaf_size(groom, 64 * kMiB), 8000);
 }
 
-TEST(LeafSizes, DoNotFollowTheLimitOfStrandsMadeElsewhere) {
+GroomParams of_file(const std::filesystem::path& path, uint32_t strands, uint32_t points) {
+  StrandArrays arrays;
+  arrays.first_point = {0};
+  for (uint32_t s = 0; s < strands; ++s) {
+    for (uint32_t p = 0; p < points; ++p)
+      arrays.points.insert(arrays.points.end(), {float(s), float(p), 0, 0.1f});
+    arrays.first_point.push_back((s + 1) * points);
+    arrays.ids.push_back(s);
+  }
+  write_strands(path, Strands(std::move(arrays)));
   GroomParams groom;
-  groom.strands_file.path = "strands.hair";
-  EXPECT_EQ(leaf_size(groom, 64 * kMiB), 8000);
+  groom.strands_file.path = path;
+  return groom;
+}
+
+TEST(LeafSizes, FollowTheStrandsOfAFile) {
+  const TemporaryFolder folder;
+  const GroomParams coat = of_file(folder.path() / "short.hair", 60'000, 8);
+  EXPECT_EQ(leaf_size(coat, 8192 * kMiB), 8000);
+  EXPECT_EQ(leaf_size(coat, 64 * kMiB), 2000);
+  const GroomParams strings = of_file(folder.path() / "long.hair", 300, 1024);
+  EXPECT_EQ(leaf_size(strings, 0), 8000);
+  EXPECT_EQ(leaf_size(strings, 512 * kMiB), 500);  // all fits, but growing all of it at once would not
+  EXPECT_EQ(leaf_size(strings, 32 * kMiB), 7);
+  GroomParams missing;
+  missing.strands_file.path = folder.path() / "none.hair";
+  EXPECT_EQ(leaf_size(missing, 8192 * kMiB), 8000);
+}
+
+TEST(LeafSizes, AreFewVeryLongStrands) {
+  GroomParams groom;
+  groom.points = 1024;
+  EXPECT_EQ(leaf_size(groom, 64 * kMiB), 7);
 }
 
 TEST(LeafSizes, DoNotFollowTheLimitWhereTreesAreKept) {
