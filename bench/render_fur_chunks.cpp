@@ -85,11 +85,13 @@ void lazy_over_eager(benchmark::State& state) {
       one(strands, strands.strand_count());
   MemoryLedger ledger;
   NoProgress progress;
+  const Workers workers(1);
+  const Job job{workers, ledger, progress};
   ChunkAccelOptions options;
   options.kind = AccelKind::kFur;
-  const ChunkAccel lazy(many.bounds(), many, options, ledger, Workers(1), progress);
+  const ChunkAccel lazy(many.bounds(), many, options, job);
   options.eager = true;
-  const ChunkAccel eager(std::vector<ChunkBounds>(1), one, options, ledger, Workers(1), progress);
+  const ChunkAccel eager(std::vector<ChunkBounds>(1), one, options, job);
   const std::vector<Ray> deep = rays_deep_in_furball(100000), camera = camera_rays_at_furball(316);
   for (auto _ : state) {
     const auto compare = [&](const std::string& name, const std::vector<Ray>& rays, bool shadow) {
