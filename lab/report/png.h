@@ -8,7 +8,7 @@
 
 namespace pelage {
 
-/// A picture as a PNG file [PNG], compressed as well as its noise lets it.
+/// A picture as a PNG file, by libpng.
 std::string png_bytes(const Picture& picture);
 
 /// Base 64 with padding [RFC 4648, section 4].
