@@ -10,9 +10,8 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/hash.h"
-#include "geom/packed_direction.h"
+#include "geom/root_detail.h"
 #include "geom/strand_point.h"
-#include "procedurals/coat_detail.h"
 #include "render/frame/skin_point.h"
 #include "render/frame/strand_fields.h"
 
@@ -85,11 +84,11 @@ struct Deputy {
 Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
                  const Strands& strand) {
   Deputy deputy;
-  const StrandAttribute* packed = strand.find_attribute(kRootDetail);
+  const std::optional<RootDetail> detail = RootDetail::of(strand, 0);
   const float spread = lod.spread(share);
-  if (!packed || packed->components != kRootDetailSize || !(spread > 0)) return deputy;
+  if (!detail || !(spread > 0)) return deputy;
   const SightDice dice(ray, hit.strand_id);
-  deputy.away = dice.on_skin(unpacked_line({packed->values[0], packed->values[1]}), spread);
+  deputy.away = dice.on_skin(detail->normal(), spread);
   deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
   return deputy;
 }
@@ -136,8 +135,7 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
 float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   if (!lod) return 1;
-  const StrandAttribute* detail = strand.find_attribute(kRootDetail);
-  if (detail && detail->components == kRootDetailSize) return unpacked_share(detail->values[2]);
+  if (const std::optional<RootDetail> detail = RootDetail::of(strand, 0)) return detail->share();
   return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
 }
 
