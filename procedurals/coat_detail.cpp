@@ -81,7 +81,8 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail) {
   const Box3f box = skin.bound(BoundSpan::kFrame);
   const float wider = detail ? detail->least_width_factor() : 1.0f;
-  return {groom.width() * skin.scale() * wider, box.isEmpty() ? V3f(0) : box.center()};
+  const float widest = detail ? detail->most_width_factor() : 1.0f, width = groom.width() * skin.scale();
+  return {width * wider, box.isEmpty() ? V3f(0) : box.center(), width * widest};
 }
 
 }  // namespace pelage

@@ -103,10 +103,7 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 }  // namespace
 
 FrameShading::FrameShading(const RenderScene& scene)
-    : scene_(scene),
-      leaves_own_strand_(scene.render.accel == AccelKind::kFur && scene.render.curves == CurveShape::kFlat),
-      fibres_(scene.materials.size()),
-      skins_(scene.materials.size()) {
+    : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -158,7 +155,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const FibreBsdf bsdf = fibre.material.at(at);
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
-  if (share < 1 && leaves_own_strand_) {
+  if (share < 1) {
     Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
     // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
     // coat from the side are the upper edges of wide strands.
@@ -198,7 +195,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
   const Skin& skin = *skins_[part.material];
   SkinPoint point = pelage::skin_point(triangle, ray, hit);
   const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
-  if (part.lod && leaves_own_strand_) {
+  if (part.lod) {
     // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
     // wide strands.
     const V3f open = point.position - ray.time * point.shutter_motion;
