@@ -173,7 +173,7 @@ void chunk_costs(benchmark::State& state) {
     for (int run = 0; run < kRuns; ++run) {
       ChunkContents contents = chunks.grow(3);
       const double start = cpu_seconds();
-      const EmbreeChunk chunk(std::move(contents), {}, device, patterns);
+      const EmbreeChunk chunk(std::move(contents), 0, 0, {}, device, patterns);
       best = std::min(best, cpu_seconds() - start);
       bytes = chunk.bytes();
       peak = chunk.build_peak_bytes();
@@ -181,7 +181,7 @@ void chunk_costs(benchmark::State& state) {
   }
   const ChunkCounts counts = chunks.counts(3);
   const auto n = static_cast<double>(counts.strands);
-  const EmbreeChunk chunk(chunks.grow(3), {}, device, patterns);
+  const EmbreeChunk chunk(chunks.grow(3), 3, 0, {}, device, patterns);
   const auto packed = static_cast<double>(chunk.strands()->bytes());
   state.counters["bytes/strand"] = static_cast<double>(bytes) / n;
   state.counters["of strands"] = packed / n;

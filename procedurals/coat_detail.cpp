@@ -6,8 +6,6 @@
 
 #include <Imath/ImathBoxAlgo.h>
 
-#include "geom/packed_direction.h"
-
 namespace pelage {
 namespace {
 
@@ -74,8 +72,7 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
     choice.strands.push_back(s);
     choice.width.push_back(width);
     choice.contrast.push_back(simplification_.contrast(share));
-    const V2f normal = packed_line(place.normal);
-    choice.detail.insert(choice.detail.end(), {normal.x, normal.y, packed_share(share)});
+    choice.detail.emplace_back(place.normal, share);
     choice.tolerance.push_back(share < 1 ? simplification_.tolerance(place.open) : 0.0f);
   }
   return choice;
@@ -84,7 +81,8 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail) {
   const Box3f box = skin.bound(BoundSpan::kFrame);
   const float wider = detail ? detail->least_width_factor() : 1.0f;
-  return {groom.width() * skin.scale() * wider, box.isEmpty() ? V3f(0) : box.center()};
+  const float widest = detail ? detail->most_width_factor() : 1.0f, width = groom.width() * skin.scale();
+  return {width * wider, box.isEmpty() ? V3f(0) : box.center(), width * widest};
 }
 
 }  // namespace pelage

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <vector>
 
+#include "geom/root_detail.h"
 #include "geom/strand_scale.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
@@ -12,15 +12,6 @@
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
-
-/// Attribute of strands with reduced detail: packed_line() of the normal of the skin at their roots when the
-/// shutter opens, and packed_share() of what is kept there.
-inline constexpr const char* kRootDetail = "root detail";
-inline constexpr int kRootDetailSize = 3;
-
-/// A share as a multiple of 1/255, finer the less it is; 1 stays 1.
-inline float packed_share(float share) { return std::round(255 * std::sqrt(share)) / 255; }
-inline float unpacked_share(float packed) { return packed * packed; }
 
 /// Which strands of one coat on one character are worth growing, each decided from where its own root stands
 /// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
@@ -43,7 +34,7 @@ class CoatDetail {
     std::vector<uint32_t> strands;  ///< by number in the leaf
     std::vector<float> width;
     std::vector<float> contrast;
-    std::vector<float> detail;     ///< kRootDetail
+    std::vector<RootDetail> detail;
     std::vector<float> tolerance;  ///< for fewer control points
     KeptStrands kept() const { return {strands, width, contrast}; }
   };

@@ -30,7 +30,7 @@ class FixedStrands final : public Procedural {
   StrandScale scale() const override {
     float radius = 0;
     for (size_t i = 0; i < strands_.point_count(); ++i) radius = std::max(radius, strands_.radius(i));
-    return {2 * radius, strands_.point_count() > 0 ? strands_.point(0) : V3f(0)};
+    return {2 * radius, strands_.point_count() > 0 ? strands_.point(0) : V3f(0), 2 * radius};
   }
   ChunkBounds exact_bounds(BoundSpan, int keys) const override {
     return SegmentParts(strands_).exact_bounds(keys);

@@ -9,15 +9,6 @@
 #include "procedurals/segment_parts.h"
 
 namespace pelage {
-namespace {
-
-Strands with_detail(Strands strands, std::vector<float> detail) {
-  StrandArrays arrays = std::move(strands).release();
-  arrays.attributes.push_back({kRootDetail, AttributeClass::kPerStrand, kRootDetailSize, std::move(detail)});
-  return Strands(std::move(arrays));
-}
-
-}  // namespace
 
 std::vector<std::unique_ptr<Procedural>> ThinnedFurProcedural::divide(
     std::shared_ptr<const CoatDetail> detail, std::shared_ptr<const PosedCharacterSkin> skin) {
@@ -71,7 +62,7 @@ Strands ThinnedFurProcedural::grow(const SkinPose& pose) const {
     if (choice.strands.empty()) continue;
     const KeptStrands kept = choice.kept();
     Strands strands = detail_->groom().grow(leaf, pose.skin(), &kept);
-    if (detail_->groom().grows_on_skin()) strands = with_detail(std::move(strands), std::move(choice.detail));
+    if (detail_->groom().grows_on_skin()) strands = RootDetail::added(std::move(strands), choice.detail);
     leaves.push_back(with_fewer_points(std::move(strands), choice.tolerance));
   }
   if (leaves.size() == 1) return std::move(leaves.front());
@@ -103,7 +94,7 @@ StrandCounts ThinnedFurProcedural::counts() const {
   for (size_t leaf = first_; leaf < end_; ++leaf)
     sum += detail_->groom().counts(leaf, detail_->candidates(leaf));
   sum.motion_keys = static_cast<size_t>(skin_->motion_keys());
-  if (detail_->groom().grows_on_skin()) sum.attribute_floats += kRootDetailSize * sum.strands;
+  if (detail_->groom().grows_on_skin()) sum.attribute_floats += RootDetail::kFloats * sum.strands;
   return sum;
 }
 
@@ -115,7 +106,7 @@ size_t ThinnedFurProcedural::making_bytes() const {
   // Leaves, before and while they become one batch with fewer points.
   const StrandCounts n = counts();
   return (4 * n.points * n.motion_keys + n.attribute_floats) * sizeof(float) +
-         n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + (kRootDetailSize + 8) * sizeof(float));
+         n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + (RootDetail::kFloats + 8) * sizeof(float));
 }
 
 /// Of all that is kept of the coat, however it is divided.

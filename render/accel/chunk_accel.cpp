@@ -116,7 +116,8 @@ class ChunkAccel::Growth final : public Grower {
       unit = std::move(fur);
     } else {
       if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
-      unit = std::make_unique<EmbreeChunk>(std::move(contents), options_.chunk, device_, patterns_);
+      unit = std::make_unique<EmbreeChunk>(std::move(contents), slot, grower_.scale(slot).widest,
+                                           options_.chunk, device_, patterns_);
     }
     if (learns) learn(slot, bounds);
     const size_t bytes = unit->bytes();
@@ -146,8 +147,7 @@ class ChunkAccel::Growth final : public Grower {
   }
   bool is_stored(uint32_t slot) const { return options_.file && !options_.eager && options_.file->has(slot); }
   bool belongs_in_fur_tree(uint32_t slot) const {
-    return options_.kind == AccelKind::kFur && options_.chunk.shape == CurveShape::kFlat &&
-           !grower_.is_skin(slot);
+    return in_fur_trees(options_.kind, options_.chunk.shape) && !grower_.is_skin(slot);
   }
   FurGrid grid(uint32_t slot) const {
     const StrandScale scale = grower_.scale(slot);

@@ -32,7 +32,8 @@ struct EmbreeOptions {
 };
 
 /// Accel by Intel Embree [Wald14]. Flat curves are ray-facing ribbons; a hit nearer than two radii to the
-/// start of a ray is not seen, on any strand, which is what keeps a fibre from shadowing itself.
+/// start of a ray is not seen, on any strand; of the strand that a ray starts on it knows nothing. Chunks are
+/// better at both (EmbreeChunk).
 class EmbreeAccel final : public Accel {
  public:
   /// Points, triangles and opacities are read in place wherever Embree can, so `strands` and `skins` must

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include "base/heap.h"
 #include "base/parallel.h"
@@ -49,27 +51,35 @@ void pad_for_embree(std::vector<float>& positions) {
 
 }  // namespace
 
-struct EmbreeChunk::NearestQuery : EmbreeQuery {
-  NearestQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& ray,
+struct EmbreeChunk::Query : EmbreeQuery {
+  Query(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& of)
+      : EmbreeQuery(filter_function), chunk(in_chunk), ray(of), starts_here(in_chunk.starts_here(of)) {}
+
+  /// Of a candidate from the ray's origin, not from where Embree's begins.
+  float distance_of(const EmbreeReport& report) const { return report.distance() - chunk.before_; }
+  bool is_start(const EmbreeReport& report) const {
+    return starts_here && chunk.is_start(ray, report.primitive(), report.u(), distance_of(report));
+  }
+
+  const EmbreeChunk& chunk;
+  const Ray& ray;
+  const bool starts_here;
+};
+
+struct EmbreeChunk::NearestQuery : Query {
+  NearestQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& of,
                const NearestSoFar& nearest_so_far)
-      : EmbreeQuery(filter_function),
-        chunk(in_chunk),
-        random(ray.random),
-        far(ray.far),
+      : Query(filter_function, in_chunk, of),
         nearest(nearest_so_far),
         distance(nearest_so_far.hit.distance) {}
-  const EmbreeChunk& chunk;
-  uint32_t random;
-  float far;
   const NearestSoFar& nearest;
   float distance;  // of the primitive, or before there is one of `nearest`
   uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
 };
 
-struct EmbreeChunk::LightQuery : EmbreeQuery {
-  LightQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, Crossings& into)
-      : EmbreeQuery(filter_function), chunk(in_chunk), crossings(into) {}
-  const EmbreeChunk& chunk;
+struct EmbreeChunk::LightQuery : Query {
+  LightQuery(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& of, Crossings& into)
+      : Query(filter_function, in_chunk, of), crossings(into) {}
   Crossings& crossings;
 };
 
@@ -96,11 +106,12 @@ struct EmbreeChunk::Filters {
     auto& query = report.query<NearestQuery>();
     const EmbreeChunk& chunk = query.chunk;
     const uint32_t primitive = report.primitive();
-    if (report.distance() > query.distance) {
+    const float distance = query.distance_of(report);
+    if (distance > query.distance || query.is_start(report)) {
       report.reject();
       return;
     }
-    if (report.distance() == query.distance) {
+    if (distance == query.distance) {
       const bool here = query.primitive != RTC_INVALID_GEOMETRY_ID;
       if ((here || query.nearest.hit) &&
           place_of(chunk, primitive).rank() >=
@@ -109,10 +120,10 @@ struct EmbreeChunk::Filters {
         return;
       }
     }
-    query.distance = report.distance();
+    query.distance = distance;
     query.primitive = primitive;
     if (chunk.longest_ > 0) {
-      report.trace_on_until(std::min(query.far, far_behind(query.distance, chunk.longest_)));
+      report.trace_on_until(std::min(query.ray.far, far_behind(query.distance, chunk.longest_)));
     }
     if (chunk.strands_) chunk.strands_->fetch_ahead(primitive);
   }
@@ -123,7 +134,7 @@ struct EmbreeChunk::Filters {
     const auto& query = report.query<NearestQuery>();
     const EmbreeChunk& chunk = query.chunk;
     const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
-    if (is_exit(chunk, report) || !stops_at(query.random, chunk.crossing(place, report.u()),
+    if (is_exit(chunk, report) || !stops_at(query.ray.random, chunk.crossing(place, report.u()),
                                             chunk.strands_->opacity(place, report.u()))) {
       report.reject();
       return;
@@ -131,13 +142,13 @@ struct EmbreeChunk::Filters {
     keep_nearest(arguments);
   }
 
-  /// Collects semi-transparent crossings; an opaque one ends the query.
+  /// Collects semi-transparent crossings; an opaque one that is not the ray's start ends the query.
   static void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
     const EmbreeReport report(arguments);
     auto& query = report.query<LightQuery>();
     const EmbreeChunk& chunk = query.chunk;
     const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
-    const float opacity = chunk.strands_->opacity(place, report.u());
+    const float opacity = query.is_start(report) ? 0.0f : chunk.strands_->opacity(place, report.u());
     if (opacity >= 1) return;
     if (opacity > 0 && !is_exit(chunk, report)) {
       query.crossings.add(chunk.crossing(place, report.u()), opacity);
@@ -151,11 +162,13 @@ struct EmbreeChunk::Filters {
   }
 };
 
-EmbreeChunk::EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& options,
-                         const EmbreeDevice& device, SegmentPatterns& patterns)
-    : options_(options), device_(device), part_(contents.part) {
+EmbreeChunk::EmbreeChunk(ChunkContents contents, uint32_t number, float widest,
+                         const EmbreeChunkOptions& options, const EmbreeDevice& device,
+                         SegmentPatterns& patterns)
+    : options_(options), device_(device), part_(contents.part), number_(number) {
   size_t held = sizeof(*this);
   if (auto* fur = std::get_if<FurContents>(&contents.geometry)) {
+    before_ = begins_before(widest, options.shape);
     // Emptied before the tree is built, so that the two never stand side by side.
     const FurContents grown = std::move(*fur);
     longest_ = longest_segment(grown.strands, options.shape);
@@ -241,8 +254,11 @@ void EmbreeChunk::add_skin() {
 
 bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& met) const {
   RTCRayHit r;
-  r.ray = embree_ray(ray);
-  r.ray.tfar = std::min(ray.far, far_behind(nearest.hit.distance, longest_));
+  Ray here = ray;
+  // What is as near as the nearest so far may stand before it: a little of the way is lost in rounding.
+  here.far = std::min(ray.far, far_behind(nearest.hit.distance, longest_));
+  r.ray = embree_ray(here, before_);
+  if (before_ > 0) r.ray.tfar = std::nextafter(r.ray.tfar, std::numeric_limits<float>::infinity());
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   NearestQuery query(opaque() ? Filters::keep_nearest : Filters::keep_nearest_stopping, *this, ray, nearest);
   embree_intersect(scene_, query, r);
@@ -258,7 +274,10 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
     return true;
   }
   hit.v = -r.hit.v;  // Embree counts from the other edge
-  strands_->copy_strand(strands_->locate(r.hit.primID).strand, met.strand);
+  const uint32_t strand = strands_->locate(r.hit.primID).strand;
+  hit.start = {number_, strands_->first_segment(strand), strands_->strand_segments(strand),
+               static_cast<float>(hit.segment) + hit.u};
+  strands_->copy_strand(strand, met.strand);
   if (options_.shape == CurveShape::kRound || strands_->basis() == CurveBasis::kLinear) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
     hit.v = offset_across(met.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
@@ -267,10 +286,20 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
 }
 
 bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const {
-  RTCRay r = embree_ray(ray);
-  LightQuery query(opaque() ? nullptr : Filters::collect_crossings, *this, crossings);
+  RTCRay r = embree_ray(ray, before_);
+  const bool asks = !opaque() || starts_here(ray);
+  LightQuery query(asks ? Filters::collect_crossings : nullptr, *this, ray, crossings);
   embree_occluded(scene_, query, r);
   return r.tfar >= 0;
+}
+
+bool EmbreeChunk::is_start(const Ray& ray, uint32_t primitive, float u, float distance) const {
+  if (primitive - ray.start.first_segment >= ray.start.segment_count) return false;
+  if (before_ > 0 && distance > 4 * before_) return false;  // far more than two widths
+  const PackedStrands::Place place = strands_->locate(primitive);
+  Strands strand;
+  strands_->copy_strand(place.strand, strand);
+  return pelage::is_start(strand, ray, place.segment, u, distance);
 }
 
 CrossingPlace EmbreeChunk::crossing(PackedStrands::Place place, float u) const {

@@ -21,10 +21,11 @@ struct EmbreeChunkOptions {
 /// scope.
 class EmbreeChunk final : public ChunkGeometry {
  public:
-  /// Built by the calling thread alone, so that it may be made inside a loop of another team. Throws Error
-  /// for what Embree reports; the device outlives the chunk.
-  EmbreeChunk(ChunkContents contents, const EmbreeChunkOptions& options, const EmbreeDevice& device,
-              SegmentPatterns& patterns);
+  /// `number`: what Ray::start calls this chunk. `widest`: as StrandScale::widest has it. Built by the
+  /// calling thread alone, so that it may be made inside a loop of another team. Throws Error for what Embree
+  /// reports; the device outlives the chunk.
+  EmbreeChunk(ChunkContents contents, uint32_t number, float widest, const EmbreeChunkOptions& options,
+              const EmbreeDevice& device, SegmentPatterns& patterns);
   ~EmbreeChunk() override;
   EmbreeChunk(const EmbreeChunk&) = delete;
   EmbreeChunk& operator=(const EmbreeChunk&) = delete;
@@ -44,6 +45,7 @@ class EmbreeChunk final : public ChunkGeometry {
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
+  struct Query;
   struct NearestQuery;
   struct LightQuery;
   struct Filters;
@@ -53,10 +55,13 @@ class EmbreeChunk final : public ChunkGeometry {
   void add_skin();
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
   bool opaque() const { return !strands_ || strands_->opaque(); }
+  bool starts_here(const Ray& ray) const { return strands_ && ray.start.chunk == number_; }
+  bool is_start(const Ray& ray, uint32_t primitive, float u, float distance) const;
 
   EmbreeChunkOptions options_;
   const EmbreeDevice& device_;
-  uint32_t part_ = 0;
+  uint32_t part_ = 0, number_ = 0;
+  float before_ = 0;                      // how far before their origin Embree's rays begin; see embree_ray()
   std::optional<PackedStrands> strands_;  // or skin_
   SkinMesh skin_;
   float longest_ = 0;  // see far_behind()

@@ -30,21 +30,30 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum) && !std::isnan(ray.far);
 }
 
-RTCRay embree_ray(const Ray& ray) {
+RTCRay embree_ray(const Ray& ray, float before) {
+  const V3f origin = ray.origin - before * ray.direction;
   RTCRay r;
-  r.org_x = ray.origin.x;
-  r.org_y = ray.origin.y;
-  r.org_z = ray.origin.z;
-  r.tnear = ray.near;
+  r.org_x = origin.x;
+  r.org_y = origin.y;
+  r.org_z = origin.z;
+  r.tnear = ray.near + before;
   r.dir_x = ray.direction.x;
   r.dir_y = ray.direction.y;
   r.dir_z = ray.direction.z;
   r.time = ray.time;
-  r.tfar = ray.far;
+  r.tfar = ray.far + before;
   r.mask = ~0u;
   r.id = 0;
   r.flags = 0;
   return r;
+}
+
+bool is_start(const Strands& strand, const Ray& ray, uint32_t segment, float u, float distance) {
+  const CubicSegment curve = bezier_segment_at(strand, 0, segment, ray.time);
+  const float twice = 4 * curve_radius(curve, u);
+  if (!(distance < twice)) return false;
+  const float between = static_cast<float>(segment) + u - ray.start.place;
+  return std::abs(between) * curve_tangent(curve, u).length() < twice;
 }
 
 RTCGeometryType embree_curve_type(CurveBasis basis, CurveShape shape) {

@@ -49,7 +49,16 @@ float longest_segment(const Strands& strands, CurveShape shape);
 
 /// Whether every number of a ray that must be finite is.
 bool is_finite(const Ray& ray);
-RTCRay embree_ray(const Ray& ray);
+/// Of flat curves Embree drops what a ray meets within a strand's width of its origin, whatever strand that
+/// is. So its rays may begin `before` theirs, at least a width: distances are larger by so much there.
+RTCRay embree_ray(const Ray& ray, float before = 0);
+/// How far before its origin a ray begins at strands that are no wider than `widest`: round ones need none.
+inline float begins_before(float widest, CurveShape shape) {
+  return shape == CurveShape::kFlat ? 1.25f * widest : 0.0f;
+}
+/// Whether a hit on the strand that a ray starts on, the only one of its batch, is but that strand near the
+/// start: within two widths both along the ray and along the strand. As the fur tree has it.
+bool is_start(const Strands& strand, const Ray& ray, uint32_t segment, float u, float distance);
 /// The kind of Embree geometry that curves of a basis are.
 RTCGeometryType embree_curve_type(CurveBasis basis, CurveShape shape);
 

@@ -147,7 +147,7 @@ bool FrameChunks::opaque() const {
 }
 
 bool FrameChunks::in_fur_trees() const {
-  return scene_.render.accel == AccelKind::kFur && scene_.render.curves == CurveShape::kFlat;
+  return pelage::in_fur_trees(scene_.render.accel, scene_.render.curves);
 }
 
 size_t FrameChunks::bytes() const {

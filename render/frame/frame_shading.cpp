@@ -10,9 +10,8 @@
 #include "base/check.h"
 #include "base/error.h"
 #include "base/hash.h"
-#include "geom/packed_direction.h"
+#include "geom/root_detail.h"
 #include "geom/strand_point.h"
-#include "procedurals/coat_detail.h"
 #include "render/frame/skin_point.h"
 #include "render/frame/strand_fields.h"
 
@@ -85,11 +84,11 @@ struct Deputy {
 Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
                  const Strands& strand) {
   Deputy deputy;
-  const StrandAttribute* packed = strand.find_attribute(kRootDetail);
+  const std::optional<RootDetail> detail = RootDetail::of(strand, 0);
   const float spread = lod.spread(share);
-  if (!packed || packed->components != kRootDetailSize || !(spread > 0)) return deputy;
+  if (!detail || !(spread > 0)) return deputy;
   const SightDice dice(ray, hit.strand_id);
-  deputy.away = dice.on_skin(unpacked_line({packed->values[0], packed->values[1]}), spread);
+  deputy.away = dice.on_skin(detail->normal(), spread);
   deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
   return deputy;
 }
@@ -104,10 +103,7 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 }  // namespace
 
 FrameShading::FrameShading(const RenderScene& scene)
-    : scene_(scene),
-      leaves_own_strand_(scene.render.accel == AccelKind::kFur && scene.render.curves == CurveShape::kFlat),
-      fibres_(scene.materials.size()),
-      skins_(scene.materials.size()) {
+    : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -136,8 +132,7 @@ Rgb FrameShading::fibre_color(const Fibre& fibre, const Strands& strand, const H
 float FrameShading::kept_share(const Hit& hit, const Strands& strand) const {
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   if (!lod) return 1;
-  const StrandAttribute* detail = strand.find_attribute(kRootDetail);
-  if (detail && detail->components == kRootDetailSize) return unpacked_share(detail->values[2]);
+  if (const std::optional<RootDetail> detail = RootDetail::of(strand, 0)) return detail->share();
   return lod->share({.open = strand.point(0), .close = strand.point(0, strand.motion_keys() - 1)});
 }
 
@@ -160,7 +155,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const FibreBsdf bsdf = fibre.material.at(at);
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
-  if (share < 1 && leaves_own_strand_) {
+  if (share < 1) {
     Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
     // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
     // coat from the side are the upper edges of wide strands.
@@ -200,7 +195,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
   const Skin& skin = *skins_[part.material];
   SkinPoint point = pelage::skin_point(triangle, ray, hit);
   const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
-  if (part.lod && leaves_own_strand_) {
+  if (part.lod) {
     // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
     // wide strands.
     const V3f open = point.position - ray.time * point.shutter_motion;

@@ -46,7 +46,6 @@ class FrameShading {
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
   const RenderScene& scene_;
-  const bool leaves_own_strand_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material
 };

@@ -54,11 +54,14 @@ const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "How the picture is computed.");
     s.key("integrator", &RenderParams::integrator, {.help = "Method"});
-    s.key("accel", &RenderParams::accel,
-          {.help =
-               "What strands are traced with. `fur`: our own tree over them, two thirds as large; `embree`: "
-               "Embree's curves. The two differ only where a ray passes an edge or starts within a strand's "
-               "width of another strand. Skins, and strands with `curves: round`, are Embree's either way"});
+    s.key(
+        "accel", &RenderParams::accel,
+        {.help =
+             "What strands are traced with. `fur`: our own tree over them, two thirds as large; `embree`: "
+             "Embree's curves. Rays follow the same rules in both, with level of detail and without; the two "
+             "differ where a ray passes the edge of a strand, whose points our tree rounds and whose "
+             "curves Embree takes in straight pieces. Skins, and strands with `curves: round`, are "
+             "Embree's either way"});
     s.key("curves", &RenderParams::curves,
           {.help = "Strands as ribbons that face each ray, or as round tubes (slower, for close-ups; always "
                    "by Embree)"});

@@ -28,6 +28,11 @@ template <>
 struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
+/// Whether strands stand in trees of our own. Only how they are held depends on this: what rays are told, and
+/// what is made of that, is the same.
+inline bool in_fur_trees(AccelKind accel, CurveShape curves) {
+  return accel == AccelKind::kFur && curves == CurveShape::kFlat;
+}
 
 /// Whose distance, motion and focus decide the level of detail: the camera of the scene, or one of its own.
 struct LodCamera {

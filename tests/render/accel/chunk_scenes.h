@@ -45,7 +45,7 @@ class TestChunks final : public ChunkGrower {
     return n;
   }
 
-  StrandScale scale(uint32_t) const override { return {0.024f, V3f(0.1f, -0.2f, 0.05f)}; }
+  StrandScale scale(uint32_t) const override { return {0.024f, V3f(0.1f, -0.2f, 0.05f), widest}; }
 
   void add_fur(Strands strands, uint32_t part, std::vector<float> opacity = {}) {
     for (float& o : opacity) o = packed_value(o);
@@ -95,6 +95,7 @@ class TestChunks final : public ChunkGrower {
 
   std::vector<ChunkContents> contents;
   uint32_t fails_at = ~0u;
+  float widest = 0;  // of all coats
 };
 
 /// What a scene of random_chunks() is made of.

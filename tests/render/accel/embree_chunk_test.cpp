@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "render/accel/flush_denormals.h"
+#include "render/accel/fur_chunk.h"
 #include "tests/render/accel/chunk_scenes.h"
 
 namespace pelage {
@@ -38,7 +40,7 @@ class EmbreeChunkTest : public testing::Test {
     ChunkContents contents = chunks.grow(0);
     EmbreeChunkOptions options;
     options.shape = shape;
-    const EmbreeChunk chunk(std::move(contents), options, device_, patterns_);
+    const EmbreeChunk chunk(std::move(contents), 0, 0, options, device_, patterns_);
     const size_t bound = EmbreeChunk::bytes_bound(counts);
     const size_t while_built = chunk.build_peak_bytes();
     EXPECT_LE(chunk.bytes(), bound);
@@ -105,8 +107,57 @@ TEST_F(EmbreeChunkTest, HoldsFewBytesPerStrand) {
   o.radius = 0.002f;
   TestChunks chunks;
   chunks.add_fur(random_strands(5, o), 0);
-  const EmbreeChunk chunk(chunks.grow(0), {}, device_, patterns_);
+  const EmbreeChunk chunk(chunks.grow(0), 0, 0, {}, device_, patterns_);
   EXPECT_LT(chunk.bytes(), 480 * o.strands);
+}
+
+// What the fur tree does near the start of a ray, chunks of Embree's curves do, too.
+TEST_F(EmbreeChunkTest, MeetsNearStrandsButTheOneThatARayStartsOn) {
+  StrandArrays straight;  // along x, of radius 0.25
+  straight.basis = CurveBasis::kPinnedBSpline;
+  for (int i = 0; i < 8; ++i)
+    straight.points.insert(straight.points.end(), {static_cast<float>(i), 0, 0, 0.25f});
+  straight.first_point = {0, 8};
+  straight.ids = {3};
+  TestChunks chunks;
+  chunks.add_fur(Strands(std::move(straight)), 0);
+  chunks.widest = 0.5f;
+  constexpr uint32_t kNumber = 5, kElsewhere = 6;
+  const FurGrid grid(0.5f);
+  const EmbreeChunk embree(chunks.grow(0), kNumber, chunks.widest, {}, device_, patterns_);
+  const FurChunk fur(chunks.grow(0), kNumber, grid, {});
+  const FlushDenormals flush;
+  const auto expect_met = [&](const Ray& ray, bool met) {
+    for (const ChunkGeometry* chunk :
+         {static_cast<const ChunkGeometry*>(&embree), static_cast<const ChunkGeometry*>(&fur)}) {
+      FurRays rays;
+      NearestSoFar nearest;
+      HitGeometry geometry;
+      Crossings crossings;
+      EXPECT_EQ(chunk->closest(ray, rays, nearest, geometry), met);
+      EXPECT_EQ(chunk->collect(ray, rays, crossings), !met);
+      if (!met) continue;
+      EXPECT_NEAR(nearest.hit.distance, -ray.origin.z, 1e-3f);
+      EXPECT_EQ(nearest.hit.start.chunk, kNumber);
+      EXPECT_NEAR(nearest.hit.start.place, 3.5f, 1e-3f);
+    }
+  };
+  Ray ray;
+  ray.origin = V3f(3.5f, 0.1f, -0.2f);
+  ray.direction = V3f(0, 0, 1);
+  expect_met(ray, true);  // of another strand, within a width
+  ray.start = {kNumber, 0, 7, 3.5f};
+  expect_met(ray, false);
+  ray.start.place = 6;  // 2.5 units along the strand: more than two widths
+  expect_met(ray, true);
+  ray.start.place = 3.5f;
+  ray.origin.z = -1.1f;  // farther than two widths along the ray
+  expect_met(ray, true);
+  ray.start.chunk = kElsewhere;
+  ray.origin.z = -0.2f;
+  expect_met(ray, true);
+  ray.near = 0.3f;
+  expect_met(ray, false);
 }
 
 TEST_F(EmbreeChunkTest, GivesEverythingBackToEmbree) {
@@ -114,7 +165,8 @@ TEST_F(EmbreeChunkTest, GivesEverythingBackToEmbree) {
   o.strands = 300;
   TestChunks chunks;
   chunks.add_fur(random_strands(5, o), 0);
-  auto chunk = std::make_unique<EmbreeChunk>(chunks.grow(0), EmbreeChunkOptions{}, device_, patterns_);
+  auto chunk =
+      std::make_unique<EmbreeChunk>(chunks.grow(0), 0, 0.0f, EmbreeChunkOptions{}, device_, patterns_);
   const size_t bytes =
       chunk->bytes() - sizeof(EmbreeChunk) + sizeof(PackedStrands) - chunk->strands()->bytes();
   EmbreeMeter after;
