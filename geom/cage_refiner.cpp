@@ -2,6 +2,8 @@
 #include "geom/cage_refiner.h"
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <opensubdiv/far/topologyDescriptor.h>
@@ -14,6 +16,21 @@ namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
 namespace {
+
+/// The line of an OBJ file with the first face of more than three corners; 0 where there is none.
+int first_polygon_line(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != "f") continue;
+    int corners = 0;
+    while (words >> word && word[0] != '#') ++corners;
+    if (corners > 3) return number;
+  }
+  return 0;
+}
 
 /// Collects what keeps a cage from being subdivided, the first few of it in words.
 class CageChecker {
@@ -44,6 +61,7 @@ class CageChecker {
     for (size_t face = 0; face < mesh_.face_sizes.size(); first += mesh_.face_sizes[face], ++face) {
       check_face(face, std::span(mesh_.face_vertices).subspan(first, mesh_.face_sizes[face]), valence);
     }
+    if (polygons_ > 0) complain_of_polygons();
     // Without subdivision nothing grows with the valence of a vertex.
     if (scheme_ == SubdivisionScheme::kNone) valence.clear();
     check_weights(valence);
@@ -76,14 +94,15 @@ class CageChecker {
   }
 
   void check_face(size_t face, std::span<const uint32_t> vertices, std::vector<uint32_t>& valence) {
-    const size_t most = scheme_ == SubdivisionScheme::kLoop ? 3 : SurfaceTopology::kMaxValence;
-    if (vertices.size() < 3 || vertices.size() > most) {
-      return complain(
-          scheme_ == SubdivisionScheme::kLoop
-              ? fmt::format("the loop scheme takes triangles only, face {} has {} corners", face + 1,
-                            vertices.size())
-              : fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), most));
+    if (scheme_ == SubdivisionScheme::kLoop && vertices.size() > 3) {
+      if (polygons_++ == 0) first_polygon_ = face;
+      first_corners_ = polygons_ == 1 ? vertices.size() : first_corners_;
+      return;
     }
+    constexpr size_t kMost = SurfaceTopology::kMaxValence;
+    if (vertices.size() < 3 || vertices.size() > kMost)
+      return complain(
+          fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), kMost));
     const uint32_t last = *std::max_element(vertices.begin(), vertices.end());
     if (last >= valence.size()) {
       return complain(fmt::format("face {} uses vertex {} of {}", face + 1, last + 1, valence.size()));
@@ -91,6 +110,18 @@ class CageChecker {
     if (distinct_corners(vertices) < 3)
       complain(fmt::format("face {} has fewer than 3 different vertices", face + 1));
     for (uint32_t v : vertices) ++valence[v];
+  }
+
+  /// Once for all of them, at the first in the file.
+  void complain_of_polygons() {
+    const std::string count = polygons_ == 1
+                                  ? "1 face has"
+                                  : fmt::format("{} of {} faces have", polygons_, mesh_.face_sizes.size());
+    problems_.add(
+        {source_, first_polygon_line(source_), 0},
+        fmt::format("the loop scheme takes triangles only, face {} has {} corners; {} more than 3: cut "
+                    "them into triangles, or take scheme: catmull-clark",
+                    first_polygon_ + 1, first_corners_, count));
   }
 
   static uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
@@ -124,6 +155,8 @@ class CageChecker {
   const ControlMesh& mesh_;
   SubdivisionScheme scheme_;
   const std::string& source_;
+  size_t polygons_ = 0;  // faces that the loop scheme does not take
+  size_t first_polygon_ = 0, first_corners_ = 0;
   Problems problems_{20};
 };
 

@@ -120,17 +120,6 @@ void connect(size_t vertices, SurfaceTopology::Impl& impl) {
   cage.vertex_split.assign(vertices, 0);
 }
 
-void list_faces_of_vertices(size_t vertices, SurfaceTopology::Impl& impl) {
-  const std::vector<uint32_t>& corner_vertex = impl.cage.corner_vertex;
-  impl.first_use.assign(vertices + 1, 0);
-  for (const uint32_t v : corner_vertex) ++impl.first_use[v + 1];
-  for (size_t v = 1; v < impl.first_use.size(); ++v) impl.first_use[v] += impl.first_use[v - 1];
-  impl.uses.resize(corner_vertex.size());
-  std::vector<uint32_t> next(impl.first_use.begin(), impl.first_use.end() - 1);
-  for (uint32_t corner = 0; corner < corner_vertex.size(); ++corner)
-    impl.uses[next[corner_vertex[corner]]++] = corner;
-}
-
 }  // namespace
 
 size_t flat_triangle_count(const ControlMesh& mesh) {
@@ -165,7 +154,7 @@ void fill_flat_topology(const ControlMesh& mesh, const std::function<void()>& ch
   check_stop();
   connect(mesh.positions.size(), impl);
   check_stop();
-  list_faces_of_vertices(mesh.positions.size(), impl);
+  impl.list_uses(impl.control_count);
 
   std::vector<bool> hole(mesh.face_sizes.size());
   for (const uint32_t face : mesh.holes) hole[face] = true;

@@ -11,6 +11,12 @@ namespace pelage {
 namespace {
 
 constexpr uint64_t kMostElements = std::numeric_limits<int32_t>::max();
+constexpr size_t kFacesPerCheck = 4096;
+
+void sort_unique(std::vector<uint32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
 
 std::vector<uint32_t> all_faces(const SurfaceTopology::Impl& topology) {
   std::vector<uint32_t> faces(topology.cage_face.size());
@@ -26,22 +32,27 @@ uint32_t SkinLattice::Rail::vertex(uint32_t k) const {
   return position == line->rate ? line->end : line->inner + position - 1;
 }
 
-SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology)
-    : SkinLattice(topology, all_faces(topology), all_faces(topology)) {}
+SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, const CheckStop& check_stop)
+    : SkinLattice(topology, all_faces(topology), all_faces(topology), check_stop) {}
 
 SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
-                         std::span<const uint32_t> around)
+                         std::span<const uint32_t> around, const CheckStop& check_stop)
     : topology_(topology) {
-  find_lines(faces);
+  find_lines(faces, check_stop);
   faces_.reserve(around.size());
   inside_.reserve(faces.size());
   size_t next = 0;
   for (const uint32_t id : around) {
+    if (faces_.size() % kFacesPerCheck == 0) check_stop();
     Face face{id, {kNone, kNone, kNone, kNone}};
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
       const uint32_t wanted = line_id(id, side);
-      const auto found = std::lower_bound(lines_.begin(), lines_.end(), wanted,
-                                          [](const Line& line, uint32_t value) { return line.id < value; });
+      // Where all lines before it are there, as in a whole skin, a line stands at its number.
+      const bool there = wanted < lines_.size() && lines_[wanted].id == wanted;
+      const auto found =
+          there ? lines_.begin() + wanted
+                : std::lower_bound(lines_.begin(), lines_.end(), wanted,
+                                   [](const Line& line, uint32_t value) { return line.id < value; });
       if (found == lines_.end() || found->id != wanted) continue;
       face.line[side] = static_cast<uint32_t>(found - lines_.begin());
       const bool is_half = is_edge(wanted) && is_part(id);
@@ -59,33 +70,68 @@ SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const 
   }
 }
 
-/// The lines of those of `faces` that are no holes, and the vertices of the cage that they end at.
-void SkinLattice::find_lines(std::span<const uint32_t> faces) {
+/// The lines of those of `faces` that are no holes, ascending.
+std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
+                                            const CheckStop& check_stop) const {
   std::vector<uint32_t> ids;
-  ids.reserve(faces.size() * topology_.corners_per_face());
+  // Of many faces, marks among all lines give the order sooner than sorting does.
+  const size_t all = topology_.cage.edge_count() + topology_.cage_face.size();
+  std::vector<bool> seen(faces.size() > topology_.cage_face.size() / 8 ? all : 0);
+  if (seen.empty()) ids.reserve(faces.size() * topology_.corners_per_face());
+  size_t done = 0, count = 0;
   for (const uint32_t face : faces) {
+    if (done++ % kFacesPerCheck == 0) check_stop();
     if (topology_.hole[face]) continue;
-    for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) ids.push_back(line_id(face, side));
+    for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
+      const uint32_t id = line_id(face, side);
+      if (seen.empty()) {
+        ids.push_back(id);
+      } else if (!seen[id]) {
+        seen[id] = true;
+        ++count;
+      }
+    }
   }
-  const auto sort = [](std::vector<uint32_t>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-  };
-  sort(ids);
+  if (seen.empty()) {
+    sort_unique(ids);
+    return ids;
+  }
+  ids.reserve(count);
+  for (uint32_t id = 0; id < all; ++id) {
+    if (seen[id]) ids.push_back(id);
+  }
+  return ids;
+}
+
+/// The lines of those of `faces` that are no holes, and the vertices of the cage that they end at.
+void SkinLattice::find_lines(std::span<const uint32_t> faces, const CheckStop& check_stop) {
+  const std::vector<uint32_t> ids = line_ids(faces, check_stop);
   lines_.resize(ids.size());
+  const bool many = ids.size() > topology_.cage.edge_count() / 8;
+  std::vector<bool> seen(many ? topology_.control_count : 0);
   for (size_t i = 0; i < ids.size(); ++i) {
+    if (i % kFacesPerCheck == 0) check_stop();
     lines_[i].id = ids[i];
     if (!is_edge(ids[i])) continue;
     const uint32_t* ends = &topology_.cage.edge_vertices[size_t(ids[i]) * 2];
-    cage_vertices_.insert(cage_vertices_.end(), ends, ends + 2);
+    for (int end = 0; end < 2; ++end) {
+      if (many)
+        seen[ends[end]] = true;
+      else
+        cage_vertices_.push_back(ends[end]);
+    }
   }
-  sort(cage_vertices_);
+  if (!many) return sort_unique(cage_vertices_);
+  for (uint32_t vertex = 0; vertex < seen.size(); ++vertex) {
+    if (seen[vertex]) cage_vertices_.push_back(vertex);
+  }
 }
 
 void SkinLattice::take_rates(const SkinLattice& whole) {
   auto from = whole.lines_.begin();
   for (Line& line : lines_) {
-    while (from->id < line.id) ++from;
+    from = std::lower_bound(from, whole.lines_.end(), line.id,
+                            [](const Line& other, uint32_t id) { return other.id < id; });
     line.rate = from->rate;
   }
 }
@@ -120,6 +166,7 @@ uint32_t SkinLattice::corner_vertex(uint32_t face, uint32_t side) const {
 
 /// Where a vertex of the cage stands in cage_vertices_, or kNone.
 uint32_t SkinLattice::place_of(uint32_t cage_vertex) const {
+  if (cage_vertex < cage_vertices_.size() && cage_vertices_[cage_vertex] == cage_vertex) return cage_vertex;
   const auto found = std::lower_bound(cage_vertices_.begin(), cage_vertices_.end(), cage_vertex);
   if (found == cage_vertices_.end() || *found != cage_vertex) return kNone;
   return static_cast<uint32_t>(found - cage_vertices_.begin());
@@ -245,11 +292,13 @@ void SkinLattice::place_inner(const Face& f) {
   }
 }
 
-void SkinLattice::number() {
+void SkinLattice::number(const CheckStop& check_stop) {
   numbers_.assign(cage_vertices_.size(), kNone);
+  size_t numbered = 0;
   vertex_count_ = triangle_count_ = 0;
   for (Line& line : lines_) line.start = line.end = line.inner = kNone;
   for (const uint32_t inside : inside_) {
+    if (numbered++ % kFacesPerCheck == 0) check_stop();
     Face& face = faces_[inside];
     face.triangle = static_cast<uint32_t>(triangle_count_);
     if (is_hole(face)) continue;

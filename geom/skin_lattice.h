@@ -29,6 +29,7 @@ struct LatticePoint {
 /// Of a whole skin, or of some of its faces: these get the triangles, and their vertices the places, that
 /// they have in the whole.
 class SkinLattice {
+  using CheckStop = std::function<void()>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
  public:
@@ -44,12 +45,14 @@ class SkinLattice {
     uint32_t inner = 0;           ///< first of the rate - 1 vertices between them
   };
 
-  /// Of all faces.
-  explicit SkinLattice(const SurfaceTopology::Impl& topology);
+  /// Of all faces. `check_stop` is called every few thousand faces.
+  explicit SkinLattice(
+      const SurfaceTopology::Impl& topology, const CheckStop& check_stop = [] {});
   /// Of `faces`, all ptex faces of some cage faces; `around` are these and all that touch them
   /// (faces_around). Both ascending.
-  SkinLattice(const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
-              std::span<const uint32_t> around);
+  SkinLattice(
+      const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
+      std::span<const uint32_t> around, const CheckStop& check_stop = [] {});
 
   /// Those of all faces with triangles. Set their rates before number().
   std::vector<Line>& lines() { return lines_; }
@@ -58,7 +61,7 @@ class SkinLattice {
   /// The piece of a line that its `side` of its `face` is, as parameters of the face at fraction t.
   V2f side_uv(uint32_t side, float t) const;
   /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than 31 bits can number.
-  void number();
+  void number(const CheckStop& check_stop = [] {});
   /// After number(): finds a place for every vertex.
   void place();
 
@@ -109,7 +112,8 @@ class SkinLattice {
   uint32_t corner_vertex(uint32_t face, uint32_t side) const;
   uint32_t place_of(uint32_t cage_vertex) const;
   Rail rail(const Face& face, uint32_t side) const;
-  void find_lines(std::span<const uint32_t> faces);
+  void find_lines(std::span<const uint32_t> faces, const CheckStop& check_stop);
+  std::vector<uint32_t> line_ids(std::span<const uint32_t> faces, const CheckStop& check_stop) const;
   void number_line(uint32_t line);
   void divide(Face& face);
   void place_rails(const Face& face);

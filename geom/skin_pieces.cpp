@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/parallel.h"
+#include "base/job.h"
 #include "geom/skin_lattice.h"
 #include "geom/skin_rates.h"
 
@@ -18,99 +18,140 @@ struct CageFace {
   V3f middle{0};
 };
 
-std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& surface) {
+void sort_unique(std::vector<uint32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& surface, const Job& job) {
+  constexpr size_t kFacesAtOnce = 4096;
   const SurfaceTopology::Impl& topology = surface.topology().impl();
   std::vector<CageFace> faces(topology.cage.face_count());
   for (size_t i = 0; i < whole.face_count(); ++i)
     faces[topology.cage_face[whole.face(i)]].cost += whole.face_triangles(i) + kTrianglesPerPose;
   const float middle = topology.triangular ? 1.0f / 3 : 0.5f;
-  for (uint32_t face = 0; face < faces.size(); ++face) {
-    faces[face].face = face;
-    faces[face].middle = surface.evaluate(topology.cage.first_ptex[face], middle, middle).position;
-  }
+  job.for_each(faces.size(), kFacesAtOnce, [&](WorkRange range) {
+    for (auto face = static_cast<uint32_t>(range.begin); face < range.end; ++face) {
+      faces[face].face = face;
+      faces[face].middle = surface.evaluate(topology.cage.first_ptex[face], middle, middle).position;
+    }
+  });
   return faces;
 }
 
-/// Cuts the faces of `range` across their longest side until no piece costs more than `most`, and calls
-/// `emit` for each.
-template <class Emit>
-void cut(std::span<CageFace> range, size_t most, const Emit& emit) {
+/// How many faces of `range`, in order of one coordinate, come to about `wanted`: at least one, and not all.
+/// These then stand first. Each look halves what is left to sort: linear in total.
+size_t part_off(std::span<CageFace> range, int axis, size_t wanted, const Job& job) {
+  const auto before = [axis](const CageFace& a, const CageFace& b) {
+    return std::pair(a.middle[axis], a.face) < std::pair(b.middle[axis], b.face);
+  };
+  const auto at = [&](size_t i) { return range.begin() + static_cast<std::ptrdiff_t>(i); };
+  std::nth_element(at(0), at(0), at(range.size()), before);
+  size_t low = 1, high = range.size() - 1, left = range[0].cost;  // `left`: of those before `low`
+  while (low < high) {
+    job.check_stop();
+    const size_t middle = low + (high - low) / 2;
+    std::nth_element(at(low), at(middle), at(high), before);
+    size_t sum = left;
+    for (size_t i = low; i < middle; ++i) sum += range[i].cost;
+    if (sum + range[middle].cost / 2 < wanted) {
+      left = sum + range[middle].cost;
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+/// How many faces of a range are cut off across its longest side; all of one that costs no more than `most`.
+size_t cut(std::span<CageFace> range, size_t most, const Job& job) {
   size_t all = 0;
   Box3f box;
   for (const CageFace& face : range) {
     all += face.cost;
     box.extendBy(face.middle);
   }
-  if (all <= most || range.size() == 1) {
-    emit(range);
-    return;
-  }
-  const auto axis = static_cast<int>(box.majorAxis());
-  std::sort(range.begin(), range.end(), [axis](const CageFace& a, const CageFace& b) {
-    return std::pair(a.middle[axis], a.face) < std::pair(b.middle[axis], b.face);
-  });
+  if (all <= most || range.size() == 1) return range.size();
   // Into parts of whole pieces, so that these become much alike.
   const size_t pieces = (all + most - 1) / most;
-  const size_t wanted = all / pieces * (pieces / 2);
-  size_t left = 0, count = 0;
-  while (count + 1 < range.size() && (count == 0 || left + range[count].cost / 2 < wanted))
-    left += range[count++].cost;
-  cut(range.first(count), most, emit);
-  cut(range.subspan(count), most, emit);
+  return part_off(range, static_cast<int>(box.majorAxis()), all / pieces * (pieces / 2), job);
+}
+
+/// Cuts the faces until no part costs more than `most`. In order from one side to the other.
+std::vector<std::span<CageFace>> cut_all(std::span<CageFace> faces, size_t most, const Job& job) {
+  std::vector<std::span<CageFace>> done, open{faces};
+  while (!open.empty()) {
+    std::vector<size_t> counts(open.size());
+    job.for_each(open.size(), 1, [&](WorkRange range) {
+      for (size_t i = range.begin; i < range.end; ++i) counts[i] = cut(open[i], most, job);
+    });
+    std::vector<std::span<CageFace>> next;
+    for (size_t i = 0; i < open.size(); ++i) {
+      if (counts[i] == open[i].size()) {
+        done.push_back(open[i]);
+      } else {
+        next.push_back(open[i].first(counts[i]));
+        next.push_back(open[i].subspan(counts[i]));
+      }
+    }
+    open = std::move(next);
+  }
+  std::sort(done.begin(), done.end(), [](const auto& a, const auto& b) { return a.data() < b.data(); });
+  return done;
+}
+
+/// The piece of some faces of the cage.
+SkinPiece piece_of(std::span<const CageFace> part, const SurfaceTopology& topology,
+                   const SkinLattice& whole) {
+  const CageConnectivity& cage = topology.impl().cage;
+  SkinPiece piece;
+  for (const CageFace& face : part) {
+    for (uint32_t f = cage.first_ptex[face.face]; f < cage.first_ptex[face.face + 1]; ++f)
+      piece.faces.push_back(f);
+  }
+  std::sort(piece.faces.begin(), piece.faces.end());
+  piece.faces.shrink_to_fit();
+  SkinLattice lattice(topology.impl(), piece.faces, faces_around(topology, piece.faces));
+  lattice.take_rates(whole);
+  lattice.number();
+  piece.vertices = lattice.vertex_count();
+  piece.triangles = lattice.triangle_count();
+  return piece;
 }
 
 }  // namespace
 
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, size_t most_cost,
-                                   const Workers& workers) {
+                                   const TessellationOptions& options, size_t most_cost, const Job& job) {
   const SurfaceTopology& topology = keys[0].topology();
-  SkinLattice whole(topology.impl());
-  set_rates(whole, keys, view, options, workers);
-  whole.number();
-  std::vector<SkinPiece> pieces;
+  const auto check_stop = [&job] { job.check_stop(); };
+  SkinLattice whole(topology.impl(), check_stop);
+  set_rates(whole, keys, view, options, job.workers, check_stop);
+  whole.number(check_stop);
   const size_t cost = whole.triangle_count() + kTrianglesPerPose * whole.face_count();
-  if (cost <= most_cost) {
-    pieces.push_back({{}, whole.vertex_count(), whole.triangle_count()});
-    return pieces;
-  }
-  std::vector<CageFace> faces = cage_faces(whole, keys[0]);
-  const CageConnectivity& cage = topology.impl().cage;
-  cut(std::span(faces), std::max(most_cost, cost / kMostPieces + 1), [&](std::span<const CageFace> part) {
-    SkinPiece piece;
-    for (const CageFace& face : part) {
-      for (uint32_t f = cage.first_ptex[face.face]; f < cage.first_ptex[face.face + 1]; ++f)
-        piece.faces.push_back(f);
-    }
-    std::sort(piece.faces.begin(), piece.faces.end());
-    piece.faces.shrink_to_fit();
-    pieces.push_back(std::move(piece));
-  });
-  workers.for_each(pieces.size(), 1, [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      SkinLattice lattice(topology.impl(), pieces[i].faces, faces_around(topology, pieces[i].faces));
-      lattice.take_rates(whole);
-      lattice.number();
-      pieces[i].vertices = lattice.vertex_count();
-      pieces[i].triangles = lattice.triangle_count();
-    }
+  if (cost <= most_cost) return {{{}, whole.vertex_count(), whole.triangle_count()}};
+  std::vector<CageFace> faces = cage_faces(whole, keys[0], job);
+  const std::vector<std::span<CageFace>> parts =
+      cut_all(faces, std::max(most_cost, cost / kMostPieces + 1), job);
+  std::vector<SkinPiece> pieces(parts.size());
+  job.for_each(parts.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) pieces[i] = piece_of(parts[i], topology, whole);
   });
   return pieces;
 }
 
 std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<const uint32_t> faces) {
-  const CageConnectivity& cage = topology.impl().cage;
-  const auto corners = [&](uint32_t face) {
-    return std::span(cage.corner_vertex).subspan(cage.first_corner[face], cage.face_size(face));
-  };
-  std::vector<bool> touched(topology.control_count());
-  for (const uint32_t face : faces) {
-    for (const uint32_t vertex : corners(topology.impl().cage_face[face])) touched[vertex] = true;
+  const SurfaceTopology::Impl& impl = topology.impl();
+  const CageConnectivity& cage = impl.cage;
+  std::vector<uint32_t> whole;  // faces of the cage
+  for (const uint32_t vertex : vertices_of(topology, faces)) {
+    for (uint32_t use = impl.first_use[vertex]; use < impl.first_use[vertex + 1]; ++use)
+      whole.push_back(impl.face_of_use(impl.uses[use]));
   }
+  sort_unique(whole);
   std::vector<uint32_t> around;
-  for (uint32_t face = 0; face < cage.face_count(); ++face) {
-    const auto own = corners(face);
-    if (std::none_of(own.begin(), own.end(), [&](uint32_t vertex) { return touched[vertex]; })) continue;
+  for (const uint32_t face : whole) {
     for (uint32_t f = cage.first_ptex[face]; f < cage.first_ptex[face + 1]; ++f) around.push_back(f);
   }
   return around;
@@ -119,13 +160,15 @@ std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<co
 std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<const uint32_t> around) {
   const CageConnectivity& cage = topology.impl().cage;
   std::vector<uint32_t> vertices;
+  uint32_t last = UINT32_MAX;  // faces of one polygon follow each other
   for (const uint32_t face : around) {
     const uint32_t whole = topology.impl().cage_face[face];
+    if (whole == last) continue;
+    last = whole;
     vertices.insert(vertices.end(), cage.corner_vertex.begin() + cage.first_corner[whole],
                     cage.corner_vertex.begin() + cage.first_corner[whole + 1]);
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   return vertices;
 }
 

@@ -38,7 +38,8 @@ uint32_t line_rate(const SkinLattice::Line& line, const SkinLattice& lattice,
 }  // namespace
 
 void set_rates(SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,
-               const TessellationOptions& options, const Workers& workers) {
+               const TessellationOptions& options, const Workers& workers,
+               const std::function<void()>& check_stop) {
   PELAGE_CHECK(!keys.empty());
   for (const LimitSurface& key : keys) PELAGE_CHECK(&key.topology() == &keys[0].topology());
   const size_t end = std::min(options.end_rated_key, keys.size());
@@ -48,6 +49,7 @@ void set_rates(SkinLattice& lattice, std::span<const LimitSurface> keys, const V
   const auto rated = keys.subspan(options.first_rated_key, end - options.first_rated_key);
   std::vector<SkinLattice::Line>& lines = lattice.lines();
   workers.for_each(lines.size(), kLinesAtOnce, [&](WorkRange range) {
+    check_stop();
     for (size_t i = range.begin; i < range.end; ++i)
       lines[i].rate = line_rate(lines[i], lattice, rated, view, options);
   });

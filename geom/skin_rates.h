@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "geom/skin_lattice.h"
@@ -11,7 +12,10 @@ namespace pelage {
 class Workers;
 
 /// Divides every line of a lattice as finely as its own length on screen asks for, in any of the rated keys.
-void set_rates(SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,
-               const TessellationOptions& options, const Workers& workers);
+/// `check_stop` is called every few hundred lines, by any thread.
+void set_rates(
+    SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,
+    const TessellationOptions& options, const Workers& workers,
+    const std::function<void()>& check_stop = [] {});
 
 }  // namespace pelage

@@ -226,6 +226,18 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
 
 }  // namespace
 
+void SurfaceTopology::Impl::list_uses(uint32_t vertices) {
+  first_use.assign(size_t(vertices) + 1, 0);
+  for (const uint32_t v : cage.corner_vertex) ++first_use[v + 1];
+  for (size_t v = 1; v < first_use.size(); ++v) first_use[v] += first_use[v - 1];
+  uses.resize(cage.corner_vertex.size());
+  std::vector<uint32_t> next(first_use.begin(), first_use.end() - 1);
+  for (uint32_t face = 0; face < cage.face_count(); ++face) {
+    for (uint32_t corner = cage.first_corner[face]; corner < cage.first_corner[face + 1]; ++corner)
+      uses[next[cage.corner_vertex[corner]]++] = flat ? corner : face;
+  }
+}
+
 size_t CageConnectivity::bytes() const {
   return heap_bytes(first_corner) + heap_bytes(corner_vertex) + heap_bytes(corner_edge) +
          heap_bytes(edge_vertices) + heap_bytes(edge_split) + heap_bytes(vertex_split) +
@@ -266,6 +278,7 @@ std::shared_ptr<const SurfaceTopology> SurfaceTopology::create(const ControlMesh
   impl->triangular = scheme == SubdivisionScheme::kLoop;
   impl->cage = connect(*refiner, scheme);
   fill_ptex_faces(*impl, refiner->GetLevel(0), mesh);
+  impl->list_uses(impl->control_count);
   check_stop();
 
   Far::PatchTableFactory::Options options(kSharpLevels);

@@ -94,10 +94,12 @@ struct SurfaceTopology::Impl {
   std::vector<int32_t> neighbours;
   std::vector<V2f> uv;  // empty when the cage has none
 
+  std::vector<uint32_t> first_use;  // per vertex of the cage, and one more: its own among `uses`
+  /// Ascending for each vertex: of flat triangles the corners, counted through; else the faces of the cage.
+  std::vector<uint32_t> uses;
+
   // Of flat triangles.
-  std::vector<uint32_t> polygon;    // face of the mesh that each is cut from; empty when it is itself one
-  std::vector<uint32_t> first_use;  // per vertex, and one more: its corners among `uses`
-  std::vector<uint32_t> uses;       // corners of triangles, counted through, ascending for each vertex
+  std::vector<uint32_t> polygon;  // face of the mesh that each is cut from; empty when it is itself one
 
   // Of the others.
   std::unique_ptr<const Far::PatchTable> patches;
@@ -107,6 +109,10 @@ struct SurfaceTopology::Impl {
   PointRules rules;
 
   uint32_t corners_per_face() const { return triangular ? 3 : 4; }
+  /// Fills first_use and uses from `cage`.
+  void list_uses(uint32_t vertices);
+  /// The face of the cage that an entry of `uses` is of.
+  uint32_t face_of_use(uint32_t use) const { return flat ? use / 3 : use; }
   /// The points of the patches of some faces, and all that they follow from.
   PointBlocks points_of(std::span<const uint32_t> faces) const;
 };

@@ -87,11 +87,10 @@ SkinMesh fill(const SkinLattice& lattice, std::span<const LimitSurface> keys, co
 SkinMesh tessellate_all(std::span<const LimitSurface> keys, const View& view,
                         const TessellationOptions& options, const Loops& loops) {
   PELAGE_CHECK(!keys.empty());
-  SkinLattice lattice(keys[0].topology().impl());
-  loops.check_stop();
-  set_rates(lattice, keys, view, options, loops.workers);
-  loops.check_stop();
-  lattice.number();
+  const auto check_stop = [&loops] { loops.check_stop(); };
+  SkinLattice lattice(keys[0].topology().impl(), check_stop);
+  set_rates(lattice, keys, view, options, loops.workers, check_stop);
+  lattice.number(check_stop);
   lattice.place();
   return fill(lattice, keys, loops);
 }

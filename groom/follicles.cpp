@@ -149,8 +149,8 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const double asked =
       options.count > 0 ? static_cast<double>(options.count) : std::round(options.per_area * measure.mass);
   if (!(asked <= static_cast<double>(kMaxFollicles))) {
-    throw Error(ErrorKind::kInput,
-                fmt::format("{:.3g} strands on one skin; at most {} are possible", asked, kMaxFollicles));
+    throw Error(ErrorKind::kInput, fmt::format("{}: {:.3g} {} on one skin; at most {} are possible",
+                                               options.owner, asked, options.noun, kMaxFollicles));
   }
   const auto count = static_cast<size_t>(asked);
   if (count == 0 || !(measure.mass > 0)) return {};

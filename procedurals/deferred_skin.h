@@ -17,8 +17,9 @@ namespace pelage {
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// What it divides into, of at most `most_cost` each where its faces allow it (divide_skin).
-  virtual std::vector<SkinPiece> divide(const View& view, size_t most_cost) const = 0;
+  /// What it divides into, of at most `most_cost` each where its faces allow it (divide_skin). Throws Error
+  /// (kStopped).
+  virtual std::vector<SkinPiece> divide(const View& view, size_t most_cost, const Job& job) const = 0;
   /// Holds every triangle of a piece over the span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
   /// Poses of tessellate(), at even times over the shutter.

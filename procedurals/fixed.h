@@ -44,7 +44,7 @@ class FixedStrands final : public Procedural {
 class FixedSkin final : public DeferredSkin {
  public:
   explicit FixedSkin(SkinMesh mesh) : mesh_(std::move(mesh)) {}
-  std::vector<SkinPiece> divide(const View&, size_t) const override {
+  std::vector<SkinPiece> divide(const View&, size_t, const Job&) const override {
     return {{{}, mesh_.vertex_count(), mesh_.triangle_count()}};
   }
   Box3f bound(const SkinPiece&, BoundSpan) const override {

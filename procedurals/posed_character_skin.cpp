@@ -151,8 +151,8 @@ Box3f PosedCharacterSkin::bound(const SkinPiece& piece, BoundSpan span) const {
   return widened(box);
 }
 
-std::vector<SkinPiece> PosedCharacterSkin::divide(const View& view, size_t most_cost) const {
-  return divide_skin(passing_pose()->keys, view, {}, most_cost, Workers::alone());
+std::vector<SkinPiece> PosedCharacterSkin::divide(const View& view, size_t most_cost, const Job& job) const {
+  return divide_skin(passing_pose()->keys, view, {}, most_cost, job);
 }
 
 SkinMesh PosedCharacterSkin::tessellate(const SkinPiece& piece, const View& view) const {

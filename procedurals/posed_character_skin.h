@@ -60,7 +60,7 @@ class PosedCharacterSkin final : public DeferredSkin {
 
   /// The hull of the control points, a little widened.
   Box3f bound(BoundSpan span) const;
-  std::vector<SkinPiece> divide(const View& view, size_t most_cost) const override;
+  std::vector<SkinPiece> divide(const View& view, size_t most_cost, const Job& job) const override;
   /// The hull of the control points that shape the piece, a little widened.
   Box3f bound(const SkinPiece& piece, BoundSpan span) const override;
   SkinMesh tessellate(const SkinPiece& piece, const View& view) const override;

@@ -77,6 +77,35 @@ void require_room_for_strands(const SceneDescription& scene, const Job& job) {
   }
 }
 
+bool only_holes(const SurfaceTopology& topology) {
+  for (uint32_t face = 0; face < topology.face_count(); ++face) {
+    if (!topology.is_hole(face)) return false;
+  }
+  return true;
+}
+
+/// A groom whose mistakes have a place: that of the groom where they have none of their own.
+std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
+                                        const GroomParams& params,
+                                        const std::shared_ptr<const LimitSurface>& rest,
+                                        TextureLibrary& textures, const Job& job) {
+  try {
+    auto groom = Groom::create(name, params, rest, textures, job);
+    if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
+      job.progress.warn(fmt::format("{}: groom '{}': nothing grows, because all faces of skin '{}' are holes",
+                                    to_string(position), name, params.skin.name));
+    }
+    return groom;
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kInput) throw;
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (problem.position.file.empty()) problem.position = position;
+    }
+    throw Error(error.kind(), std::move(problems));
+  }
+}
+
 /// What each character holds in a frame, by its index in the scene.
 std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
   std::vector<int64_t> bytes;
@@ -121,7 +150,7 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
   for (const auto& [name, position, params] : scene.grooms.items) {
     const auto skin = assets->skins.find(params.skin.name);
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
-    assets->grooms[name] = Groom::create(name, params, rest, assets->textures, job);
+    assets->grooms[name] = make_groom(name, position, params, rest, assets->textures, job);
   }
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();

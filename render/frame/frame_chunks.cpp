@@ -26,6 +26,9 @@ size_t most_piece_cost(uint64_t memory_limit) {
   return memory_limit == 0 ? kMost : std::clamp<uint64_t>(memory_limit >> 16, kLeast, kMost);
 }
 
+/// Dividing a skin that takes so much is worth all threads: about 0.05 s of one.
+constexpr size_t kLargeSkin = size_t(16) << 20;
+
 size_t growth_bytes(const StrandCounts& n) {
   if (n.strands == 0) return kGrowthBytes;
   const size_t points = std::max(n.longest, n.points / n.strands + 1);
@@ -52,31 +55,40 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job) : scene_(scen
 }
 
 void FrameChunks::divide_skins(const Job& job) {
-  size_t largest = 0;
-  for (const SkinPart& part : scene_.skins) largest = std::max(largest, part.skin->making_bytes({}));
+  std::vector<size_t> making(scene_.skins.size());
+  for (size_t i = 0; i < making.size(); ++i) making[i] = scene_.skins[i].skin->making_bytes({});
+  if (making.empty()) return;
+  const auto most = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
+  const size_t largest = making[most];
   const uint64_t limit = scene_.render.memory.bytes;
-  require_room(job.ledger, static_cast<int64_t>(largest), "the largest skin, posed to be divided");
-  const size_t at_once = std::min(static_cast<size_t>(job.workers.thread_count()), scene_.skins.size());
+  require_room(job.ledger, static_cast<int64_t>(largest),
+               scene_.skins[most].name + ": its skin, posed to be divided");
+  const size_t at_once = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
   const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(at_once * largest) <=
                                      static_cast<int64_t>(limit);
   const MemoryCharge passing(job.ledger, MemoryTag::kChunks,
                              static_cast<int64_t>(fit ? at_once * largest : largest));
   const size_t most_cost = most_piece_cost(limit);
-  std::vector<std::vector<PieceOfSkin>> pieces(scene_.skins.size());
-  const auto divide = [&](WorkRange range) {
-    for (size_t i = range.begin; i < range.end; ++i) {
-      const DeferredSkin& skin = *scene_.skins[i].skin;
-      for (SkinPiece& piece : skin.divide(scene_.camera.view(), most_cost)) {
-        const size_t making = skin.making_bytes(piece);
-        pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), making});
-      }
-    }
+  std::vector<std::vector<PieceOfSkin>> pieces(making.size());
+  const auto divide = [&](size_t i, const Workers& workers) {
+    const DeferredSkin& skin = *scene_.skins[i].skin;
+    for (SkinPiece& piece : skin.divide(scene_.camera.view(), most_cost, {workers, job.ledger, job.progress}))
+      pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), 0});
+    Job{workers, job.ledger, job.progress}.for_each(pieces[i].size(), 1, [&](WorkRange range) {
+      for (size_t k = range.begin; k < range.end; ++k)
+        pieces[i][k].making_bytes = skin.making_bytes(pieces[i][k].piece);
+    });
   };
-  if (fit) {
-    job.workers.for_each(pieces.size(), 1, divide);
-  } else {
-    divide({0, pieces.size()});
+  // Large skins one after the other, each by all threads; the others beside each other.
+  const auto is_large = [&](size_t i) { return !fit || making[i] > kLargeSkin; };
+  for (size_t i = 0; i < making.size(); ++i) {
+    if (is_large(i)) divide(i, job.workers);
   }
+  job.for_each(making.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      if (!is_large(i)) divide(i, Workers::alone());
+    }
+  });
   for (auto& of_skin : pieces) {
     for (PieceOfSkin& piece : of_skin) pieces_.push_back(std::move(piece));
   }
@@ -209,13 +221,16 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& cou
   std::vector<ChunkBounds> bounds =
       bound_chunks(options, leaves_, {fewer ? *fewer : job.workers, job.ledger, job.progress}, &counts);
   blocks = {};
-  for (const PieceOfSkin& piece : pieces_) {
-    ChunkBounds box;
-    box.keys = bound_keys(options.strategy);
-    box.boxes.assign(static_cast<size_t>(box.keys),
-                     scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(options.strategy)));
-    bounds.push_back(std::move(box));
-  }
+  bounds.resize(size());
+  job.workers.for_each(pieces_.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
+      const PieceOfSkin& piece = pieces_[i];
+      ChunkBounds& box = bounds[leaves_.size() + i];
+      box.keys = bound_keys(options.strategy);
+      box.boxes.assign(static_cast<size_t>(box.keys),
+                       scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(options.strategy)));
+    }
+  });
   return bounds;
 }
 

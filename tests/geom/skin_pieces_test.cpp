@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "base/parallel.h"
 #include "geom/io/obj_file.h"
 #include "tests/geom/cages.h"
 #include "tests/support/data.h"
+#include "tests/support/quiet_job.h"
 
 namespace pelage {
 namespace {
@@ -39,7 +41,7 @@ void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme schem
   const SkinMesh whole = tessellate(keys, view, options, Workers(2));
   const auto first = first_triangles(whole);
 
-  const std::vector<SkinPiece> pieces = divide_skin(keys, view, options, most, Workers(2));
+  const std::vector<SkinPiece> pieces = divide_skin(keys, view, options, most, QuietJob(2));
   if (whole.triangle_count() + kTrianglesPerPose * topology->face_count() > most) {
     EXPECT_GT(pieces.size(), 1u);
   }
@@ -125,7 +127,7 @@ TEST(SkinPieces, AreMuchAlikeInSize) {
       cage.positions);
   constexpr size_t kMost = 2000;
   const std::vector<SkinPiece> pieces =
-      divide_skin(std::span(&surface, 1), near_view(surface), {2, 16}, kMost, Workers(2));
+      divide_skin(std::span(&surface, 1), near_view(surface), {2, 16}, kMost, QuietJob(2));
   ASSERT_GT(pieces.size(), 4u);
   size_t all = 0, largest = 0;
   for (const SkinPiece& piece : pieces) {
@@ -143,7 +145,7 @@ TEST(SkinPieces, LieWithinTheHullOfTheVerticesAround) {
       SurfaceTopology::create(cage, SubdivisionScheme::kCatmullClark, BoundaryRule::kEdgeAndCorner, "test");
   const LimitSurface surface(topology, cage.positions);
   for (const SkinPiece& piece :
-       divide_skin(std::span(&surface, 1), near_view(surface), {4, 16}, 600, Workers(1))) {
+       divide_skin(std::span(&surface, 1), near_view(surface), {4, 16}, 600, QuietJob(1))) {
     Box3f hull;
     const std::vector<uint32_t> vertices = vertices_of(*topology, faces_around(*topology, piece.faces));
     EXPECT_LT(vertices.size(), cage.positions.size());
@@ -151,6 +153,62 @@ TEST(SkinPieces, LieWithinTheHullOfTheVerticesAround) {
     const SkinMesh mesh = tessellate_faces(std::span(&surface, 1), piece.faces, near_view(surface), {4, 16});
     for (size_t i = 0; i < mesh.vertex_count(); ++i) EXPECT_TRUE(hull.intersects(mesh.position(i)));
   }
+}
+
+/// faces_around(), by a look at every face of the cage.
+std::vector<uint32_t> faces_around_slowly(const ControlMesh& cage, const SurfaceTopology& topology,
+                                          std::span<const uint32_t> faces) {
+  std::vector<std::vector<uint32_t>> corners(cage.face_count());
+  size_t first = 0;
+  for (size_t face = 0; face < corners.size(); ++face) {
+    corners[face].assign(cage.face_vertices.begin() + std::ptrdiff_t(first),
+                         cage.face_vertices.begin() + std::ptrdiff_t(first + cage.face_sizes[face]));
+    first += cage.face_sizes[face];
+  }
+  std::set<uint32_t> touched;
+  for (const uint32_t face : faces) {
+    const auto& own = corners[topology.cage_face(face)];
+    touched.insert(own.begin(), own.end());
+  }
+  std::vector<uint32_t> around;
+  for (uint32_t face = 0; face < topology.face_count(); ++face) {
+    const auto& own = corners[topology.cage_face(face)];
+    if (std::any_of(own.begin(), own.end(), [&](uint32_t v) { return touched.count(v) > 0; }))
+      around.push_back(face);
+  }
+  return around;
+}
+
+TEST(SkinPieces, HaveTheFacesAroundThatALookAtEveryFaceFinds) {
+  const std::pair<ControlMesh, SubdivisionScheme> cases[] = {
+      {torus_cage(12, 8), SubdivisionScheme::kCatmullClark},
+      {prism_cage(5), SubdivisionScheme::kBilinear},
+      {octahedron_cage(), SubdivisionScheme::kLoop},
+      {bumpy_sphere(8), SubdivisionScheme::kNone}};
+  for (const auto& [cage, scheme] : cases) {
+    const auto topology = SurfaceTopology::create(cage, scheme, BoundaryRule::kEdgeAndCorner, "test");
+    for (uint32_t face = 0; face < topology->face_count(); ++face) {
+      const std::vector<uint32_t> one = {face}, two = {face / 2, face};
+      for (const auto& faces : {one, two})
+        ASSERT_EQ(faces_around(*topology, faces), faces_around_slowly(cage, *topology, faces)) << face;
+    }
+  }
+}
+
+TEST(SkinPieces, AreTheSameForAnyNumberOfThreads) {
+  const ControlMesh cage = bumpy_sphere(40);
+  const LimitSurface surface(
+      SurfaceTopology::create(cage, SubdivisionScheme::kNone, BoundaryRule::kEdgeAndCorner, "test"),
+      cage.positions);
+  const auto faces = [&](int threads) {
+    std::vector<std::vector<uint32_t>> found;
+    for (SkinPiece& piece :
+         divide_skin(std::span(&surface, 1), near_view(surface), {}, 3000, QuietJob(threads)))
+      found.push_back(std::move(piece.faces));
+    return found;
+  };
+  EXPECT_GT(faces(1).size(), 4u);
+  EXPECT_EQ(faces(1), faces(2));
 }
 
 TEST(SkinPieces, OfRealCages) {

@@ -10,6 +10,7 @@
 #include "base/temporary_folder.h"
 #include "geom/closest_point.h"
 #include "geom/io/obj_file.h"
+#include "geom/skin_pieces.h"
 #include "geom/tessellation.h"
 #include "tests/geom/cages.h"
 
@@ -73,6 +74,11 @@ TEST(Stopping, IsHeardWhileSkinsAreMade) {
   SkinMesh skin;
   EXPECT_GE(looks_of([&](const Job& job) { skin = tessellate(std::span(&surface, 1), View(), {}, job); }),
             100);
+  EXPECT_GE(looks_of([&](const Job& job) {
+              const auto pieces = divide_skin(std::span(&surface, 1), View(), {}, 1, job);
+              EXPECT_GT(pieces.size(), 32u);
+            }),
+            150);
   EXPECT_GE(looks_of([&](const Job& job) { ClosestPointTree(skin, 0, &job); }), 1);
 }
 

@@ -77,7 +77,7 @@ TEST_F(PosedCharacterSkinTest, BoundsHoldAndCountsAreExact) {
   EXPECT_GT(frame.max.x, shutter.max.x + 2);
   for (const size_t most : {size_t(1), SIZE_MAX}) {
     size_t triangles = 0;
-    for (const SkinPiece& piece : moving->divide(view_, most)) {
+    for (const SkinPiece& piece : moving->divide(view_, most, QuietJob(1))) {
       const SkinMesh part = moving->tessellate(piece, view_);
       EXPECT_EQ(piece.vertices, part.vertex_count());
       EXPECT_EQ(piece.triangles, part.triangle_count());
