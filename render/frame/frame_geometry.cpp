@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "render/frame/stored_fur.h"
@@ -19,7 +20,7 @@ FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vec
       accel_(std::move(bounds), *chunks_, options, job) {}
 
 std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Job& job,
-                                                         Statistics& statistics) {
+                                                         Statistics& statistics) try {
   const Stopwatch preparing;
   auto chunks = std::make_unique<const FrameChunks>(scene, job);
   const Stopwatch bounding;
@@ -61,6 +62,9 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   if (options.eager) statistics.stages_s["grow"] += grow_s;
   statistics.stages_s["prepare"] += preparing.seconds() - bound_s - store_s - grow_s;
   return job.progress.cancelled() ? nullptr : std::move(geometry);
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::kStopped) throw;
+  return nullptr;
 }
 
 void FrameGeometry::add_to(Statistics& statistics) const {
