@@ -32,7 +32,7 @@ std::string SkinGaps::describe(const std::string& skin) const {
 bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
                  std::vector<V3f>& positions, std::vector<RootAddress>& roots) {
   if (params.attach == Attachment::kNone) return false;
-  const SkinBinding binding(rest, job);
+  const SkinBinding binding(rest, params.strands_file.path, job);
   const auto stay = [&](const std::string& why) {
     job.progress.warn(to_string(params.strands_file.position) + ": the strands of " +
                       params.strands_file.path.filename().string() + " " + why +

@@ -48,7 +48,7 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   const size_t count = file.strands.strand_count();
   if (count == 0)
     throw Error(ErrorKind::kInput, source.file.position, "the guide file holds no usable strand");
-  const SkinBinding binding(*context.rest, job);
+  const SkinBinding binding(*context.rest, source.file.path, job);
   if (binding.empty())
     throw Error(ErrorKind::kInput, source.file.position,
                 "guides need a skin to stand on: every face of this one is a hole");

@@ -25,7 +25,7 @@ struct SkinBinding::Impl {
 
 namespace {
 
-SkinMesh tessellate_evenly(const LimitSurface& rest, const Job& job) {
+SkinMesh tessellate_evenly(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job) {
   View everywhere;
   everywhere.focal_pixels = 1e12f;  // every edge wants more than the largest rate
   TessellationOptions options;
@@ -35,7 +35,7 @@ SkinMesh tessellate_evenly(const LimitSurface& rest, const Job& job) {
       rest.topology().is_flat() ? 1 : std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
   constexpr double kBytesPerQuad = 300;  // its vertex, two triangles and the tree over them
   require_room(job.ledger, static_cast<int64_t>(faces * options.max_rate * options.max_rate * kBytesPerQuad),
-               "finding the roots of strands of a file on their skin");
+               "finding the roots of " + strands.string() + " on its skin");
   job.check_stop();
   return tessellate(std::span(&rest, 1), everywhere, options, job);
 }
@@ -59,8 +59,8 @@ RootAddress address_of(const SkinMesh& mesh, uint32_t triangle, const V3f& point
 
 }  // namespace
 
-SkinBinding::SkinBinding(const LimitSurface& rest, const Job& job)
-    : impl_(std::make_unique<Impl>(tessellate_evenly(rest, job), job)) {}
+SkinBinding::SkinBinding(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job)
+    : impl_(std::make_unique<Impl>(tessellate_evenly(rest, strands, job), job)) {}
 SkinBinding::~SkinBinding() = default;
 
 bool SkinBinding::empty() const { return impl_->mesh.triangle_count() == 0; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "geom/limit_surface.h"
@@ -15,8 +16,9 @@ struct Job;
 /// members may be called from any thread.
 class SkinBinding {
  public:
-  /// Charged to the ledger for as long as it lives. Throws Error (kMemory), Error (kStopped).
-  SkinBinding(const LimitSurface& rest, const Job& job);
+  /// Charged to the ledger for as long as it lives. Throws Error (kMemory), which names the file whose
+  /// strands are to be bound, Error (kStopped).
+  SkinBinding(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job);
   ~SkinBinding();
 
   /// Whether there is no place to be near to: every face of the skin is a hole.

@@ -35,7 +35,7 @@ TEST(MemoryBudget, RefusalNamesTheThingWhatIsInUseAndWhatWouldDo) {
     EXPECT_STREQ(
         error.what(),
         "groom 'coat': the follicles of 5,000 strands: needs 25.0 MiB, but render.memory is 64.0 MiB and "
-        "40.0 MiB are in use (skins 30.0 MiB, textures 10.0 MiB); --memory 66M would hold it");
+        "40.0 MiB are in use (skins 30.0 MiB, textures 10.0 MiB); it takes at least --memory 66M");
   }
 }
 
