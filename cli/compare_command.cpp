@@ -12,8 +12,10 @@
 #include "lab/compare/compare_models.h"
 #include "lab/compare/contact_sheet.h"
 #include "lab/report/machine.h"
+#include "lab/report/picture_svg.h"
 #include "lab/report/png.h"
 #include "lab/report/report_files.h"
+#include "lab/report/svg.h"
 #include "lab/runs/process.h"
 
 namespace pelage {
@@ -26,6 +28,12 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
     }
   }
   throw Error(ErrorKind::kInput, input + ": no character of this scene has fur to compare models on");
+}
+
+// NAME.svg with words, and NAME.png, the pixels alone.
+void write_sheet(std::filesystem::path name, const Picture& sheet) {
+  write_file(name.replace_extension(".svg"), standalone_svg(picture_svg(sheet)));
+  write_file(name.replace_extension(".png"), png_bytes(sheet));
 }
 
 }  // namespace
@@ -57,9 +65,9 @@ int run_compare(const Options& options) {
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));
     if (interrupted) report.abstract = "Interrupted: only a part was done. " + report.abstract;
     report.runs = fibres_json(comparison.fibres);
-    write_file(folder / "contact_sheet.png", png_bytes(contact_sheet(comparison.frames)));
+    write_sheet(folder / "contact_sheet", contact_sheet(comparison.frames));
     if (!comparison.fibres.empty())
-      write_file(folder / "single_fibres.png", png_bytes(single_fibre_sheet(comparison.fibres)));
+      write_sheet(folder / "single_fibres", single_fibre_sheet(comparison.fibres));
     write_report(folder, report);
     std::cout << (folder / "report.html").string() << "\n";
   }

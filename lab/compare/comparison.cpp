@@ -136,8 +136,8 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
   report.abstract = findings(comparison);
   report.data = frame_table(comparison.frames);
 
-  Picture sheet = halved(contact_sheet(comparison.frames));
-  sheet.caption = "Every model in every light; contact_sheet.png has the full size.";
+  Picture sheet = contact_sheet(comparison.frames);
+  sheet.caption = "Every model in every light: contact_sheet.svg, and without words contact_sheet.png.";
   Table frames = report.data;
   frames.caption =
       "Cost, noise and brightness. Noise at equal time is what is left after as many CPU seconds as the "

@@ -12,7 +12,4 @@ namespace pelage {
 /// that are missing leave a grey field. All pictures have one size. Not empty.
 Picture contact_sheet(const std::vector<ComparedFrame>& frames);
 
-/// Half as wide and high.
-Picture halved(const Picture& picture);
-
 }  // namespace pelage

@@ -21,6 +21,7 @@ constexpr int kCellSize = 5, kLeft = 150, kTop = 44, kGap = 16, kPolar = 232;
 constexpr int kMapWidth = kCellSize * FibreHistogram::kAzimuths,
               kMapHeight = kCellSize * FibreHistogram::kSines;
 constexpr int kRow = kPolar + kGap;
+constexpr double kTitle = 16, kSmall = 12;  // sizes of fonts
 
 /// Black through blue, red and yellow to white, lightness rising evenly.
 Canvas::Color heat(double x) {
@@ -81,7 +82,7 @@ void draw_polar(Canvas& canvas, int x, int y, const SingleFibre& fibre) {
 }
 
 void center(Canvas& canvas, int x, int width, int y, const std::string& text, Canvas::Color color) {
-  canvas.text(x + (width - Canvas::text_width(text)) / 2, y, text, color);
+  canvas.label({x + 0.5 * width, y + 13.0, text, TextAnchor::kMiddle, color, kTitle});
 }
 
 }  // namespace
@@ -120,10 +121,12 @@ Picture single_fibre_sheet(const std::vector<SingleFibre>& fibres) {
   int y = kTop;
   for (const SingleFibre& fibre : fibres) {
     const int map_y = y + (kPolar - kMapHeight) / 2;
-    canvas.text(10, y + kPolar / 2 - 32, fibre.model, kInk,
-                Canvas::text_width(fibre.model) > kLeft - 16 ? 1 : 2);
-    canvas.text(10, y + kPolar / 2 - 8, fmt::format("energy {:.3f}", fibre.by_model.total()), kModelInk, 1);
-    canvas.text(10, y + kPolar / 2 + 4, fmt::format("traced {:.3f}", fibre.traced.total()), kTracedInk, 1);
+    const double middle = y + kPolar / 2;
+    canvas.label({10, middle - 18, fibre.model, TextAnchor::kStart, kInk, kTitle});
+    canvas.label({10, middle + 2, fmt::format("energy {:.3f}", fibre.by_model.total()), TextAnchor::kStart,
+                  kModelInk, kSmall});
+    canvas.label({10, middle + 18, fmt::format("traced {:.3f}", fibre.traced.total()), TextAnchor::kStart,
+                  kTracedInk, kSmall});
     draw_map(canvas, kLeft, map_y, fibre.by_model);
     draw_map(canvas, map2, map_y, fibre.traced);
     draw_polar(canvas, polar, y, fibre);
@@ -132,7 +135,7 @@ Picture single_fibre_sheet(const std::vector<SingleFibre>& fibres) {
   for (const int x : {kLeft, map2}) {
     center(canvas, x, kMapWidth, y, "phi: through | back | through", kInk);
   }
-  center(canvas, polar, kPolar, y, "through    back", kInk);
+  center(canvas, polar, kPolar, y, "through | back", kInk);
   return canvas.picture();
 }
 

@@ -5,15 +5,8 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "lab/report/pixel_font.h"
 
 namespace pelage {
-namespace {
-
-constexpr int kAdvance = kGlyphColumns + 1;
-
-}  // namespace
-
 Canvas::Canvas(int width, int height, Color ground) {
   PELAGE_CHECK(width > 0 && height > 0);
   picture_.width = width;
@@ -64,23 +57,6 @@ void Canvas::line(double x0, double y0, double x1, double y1, Color color) {
       blend(x, y, color, std::clamp(kHalfWidth + 0.5 - distance, 0.0, 1.0));
     }
   }
-}
-
-void Canvas::text(int x, int y, std::string_view text, Color color, int size) {
-  for (const char c : text) {
-    const Glyph& glyph = pixel_glyph(c);
-    for (int column = 0; column < kGlyphColumns; ++column) {
-      for (int row = 0; row < kGlyphRows; ++row) {
-        if (glyph[static_cast<size_t>(column)] >> row & 1)
-          fill(x + column * size, y + row * size, size, size, color);
-      }
-    }
-    x += kAdvance * size;
-  }
-}
-
-int Canvas::text_width(std::string_view text, int size) {
-  return text.empty() ? 0 : (static_cast<int>(text.size()) * kAdvance - 1) * size;
 }
 
 }  // namespace pelage

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <string_view>
+#include <utility>
 
 #include "lab/report/report.h"
 
 namespace pelage {
 
-/// A picture to draw on: other pictures, lines, and words in small letters of pixels. sRGB, (0, 0) the upper
+/// A picture to draw on: other pictures, lines, and labels. sRGB, (0, 0) the upper
 /// left corner; what is outside is cut off.
 class Canvas {
  public:
@@ -20,11 +20,8 @@ class Canvas {
   void draw(int x, int y, const Picture& picture);
   /// About 1.5 pixels wide, with smooth edges.
   void line(double x0, double y0, double x1, double y1, Color color);
-  /// Letters are 5 x 7 pixels times `size`, its upper left corner at (x, y). Characters beyond ASCII are
-  /// shown as a box.
-  void text(int x, int y, std::string_view text, Color color, int size = 2);
-  static int text_width(std::string_view text, int size = 2);
-  static int text_height(int size = 2) { return 7 * size; }
+  /// Words over it, in pages and SVG files.
+  void label(Label label) { picture_.labels.push_back(std::move(label)); }
 
   const Picture& picture() const { return picture_; }
 

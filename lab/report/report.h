@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "lab/report/label.h"
 #include "lab/report/quantity.h"
 
 namespace pelage {
@@ -78,6 +79,7 @@ struct Picture {
   int width = 0, height = 0, channels = 3;
   std::vector<unsigned char> pixels;
   bool half = false;
+  std::vector<Label> labels = {};  ///< in pages and SVG files; PNG files go without
 };
 
 struct Paragraph {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "lab/report/markup.h"
+#include "lab/report/picture_svg.h"
 #include "lab/report/plot_svg.h"
 #include "lab/report/png.h"
 #include "lab/report/svg.h"
@@ -127,10 +128,13 @@ class Page {
   void add(const LinePlot& plot) { add_figure(line_plot_svg(plot), plot.caption, plot.half); }
   void add(const BarPlot& plot) { add_figure(bar_plot_svg(plot), plot.caption, plot.half); }
   void add(const Picture& picture) {
-    add_figure(fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\"/>\n",
-                           escape_markup(picture.caption), picture.width, picture.height,
-                           base64(png_bytes(picture))),
-               picture.caption, picture.half);
+    const std::string body =
+        picture.labels.empty()
+            ? fmt::format("<img alt=\"{}\" width=\"{}\" height=\"{}\" src=\"data:image/png;base64,{}\"/>\n",
+                          escape_markup(picture.caption), picture.width, picture.height,
+                          base64(png_bytes(picture)))
+            : picture_svg(picture);
+    add_figure(body, picture.caption, picture.half);
   }
 
   void add_figure(const std::string& body, const std::string& caption, bool half) {
@@ -154,11 +158,14 @@ std::vector<std::pair<std::string, std::string>> report_figures(const Report& re
     for (const Block& block : section.blocks) {
       const auto* lines = std::get_if<LinePlot>(&block);
       const auto* bars = std::get_if<BarPlot>(&block);
-      if (!lines && !bars && !std::holds_alternative<Picture>(block)) continue;
+      const auto* picture = std::get_if<Picture>(&block);
+      if (!lines && !bars && !picture) continue;
       ++figure;
-      if (!lines && !bars) continue;
+      if (picture && picture->labels.empty()) continue;  // nothing but pixels
       files.emplace_back(fmt::format("figure-{:02}.svg", figure),
-                         standalone_svg(lines ? line_plot_svg(*lines) : bar_plot_svg(*bars)));
+                         standalone_svg(lines  ? line_plot_svg(*lines)
+                                        : bars ? bar_plot_svg(*bars)
+                                               : picture_svg(*picture)));
     }
   }
   return files;

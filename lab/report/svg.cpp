@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "lab/report/markup.h"
+#include "lab/report/png.h"
 
 namespace pelage {
 namespace {
@@ -73,15 +74,29 @@ void Svg::upright_text(double x, double y, std::string_view text) {
       px(x), px(y), escape_markup(text));
 }
 
+void Svg::label(const Label& label) {
+  out_ += fmt::format(
+      "<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" "
+      "style=\"font-size:{:g}px;fill:#{:02x}{:02x}{:02x}\">{}</text>\n",
+      px(label.x), px(label.y), anchor_name(label.anchor), label.size, label.color[0], label.color[1],
+      label.color[2], escape_markup(label.text));
+}
+
+void Svg::image(double x, double y, double width, double height, std::string_view png) {
+  out_ +=
+      fmt::format("<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" href=\"data:image/png;base64,{}\"/>\n",
+                  px(x), px(y), px(width), px(height), base64(png));
+}
+
 std::string Svg::finish() && {
   out_ += "</svg>\n";
   return std::move(out_);
 }
 
-double text_width(std::string_view text) {
+double text_width(std::string_view text, double size) {
   size_t characters = 0;
   for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  return 6.3 * static_cast<double>(characters);
+  return 6.3 / 11.5 * size * static_cast<double>(characters);
 }
 
 std::string series_color(size_t index) { return "s" + std::to_string(index % kColors); }

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace pelage {
+#include "lab/report/label.h"
 
-enum class TextAnchor { kStart, kMiddle, kEnd };
+namespace pelage {
 
 /// Builds one inline SVG picture. Lengths are pixels at the size of 1 : 1, y down. All colours and fonts are
 /// those of plot_style(), which stands once on a page: every element has a class, and colours are named by
@@ -28,6 +28,10 @@ class Svg {
   /// Read from below to above, centred at y.
   void upright_text(double x, double y, std::string_view text);
 
+  void label(const Label& label);
+  /// A PNG file, stretched.
+  void image(double x, double y, double width, double height, std::string_view png);
+
   /// The finished element.
   std::string finish() &&;
 
@@ -35,8 +39,8 @@ class Svg {
   std::string out_;
 };
 
-/// Width of a label about as browsers set it, for layout.
-double text_width(std::string_view text);
+/// Width of a label about as browsers set it, for layout; `size` is that of the font.
+double text_width(std::string_view text, double size = 11.5);
 
 /// Classes of series: their colours stay apart for colour-blind readers and, by their dashes, without
 /// colours.

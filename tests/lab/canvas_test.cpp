@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lab/report/pixel_font.h"
+#include "lab/report/picture_svg.h"
+#include "lab/report/png.h"
 
 namespace pelage {
 namespace {
@@ -21,8 +22,6 @@ TEST(Canvas, CutsOffWhatIsOutside) {
   Canvas canvas(10, 6, kBlack);
   canvas.fill(-5, -5, 7, 7, kRed);
   EXPECT_EQ(reds(canvas), 4);
-  canvas.text(-3, -2, "pelage", kRed);
-  canvas.text(8, 5, "pelage", kRed, 3);
   canvas.draw(9, 5, {"", 2, 2, 1, {255, 255, 255, 255}});
   EXPECT_EQ(canvas.picture().pixels.size(), 10u * 6 * 3);
 }
@@ -38,16 +37,16 @@ TEST(Canvas, LinesHaveTheirLengthWhereverTheyGo) {
   point.line(-1e9, -1e9, 1e9, 1e9, kRed);
 }
 
-/// No two characters look the same, none is empty but the space, and text is as wide as it says.
-TEST(PixelFont, TellsCharactersApart) {
-  for (char a = ' '; a <= '~'; ++a) {
-    EXPECT_EQ(pixel_glyph(a) == Glyph{}, a == ' ') << a;
-    for (char b = static_cast<char>(a + 1); b <= '~'; ++b)
-      EXPECT_NE(pixel_glyph(a), pixel_glyph(b)) << a << b;
-  }
-  EXPECT_EQ(pixel_glyph('\xe4'), pixel_glyph('\n'));
-  EXPECT_EQ(Canvas::text_width("abc", 2), 34);
-  EXPECT_EQ(Canvas::text_width("", 2), 0);
+TEST(PictureSvg, HoldsThePixelsAndTheWords) {
+  Canvas canvas(20, 10, kBlack);
+  canvas.label({5, 8, "R & TT", TextAnchor::kMiddle, kRed, 12});
+  const std::string svg = picture_svg(canvas.picture());
+  EXPECT_NE(svg.find("viewBox=\"0 0 20 10\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("href=\"data:image/png;base64," + base64(png_bytes(canvas.picture()))),
+            std::string::npos);
+  EXPECT_NE(svg.find("text-anchor=\"middle\" style=\"font-size:12px;fill:#ff0000\">R &amp; TT</text>"),
+            std::string::npos)
+      << svg;
 }
 
 }  // namespace

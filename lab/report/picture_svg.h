@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lab/report/report.h"
+
+namespace pelage {
+
+/// A picture with its labels as an inline SVG element, the pixels as PNG inside.
+std::string picture_svg(const Picture& picture);
+
+}  // namespace pelage
