@@ -71,7 +71,7 @@ void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
       ->type_name("WIDTH");
 }
 
-void add_commands(CLI::App& app, Options& options, Texts& texts) {
+void add_render(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to EXR files");
   add_scene_flags(*render, options, texts);
   render
@@ -80,7 +80,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("FILE.%04d.exr");
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_run_flags(*render, options, texts);
+}
 
+void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
   add_scene_flags(*grow, options, texts);
@@ -100,7 +102,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   grow->add_option("--frames", texts.frames, "Frames whose boxes to grow; strands grow on the first")
       ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
+}
 
+void add_measure(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* measure = app.add_subcommand(
       "measure", "Run the program once per variant of an experiment and report: JSON, CSV, HTML");
   measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, lod, residency or samplers")
@@ -134,7 +138,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       ->allow_extra_args(false)
       ->type_name("PARTS");
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
+}
 
+void add_trace(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* trace = app.add_subcommand(
       "trace", "One variant of 'measure accel': trace rays through the fur of a scene and time them");
   trace->group("");  // run by measure
@@ -155,7 +161,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("DIR");
   trace->add_option("--frames", texts.frames, "Frame to pose the scene at")->type_name("FRAME");
   add_run_flags(*trace, options, texts);
+}
 
+void add_compare(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* compare = app.add_subcommand(
       "compare", "Render a scene under every fibre model and report: contact sheet, cost, noise, energy");
   add_scene_flags(*compare, options, texts);
@@ -170,19 +178,25 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   compare->add_option("--frames", texts.frames, "Frame to compare (default: the scene's first)")
       ->type_name("FRAME");
   add_run_flags(*compare, options, texts);
+}
 
+void add_info(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");
   info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
   info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_strand_flags(*info, options, texts);
+}
 
+void add_convert(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* convert = app.add_subcommand("convert", "Convert strand files to each other (.hair, .tfx)");
   convert->add_option("IN", options.input, "Strand file to read")->required();
   convert->add_option("OUT", options.output, "Strand file to write")->required();
   add_strand_flags(*convert, options, texts);
+}
 
+void add_post(CLI::App& app, Options& options, Texts& texts) {
   constexpr const char* kPostMemory = "Memory that pixels and work buffers may take (default: 4G)";
   CLI::App* motion_blur =
       app.add_subcommand("motionblur", "Blur finished pictures by their motion vectors (any EXR)");
@@ -192,10 +206,24 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* stereo = app.add_subcommand("stereo", "Make the other eye's picture from one eye's (any EXR)");
   add_stereo_flags(*stereo, options, texts.post);
   add_run_flags(*stereo, options, texts, kPostMemory);
+}
 
+void add_manual(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
   manual->add_option("SECTION", texts.section, "Only this section, such as camera, curl or map field");
   manual->add_flag("--markdown", options.markdown, "Write Markdown");
+}
+
+void add_commands(CLI::App& app, Options& options, Texts& texts) {
+  add_render(app, options, texts);
+  add_grow(app, options, texts);
+  add_measure(app, options, texts);
+  add_trace(app, options, texts);
+  add_compare(app, options, texts);
+  add_info(app, options, texts);
+  add_convert(app, options, texts);
+  add_post(app, options, texts);
+  add_manual(app, options, texts);
 }
 
 const std::map<std::string, Command>& command_names() {

@@ -150,6 +150,24 @@ LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, c
   return plot;
 }
 
+Section method(const MeasureSetup& setup) {
+  return {
+      "Method",
+      {Paragraph{fmt::format(
+           "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
+           "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited "
+           "run and F the sum of the peaks of film, skins and caches there; F is an upper bound of what "
+           "these need at one time. Every budget is run {}; numbers are those of the run of median wall "
+           "time. Budgets go down until one is refused (exit code 4), which is a result; the row least, if "
+           "any, is what the refusal says would do. A run that takes longer than {:g} s is ended: a "
+           "time-out.",
+           counted(setup.repeat, "time"), setup.time_limit_s)},
+       Paragraph{
+           "Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent "
+           "for memory or for a chunk that another thread grows. Pixels are identical when every bit of "
+           "every channel is that of the unlimited run."}}};
+}
+
 }  // namespace
 
 Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress) {
@@ -189,21 +207,7 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
         smallest / (1 << 20), spread_text(ratio_of(*tightest, outcomes[1], "cpu_s")),
         spread_text(ratio_of(*tightest, outcomes[1], "wall_s")));
   }
-  report.sections.push_back(
-      {"Method",
-       {Paragraph{fmt::format(
-            "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
-            "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited "
-            "run and F the sum of the peaks of film, skins and caches there; F is an upper bound of what "
-            "these need at one time. Every budget is run {}; numbers are those of the run of median wall "
-            "time. Budgets go down until one is refused (exit code 4), which is a result; the row least, if "
-            "any, is what the refusal says would do. A run that takes longer than {:g} s is ended: a "
-            "time-out.",
-            counted(setup.repeat, "time"), setup.time_limit_s)},
-        Paragraph{
-            "Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent "
-            "for memory or for a chunk that another thread grows. Pixels are identical when every bit of "
-            "every channel is that of the unlimited run."}}});
+  report.sections.push_back(method(setup));
   // What warmed the caches is in the data, and nothing to compare with.
   const std::vector<Outcome> compared(outcomes.begin() + std::min<std::ptrdiff_t>(1, std::ssize(outcomes)),
                                       outcomes.end());

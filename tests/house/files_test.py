@@ -8,6 +8,9 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CODE = {".h", ".cpp", ".inl", ".py", ".cmake", ".sh"}
 MOST_LINES = 400
+MOST_FUNCTION_LINES = 80
+# Where a function begins at the left margin; a style sheet in a string begins with '@' or '.'.
+FUNCTION = re.compile(r"(?!namespace|class |struct |enum |union |extern )[A-Za-z_].*[()]")
 
 
 def our_files():
@@ -34,6 +37,22 @@ class Files(unittest.TestCase):
 
     def test_hold_one_idea_each(self):
         self.assert_none([p for p in our_code() if len(p.read_text().splitlines()) > MOST_LINES])
+
+    def test_functions_are_short(self):
+        """By layout: from a line at the left margin that opens a brace to the brace at the left margin."""
+        long = []
+        for path in our_code():
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            start = None
+            for number, line in enumerate(path.read_text().splitlines(), 1):
+                if start is None and line.endswith("{") and FUNCTION.match(line):
+                    start = number
+                elif start is not None and line.startswith("}"):
+                    if number - start >= MOST_FUNCTION_LINES:
+                        long.append(f"{path.relative_to(ROOT)}:{start}")
+                    start = None
+        self.assertEqual([], long)
 
     def test_state_the_licence(self):
         self.assert_none([p for p in our_code() if p.suffix in CODE and
