@@ -17,7 +17,7 @@ std::string in_use_text(const MemoryLedger& ledger);
 
 /// Throws Error (kMemory) when `bytes` more do not fit into the ledger's limit. `what` names the thing and
 /// its place in the scene ("groom 'coat': the follicles of 5,000,000 strands"); the message adds how much it
-/// needs, what is in use and how much render.memory it takes at least: what follows may need more.
+/// needs, what is in use, and the least --memory that would hold it. Later steps may need more.
 void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view what);
 
 /// require_room(), then the charge.

@@ -18,7 +18,7 @@ struct World {
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
   int64_t characters = 0;           ///< those with a coat
   int64_t characters_in_frame = 0;  ///< of these, those whose bound meets the camera's view
-  FrameHeader header;               ///< what the file of the picture will say, but for what rendering adds
+  FrameHeader header;               ///< of the EXR; write_frame() adds what rendering gave
   std::vector<MemoryCharge> charges;
 };
 

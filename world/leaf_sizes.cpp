@@ -37,7 +37,7 @@ Extent extent_of(const GroomParams& groom) {
     extent.strands = file.strands_in_file();
     extent.points = file.points_in_file() / std::max<uint64_t>(1, *extent.strands) + 1;
   } catch (const Error&) {
-    // Whoever makes the coat says what is wrong with its file.
+    // Groom::create() reports what is wrong with the file.
   }
   return extent;
 }

@@ -148,7 +148,7 @@ class PackedStrands::Packer {
       const Values& o = out_.opacity_;
       out_.opaque_ = o.frequency == AttributeClass::kConstant && planned_.back().numbers[0] >= 1;
     }
-    // Reserved first: what is planned points into it.
+    // Reserved first: planned_ keeps pointers into it.
     out_.attributes_.reserve(strands_.attributes().size());
     for (const StrandAttribute& attribute : strands_.attributes()) {
       const auto components = static_cast<uint32_t>(attribute.components);
