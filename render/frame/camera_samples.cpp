@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/camera_samples.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/hash.h"
 
 namespace pelage {
 
-bool CameraSample::inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }
-
-CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel)
-    : scene_(scene), opaque_(accel.opaque()), filter_(scene.image.filter) {}
+CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted)
+    : scene_(scene), opaque_(accel.opaque()), place_(splatted ? PixelFilter::kBox : scene.image.filter) {}
 
 SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
   return {static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x), static_cast<uint32_t>(y),
@@ -21,7 +16,7 @@ SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
 CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& stream) const {
   CameraSample result;
   stream.seek(static_cast<uint32_t>(SampleDraw::kFilm));
-  result.offset = filter_.offset(stream.next2d());
+  result.offset = place_.offset(stream.next2d());
   V2f lens(0.5f);
   float time = 0;
   if (scene_.camera.has_lens()) {
@@ -38,9 +33,9 @@ CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& st
   result.ray.direction = from.direction;
   result.ray.time = from.time;
   if (!opaque_) {
-    result.ray.random = static_cast<uint32_t>(
-        hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x), static_cast<uint32_t>(y),
-               sample, random_use("crossings")));
+    result.ray.random =
+        static_cast<uint32_t>(hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x),
+                                     static_cast<uint32_t>(y), sample, random_use("crossings")));
   }
   return result;
 }

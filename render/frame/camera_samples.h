@@ -13,18 +13,16 @@ namespace pelage {
 /// Draws of a sample (see SampleStream): fixed, whatever a path does. Vertices have several each.
 enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
-/// A camera sample of a pixel: the ray, and where it passes relative to the centre of the pixel, in pixels.
 struct CameraSample {
   Ray ray;
-  V2f offset{0};
-  bool inside_pixel() const;
+  V2f offset{0};  ///< from the centre of the pixel, in pixels
 };
 
 /// The camera samples of a frame, each a function of (seed, pixel, number of the sample).
 class CameraSamples {
  public:
-  /// `scene` and `accel` outlive it.
-  CameraSamples(const RenderScene& scene, const Accel& accel);
+  /// `scene` outlives it. With `splatted`, samples lie evenly in their pixel.
+  CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
 
   /// The random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
@@ -34,7 +32,7 @@ class CameraSamples {
  private:
   const RenderScene& scene_;
   const bool opaque_;
-  FilterSampler filter_;
+  const FilterSampler place_;
 };
 
 }  // namespace pelage

@@ -58,7 +58,7 @@ PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmL
       accel_(accel),
       layers_(layers),
       shading_(scene),
-      camera_(scene, accel),
+      camera_(scene, accel, layers.splat.has_value()),
       walk_(scene, accel, shading_, options) {}
 
 std::unique_ptr<SampleScratch> PathTracer::make_scratch() const { return std::make_unique<Scratch>(); }
@@ -71,7 +71,7 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
 
   PathState path(camera_.stream(x, y, sample));
   const CameraSample from = camera_.draw(x, y, sample, path.stream);
-  scratch.sample.inside_pixel = from.inside_pixel();
+  scratch.sample.offset = from.offset;
   path.ray = from.ray;
   path.time = from.ray.time;
   path.random = from.ray.random;
