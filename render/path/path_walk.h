@@ -120,7 +120,7 @@ Ray PathWalk<Sink>::leaving_ray(const ScatterPoint& point, const V3f& direction,
   ray.origin = point.start(direction);
   ray.direction = direction;
   ray.time = path.time;
-  if (!point.meets_own()) ray.start = path.hit.start;
+  if (!point.can_hit_own_strand()) ray.start = path.hit.start;
   return ray;
 }
 
@@ -148,17 +148,17 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,
                                  SampleScratch& scratch, Sink& sink) const {
   const bool all = Sink::kUnoccluded && path.vertex == 0;
-  direct_.meet(point, ray.direction, all ? ray.far : distance, lobe_pdf, lights,
-               [&](size_t light, const LightHit& hit, float weight) {
-                 float through = hit.distance > distance ? 0.0f : 1.0f;
-                 if (shadowed) {
-                   Ray shadow = ray;
-                   shadow.far = hit.distance * DirectLight::kJustBefore;
-                   ++scratch.rays.shadow;
-                   through = accel_.transmittance(shadow, scratch.thread);
-                 }
-                 sink.met(path, light, hit.radiance, weight, through);
-               });
+  direct_.find_lights(point, ray.direction, all ? ray.far : distance, lobe_pdf, lights,
+                      [&](size_t light, const LightHit& hit, float weight) {
+                        float through = hit.distance > distance ? 0.0f : 1.0f;
+                        if (shadowed) {
+                          Ray shadow = ray;
+                          shadow.far = hit.distance * DirectLight::kJustBefore;
+                          ++scratch.rays.shadow;
+                          through = accel_.transmittance(shadow, scratch.thread);
+                        }
+                        sink.met(path, light, hit.radiance, weight, through);
+                      });
 }
 
 /// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
