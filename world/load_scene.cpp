@@ -138,6 +138,13 @@ void check_shutter(const SceneDescription& scene, const Value& document, Problem
   problems.add(document.find("camera")->find("shutter")->position(), "the shutter closes before it opens");
 }
 
+// Splatted samples count for pixels around theirs, which adaptive sampling may have given fewer or more.
+void check_filter_samples(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (scene.image.filter_samples != FilterSamples::kSplatted || !scene.render.adaptive) return;
+  problems.add(document.find("image")->find("filter_samples")->position(),
+               "`filter_samples: splatted` does not work with `adaptive` sampling; remove one of them");
+}
+
 void collect_files(const Value& value, std::set<std::string>& files) {
   if (value.position().line > 0) files.insert(value.position().file);  // a flag has no lines
   if (value.is_map()) {
@@ -168,6 +175,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
+      check_filter_samples(scene, *document, problems);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

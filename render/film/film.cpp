@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film/film.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -12,66 +13,74 @@ namespace {
 
 bool is_finite(const Rgb& c) { return std::isfinite(c.x + c.y + c.z); }
 
+bool all_finite(std::span<const Rgb> colors) { return std::all_of(colors.begin(), colors.end(), is_finite); }
+
+/// The channels of light layers, one after the other.
+std::span<const float> channels_of(std::span<const Rgb> by_layer) {
+  static_assert(sizeof(Rgb) == 3 * sizeof(float));
+  return {by_layer.empty() ? nullptr : &by_layer.front().x, 3 * by_layer.size()};
+}
+
 }  // namespace
 
 Film::Film(int width, int height, FilmLayers layers, MemoryLedger& ledger)
-    : width_(width), height_(height), layers_(std::move(layers)), stride_(4 + 3 * layers_.size()) {
+    : width_(width),
+      height_(height),
+      layers_(std::move(layers)),
+      sums_(width, height, channel_count(layers_), layers_.splat) {
   const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
   charge_ = MemoryCharge(ledger, MemoryTag::kFilm, bytes_needed(width, height, layers_));
-  sums_.resize(pixels * stride_);
   counts_.resize(pixels);
   surfaces_.resize(pixels);
   if (layers_.noise) moments_.resize(pixels);
 }
 
 int64_t Film::bytes_needed(int width, int height, const FilmLayers& layers) {
-  const size_t stride = 4 + 3 * layers.size();
-  const size_t pixel =
-      stride * sizeof(float) + sizeof(uint32_t) + sizeof(Surface) + (layers.noise ? sizeof(PixelMoments) : 0);
-  return static_cast<int64_t>(width) * height * static_cast<int64_t>(pixel);
+  const size_t pixel = sizeof(uint32_t) + sizeof(Surface) + (layers.noise ? sizeof(PixelMoments) : 0);
+  const size_t sums = FilmSums::bytes_needed(width, height, channel_count(layers), layers.splat);
+  return static_cast<int64_t>(width) * height * static_cast<int64_t>(pixel) + static_cast<int64_t>(sums);
 }
 
 bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer) {
   PELAGE_CHECK(by_layer.size() == layers_.size());
-  if (!is_finite(sample.radiance) || !std::isfinite(sample.alpha)) return false;
-  for (const Rgb& part : by_layer) {
-    if (!is_finite(part)) return false;
-  }
+  if (!is_finite(sample.radiance) || !std::isfinite(sample.alpha) || !all_finite(by_layer)) return false;
+  const float light[] = {sample.radiance.x, sample.radiance.y, sample.radiance.z, sample.alpha};
+  const FilmSums::Footprint footprint = sums_.footprint(sample.offset);
+  sums_.add(x, y, footprint, 0, light);
+  sums_.add(x, y, footprint, 4, channels_of(by_layer));
+  sums_.add_weight(x, y, footprint);
   const size_t pixel = index(x, y);
-  float* sum = &sums_[pixel * stride_];
-  for (int c = 0; c < 3; ++c) sum[c] += sample.radiance[c];
-  sum[3] += sample.alpha;
-  sum += 4;
-  for (const Rgb& part : by_layer) {
-    for (int c = 0; c < 3; ++c) *sum++ += part[c];
-  }
   ++counts_[pixel];
   if (!moments_.empty()) moments_[pixel].add(luminance(sample.radiance));
 
   Surface& kept = surfaces_[pixel];
   const bool nearer = sample.surface.depth < kept.sample.depth;
-  const bool first_inside = sample.inside_pixel && !kept.inside_pixel;
-  if (first_inside || (nearer && sample.inside_pixel == kept.inside_pixel)) {
-    kept = {sample.surface, sample.inside_pixel};
+  const bool first_inside = sample.inside_pixel() && !kept.inside_pixel;
+  if (first_inside || (nearer && sample.inside_pixel() == kept.inside_pixel)) {
+    kept = {sample.surface, sample.inside_pixel()};
   }
   return true;
 }
 
-float Film::average(size_t pixel, size_t channel) const {
-  const uint32_t count = counts_[pixel];
-  return count > 0 ? sums_[pixel * stride_ + channel] / static_cast<float>(count) : 0.0f;
+bool Film::add_light(int x, int y, const V2f& offset, const Rgb& radiance, std::span<const Rgb> by_layer) {
+  PELAGE_CHECK(by_layer.size() == layers_.size());
+  if (!is_finite(radiance) || !all_finite(by_layer)) return false;
+  const float light[] = {radiance.x, radiance.y, radiance.z};
+  const FilmSums::Footprint footprint = sums_.footprint(offset);
+  sums_.add(x, y, footprint, 0, light);
+  sums_.add(x, y, footprint, 4, channels_of(by_layer));
+  return true;
 }
 
 Rgb Film::radiance(int x, int y) const {
-  const size_t p = index(x, y);
-  return {average(p, 0), average(p, 1), average(p, 2)};
+  return {sums_.mean(x, y, 0), sums_.mean(x, y, 1), sums_.mean(x, y, 2)};
 }
 
-float Film::alpha(int x, int y) const { return average(index(x, y), 3); }
+float Film::alpha(int x, int y) const { return sums_.mean(x, y, 3); }
 
 Rgb Film::layer(int x, int y, size_t layer) const {
-  const size_t p = index(x, y), c = 4 + 3 * layer;
-  return {average(p, c), average(p, c + 1), average(p, c + 2)};
+  const size_t c = 4 + 3 * layer;
+  return {sums_.mean(x, y, c), sums_.mean(x, y, c + 1), sums_.mean(x, y, c + 2)};
 }
 
 std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
@@ -83,9 +92,14 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
     for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(first_pixel + p);
     channels.push_back(std::move(channel));
   };
+  const auto mean = [&](size_t p, size_t channel) {
+    const size_t pixel = first_pixel + p, columns = static_cast<size_t>(width_);
+    return sums_.mean(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns), channel);
+  };
   const auto add_color = [&](const std::string& prefix, size_t first) {
     for (size_t c = 0; c < 3; ++c) {
-      add_channel(prefix + "RGB"[c], ChannelType::kHalf, [&, c](size_t p) { return average(p, first + c); });
+      add_channel(prefix + "RGB"[c], ChannelType::kHalf,
+                  [&, c](size_t p) { return mean(p - first_pixel, first + c); });
     }
   };
   const auto add_data = [&](std::string name, auto value) {
@@ -93,7 +107,7 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
   };
 
   add_color("", 0);
-  add_channel("A", ChannelType::kHalf, [&](size_t p) { return average(p, 3); });
+  add_channel("A", ChannelType::kHalf, [&](size_t p) { return mean(p - first_pixel, 3); });
   for (size_t i = 0; i < layers_.size(); ++i) add_color(layers_.names[i] + ".", 4 + 3 * i);
   add_data("Z", [](const VisibleSurface& s) { return s.depth; });
   for (int c = 0; c < 3; ++c) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -9,6 +11,7 @@
 #include "base/ledger.h"
 #include "image/exr.h"
 #include "render/film/film_layers.h"
+#include "render/film/film_sums.h"
 #include "render/sampling/pixel_moments.h"
 
 namespace pelage {
@@ -31,16 +34,18 @@ struct FilmSample {
   Rgb radiance{0};
   float alpha = 0;
   VisibleSurface surface;
-  bool inside_pixel =
-      true;  ///< whether the camera ray passed within the pixel itself, not only within its filter
+  V2f offset{0};  ///< of the camera ray from the centre of the pixel, in pixels
+
+  /// Whether the camera ray passed within the pixel itself, not only within its filter.
+  bool inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }
 };
 
 /// Sums of all samples of a picture, pixel by pixel.
 ///
-/// Thread safety: different pixels may be written at once. A pixel's samples are added by one thread at a
-/// time in the order of their numbers, so its sums do not depend on the number of threads. Data that cannot
-/// be averaged (depth, normal, id ...) is that of the front-most sample, of those within the pixel if there
-/// are any.
+/// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. The samples of a tile are
+/// added by one thread at a time in an order of their own, so the sums do not depend on the number of
+/// threads. Data that cannot be averaged (depth, normal, id ...) is that of the front-most sample, of those
+/// within the pixel if there are any.
 class Film {
  public:
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
@@ -57,6 +62,8 @@ class Film {
   /// `by_layer`: the radiance divided among layers(). Returns false, and leaves the pixel as it was, when a
   /// value is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
+  /// Adds light to a sample that was added before, which then had less.
+  bool add_light(int x, int y, const V2f& offset, const Rgb& radiance, std::span<const Rgb> by_layer);
 
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
   Rgb radiance(int x, int y) const;
@@ -77,12 +84,11 @@ class Film {
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
-  float average(size_t pixel, size_t channel) const;
+  static size_t channel_count(const FilmLayers& layers) { return 4 + 3 * layers.size(); }
 
   int width_, height_;
   FilmLayers layers_;
-  size_t stride_;  // floats per pixel: R G B A, then 3 per layer
-  std::vector<float> sums_;
+  FilmSums sums_;  // R G B A, then 3 per layer
   std::vector<uint32_t> counts_;
   std::vector<Surface> surfaces_;
   std::vector<PixelMoments> moments_;  // of the luminance; empty unless the layers ask for noise

@@ -10,6 +10,12 @@ const Schema<ImageParams>& ImageParams::schema() {
     s.key("height", &ImageParams::height, {.unit = "pixels", .help = "Height", .min = 1, .max = 65536});
     s.key("filter", &ImageParams::filter,
           {.help = "How a pixel weighs what falls around it: box is one pixel wide, blackman-harris three"});
+    s.key(
+        "filter_samples", &ImageParams::filter_samples,
+        {.help = "`drawn`: the filter draws where each sample of a pixel lies, and pixels are independent of "
+                 "each other. `splatted`: samples lie evenly, and each counts for all pixels around it; "
+                 "with blackman-harris half the variance for the same samples, but neighbouring pixels share "
+                 "their noise. Not with `adaptive`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, light.lobe.R; their sum is the picture"});
     s.key(

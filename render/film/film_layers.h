@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +10,18 @@
 #include "base/value_readers.h"
 #include "base/vector.h"
 #include "render/fibre/fibre_bsdf.h"
+#include "render/film/pixel_filter.h"
 
 namespace pelage {
 
-enum class PixelFilter { kBox, kBlackmanHarris };
+/// How the samples of a picture meet the pixel filter (image.filter_samples).
+enum class FilterSamples {
+  kDrawn,    ///< each sample's place is drawn by the filter of one pixel, and counts for that pixel alone
+  kSplatted  ///< samples lie evenly, and each counts for all pixels around it, by their filters
+};
 template <>
-struct EnumNames<PixelFilter> {
-  static constexpr const char* names[] = {"box", "blackman-harris"};
+struct EnumNames<FilterSamples> {
+  static constexpr const char* names[] = {"drawn", "splatted"};
 };
 
 /// `image:` of a scene.
@@ -23,6 +29,7 @@ struct ImageParams {
   int width = 1280;
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
+  FilterSamples filter_samples = FilterSamples::kDrawn;
   bool light_layers = true;  ///< one layer per light x lobe group
   bool noise_layers = false;
   bool lod_layer = false;
@@ -41,8 +48,9 @@ struct FilmLayers {
 
   std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are switched off
   int groups = 0;
-  bool noise = false;  ///< whether the film keeps how much the samples of each pixel vary
-  bool lod = false;    ///< whether it shows how much detail was left out
+  bool noise = false;                ///< whether the film keeps how much the samples of each pixel vary
+  bool lod = false;                  ///< whether it shows how much detail was left out
+  std::optional<PixelFilter> splat;  ///< by which samples count for the pixels around them; none: drawn
 
   bool empty() const { return names.empty(); }
   size_t size() const { return names.size(); }

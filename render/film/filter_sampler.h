@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/vector.h"
-#include "render/film/film_layers.h"
+#include "render/film/pixel_filter.h"
 
 namespace pelage {
 
@@ -16,17 +16,11 @@ class FilterSampler {
 
   /// Offset from the centre of the pixel, in pixels, for `u` in [0, 1)^2.
   V2f offset(const V2f& u) const { return {axis(u.x), axis(u.y)}; }
-  /// The filter is zero farther than this from the centre, along either axis.
-  float radius() const { return radius_; }
-  /// Integral of the filter along one axis from -radius to x, normalised to 1.
-  double cumulative(double x) const;
 
  private:
   float axis(float u) const;
 
-  PixelFilter filter_;
-  float radius_;
-  std::vector<float> inverse_;  // of cumulative(), at even steps of u; empty for the box
+  std::vector<float> inverse_;  // of filter_integral(), at even steps of u; empty for the box
 };
 
 }  // namespace pelage

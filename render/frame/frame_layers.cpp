@@ -25,6 +25,7 @@ FilmLayers frame_layers(const ImageParams& image, const RenderParams& render,
   }
   layers.lod = image.lod_layer;
   layers.noise = image.noise_layers || render.adaptive;
+  if (image.filter_samples == FilterSamples::kSplatted) layers.splat = image.filter;
   return layers;
 }
 

@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kTileSide = 16;
+constexpr int kTileSide = FilmSums::kTileSide;
 
 int tile_count(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 

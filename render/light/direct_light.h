@@ -53,6 +53,8 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
+  /// Points on lights that propose() tries; it leaves out those from which no light arrives.
+  uint32_t points_tried() const { return rays_ * kCandidates; }
 
   /// The probabilities of the lights at a point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {

@@ -5,25 +5,15 @@
 #include <memory>
 
 #include "render/film/film.h"
-#include "render/film/filter_sampler.h"
+#include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
 #include "render/frame/sample_integrator.h"
-#include "render/light/direct_light.h"
-#include "render/sampling/sample_stream.h"
+#include "render/path/path_walk.h"
 
 namespace pelage {
 
-struct PathOptions {
-  DirectTechniques direct = DirectTechniques::kBoth;
-  bool roulette = true;
-};
-
-/// Traces one path after another through a frame. A path is a function of (scene, pixel, number of the
-/// sample).
-///
-/// At each vertex `light_samples` shadow rays go to lights (DirectLight), and the lobes are sampled; roulette
-/// is part of the density of the latter. `bounces` scatterings follow the first at most; paths end early,
-/// with the probability of losing their weight, by roulette.
+/// Traces one path after another through a frame (PathWalk) and keeps what each brings to its pixel. A path
+/// is a function of (scene, pixel, number of the sample).
 class PathTracer final : public SampleIntegrator {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
@@ -34,24 +24,14 @@ class PathTracer final : public SampleIntegrator {
 
  private:
   struct Scratch;
-  struct Path;
-  Ray camera_ray(int x, int y, SampleStream& stream, Scratch& scratch) const;
-  void see_lights(const Ray& ray, float distance, Scratch& scratch) const;
-  void sample_lights(const ScatterPoint& point, Path& path) const;
-  bool is_last(const Path& path) const;
-  float arriving_pdf(const FibreValue& value, const Path& path) const;
-  void shadow_ray(const ScatterPoint& point, const LightPoint& to, float factor, Path& path) const;
-  bool sample_lobes(const ScatterPoint& point, Path& path) const;
-  void gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
-                     Path& path) const;
+  class FilmSink;
 
   const RenderScene& scene_;
   const Accel& accel_;
   const FilmLayers& layers_;
-  PathOptions options_;
-  DirectLight direct_;
   FrameShading shading_;
-  FilterSampler filter_;
+  CameraSamples camera_;
+  PathWalk<FilmSink> walk_;
 };
 
 }  // namespace pelage

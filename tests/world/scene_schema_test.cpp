@@ -89,6 +89,14 @@ TEST_F(SceneSchema, OverridesWin) {
             Lines{"--set render.sampels: unknown key 'sampels' in render; did you mean 'samples'?"});
 }
 
+TEST_F(SceneSchema, SplattedSamplesAreNotAdaptive) {
+  const Override splatted{"image.filter_samples", "splatted"};
+  EXPECT_EQ(load(kScene, {splatted}).image.filter_samples, FilterSamples::kSplatted);
+  EXPECT_EQ(problems(kScene, {splatted, {"render.adaptive", "{}"}}),
+            Lines{"--set image.filter_samples: `filter_samples: splatted` does not work with `adaptive` "
+                  "sampling; remove one of them"});
+}
+
 TEST_F(SceneSchema, UnknownNamesAreReported) {
   EXPECT_EQ(problems(replaced("{skin: rat, material: hide", "{skin: ratt, material: hied")),
             (Lines{"s:15:16: there is no skin 'ratt'; did you mean 'rat'?",

@@ -42,13 +42,16 @@ struct BusyScene : PathScene {
 };
 
 TEST(PathIntegrator, OneAndManyThreadsGiveTheSameFilm) {
-  BusyScene scene;
-  const ExrImage one = picture_of(scene.run({}, 1).film);
-  const ExrImage many = picture_of(scene.run({}, 4).film);
-  ASSERT_EQ(one.channels.size(), many.channels.size());
-  for (size_t i = 0; i < one.channels.size(); ++i) {
-    EXPECT_EQ(one.channels[i].pixels, many.channels[i].pixels) << one.channels[i].name;
-    EXPECT_EQ(one.channels[i].ids, many.channels[i].ids) << one.channels[i].name;
+  for (const FilterSamples filter_samples : {FilterSamples::kDrawn, FilterSamples::kSplatted}) {
+    BusyScene scene;
+    scene.image.filter_samples = filter_samples;
+    const ExrImage one = picture_of(scene.run({}, 1).film);
+    const ExrImage many = picture_of(scene.run({}, 4).film);
+    ASSERT_EQ(one.channels.size(), many.channels.size());
+    for (size_t i = 0; i < one.channels.size(); ++i) {
+      EXPECT_EQ(one.channels[i].pixels, many.channels[i].pixels) << one.channels[i].name;
+      EXPECT_EQ(one.channels[i].ids, many.channels[i].ids) << one.channels[i].name;
+    }
   }
 }
 

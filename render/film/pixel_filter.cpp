@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film/pixel_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pelage {
+namespace {
+
+constexpr float kBlackmanHarrisRadius = 1.5f;
+
+// Minimum 4-term window [Harris78, table I]; its integral over [-radius, radius] is 2 radius kTerms[0].
+constexpr double kTerms[4] = {0.35875, 0.48829, 0.14128, 0.01168};
+
+}  // namespace
+
+float filter_radius(PixelFilter filter) { return filter == PixelFilter::kBox ? 0.5f : kBlackmanHarrisRadius; }
+
+float filter_value(PixelFilter filter, float distance) {
+  if (std::abs(distance) > filter_radius(filter)) return 0;
+  if (filter == PixelFilter::kBox) return 1;
+  // cos 2x and cos 3x are polynomials of cos x.
+  const float c = std::cos(std::numbers::pi_v<float> / kBlackmanHarrisRadius * distance);
+  return static_cast<float>(kTerms[0]) + static_cast<float>(kTerms[1]) * c +
+         static_cast<float>(kTerms[2]) * (2 * c * c - 1) +
+         static_cast<float>(kTerms[3]) * c * (4 * c * c - 3);
+}
+
+double filter_integral(PixelFilter filter, double x) {
+  const double radius = filter_radius(filter), inside = std::clamp(x, -radius, radius);
+  if (filter == PixelFilter::kBox) return inside + 0.5;
+  double sum = kTerms[0] * inside;
+  for (int k = 1; k < 4; ++k) {
+    const double frequency = k * std::numbers::pi / radius;
+    sum += kTerms[k] * std::sin(frequency * inside) / frequency;
+  }
+  return 0.5 + sum / (2 * radius * kTerms[0]);
+}
+
+}  // namespace pelage

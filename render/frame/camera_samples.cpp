@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame/camera_samples.h"
+
+#include "base/hash.h"
+
+namespace pelage {
+
+CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted)
+    : scene_(scene), opaque_(accel.opaque()), place_(splatted ? PixelFilter::kBox : scene.image.filter) {}
+
+SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
+  return {static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+          sample};
+}
+
+CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& stream) const {
+  CameraSample result;
+  stream.seek(static_cast<uint32_t>(SampleDraw::kFilm));
+  result.offset = place_.offset(stream.next2d());
+  V2f lens(0.5f);
+  float time = 0;
+  if (scene_.camera.has_lens()) {
+    stream.seek(static_cast<uint32_t>(SampleDraw::kLens));
+    lens = stream.next2d();
+  }
+  if (scene_.camera.shutter_frames() > 0) {
+    stream.seek(static_cast<uint32_t>(SampleDraw::kTime));
+    time = stream.next1d();
+  }
+  const CameraRay from = scene_.camera.ray(static_cast<float>(x) + 0.5f + result.offset.x,
+                                           static_cast<float>(y) + 0.5f + result.offset.y, lens, time);
+  result.ray.origin = from.origin;
+  result.ray.direction = from.direction;
+  result.ray.time = from.time;
+  if (!opaque_) {
+    result.ray.random =
+        static_cast<uint32_t>(hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x),
+                                     static_cast<uint32_t>(y), sample, random_use("crossings")));
+  }
+  return result;
+}
+
+}  // namespace pelage

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "render/accel/accel.h"
+#include "render/film/filter_sampler.h"
+#include "render/sampling/sample_stream.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Draws of a sample (see SampleStream): fixed, whatever a path does. Vertices have several each.
+enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
+
+struct CameraSample {
+  Ray ray;
+  V2f offset{0};  ///< from the centre of the pixel, in pixels
+};
+
+/// The camera samples of a frame, each a function of (seed, pixel, number of the sample).
+class CameraSamples {
+ public:
+  /// `scene` outlives it. With `splatted`, samples lie evenly in their pixel.
+  CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
+
+  /// The random numbers of a sample.
+  SampleStream stream(int x, int y, uint32_t sample) const;
+  /// `stream`: of the same sample.
+  CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
+
+ private:
+  const RenderScene& scene_;
+  const bool opaque_;
+  const FilterSampler place_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "render/light/light_set.h"
+
+namespace pelage {
+
+/// Calls `found(light, radiance)` for each light that a camera ray sees directly, no farther than `distance`.
+template <class Found>
+void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction, float distance,
+                 const Found& found) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const Light& light = lights.light(i);
+    if (!light.visible()) continue;
+    const auto hit = light.intersect(origin, direction);
+    if (hit && !(hit->distance > distance)) found(i, hit->radiance);
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "render/accel/accel.h"
+#include "render/frame/camera_samples.h"
+#include "render/frame/frame_shading.h"
+#include "render/frame/sample_integrator.h"
+#include "render/light/direct_light.h"
+#include "render/sampling/sample_stream.h"
+
+namespace pelage {
+
+struct PathOptions {
+  DirectTechniques direct = DirectTechniques::kBoth;
+  bool roulette = true;
+};
+
+/// The state of a path at its current vertex.
+struct PathState {
+  explicit PathState(const SampleStream& numbers) : stream(numbers) {}
+
+  SampleStream stream;
+  uint32_t vertex = 0;
+  uint32_t random = 0;  ///< decides at semi-transparent crossings
+  float time = 0;
+  Ray ray;                 ///< that led to `hit`
+  Hit hit;                 ///< at the current vertex
+  Rgb first[kLobeGroups];  ///< rho / pdf of the first vertex, by lobe group
+  Rgb throughput{1};       ///< of the vertices after the first
+  Rgb weight{1};           ///< of all vertices before this one
+};
+
+/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
+/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes;
+/// roulette is part of the density of the latter. At most `bounces` scatterings follow the first; roulette
+/// ends paths early with the probability of losing their weight.
+///
+/// A Sink has
+///   proposed(path, points, count)     called once a vertex: the points on lights among which the shadow
+///                                     rays choose, `count` of them tried, those without light left out
+///   shadow(path, point, factor, through)
+///                                     one shadow ray: point.arriving * factor reaches the vertex, but for
+///                                     the fraction 1 - through that is blocked
+///   met(path, light, radiance, weight, through)
+///                                     the same of a light along the ray drawn from the lobes
+///   static constexpr bool kUnoccluded whether the first vertex reports lights with through = 0, too
+///
+/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+template <class Sink>
+class PathWalk {
+ public:
+  /// References are kept.
+  PathWalk(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+           const PathOptions& options)
+      : bounces_(static_cast<uint32_t>(scene.render.bounces)),
+        accel_(accel),
+        shading_(shading),
+        options_(options),
+        direct_(scene.lights, scene.render.light_samples, options.direct) {}
+
+  /// Follows a path from its first vertex, whose scattering is `point`, to its end.
+  void walk(ScatterPoint point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
+            Sink& sink) const {
+    for (;;) {
+      direct_.begin(point, lights);
+      if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
+      if (!sample_lobes(point, path, lights, scratch, sink)) return;
+      ++path.vertex;
+      point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
+    }
+  }
+
+ private:
+  enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
+  /// Fraction of the light about it that a surface shows: roughly, between pale fur and skin.
+  static constexpr float kShown = 0.5f;
+
+  static void seek(PathState& path, Draw draw) {
+    path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
+  }
+  /// Probability with which roulette lets a path of this weight go on: what it may still bring, over what the
+  /// pixel shows [Vorba16]. By the weight alone, paths would end that bring as much as others: in pale fur a
+  /// quarter fewer rays, and two thirds more variance.
+  static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
+  bool is_last(const PathState& path) const { return path.vertex == bounces_; }
+
+  float arriving_pdf(const FibreValue& value, const PathState& path) const;
+  Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
+  void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
+                     SampleScratch& scratch, Sink& sink) const;
+  bool sample_lobes(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
+                    SampleScratch& scratch, Sink& sink) const;
+  void meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf, bool shadowed,
+                   const PathState& path, const DirectLightScratch& lights, SampleScratch& scratch,
+                   Sink& sink) const;
+
+  const uint32_t bounces_;
+  const Accel& accel_;
+  const FrameShading& shading_;
+  const PathOptions options_;
+  const DirectLight direct_;
+};
+
+/// The density with which sample_lobes() arrives at a light in a direction: that of the lobes, times survival
+/// of roulette. Without the latter, light scattered by a dark surface would be left to a few rays of great
+/// weight.
+template <class Sink>
+float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
+  if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
+  return value.pdf * survival(path.weight * (value.total() / value.pdf));
+}
+
+template <class Sink>
+Ray PathWalk<Sink>::leaving_ray(const ScatterPoint& point, const V3f& direction,
+                                const PathState& path) const {
+  Ray ray;
+  ray.origin = point.start(direction);
+  ray.direction = direction;
+  ray.time = path.time;
+  if (!point.can_hit_own_strand()) ray.start = path.hit.start;
+  return ray;
+}
+
+template <class Sink>
+void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
+                                   SampleScratch& scratch, Sink& sink) const {
+  seek(path, kLight);
+  const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
+  const double total = direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
+  sink.proposed(path, lights.points, direct_.points_tried());
+  if (!(total > 0)) return;
+  seek(path, kLightChoice);
+  direct_.choose(total, path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
+    Ray ray = leaving_ray(point, to.direction, path);
+    ray.far = to.distance * DirectLight::kJustBefore;
+    ++scratch.rays.shadow;
+    sink.shadow(path, to, factor, accel_.transmittance(ray, scratch.thread));
+  });
+}
+
+/// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
+/// `shadowed`, a shadow ray finds out how much of each arrives.
+template <class Sink>
+void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
+                                 bool shadowed, const PathState& path, const DirectLightScratch& lights,
+                                 SampleScratch& scratch, Sink& sink) const {
+  const bool all = Sink::kUnoccluded && path.vertex == 0;
+  direct_.find_lights(point, ray.direction, all ? ray.far : distance, lobe_pdf, lights,
+                      [&](size_t light, const LightHit& hit, float weight) {
+                        float through = hit.distance > distance ? 0.0f : 1.0f;
+                        if (shadowed) {
+                          Ray shadow = ray;
+                          shadow.far = hit.distance * DirectLight::kJustBefore;
+                          ++scratch.rays.shadow;
+                          through = accel_.transmittance(shadow, scratch.thread);
+                        }
+                        sink.met(path, light, hit.radiance, weight, through);
+                      });
+}
+
+/// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
+template <class Sink>
+bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
+                                  SampleScratch& scratch, Sink& sink) const {
+  const bool last = is_last(path);
+  if (last && options_.direct == DirectTechniques::kLightsOnly) return false;
+  seek(path, kLobe);
+  const auto sample = point.sample(path.stream.next3d());
+  if (!sample) return false;
+  const FibreValue& value = sample->value;
+  if (path.vertex == 0) {
+    for (int g = 0; g < kLobeGroups; ++g) path.first[g] = value.lobes[g] / value.pdf;
+  } else {
+    path.throughput *= value.total() / value.pdf;
+  }
+  path.weight *= value.total() / value.pdf;
+  if (!(max_component(path.weight) > 0)) return false;
+
+  Ray ray = leaving_ray(point, sample->wi, path);
+  if (last) {
+    meet_lights(point, ray, ray.far, value.pdf, true, path, lights, scratch, sink);
+    return false;
+  }
+  float survived = 1;
+  if (options_.roulette) {
+    survived = survival(path.weight);
+    seek(path, kRoulette);
+    if (path.stream.next1d() >= survived) return false;
+    path.throughput /= survived;
+    path.weight /= survived;
+  }
+  ray.random = ++path.random;
+  ++scratch.rays.indirect;
+  const Hit hit = accel_.closest(ray, scratch.thread);
+  if (options_.direct != DirectTechniques::kLightsOnly) {
+    meet_lights(point, ray, hit.distance, value.pdf * survived, false, path, lights, scratch, sink);
+  }
+  path.ray = ray;
+  path.hit = hit;
+  return static_cast<bool>(hit);
+}
+
+}  // namespace pelage
