@@ -54,7 +54,7 @@ def widest(pixels):
 
 
 def palette_of(counts, colors):
-    """Median cut. `counts` has the pixels of each colour; gives at most `colors` colours and the index of each old one."""
+    """Median cut of colours with the number of pixels of each: the new colours, and which one replaces each old one."""
     boxes = [widest(list(counts))]
     while len(boxes) < colors:
         boxes.sort(key=lambda box: box[0])
