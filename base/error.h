@@ -58,11 +58,11 @@ class Error : public std::exception {
 class Problems {
  public:
   Problems() = default;
-  /// Keeps the first `most` and only counts the others, for files whose damage may be as long as they are.
-  explicit Problems(size_t most) : most_(most) {}
+  /// Keeps the first `max` and only counts the others, for files whose damage may be as long as they are.
+  explicit Problems(size_t max) : max_(max) {}
 
   void add(SourcePosition position, std::string message) {
-    if (list_.size() < most_) {
+    if (list_.size() < max_) {
       list_.push_back({std::move(position), std::move(message)});
     } else {
       ++omitted_;
@@ -77,7 +77,7 @@ class Problems {
 
  private:
   std::vector<Problem> list_;
-  size_t most_ = std::numeric_limits<size_t>::max();
+  size_t max_ = std::numeric_limits<size_t>::max();
   size_t omitted_ = 0;
 };
 

@@ -60,11 +60,11 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
 }
 
 std::filesystem::path target_of_links(std::filesystem::path path) {
-  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  constexpr int kMaxLinks = 40;  // as many as the kernel follows
   const std::filesystem::path named = path;
   std::error_code error;
   for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)); ++i) {
-    if (i == kMostLinks) fail_write(named, "too many symbolic links");
+    if (i == kMaxLinks) fail_write(named, "too many symbolic links");
     const std::filesystem::path target = std::filesystem::read_symlink(path, error);
     if (error) fail_write(named, error.message());
     path = path.parent_path() / target;  // an absolute target replaces the whole

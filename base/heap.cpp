@@ -22,7 +22,7 @@ void keep_heap_small() {
 #endif
 }
 
-void give_back_heap() {
+void trim_heap() {
 #if defined(__GLIBC__)
   malloc_trim(0);
 #endif

@@ -15,7 +15,7 @@ void keep_heap_small();
 
 /// Gives what is free between blocks in use back to the system too: for the moment when much was dropped that
 /// will not be made again.
-void give_back_heap();
+void trim_heap();
 
 /// What a block of `bytes` really takes after keep_heap_small().
 size_t heap_bytes(size_t bytes);

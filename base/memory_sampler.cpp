@@ -44,9 +44,9 @@ void MemorySampler::take() {
   if (sample.resident.anonymous >= history_.highest.resident.anonymous) history_.highest = sample;
 
   std::vector<MemorySample>& timeline = history_.timeline;
-  if (timeline.size() == kMostSamples) {
+  if (timeline.size() == kMaxSamples) {
     for (size_t i = 0; 2 * i < timeline.size(); ++i) timeline[i] = timeline[2 * i];
-    timeline.resize(kMostSamples / 2);
+    timeline.resize(kMaxSamples / 2);
     interval_ *= 2;
   }
   timeline.push_back(sample);

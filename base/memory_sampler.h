@@ -23,7 +23,7 @@ class MemorySampler {
  public:
   using Clock = std::chrono::steady_clock;
   /// At most this many samples are kept.
-  static constexpr size_t kMostSamples = 4096;
+  static constexpr size_t kMaxSamples = 4096;
 
   /// Seconds count from `start`. `ledger` must outlive the sampler.
   MemorySampler(const MemoryLedger& ledger, Clock::time_point start, double interval_s);

@@ -50,7 +50,7 @@ void PageBlock::prefer_large_pages() {
 PageBlock::~PageBlock() {
   if (!data_) return;
   if (pool_) {
-    pool_->give_back(data_, bytes_);
+    pool_->release_block(data_, bytes_);
   } else if (bytes_ < kOwnPages) {
     ::operator delete(data_, std::align_val_t(kAlignment));
   } else {

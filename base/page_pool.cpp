@@ -15,8 +15,8 @@ namespace {
 
 constexpr size_t kLargePage = size_t(2) << 20;
 constexpr size_t kPiece = size_t(256) << 20;
-constexpr size_t kMostOfPiece = size_t(16) << 20;  // larger blocks have large pages without a pool
-constexpr size_t kLeastOfPiece = 64 * 1024;        // as PageBlock: smaller ones are the heap's
+constexpr size_t kMaxPieceBytes = size_t(16) << 20;  // larger blocks have large pages without a pool
+constexpr size_t kMinPieceBytes = 64 * 1024;         // as PageBlock: smaller ones are the heap's
 
 }  // namespace
 
@@ -29,7 +29,7 @@ PagePool::~PagePool() {
 
 PageBlock PagePool::take(size_t bytes) {
   const size_t held = PageBlock::held_bytes(bytes);
-  if (held < kLeastOfPiece || held > kMostOfPiece) {
+  if (held < kMinPieceBytes || held > kMaxPieceBytes) {
     PageBlock block(bytes);
     block.prefer_large_pages();
     return block;
@@ -70,7 +70,7 @@ std::byte* PagePool::take_from(Piece& piece, size_t bytes) {
   return piece.begin + place;
 }
 
-void PagePool::give_back(std::byte* data, size_t bytes) {
+void PagePool::release_block(std::byte* data, size_t bytes) {
   ::madvise(data, bytes, MADV_DONTNEED);
   const std::lock_guard lock(mutex_);
   const auto piece = std::find_if(pieces_.begin(), pieces_.end(), [data](const Piece& p) {

@@ -35,7 +35,7 @@ class PagePool {
     std::map<size_t, size_t> free;  // bytes from the beginning: how many are free from there on
   };
 
-  void give_back(std::byte* data, size_t bytes);
+  void release_block(std::byte* data, size_t bytes);
   std::byte* take_from(Piece& piece, size_t bytes);
   static Piece make_piece();
 

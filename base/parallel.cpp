@@ -135,25 +135,25 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 // TBB hands the memory of an ended arena to the next one by means that the thread sanitizer cannot see, and
 // clears it with a function that it can: arenas begin and end one at a time here. What runs in them is not
 // ordered by this.
-void Workers::lend_to_library(const std::function<void()>& body) const {
+void Workers::run_library(const std::function<void()>& body) const {
   static std::mutex mutex;
-  struct Alone {
-    Alone() {
+  struct SerialArena {
+    SerialArena() {
       const std::lock_guard lock(mutex);
       arena.initialize(1);
     }
-    ~Alone() {
+    ~SerialArena() {
       const std::lock_guard lock(mutex);
       arena.terminate();
     }
     tbb::task_arena arena;
   };
-  Alone().arena.execute(body);
+  SerialArena().arena.execute(body);
 }
 
 #else
 
-void Workers::lend_to_library(const std::function<void()>& body) const {
+void Workers::run_library(const std::function<void()>& body) const {
   if (team_) return team_->arena.execute(body);
   tbb::task_arena alone(1);
   alone.execute(body);

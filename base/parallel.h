@@ -40,7 +40,7 @@ class Workers {
 
   /// Calls `body` once, where a library that is parallel through TBB by itself has this team's threads and no
   /// others; in the thread-sanitizer build it has only the calling one.
-  void lend_to_library(const std::function<void()>& body) const;
+  void run_library(const std::function<void()>& body) const;
 
  private:
   struct Team;

@@ -50,7 +50,7 @@ void StoredSections::read(size_t i, std::span<std::byte> out) const {
     refuse_stored_file(path(), "its bytes have changed");
 }
 
-void StoredSections::expect(size_t i) const {
+void StoredSections::prefetch(size_t i) const {
   const stored_file_format::Section& section = layout_.sections[i];
   ::posix_fadvise(file_.descriptor(), static_cast<off_t>(section.offset), static_cast<off_t>(section.bytes),
                   POSIX_FADV_WILLNEED);

@@ -37,7 +37,7 @@ class StoredSections {
   void read(size_t i, std::span<std::byte> out) const;
   /// Says that section `i` will be read soon: the system may fetch it meanwhile. Until it is read, the system
   /// keeps that copy.
-  void expect(size_t i) const;
+  void prefetch(size_t i) const;
 
  private:
   void read_at(uint64_t offset, std::span<std::byte> out) const;

@@ -22,7 +22,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMostAttempts = 100;
+constexpr int kMaxAttempts = 100;
 constexpr size_t kLongestHost = 64, kLongestEnding = 64;
 
 void keep_name_characters(std::string& text) {
@@ -97,7 +97,7 @@ TemporaryFile create_temporary(const std::filesystem::path& target) {
   if (ending.size() > kLongestEnding) ending.clear();
   const std::string stem =
       std::string(kTemporaryPrefix) + machine_name() + "-" + std::to_string(::getpid()) + "-";
-  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
     TemporaryFile file{target.parent_path() / (stem + random_digits() + ending), -1};
     file.descriptor = ::open(file.path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file.descriptor < 0 && errno == EEXIST) continue;

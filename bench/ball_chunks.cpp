@@ -8,9 +8,9 @@
 namespace pelage {
 namespace {
 
-void divide(const Strands& batch, std::span<uint32_t> strands, size_t most, size_t first,
+void divide(const Strands& batch, std::span<uint32_t> strands, size_t max, size_t first,
             std::vector<size_t>& ends) {
-  if (strands.size() <= most) {
+  if (strands.size() <= max) {
     ends.push_back(first + strands.size());
     return;
   }
@@ -21,16 +21,16 @@ void divide(const Strands& batch, std::span<uint32_t> strands, size_t most, size
   const size_t half = strands.size() / 2;
   std::nth_element(strands.begin(), strands.begin() + static_cast<std::ptrdiff_t>(half), strands.end(),
                    [&](uint32_t a, uint32_t b) { return root(a)[axis] < root(b)[axis]; });
-  divide(batch, strands.first(half), most, first, ends);
-  divide(batch, strands.subspan(half), most, first + half, ends);
+  divide(batch, strands.first(half), max, first, ends);
+  divide(batch, strands.subspan(half), max, first + half, ends);
 }
 
 }  // namespace
 
-std::vector<uint32_t> neighbours(const Strands& batch, size_t most, std::vector<size_t>& ends) {
+std::vector<uint32_t> neighbours(const Strands& batch, size_t max, std::vector<size_t>& ends) {
   std::vector<uint32_t> order(batch.strand_count());
   std::iota(order.begin(), order.end(), 0u);
-  divide(batch, order, most, 0, ends);
+  divide(batch, order, max, 0, ends);
   return order;
 }
 

@@ -28,8 +28,8 @@ class BallChunks final : public ChunkGrower {
 
 /// The strands `strands[begin..end)` of a batch, in that order.
 Strands pick(const Strands& batch, const std::vector<uint32_t>& strands, size_t begin, size_t end);
-/// Numbers of all strands of a batch, sorted so that ranges of at most `most` are neighbours on the skin;
+/// Numbers of all strands of a batch, sorted so that ranges of at most `max` are neighbours on the skin;
 /// `ends` becomes where they end.
-std::vector<uint32_t> neighbours(const Strands& batch, size_t most, std::vector<size_t>& ends);
+std::vector<uint32_t> neighbours(const Strands& batch, size_t max, std::vector<size_t>& ends);
 
 }  // namespace pelage

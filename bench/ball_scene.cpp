@@ -51,8 +51,8 @@ RenderScene ball_scene(const BumpyBall& ball, const MaterialParams& fibre, const
                     render};
   scene.fur.push_back({"ball.fur", {}, 0, nullptr});
   std::vector<size_t> ends;
-  const size_t most = picture.chunk_strands > 0 ? picture.chunk_strands : ball.strands.strand_count();
-  const std::vector<uint32_t> order = neighbours(ball.strands, most, ends);
+  const size_t max = picture.chunk_strands > 0 ? picture.chunk_strands : ball.strands.strand_count();
+  const std::vector<uint32_t> order = neighbours(ball.strands, max, ends);
   size_t begin = 0;
   for (size_t end : ends) {
     scene.fur[0].procedurals.push_back(std::make_unique<FixedStrands>(

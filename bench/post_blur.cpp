@@ -42,7 +42,7 @@ double bandwidth(const Workers& workers) {
 }
 
 /// Bytes of the samples, were they all cleared, drawn and read once a step; and of all colours in and out.
-double least_bytes(int steps) {
+double min_bytes(int steps) {
   const double pixels = double(BenchPicture::kWidth) * BenchPicture::kHeight;
   return pixels * kScale * kScale * sizeof(Sample) * 4 * steps + pixels * BenchPicture::kColors * 8;
 }
@@ -50,8 +50,7 @@ double least_bytes(int steps) {
 void report(benchmark::State& state, const Workers& workers, double seconds, int steps) {
   const double measured = bandwidth(workers);
   state.counters["GB_per_s"] = measured / 1e9;
-  state.counters["ratio"] =
-      seconds / (least_bytes(steps) / measured);  // to moving those bytes through memory
+  state.counters["ratio"] = seconds / (min_bytes(steps) / measured);  // to moving those bytes through memory
 }
 
 void blur(benchmark::State& state) {

@@ -28,9 +28,9 @@ Residency::Residency(Grower& grower, size_t slots, int threads, const MemoryBudg
       budget_(budget),
       slots_(slots),
       hazards_(static_cast<size_t>(threads)),
-      keeps_all_(budget.limit == 0),
+      never_evicts_(budget.limit == 0),
       clock_(slots),
-      turns_(threads) {
+      throttle_(threads) {
   index_charge_ = MemoryCharge(ledger, tag, static_cast<int64_t>(index_bytes(slots, threads)));
   refuse_small_budget();
 }
@@ -50,14 +50,13 @@ void Residency::refuse_small_budget() const {
     if (bytes > largest) which = slot;
     largest = std::max(largest, bytes);
   }
-  const int64_t least = ledger_.budgeted() + static_cast<int64_t>(largest);
-  if (least <= static_cast<int64_t>(budget_.limit)) return;
+  const int64_t min = ledger_.budgeted() + static_cast<int64_t>(largest);
+  if (min <= static_cast<int64_t>(budget_.limit)) return;
   throw Error(
       ErrorKind::kMemory,
       fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; {}M would do",
                   memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
-                  of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)),
-                  (least >> 20) + 1));
+                  of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)), (min >> 20) + 1));
 }
 
 Residency::~Residency() {
@@ -79,10 +78,10 @@ bool Residency::is_pinned(const Resident* unit) const {
   });
 }
 
-void Residency::sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> at_most) {
+void Residency::sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> timeout) {
   const auto start = std::chrono::steady_clock::now();
-  if (at_most) {
-    changed_.wait_for(lock, *at_most);
+  if (timeout) {
+    changed_.wait_for(lock, *timeout);
   } else {
     changed_.wait(lock);
   }
@@ -98,19 +97,19 @@ void Residency::wake() {
 /// Takes units that hold `bytes` together out of the index, all or none: kLater when pins left too little,
 /// kNever when even all units are too little.
 ///
-/// CLOCK with credit: a unit that was used since the hand last came by gains a round, up to kMostCredit, one
+/// CLOCK with credit: a unit that was used since the hand last came by gains a round, up to kMaxCredit, one
 /// that was not loses one, and one that has none left goes. On what the rays of a crowd visit this grows 2 to
 /// 9 % less often than plain CLOCK, which is as good as dropping the least recently used.
-Residency::Room Residency::evict(int64_t bytes, Victims& victims) {
-  constexpr uint8_t kMostCredit = 2;
+Residency::Reservation Residency::evict(int64_t bytes, Victims& victims) {
+  constexpr uint8_t kMaxCredit = 2;
   // After one round to forget uses and those of the credit, everything may go that is not pinned.
-  const size_t round = clock_.size(), patience = (1 + kMostCredit + 1) * round;
+  const size_t round = clock_.size(), patience = (1 + kMaxCredit + 1) * round;
   for (size_t step = 0; step < patience + round && victims.bytes < bytes && !clock_.empty(); ++step) {
     Slot& slot = slots_[clock_.hand()];
     Resident* unit = slot.unit.load(std::memory_order_relaxed);
     bool stays = slot.credit > 0;
     if (slot.used.exchange(false, std::memory_order_relaxed)) {
-      slot.credit = std::min<uint8_t>(slot.credit + 1, kMostCredit);
+      slot.credit = std::min<uint8_t>(slot.credit + 1, kMaxCredit);
       stays = true;
     } else if (stays) {
       --slot.credit;
@@ -128,24 +127,24 @@ Residency::Room Residency::evict(int64_t bytes, Victims& victims) {
     victims.units.emplace_back(clock_.remove_hand(), unit);
     victims.bytes += static_cast<int64_t>(slot.bytes);
   }
-  if (victims.bytes >= bytes) return Room::kGranted;
+  if (victims.bytes >= bytes) return Reservation::kGranted;
   const bool any_pinned = !clock_.empty();
   for (auto& [number, unit] : victims.units) {
     slots_[number].unit.store(unit.release(), std::memory_order_seq_cst);
     clock_.insert(number);
   }
   victims = {};
-  return any_pinned ? Room::kLater : Room::kNever;
+  return any_pinned ? Reservation::kLater : Reservation::kNever;
 }
 
 /// Charges `bytes` within the limit, at the cost of `victims` if need be. What those hold stays charged until
 /// they are freed.
-Residency::Room Residency::reserve(int64_t bytes, Victims& victims) {
+Residency::Reservation Residency::reserve(int64_t bytes, Victims& victims) {
   const int64_t limit = static_cast<int64_t>(budget_.limit);
   const int64_t lacking = limit > 0 ? ledger_.budgeted() + bytes - limit : 0;
   if (lacking > 0) {
-    const Room room = keeps_all_ ? Room::kNever : evict(lacking, victims);
-    if (room != Room::kGranted) return growing_ > 0 ? Room::kLater : room;
+    const Reservation room = never_evicts_ ? Reservation::kNever : evict(lacking, victims);
+    if (room != Reservation::kGranted) return growing_ > 0 ? Reservation::kLater : room;
   }
   for (const auto& [number, unit] : victims.units) {
     ++counts_.evictions;
@@ -153,21 +152,21 @@ Residency::Room Residency::reserve(int64_t bytes, Victims& victims) {
     if (!slots_[number].hit.load(std::memory_order_relaxed)) ++counts_.false_expansions;
   }
   charge(std::max<int64_t>(0, bytes - victims.bytes));
-  return Room::kGranted;
+  return Reservation::kGranted;
 }
 
 Resident& Residency::pin_slowly(uint32_t slot, int thread) {
   auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
   Slot& s = slots_[slot];
   // Who lets go of a pin or a reservation while this is up wakes us.
-  struct Starving {
+  struct WaitingForMemory {
     std::atomic<int>& count;
     bool up = false;
     void raise() { count.fetch_add(1, std::memory_order_seq_cst), up = true; }
-    ~Starving() {
+    ~WaitingForMemory() {
       if (up) count.fetch_sub(1, std::memory_order_seq_cst);
     }
-  } starving{starving_};
+  } waiting_for_memory{waiting_for_memory_};
 
   std::unique_lock lock(mutex_);
   for (;;) {
@@ -175,25 +174,25 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       std::rethrow_exception(failure->second);
     }
     if (Resident* unit = s.unit.load(std::memory_order_relaxed)) {  // stays: eviction needs the mutex
-      if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
+      if (!never_evicts_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
       set_flag(s.used);
       return *unit;
     }
-    if (!s.growing && !turns_.may_grow(thread, GrowthTurns::Clock::now())) {
-      sleep(lock, GrowthTurns::kPatience);
+    if (!s.growing && !throttle_.may_grow(thread, GrowthThrottle::Clock::now())) {
+      sleep(lock, GrowthThrottle::kIdleTimeout);
       continue;
     }
     if (!s.growing) {
       needed = static_cast<int64_t>(grower_.reserve_bytes(slot));  // more, if growing it gave no unit
       Victims victims;
-      const Room room = reserve(needed, victims);
-      if (room == Room::kGranted) {
+      const Reservation room = reserve(needed, victims);
+      if (room == Reservation::kGranted) {
         if (Resident* unit = grow(lock, slot, thread, needed, victims)) return *unit;
         continue;
       }
-      if (room == Room::kNever) throw_too_full(slot, needed);
-      if (!starving.up) {  // a pin let go before now would not have woken us
-        starving.raise();
+      if (room == Reservation::kNever) throw_too_full(slot, needed);
+      if (!waiting_for_memory.up) {  // a pin let go before now would not have woken us
+        waiting_for_memory.raise();
         continue;
       }
     }
@@ -244,7 +243,7 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   // What goes and comes back within so few growths was being used, by this thread or another one.
   constexpr uint32_t kSoon = 32;
   const auto since = static_cast<uint32_t>(counts_.expansions) - s.dropped_at;
-  turns_.grown(thread, s.touched && since < kSoon, GrowthTurns::Clock::now());
+  throttle_.grown(thread, s.touched && since < kSoon, GrowthThrottle::Clock::now());
   ++counts_.expansions;
   if (bytes > reserved) ++counts_.overruns;
   if (s.touched) {
@@ -260,14 +259,14 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   s.used.store(false, std::memory_order_relaxed);  // what is grown for one ray only goes first
   clock_.insert(slot);
   Resident* unit = grown.unit.release();
-  if (!keeps_all_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
+  if (!never_evicts_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);
   s.unit.store(unit, std::memory_order_seq_cst);
   changed_.notify_all();
   return unit;
 }
 
 void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
-  const char* remedy = keeps_all_ ? "; with bounds other than none not everything is held at once" : "";
+  const char* remedy = never_evicts_ ? "; with bounds other than none not everything is held at once" : "";
   throw Error(ErrorKind::kMemory,
               fmt::format("render.memory ({}) is used up: {}, and a chunk{} of {} is needed{}",
                           memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
@@ -275,7 +274,7 @@ void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
 }
 
 void Residency::grow_all(const Job& job) {
-  keeps_all_ = true;
+  never_evicts_ = true;
   job.progress.begin("grow", static_cast<double>(slots_.size()));
   job.workers.for_each(slots_.size(), 1, [&](WorkRange range) {
     for (size_t slot = range.begin; slot < range.end && !job.progress.cancelled(); ++slot) {

@@ -18,7 +18,7 @@
 #include "base/check.h"
 #include "base/job.h"
 #include "cache/clock_ring.h"
-#include "cache/growth_turns.h"
+#include "cache/growth_throttle.h"
 
 namespace pelage {
 
@@ -77,7 +77,7 @@ struct ResidencyCounts {
 /// neither memory nor pin nor claim. So a thread that needs room can have all that the others do not pin or
 /// grow at this moment, and they get done: every budget that holds the largest slot finishes. One that holds
 /// the largest slots of all threads at once lets none of them wait for room. Where the units that each thread
-/// comes back to do not fit together, fewer threads grow at a time (GrowthTurns).
+/// comes back to do not fit together, fewer threads grow at a time (GrowthThrottle).
 ///
 /// Whatever else is charged to budgeted tags is seen by the next reservation; what may grow while a Residency
 /// works (poses, say) should be charged at its most before.
@@ -146,7 +146,7 @@ class Residency {
     std::vector<std::pair<uint32_t, std::unique_ptr<Resident>>> units;
     int64_t bytes = 0;
   };
-  enum class Room { kGranted, kLater, kNever };
+  enum class Reservation { kGranted, kLater, kNever };
 
   static void set_flag(std::atomic<bool>& flag) {
     if (!flag.load(std::memory_order_relaxed)) flag.store(true, std::memory_order_relaxed);
@@ -155,7 +155,7 @@ class Residency {
   Resident& pin(uint32_t slot, int thread) {
     Slot& s = slots_[slot];
     Resident* unit = s.unit.load(std::memory_order_acquire);
-    if (keeps_all_) return unit ? *unit : pin_slowly(slot, thread);
+    if (never_evicts_) return unit ? *unit : pin_slowly(slot, thread);
     std::atomic<Resident*>& hazard = hazards_[static_cast<size_t>(thread)].unit;
     PELAGE_CHECK(hazard.load(std::memory_order_relaxed) == nullptr);
     if (unit) {
@@ -171,20 +171,20 @@ class Residency {
     return pin_slowly(slot, thread);
   }
   void unpin(int thread) {
-    if (keeps_all_) return;
+    if (never_evicts_) return;
     hazards_[static_cast<size_t>(thread)].unit.store(nullptr, std::memory_order_seq_cst);
-    if (starving_.load(std::memory_order_seq_cst) > 0) wake();
+    if (waiting_for_memory_.load(std::memory_order_seq_cst) > 0) wake();
   }
 
   Resident& pin_slowly(uint32_t slot, int thread);
   Resident* grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
                  Victims& victims);
-  Room reserve(int64_t bytes, Victims& victims);
-  Room evict(int64_t bytes, Victims& victims);
+  Reservation reserve(int64_t bytes, Victims& victims);
+  Reservation evict(int64_t bytes, Victims& victims);
   bool is_pinned(const Resident* unit) const;
   void charge(int64_t bytes);
-  /// Until something changed, or `at_most` so long.
-  void sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> at_most = {});
+  /// Until something changed, or `timeout` so long.
+  void sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> timeout = {});
   void wake();
   void refuse_small_budget() const;
   [[noreturn]] void throw_too_full(uint32_t slot, int64_t needed) const;
@@ -195,14 +195,14 @@ class Residency {
   const MemoryBudget budget_;
   std::vector<Slot> slots_;
   std::vector<Hazard> hazards_;
-  bool keeps_all_;  // nothing is ever evicted, so nothing need be pinned; fixed before the first visit
+  bool never_evicts_;  // nothing is ever evicted, so nothing need be pinned; fixed before the first visit
   MemoryCharge index_charge_;
-  std::atomic<int> starving_{0};  // threads that wait until a pin or a reservation is let go
+  std::atomic<int> waiting_for_memory_{0};  // threads that wait until a pin or a reservation is let go
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;  // a growth ended, or something was let go while somebody starved
   ClockRing clock_;                  // slots with a unit; this and the following: guarded by mutex_
-  GrowthTurns turns_;
+  GrowthThrottle throttle_;
   std::map<uint32_t, std::exception_ptr> failures_;
   int growing_ = 0;
   int64_t held_ = 0;  // charged for units and reservations

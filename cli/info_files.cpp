@@ -26,7 +26,7 @@ std::string shown_box(const Box3f& box) {
 }
 
 // "name: value" without control characters, which would reach the terminal.
-std::string safe(std::string text) {
+std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   }
@@ -38,7 +38,7 @@ std::string describe(const ExrAttribute& attribute) {
   struct Printer {
     std::string operator()(int v) const { return std::to_string(v); }
     std::string operator()(float v) const { return shown(v); }
-    std::string operator()(const std::string& v) const { return safe(v); }
+    std::string operator()(const std::string& v) const { return printable(v); }
     std::string operator()(const V2f& v) const { return shown(v); }
     std::string operator()(const V3f& v) const { return shown(v); }
     std::string operator()(const M44f& v) const {
@@ -75,20 +75,20 @@ std::string describe_strands(const StrandFile& file) {
     thinnest = std::min(thinnest, 2 * strands.radius(i));
     thickest = std::max(thickest, 2 * strands.radius(i));
   }
-  uint32_t fewest = std::numeric_limits<uint32_t>::max(), most = 0;
+  uint32_t fewest = std::numeric_limits<uint32_t>::max(), max = 0;
   for (size_t i = 0; i < strands.strand_count(); ++i) {
     fewest = std::min(fewest, strands.strand_points(i));
-    most = std::max(most, strands.strand_points(i));
+    max = std::max(max, strands.strand_points(i));
   }
   std::string text = fmt::format("strands ({}), {} strands, {} points, basis {}\n", file.format,
                                  strands.strand_count(), strands.point_count(), shown(strands.basis()));
   if (strands.strand_count() > 0) {
-    text += fmt::format("  points per strand: {} to {}\n", fewest, most);
+    text += fmt::format("  points per strand: {} to {}\n", fewest, max);
     text += fmt::format("  widths: {} to {}\n", shown(thinnest), shown(thickest));
     text += fmt::format("  bounds of the points: {}\n", shown_box(box));
   }
   for (const StrandAttribute& attribute : strands.attributes()) {
-    text += fmt::format("  attribute {}: {} x {} numbers\n", safe(attribute.name),
+    text += fmt::format("  attribute {}: {} x {} numbers\n", printable(attribute.name),
                         attribute.values.size() / static_cast<size_t>(std::max(attribute.components, 1)),
                         attribute.components);
   }
@@ -106,7 +106,7 @@ std::string describe_mesh(const ControlMesh& mesh) {
   text += fmt::format("  bounds: {}\n", shown_box(box));
   text += fmt::format("  creases: {}, corners: {}, holes: {}\n", mesh.creases.size(), mesh.corners.size(),
                       mesh.holes.size());
-  for (const std::string& group : mesh.groups) text += fmt::format("  group {}\n", safe(group));
+  for (const std::string& group : mesh.groups) text += fmt::format("  group {}\n", printable(group));
   return text;
 }
 
@@ -121,12 +121,12 @@ std::string describe_exr(const ExrImage& image) {
     layers[layer][channel.type] += " " + channel.name.substr(dot == std::string::npos ? 0 : dot + 1);
   }
   for (const auto& [layer, types] : layers) {
-    text += "  " + (layer.empty() ? "no layer" : "layer " + safe(layer)) + ":";
-    for (const auto& [type, names] : types) text += fmt::format("{} ({})", safe(names), type_name(type));
+    text += "  " + (layer.empty() ? "no layer" : "layer " + printable(layer)) + ":";
+    for (const auto& [type, names] : types) text += fmt::format("{} ({})", printable(names), type_name(type));
     text += "\n";
   }
   for (const auto& [name, value] : image.attributes) {
-    text += fmt::format("  attribute {}: {}\n", safe(name), describe(value));
+    text += fmt::format("  attribute {}: {}\n", printable(name), describe(value));
   }
   return text;
 }

@@ -28,7 +28,7 @@ const char* experiment_name(Experiment experiment) {
 
 MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
   MeasureSetup setup;
-  setup.program = own_program();
+  setup.program = current_executable();
   setup.scene = options.input;
   setup.repeat = options.repeat;
   setup.time_limit_s = options.time_limit_s;

@@ -48,7 +48,7 @@ void count(const FrameResult& result, double posed_s, double share, Statistics& 
   statistics.time_limited |= result.time_limited;
 }
 
-void say_nothing_was_written(const std::string& path, Run& run) {
+void note_no_output(const std::string& path, Run& run) {
   run.display().warn(path + ": stopped before the first sample; nothing was written");
 }
 
@@ -72,11 +72,11 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   const FrameResult result = render(world, run.job(), run.statistics());
   count(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()), run.statistics());
   if (result.mean_samples == 0) {
-    say_nothing_was_written(path, run);
+    note_no_output(path, run);
     return false;
   }
   const double seconds = run.seconds() - began;
-  give_back_heap();  // the chunks of the frame are gone
+  trim_heap();  // the chunks of the frame are gone
   const std::string place = place_of(result, path);
   if (place != path)
     run.display().warn(path + ": kept as it was, since some pixels of the new picture have no sample yet");
@@ -120,7 +120,7 @@ int run_render(const Options& options) {
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kStopped) throw;
-    say_nothing_was_written(path, run);
+    note_no_output(path, run);
     complete = false;
   }
   run.finish(options);

@@ -24,8 +24,8 @@ int exit_code(ErrorKind kind) {
 }
 
 std::string error_text(const Error& error) {
-  constexpr size_t kMostLines = 50;
-  const size_t shown = std::min(error.problems().size(), kMostLines);
+  constexpr size_t kMaxLines = 50;
+  const size_t shown = std::min(error.problems().size(), kMaxLines);
   std::string text;
   for (size_t i = 0; i < shown; ++i) {
     const Problem& problem = error.problems()[i];

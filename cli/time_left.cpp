@@ -7,7 +7,7 @@ namespace pelage {
 namespace {
 
 constexpr double kFirst_s = 3;
-constexpr double kLeastDone = 0.01;
+constexpr double kMinDone = 0.01;
 /// Most by which the rates of the last quarter and of the last half may differ. Just after a slow beginning
 /// they differ by two.
 constexpr double kAgreement = 1.5;
@@ -31,7 +31,7 @@ double TimeLeft::rate_since(double share) const {
 }
 
 std::optional<double> TimeLeft::estimate() const {
-  if (last_.elapsed_s < kFirst_s || last_.fraction < kLeastDone) return {};
+  if (last_.elapsed_s < kFirst_s || last_.fraction < kMinDone) return {};
   const double of_quarter = rate_since(0.75), of_half = rate_since(0.5);
   if (!(of_quarter > 0) || of_quarter > kAgreement * of_half || of_half > kAgreement * of_quarter) return {};
   return std::max(0.0, 1 - last_.fraction) / of_quarter;

@@ -80,16 +80,16 @@ class CageChecker {
   /// Subdivision needs about 200 bytes for the square of each of these numbers, and cutting a polygon may
   /// take as many steps: a file of megabytes could ask for terabytes.
   void check_weights(const std::vector<uint32_t>& valence) {
-    constexpr uint64_t kFew = 16, kMostSquares = 10'000'000;
+    constexpr uint64_t kFew = 16, kMaxSquares = 10'000'000;
     uint64_t squares = 0;
     for (const auto* counts : {&valence, &mesh_.face_sizes}) {
       for (uint64_t n : *counts) squares += n > kFew ? n * n : 0;
     }
-    if (squares > kMostSquares) {
+    if (squares > kMaxSquares) {
       complain(fmt::format(
           "too many vertices of many faces and faces of many corners: their squares add up to {}, at "
           "most {} may",
-          squares, kMostSquares));
+          squares, kMaxSquares));
     }
   }
 
@@ -99,10 +99,10 @@ class CageChecker {
       first_corners_ = polygons_ == 1 ? vertices.size() : first_corners_;
       return;
     }
-    constexpr size_t kMost = SurfaceTopology::kMaxValence;
-    if (vertices.size() < 3 || vertices.size() > kMost)
+    constexpr size_t kMax = SurfaceTopology::kMaxValence;
+    if (vertices.size() < 3 || vertices.size() > kMax)
       return complain(
-          fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), kMost));
+          fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), kMax));
     const uint32_t last = *std::max_element(vertices.begin(), vertices.end());
     if (last >= valence.size()) {
       return complain(fmt::format("face {} uses vertex {} of {}", face + 1, last + 1, valence.size()));

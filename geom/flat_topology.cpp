@@ -178,7 +178,7 @@ size_t flat_bytes(size_t triangles, size_t vertices, bool has_uv) {
          vertices * (sizeof(uint32_t) + 1);
 }
 
-size_t flat_making_bytes(size_t triangles, size_t vertices, bool has_uv) {
+size_t flat_temporary_bytes(size_t triangles, size_t vertices, bool has_uv) {
   return flat_bytes(triangles, vertices, has_uv) + triangles * 3 * sizeof(Side) +
          vertices * 2 * sizeof(uint32_t);
 }

@@ -16,7 +16,7 @@ void fill_flat_topology(const ControlMesh& mesh, const std::function<void()>& ch
                         SurfaceTopology::Impl& impl);
 
 /// Most bytes that fill_flat_topology() holds at any moment, and that it leaves, for so many triangles.
-size_t flat_making_bytes(size_t triangles, size_t vertices, bool has_uv);
+size_t flat_temporary_bytes(size_t triangles, size_t vertices, bool has_uv);
 size_t flat_bytes(size_t triangles, size_t vertices, bool has_uv);
 
 /// Triangles that the faces of a mesh are cut into, at most.

@@ -66,7 +66,7 @@ Frame smooth_frame(const V3f& normal, const V3f& along) {
 SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes() const {
   const size_t points = impl_->rules.point_count();
   if (impl_->flat) return {sizeof(LimitSurface) + (points * 6 + 1) * sizeof(float), 0};
-  return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float), PointRules::making_bytes(points)};
+  return {sizeof(LimitSurface) + (points * 3 + 1) * sizeof(float), PointRules::temporary_bytes(points)};
 }
 
 SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes(std::span<const uint32_t> faces) const {
@@ -75,7 +75,7 @@ SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes(std::span<const uint32_t>
   return {sizeof(LimitSurface) + (points * (impl_->flat ? 6 : 3) + 1) * sizeof(float) +
               blocks.place.size() * sizeof(uint32_t),
           // Points, which of them are wanted, and those that are still to be seen to.
-          PointRules::making_bytes(points) + blocks.wanted.size() * sizeof(uint16_t) +
+          PointRules::temporary_bytes(points) + blocks.wanted.size() * sizeof(uint16_t) +
               2 * points * sizeof(uint32_t)};
 }
 

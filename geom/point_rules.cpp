@@ -77,7 +77,7 @@ void PointRules::apply(float* points, const PointBlocks& blocks) const {
   });
 }
 
-size_t PointRules::making_bytes(size_t points) { return points * sizeof(Point); }
+size_t PointRules::temporary_bytes(size_t points) { return points * sizeof(Point); }
 
 size_t PointRules::bytes() const {
   return (first_term.capacity() + source.capacity()) * sizeof(uint32_t) + weight.capacity() * sizeof(float);

@@ -26,8 +26,8 @@ class PoseSequence::Files {
   Positions get(size_t file) {
     const std::lock_guard lock(mutex_);
     if (!read_[file]) {
-      const size_t most = std::max<size_t>(2, kMostBytes / std::max<size_t>(1, cage_points_ * sizeof(V3f)));
-      if (order_.size() >= most) {
+      const size_t max = std::max<size_t>(2, kMaxBytes / std::max<size_t>(1, cage_points_ * sizeof(V3f)));
+      if (order_.size() >= max) {
         charge(-1);
         read_[order_.front()].reset();
         order_.erase(order_.begin());

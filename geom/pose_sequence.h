@@ -14,12 +14,12 @@ namespace pelage {
 /// positions blend linearly. A cycle goes on for ever in both directions, otherwise the first and the last
 /// pose hold.
 ///
-/// A file is read when it is first needed and its positions are kept, up to `kMostBytes` of them, so that a
+/// A file is read when it is first needed and its positions are kept, up to `kMaxBytes` of them, so that a
 /// crowd reads each pose once. Thread safety: const members may be called from any thread.
 class PoseSequence {
  public:
   /// Positions kept in memory per sequence, charged to the skins.
-  static constexpr size_t kMostBytes = size_t(64) << 20;
+  static constexpr size_t kMaxBytes = size_t(64) << 20;
 
   /// `cage_points`: how many every file must have. `frames_per_pose`: frames from one pose to the next.
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,

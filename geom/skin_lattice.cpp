@@ -10,7 +10,7 @@ namespace pelage {
 
 namespace {
 
-constexpr uint64_t kMostElements = std::numeric_limits<int32_t>::max();
+constexpr uint64_t kMaxElements = std::numeric_limits<int32_t>::max();
 constexpr size_t kFacesPerCheck = 4096;
 
 void sort_unique(std::vector<uint32_t>& values) {
@@ -209,7 +209,7 @@ V2f SkinLattice::side_uv(uint32_t side, float t) const {
 uint32_t SkinLattice::new_points(uint64_t count) {
   const uint64_t first = vertex_count_;
   vertex_count_ += count;
-  if (vertex_count_ > kMostElements) {
+  if (vertex_count_ > kMaxElements) {
     throw Error(ErrorKind::kMemory, "a tessellated skin would have more than 2147483647 vertices");
   }
   return static_cast<uint32_t>(first);
@@ -258,7 +258,7 @@ void SkinLattice::divide(Face& f) {
   f.inner = new_points(inner);
   f.triangle = static_cast<uint32_t>(triangle_count_);
   triangle_count_ += triangles;
-  if (triangle_count_ > kMostElements) {
+  if (triangle_count_ > kMaxElements) {
     throw Error(ErrorKind::kMemory, "a tessellated skin would have more than 2147483647 triangles");
   }
 }

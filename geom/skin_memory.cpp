@@ -47,29 +47,29 @@ bool is_regular_quad(std::span<const uint32_t> vertices, const std::vector<uint3
 }
 
 /// Parts of ptex faces that subdivision treats alike.
-struct Census {
+struct FaceCounts {
   double regular = 0, parts = 0, irregular = 0, squares = 0;
 };
 
-Census count_faces(const ControlMesh& mesh) {
-  Census census;
+FaceCounts count_faces(const ControlMesh& mesh) {
+  FaceCounts counts;
   const std::vector<uint32_t> valence = valences(mesh);
   size_t first = 0;
   for (const uint32_t size : mesh.face_sizes) {
     if (first + size > mesh.face_vertices.size()) break;
     const auto vertices = std::span(mesh.face_vertices).subspan(first, size);
     first += size;
-    if (size != 4) census.parts += size;
-    if (size == 4) ++(is_regular_quad(vertices, valence) ? census.regular : census.irregular);
-    if (size > 16) census.squares += double(size) * size;
+    if (size != 4) counts.parts += size;
+    if (size == 4) ++(is_regular_quad(vertices, valence) ? counts.regular : counts.irregular);
+    if (size > 16) counts.squares += double(size) * size;
   }
-  for (const uint32_t n : valence) census.squares += n > 16 ? double(n) * n : 0;
-  return census;
+  for (const uint32_t n : valence) counts.squares += n > 16 ? double(n) * n : 0;
+  return counts;
 }
 
 /// Of sharp edges and corners, and of what is beyond the usual valences.
-FaceBytes special_bytes(const ControlMesh& mesh, const Census& census) {
-  FaceBytes sum = {census.squares * kSquare.making, census.squares * kSquare.held};
+FaceBytes special_bytes(const ControlMesh& mesh, const FaceCounts& counts) {
+  FaceBytes sum = {counts.squares * kSquare.making, counts.squares * kSquare.held};
   const auto add = [&](const FaceBytes& each, double count) {
     sum.making += each.making * count;
     sum.held += each.held * count;
@@ -93,7 +93,7 @@ FaceBytes special_bytes(const ControlMesh& mesh, const Census& census) {
 
 }  // namespace
 
-size_t SkinMemory::most() const { return std::max(making, held + triangles); }
+size_t SkinMemory::peak() const { return std::max(making, held + triangles); }
 
 SkinMemory skin_memory(const ControlMesh& mesh, SubdivisionScheme scheme) {
   const auto bytes = [](double value) { return static_cast<size_t>(value + kOfSkin); };
@@ -103,11 +103,11 @@ SkinMemory skin_memory(const ControlMesh& mesh, SubdivisionScheme scheme) {
     const size_t vertices = mesh.positions.size();
     const bool has_uv = !mesh.face_uv.empty();
     return {
-        bytes(static_cast<double>(flat_making_bytes(triangles, vertices, has_uv))),
+        bytes(static_cast<double>(flat_temporary_bytes(triangles, vertices, has_uv))),
         bytes(static_cast<double>(flat_bytes(triangles, vertices, has_uv) + vertices * 6 * sizeof(float))),
         bytes(static_cast<double>(triangles) * kOfTriangle)};
   }
-  const Census n = count_faces(mesh);
+  const FaceCounts n = count_faces(mesh);
   const auto level = static_cast<size_t>(smooth_levels(mesh) - 1);
   const double quads = n.regular + n.irregular;
   const FaceBytes special = special_bytes(mesh, n);

@@ -13,7 +13,7 @@ struct SkinMemory {
   size_t held = 0;       ///< by the topology and one surface, afterwards
   size_t triangles = 0;  ///< by its undivided triangles, what makes them included
   /// Most of all three in the order in which they come.
-  size_t most() const;
+  size_t peak() const;
 };
 
 /// At least what is measured, and at most twice that on meshes of more than a few hundred faces. Costs some

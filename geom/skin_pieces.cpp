@@ -41,7 +41,7 @@ std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& s
 
 /// How many faces of `range`, in order of one coordinate, come to about `wanted`: at least one, and not all.
 /// These then stand first. Each look halves what is left to sort: linear in total.
-size_t part_off(std::span<CageFace> range, int axis, size_t wanted, const Job& job) {
+size_t split_off(std::span<CageFace> range, int axis, size_t wanted, const Job& job) {
   const auto before = [axis](const CageFace& a, const CageFace& b) {
     return std::pair(a.middle[axis], a.face) < std::pair(b.middle[axis], b.face);
   };
@@ -64,27 +64,27 @@ size_t part_off(std::span<CageFace> range, int axis, size_t wanted, const Job& j
   return low;
 }
 
-/// How many faces of a range are cut off across its longest side; all of one that costs no more than `most`.
-size_t cut(std::span<CageFace> range, size_t most, const Job& job) {
+/// How many faces of a range are cut off across its longest side; all of one that costs no more than `max`.
+size_t cut(std::span<CageFace> range, size_t max, const Job& job) {
   size_t all = 0;
   Box3f box;
   for (const CageFace& face : range) {
     all += face.cost;
     box.extendBy(face.middle);
   }
-  if (all <= most || range.size() == 1) return range.size();
+  if (all <= max || range.size() == 1) return range.size();
   // Into parts of whole pieces, so that these become much alike.
-  const size_t pieces = (all + most - 1) / most;
-  return part_off(range, static_cast<int>(box.majorAxis()), all / pieces * (pieces / 2), job);
+  const size_t pieces = (all + max - 1) / max;
+  return split_off(range, static_cast<int>(box.majorAxis()), all / pieces * (pieces / 2), job);
 }
 
-/// Cuts the faces until no part costs more than `most`. In order from one side to the other.
-std::vector<std::span<CageFace>> cut_all(std::span<CageFace> faces, size_t most, const Job& job) {
+/// Cuts the faces until no part costs more than `max`. In order from one side to the other.
+std::vector<std::span<CageFace>> cut_all(std::span<CageFace> faces, size_t max, const Job& job) {
   std::vector<std::span<CageFace>> done, open{faces};
   while (!open.empty()) {
     std::vector<size_t> counts(open.size());
     job.for_each(open.size(), 1, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i) counts[i] = cut(open[i], most, job);
+      for (size_t i = range.begin; i < range.end; ++i) counts[i] = cut(open[i], max, job);
     });
     std::vector<std::span<CageFace>> next;
     for (size_t i = 0; i < open.size(); ++i) {
@@ -123,17 +123,17 @@ SkinPiece piece_of(std::span<const CageFace> part, const SurfaceTopology& topolo
 }  // namespace
 
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, size_t most_cost, const Job& job) {
+                                   const TessellationOptions& options, size_t max_cost, const Job& job) {
   const SurfaceTopology& topology = keys[0].topology();
   const auto check_stop = [&job] { job.check_stop(); };
   SkinLattice whole(topology.impl(), check_stop);
   set_rates(whole, keys, view, options, job.workers, check_stop);
   whole.number(check_stop);
   const size_t cost = whole.triangle_count() + kTrianglesPerPose * whole.face_count();
-  if (cost <= most_cost) return {{{}, whole.vertex_count(), whole.triangle_count()}};
+  if (cost <= max_cost) return {{{}, whole.vertex_count(), whole.triangle_count()}};
   std::vector<CageFace> faces = cage_faces(whole, keys[0], job);
   const std::vector<std::span<CageFace>> parts =
-      cut_all(faces, std::max(most_cost, cost / kMostPieces + 1), job);
+      cut_all(faces, std::max(max_cost, cost / kMaxPieces + 1), job);
   std::vector<SkinPiece> pieces(parts.size());
   job.for_each(parts.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end; ++i) pieces[i] = piece_of(parts[i], topology, whole);

@@ -24,14 +24,14 @@ struct SkinPiece {
 
 /// What tessellating some faces takes, in triangles: posing a ptex face takes as much memory as this many.
 constexpr size_t kTrianglesPerPose = 16;
-constexpr size_t kMostPieces = 64;
+constexpr size_t kMaxPieces = 64;
 
-/// Divides a skin into pieces that are compact and much alike in cost: at most `most_cost` each, in triangles
-/// and kTrianglesPerPose for each face, or one cage face, or a kMostPieces-th of the whole, because each
+/// Divides a skin into pieces that are compact and much alike in cost: at most `max_cost` each, in triangles
+/// and kTrianglesPerPose for each face, or one cage face, or a kMaxPieces-th of the whole, because each
 /// piece poses the faces around it too. One piece where the whole costs no more. Every face is in one piece,
 /// holes in any. The same for any number of threads. Throws as tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
-                                   const TessellationOptions& options, size_t most_cost, const Job& job);
+                                   const TessellationOptions& options, size_t max_cost, const Job& job);
 
 /// Ptex faces of the cage faces that have a vertex in common with those of `faces`, these included.
 /// Ascending.

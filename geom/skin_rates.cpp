@@ -28,10 +28,10 @@ uint32_t line_rate(const SkinLattice::Line& line, const SkinLattice& lattice,
     pixels = std::max(pixels, ((p[1] - p[0]).length() + (p[2] - p[1]).length()) * scale);
   }
   if (line.is_half) pixels *= 2;
-  const auto most = static_cast<float>(std::max(options.max_rate, line.halved ? 2 : 1));
+  const auto max = static_cast<float>(std::max(options.max_rate, line.halved ? 2 : 1));
   const float wanted = std::ceil(pixels / options.edge_pixels);
-  auto rate = static_cast<uint32_t>(wanted < most ? std::max(wanted, 1.0f) : most);
-  if (line.halved && rate % 2 != 0) rate += static_cast<float>(rate + 1) <= most ? 1 : -1;
+  auto rate = static_cast<uint32_t>(wanted < max ? std::max(wanted, 1.0f) : max);
+  if (line.halved && rate % 2 != 0) rate += static_cast<float>(rate + 1) <= max ? 1 : -1;
   return rate;
 }
 

@@ -76,7 +76,7 @@ struct PointRules {
   /// that are kept.
   void apply(float* points, const PointBlocks& blocks) const;
   /// What apply() holds of its own for so many points.
-  static size_t making_bytes(size_t points);
+  static size_t temporary_bytes(size_t points);
   size_t bytes() const;
 };
 

@@ -18,14 +18,14 @@ SkinGaps SkinGaps::of(std::vector<float>& gaps, const Box3f& skin) {
   if (gaps.empty()) return result;
   const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
   std::nth_element(gaps.begin(), middle, gaps.end());
-  result.least = *std::min_element(gaps.begin(), middle + 1);
+  result.min = *std::min_element(gaps.begin(), middle + 1);
   result.median = *middle;
-  result.most = *std::max_element(middle, gaps.end());
+  result.max = *std::max_element(middle, gaps.end());
   return result;
 }
 
 std::string SkinGaps::describe(const std::string& skin) const {
-  return fmt::format("begin {:.3g} to {:.3g} units from skin '{}', which is {:.3g} units across", least, most,
+  return fmt::format("begin {:.3g} to {:.3g} units from skin '{}', which is {:.3g} units across", min, max,
                      skin, skin_size);
 }
 

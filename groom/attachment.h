@@ -22,7 +22,7 @@ struct EnumNames<Attachment> {
 
 /// How far the strands of a file begin from a skin.
 struct SkinGaps {
-  float least = 0, median = 0, most = 0;
+  float min = 0, median = 0, max = 0;
   float skin_size = 0;  ///< diagonal of the skin's box
 
   /// `gaps`: one per strand, reordered.

@@ -50,9 +50,9 @@ void Bend::apply(StrandBatch& batch) const {
   const TurnProfile profile{params_.start, 1, params_.profile};
   const int tip = batch.segment_count();
   for (size_t s = 0; s < batch.count; ++s) {
-    const V3f normal = vector_at(batch.here.normal, s);
-    const V3f target = unit_or(batch.from_rest(s, vector_at(direction, s)), normal);
-    const V3f now = unit_or(batch.offset(tip, s) - batch.offset(0, s), normal);
+    const V3f normal = vector_at(batch.current.normal, s);
+    const V3f target = normalised_or(batch.from_rest(s, vector_at(direction, s)), normal);
+    const V3f now = normalised_or(batch.offset(tip, s) - batch.offset(0, s), normal);
     Rotation rotation = rotation_between(now, target, any_perpendicular(now));
     const float less = params_.variation * unit_float(hash64(seed_, batch.ids[s], random_use("bend")));
     rotation.angle = std::min(rotation.angle, std::clamp(angle[s], 0.0f, 180.0f) * kRadians * (1.0f - less));

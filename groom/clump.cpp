@@ -94,18 +94,18 @@ void Clump::draw(StrandBatch& batch, size_t level_count) const {
       arcs[p][s] = arcs[p - 1][s] + (batch.offset(point, s) - batch.offset(point - 1, s)).length();
     }
   }
-  Drawn drawn;
-  drawn.stays.fill(1.0f);
-  drawn.roots.fill(0.0f);
-  for (size_t i = 0; i < level_count; ++i) draw_level(levels_[i], hash64(seed_, i), arcs, batch, drawn);
+  PullTotals totals;
+  totals.stays.fill(1.0f);
+  totals.roots.fill(0.0f);
+  for (size_t i = 0; i < level_count; ++i) draw_level(levels_[i], hash64(seed_, i), arcs, batch, totals);
 
   // Strands that have become longer are scaled back about their roots.
   StrandRow length;
   arc_lengths(batch, length);
   for (size_t s = 0; s < batch.count; ++s) {
     const float before = arcs.back()[s];
-    if (length[s] <= before || drawn.stays[s] >= 1) continue;
-    const float limit = kStretch * (1 - drawn.stays[s]) * (drawn.roots[s] + 2.0f * before);
+    if (length[s] <= before || totals.stays[s] >= 1) continue;
+    const float limit = kStretch * (1 - totals.stays[s]) * (totals.roots[s] + 2.0f * before);
     const float factor = before / std::min(length[s], before + limit);
     const V3f base = batch.offset(0, s);
     for (int p = 1; p < batch.point_count(); ++p) {
@@ -115,7 +115,7 @@ void Clump::draw(StrandBatch& batch, size_t level_count) const {
 }
 
 void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
-                       StrandBatch& batch, Drawn& drawn) const {
+                       StrandBatch& batch, PullTotals& totals) const {
   const ClumpCentres& centres = *level.centres;
   std::array<RootGrid::Neighbour, kBlockStrands> centre;
   StrandRow strength;
@@ -129,12 +129,12 @@ void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vecto
     const uint64_t of_clump = hash64(level_seed, centre[s].index, random_use("clump"));
     strength[s] = 1.0f - params_.variation * unit_float(of_clump);
     batch.clump[s] = unit_float(mix64(of_clump));
-    drawn.roots[s] += centre[s].distance * batch.scale;
+    totals.roots[s] += centre[s].distance * batch.scale;
   }
 
   StrandField amount(level.amount, batch);
   std::array<int, kBlockStrands> segment{};
-  StrandRow most{};  // largest amount along each strand
+  StrandRow max{};  // largest amount along each strand
   for (int p = 1; p < batch.point_count(); ++p) {
     const float along = batch.along(p);
     const float profile = params_.root + (params_.tip - params_.root) * std::pow(along, params_.profile);
@@ -143,7 +143,7 @@ void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vecto
     for (size_t s = 0; s < batch.count; ++s) {
       if (strength[s] <= 0) continue;
       const float k = std::clamp(row[s], 0.0f, 1.0f) * profile * strength[s];
-      most[s] = std::max(most[s], k);
+      max[s] = std::max(max[s], k);
       // Centres live in rest space, at the scale of the rest skin.
       const V3f rest =
           centres.at(centre[s].index, arc[s] / batch.scale, segment[s]) - vector_at(batch.rest.position, s);
@@ -151,7 +151,7 @@ void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vecto
       batch.set_offset(p, s, here + (batch.from_rest(s, rest) * batch.scale - here) * k);
     }
   }
-  for (size_t s = 0; s < batch.count; ++s) drawn.stays[s] *= 1.0f - most[s];
+  for (size_t s = 0; s < batch.count; ++s) totals.stays[s] *= 1.0f - max[s];
 }
 
 float Clump::strongest(const Level& level) const {

@@ -47,7 +47,7 @@ class Clump final : public OperatorOf<ClumpParams> {
   using OperatorOf::OperatorOf;
 
   std::string_view name() const override { return kName; }
-  bool learns_from_preceding() const override { return true; }
+  bool runs_preceding() const override { return true; }
   void prepare(const PrepareContext& context) override;
   void apply(StrandBatch& batch) const override;
   float displacement_bound(const StrandReach& before) const override;
@@ -60,7 +60,7 @@ class Clump final : public OperatorOf<ClumpParams> {
     std::shared_ptr<const ClumpCentres> centres;
   };
   /// How far strands have been drawn, for scaling them back.
-  struct Drawn {
+  struct PullTotals {
     StrandRow stays;  // product over levels of 1 - largest amount along the strand
     StrandRow roots;  // sum of the distances of their centres' roots
   };
@@ -71,7 +71,7 @@ class Clump final : public OperatorOf<ClumpParams> {
   };
   void draw(StrandBatch& batch, size_t level_count) const;
   void draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,
-                  StrandBatch& batch, Drawn& drawn) const;
+                  StrandBatch& batch, PullTotals& totals) const;
   float strongest(const Level& level) const;
   Pull pull() const;
 

@@ -17,15 +17,15 @@ namespace pelage {
 ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_t seed,
                            const std::function<void(StrandBatch&)>& grow)
     : points_(context.points) {
-  constexpr double kMostCentres = 4e6;
+  constexpr double kMaxCentres = 4e6;
   const Job& job = context.job;
   const double area = measure_surface(*context.rest, {}, job).area;
   const double wanted = area / (static_cast<double>(spacing) * spacing);
-  if (!(wanted <= kMostCentres)) {
+  if (!(wanted <= kMaxCentres)) {
     throw Error(
         ErrorKind::kInput, context.position,
         fmt::format("a clump spacing of {} makes {:.3g} clumps on this skin; at most {:.3g} are possible",
-                    spacing, wanted, kMostCentres));
+                    spacing, wanted, kMaxCentres));
   }
   FollicleOptions options;
   options.count = std::max<int64_t>(1, static_cast<int64_t>(wanted));
@@ -34,11 +34,11 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
   options.noun = fmt::format("clump centres (spacing {})", spacing);
   const size_t curve_floats = static_cast<size_t>(points_) * 4;
   const auto kept = [&](int64_t n) {
-    return n * static_cast<int64_t>(curve_floats * sizeof(float) + RootGrid::kMostBytesPerPlace);
+    return n * static_cast<int64_t>(curve_floats * sizeof(float) + RootGrid::kMaxBytesPerPlace);
   };
   require_room(
       job.ledger,
-      std::max(follicle_making_bytes(options.count), follicle_bytes(options.count) + kept(options.count)),
+      std::max(follicle_temporary_bytes(options.count), follicle_bytes(options.count) + kept(options.count)),
       fmt::format("{}: {} {}", context.owner, options.count, options.noun));
   const FollicleTree centres = FollicleTree::build(*context.rest, options, job);
 

@@ -33,7 +33,7 @@ bool CodeColumn::names_entries(const std::byte* block, size_t count) const {
   if (form == Form::kAbsent || form == Form::kRaw) return true;
   std::vector<uint16_t> own(count);
   indices(block, count, own.data());
-  return std::all_of(own.begin(), own.end(), [most = entry_count()](uint16_t i) { return i < most; });
+  return std::all_of(own.begin(), own.end(), [max = entry_count()](uint16_t i) { return i < max; });
 }
 
 CodeColumn::Choice CodeColumn::choose(std::span<const std::byte> entries, size_t entry_bytes) {

@@ -17,14 +17,14 @@ constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
 /// little about where to lie: from a fifth of its length along the skin downwards the strand stands up
 /// gradually, so that the coat has no seam there.
 V3f combed_direction(const V3f& direction, const V3f& normal, float lift) {
-  const V3f unit = unit_or(direction, normal);
+  const V3f unit = normalised_or(direction, normal);
   const V3f along_skin = unit - normal * unit.dot(normal);
   const float x = std::min(along_skin.length() / 0.2f, 1.0f);
   const float weight = x * x * (3.0f - 2.0f * x);
   const float angle = std::clamp(lift, 0.0f, 1.0f) * kQuarterTurn;
   const float flat = std::cos(angle) * weight;
   const float up = std::sin(angle) + std::cos(angle) * (1.0f - weight);
-  return unit_or(unit_or(along_skin, V3f(0)) * flat + normal * up, normal);
+  return normalised_or(normalised_or(along_skin, V3f(0)) * flat + normal * up, normal);
 }
 
 }  // namespace
@@ -65,9 +65,9 @@ void Comb::apply(StrandBatch& batch) const {
   const TurnProfile profile{0, params_.curve, 1};
   const int tip = batch.segment_count();
   for (size_t s = 0; s < batch.count; ++s) {
-    const Frame frame = batch.here.frame(s);
+    const Frame frame = batch.current.frame(s);
     const V3f target = combed_direction(batch.from_rest(s, vector_at(direction, s)), frame.normal, lift[s]);
-    const V3f now = unit_or(batch.offset(tip, s) - batch.offset(0, s), frame.normal);
+    const V3f now = normalised_or(batch.offset(tip, s) - batch.offset(0, s), frame.normal);
     Rotation rotation = rotation_between(now, target, any_perpendicular(now));
     rotation.angle *= std::clamp(amount[s], 0.0f, 1.0f);
     turn_strand(batch, s, profile, rotation);

@@ -108,7 +108,8 @@ bool try_candidate(const LimitSurface& rest, const FollicleDensity& density, uin
   const float bound = statistics.largest_density * room;
   if (!(unit_float(hash64(stream, random_use("density"))) * bound < value)) return false;
   const V3f& at = place.point.position;
-  out = {at.x, at.y, at.z, pack_normal(unit_or(place.normal, V3f(0, 0, 1))), 1.0f / std::sqrt(value), 0, 0};
+  out = {at.x, at.y, at.z, pack_normal(normalised_or(place.normal, V3f(0, 0, 1))), 1.0f / std::sqrt(value),
+         0,    0};
   return true;
 }
 

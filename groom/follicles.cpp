@@ -103,7 +103,7 @@ void place(const LimitSurface& rest, const FollicleDensity& density, uint64_t se
 class PlacingStage final : public Progress {
  public:
   PlacingStage(Progress& whole, const FollicleOptions& options, size_t count)
-      : whole_(whole), shown_(count >= kWorthShowing) {
+      : whole_(whole), shown_(count >= kMinForProgress) {
     // The candidates and their order count 1 each.
     if (shown_) whole_.begin("place " + options.noun, 2);
   }
@@ -121,14 +121,14 @@ class PlacingStage final : public Progress {
   bool cancelled() const override { return whole_.cancelled(); }
 
  private:
-  static constexpr size_t kWorthShowing = 200'000;  // about a second
+  static constexpr size_t kMinForProgress = 200'000;  // about a second
   Progress& whole_;
   bool shown_;
 };
 
 }  // namespace
 
-int64_t follicle_making_bytes(int64_t count) {
+int64_t follicle_temporary_bytes(int64_t count) {
   const auto n = static_cast<size_t>(count);
   return static_cast<int64_t>(progressive_order_bytes(candidates_for(n) + candidates_for(n) / 64, n));
 }
@@ -140,7 +140,7 @@ int64_t follicle_bytes(int64_t count) {
 FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions& options, const Job& job) {
   // Of a coat that says how many strands it has, room is asked for before anything is looked at.
   const auto require = [&](size_t count) {
-    return reserve(job.ledger, MemoryTag::kGrooms, follicle_making_bytes(static_cast<int64_t>(count)),
+    return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
                    fmt::format("{}: placing {} {}", options.owner, count, options.noun));
   };
   if (options.count > 0 && options.count <= kMaxFollicles) require(static_cast<size_t>(options.count));

@@ -36,7 +36,7 @@ struct FollicleOptions {
 };
 
 /// What placing `count` follicles holds at most, the tree included (progressive_order.h).
-int64_t follicle_making_bytes(int64_t count);
+int64_t follicle_temporary_bytes(int64_t count);
 /// What a tree of `count` follicles holds afterwards, but for its leaves.
 int64_t follicle_bytes(int64_t count);
 

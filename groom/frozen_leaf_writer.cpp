@@ -34,11 +34,11 @@ CodeColumn FrozenLeafWriter::column(StrandCodes::Column kind, CodeColumn::Choice
   CodeColumn column;
   const bool two = kind != StrandCodes::kWidthProfile || options_.one_width_profile;
   column.element_bytes = kind == StrandCodes::kColorHue ? 4 : two ? 2 : 1;
-  size_t most = 0;
+  size_t max = 0;
   for (const StrandCodes& block : blocks_)
-    most = std::max(most, block.columns[kind].size() / block.count / column.element_bytes);
-  if (most == 0) return column;
-  column.elements = static_cast<uint16_t>(most);
+    max = std::max(max, block.columns[kind].size() / block.count / column.element_bytes);
+  if (max == 0) return column;
+  column.elements = static_cast<uint16_t>(max);
   // Strands may have unequally many points: the entries of the shorter ones end with zeros.
   std::vector<std::byte> entries;
   for (const StrandCodes& block : blocks_) {

@@ -96,7 +96,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   if (!params.strands_file.empty()) {
     // Strands that do not follow the skin grow as on none.
     impl->source.imported.emplace(params, impl->source.rest.get(), owner, job);
-    if (impl->source.imported->stands_free()) impl->source.rest = nullptr;
+    if (impl->source.imported->is_free()) impl->source.rest = nullptr;
   }
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
@@ -118,9 +118,9 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .add(params.cache ? params.cache->freeze.name : std::string())
                    .digest();
 
-  const int most_points = impl->source.imported ? impl->source.imported->most_points() : params.points;
-  require_room(job.ledger, StrandBatch::bytes(most_points, stack.colors().has_value()),
-               fmt::format("{}: growing strands of {} points", context.owner, most_points));
+  const int max_points = impl->source.imported ? impl->source.imported->max_points() : params.points;
+  require_room(job.ledger, StrandBatch::bytes(max_points, stack.colors().has_value()),
+               fmt::format("{}: growing strands of {} points", context.owner, max_points));
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {

@@ -26,7 +26,7 @@ void Groom::Impl::stand(StrandBatch& batch, size_t begin, const PosedSkin& skin,
     for (size_t s = 0; s < batch.count; ++s) {
       V3f root;
       m.multVecMatrix(vector_at(batch.rest.position, s), root);
-      batch.here.set(s, root, frame);
+      batch.current.set(s, root, frame);
     }
   }
   batch.skin = key < skin.trees.size() ? &skin.trees[key] : nullptr;
@@ -69,9 +69,9 @@ void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, St
 
 void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
   const RestUse use = stack->rest_use(frozen_end, stack->size());
-  stands_on_rest = !source.rest || use == RestUse::kFrames ||
-                   !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
-  if (stands_on_rest || use == RestUse::kNone) return;
+  needs_rest_frames = !source.rest || use == RestUse::kFrames ||
+                      !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
+  if (needs_rest_frames || use == RestUse::kNone) return;
   require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
                "groom '" + name + "': the places of its strands at rest");
   rest_positions.resize(source.follicles().size());
@@ -91,7 +91,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
   const auto batch = std::make_unique<StrandBatch>();
   // Live operators need the state of before at every key; without them a key only turns the offsets anew.
   const bool has_live = live < stack->size();
-  const auto posed = keys > 1 && (has_live || stands_on_rest) ? std::make_unique<StrandBatch>() : nullptr;
+  const auto posed = keys > 1 && (has_live || needs_rest_frames) ? std::make_unique<StrandBatch>() : nullptr;
   for (const FrozenLeaf::Block& block : strands.blocks()) {
     const size_t at = begin + block.first;
     if (at >= end) break;
@@ -102,7 +102,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
     batch->scale = 1;
     batch->posed = false;
     batch->skin = nullptr;
-    if (stands_on_rest) {
+    if (needs_rest_frames) {
       source.place(*batch, at);
     } else {
       place_ids(*batch, source.rest->topology(), source.follicles(), at);
@@ -111,8 +111,8 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
     }
     clear_attributes(*batch);
     strands.attributes(block, *batch);
-    if (stands_on_rest) {
-      batch->here = batch->rest;
+    if (needs_rest_frames) {
+      batch->current = batch->rest;
       strands.shape(block, batch->rest, 1, *batch);
     }
     stack->apply(frozen_end, live, *batch);
@@ -123,12 +123,12 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
         target = posed.get();
       }
       stand(*target, at, pose, key);
-      if (stands_on_rest) {
+      if (needs_rest_frames) {
         carry_to_pose(*target, pose.scale);
       } else {
         target->scale = pose.scale;
         target->posed = true;
-        strands.shape(block, target->here, pose.scale, *target);
+        strands.shape(block, target->current, pose.scale, *target);
         if (posed || key == 0) scale_radii(*target, pose.scale);
       }
       stack->apply(live, stack->size(), *target);
@@ -234,19 +234,19 @@ StrandReach Groom::Impl::reach(size_t leaf) const {
 }
 
 float Groom::reach() const {
-  float most = 0;
+  float max = 0;
   for (size_t leaf = 0; leaf < impl_->source.follicles().leaves().size(); ++leaf) {
     const StrandReach reach = impl_->reach(leaf);
-    most = std::max(most, reach.distance + reach.radius);
+    max = std::max(max, reach.distance + reach.radius);
   }
-  return most;
+  return max;
 }
 
 float Groom::width() const {
-  float most = 0;
+  float max = 0;
   for (size_t leaf = 0; leaf < impl_->source.follicles().leaves().size(); ++leaf)
-    most = std::max(most, 2 * impl_->reach(leaf).radius);
-  return most;
+    max = std::max(max, 2 * impl_->reach(leaf).radius);
+  return max;
 }
 
 Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose, size_t count) const {

@@ -23,7 +23,7 @@ struct Groom::Impl {
   std::optional<ContentStore> store;  // of a groom with a cache
   std::optional<FrozenCoat> frozen;   // of a groom with a cache
   size_t frozen_end = 0;              // the operators [0, frozen_end) are in it
-  bool stands_on_rest = true;         // growing from the cache needs the frames of the rest skin
+  bool needs_rest_frames = true;      // growing from the cache needs the frames of the rest skin
   std::vector<V3f> rest_positions;    // of all roots, where it needs these alone
   std::optional<GroomCacheReport> report;
   MemoryCharge charge;

@@ -37,8 +37,8 @@ struct GroomParams {
   std::optional<int> leaf_strands;
   std::optional<GroomCacheParams> cache;
 
-  static constexpr int kMostLeafStrands = 8000;  ///< where nobody says
-  int leaf_size() const { return leaf_strands.value_or(kMostLeafStrands); }
+  static constexpr int kMaxLeafStrands = 8000;  ///< where nobody says
+  int leaf_size() const { return leaf_strands.value_or(kMaxLeafStrands); }
   static const Schema<GroomParams>& schema();
 };
 

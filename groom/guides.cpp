@@ -16,11 +16,11 @@
 namespace pelage {
 namespace {
 
-constexpr int kMostNeighbours = 8;
+constexpr int kMaxNeighbours = 8;
 
 struct Weights {
-  std::array<RootGrid::Neighbour, kMostNeighbours + 1> guide;
-  std::array<float, kMostNeighbours> weight;
+  std::array<RootGrid::Neighbour, kMaxNeighbours + 1> guide;
+  std::array<float, kMaxNeighbours> weight;
   int count = 0;
 };
 
@@ -58,7 +58,7 @@ const Schema<GuidesParams>& GuidesParams::schema() {
           {.help = "Applied to the file's points first", .min = 0, .above_min = true});
     s.key("translate", &GuidesParams::translate, {.unit = "scene units", .help = "Added after scaling"});
     s.key("neighbours", &GuidesParams::neighbours,
-          {.help = "How many guides shape a strand", .min = 1, .max = kMostNeighbours});
+          {.help = "How many guides shape a strand", .min = 1, .max = kMaxNeighbours});
     s.key("radius", &GuidesParams::radius,
           {.unit = "scene units",
            .help = "Furthest guide that shapes a strand",
@@ -144,7 +144,7 @@ void Guides::apply(StrandBatch& batch) const {
   }
 }
 
-bool Guides::every_strand_has_one() const {
+bool Guides::all_strands_have_guides() const {
   const auto [low, high] = params_.amount.value_range();
   return low >= 1 && params_.spread && *params_.spread <= near_.radius();
 }
@@ -156,8 +156,8 @@ float Guides::displacement_bound(const StrandReach& before) const {
 StrandReach Guides::reach_after(const StrandReach& before) const {
   StrandReach after = before;
   const float longest = guides_->longest() * 1.00001f;
-  after.length = every_strand_has_one() ? longest : std::max(before.length, longest);
-  after.distance = every_strand_has_one() ? longest : std::max(before.distance, longest);
+  after.length = all_strands_have_guides() ? longest : std::max(before.length, longest);
+  after.distance = all_strands_have_guides() ? longest : std::max(before.distance, longest);
   after.lean = std::numbers::pi_v<float>;
   return after;
 }

@@ -50,7 +50,7 @@ class Guides final : public OperatorOf<GuidesParams> {
   StrandReach reach_after(const StrandReach& before) const override;
 
  private:
-  bool every_strand_has_one() const;
+  bool all_strands_have_guides() const;
 
   std::shared_ptr<const GuideSet> guides_;
   RootGrid near_;                               // for interpolation

@@ -17,7 +17,7 @@ namespace pelage {
 
 ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* rest,
                                  const std::string& owner, const Job& job)
-    : reader_(where_named(params.strands_file, [&] {
+    : reader_(with_errors_at_asset(params.strands_file, [&] {
         return StrandReader(params.strands_file.path, {params.basis, params.default_width});
       })) {
   // Of each strand: first point, root and id in the order of the file; then what is kept, in the order of
@@ -31,14 +31,14 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
               fmt::format("{}: the roots of the {} strands of {}", owner, claimed,
                           params.strands_file.path.string()));
   // The file is read twice, a point in some 0.1 us each time.
-  constexpr size_t kWorthShowing = 2'000'000;
+  constexpr size_t kMinForProgress = 2'000'000;
   const ProgressStage stage(job.progress, "read strands", 2 * static_cast<double>(claimed),
-                            reader_.points_in_file() >= kWorthShowing);
+                            reader_.points_in_file() >= kMinForProgress);
   std::vector<V3f> positions;
   std::vector<uint32_t> ids;
   positions.reserve(claimed);
   ids.reserve(claimed);
-  where_named(params.strands_file, [&] {
+  with_errors_at_asset(params.strands_file, [&] {
     reader_.scan(job, [&](size_t, const Strands& strands) {
       stage.advance(static_cast<double>(strands.strand_count()));
       for (size_t s = 0; s < strands.strand_count(); ++s) {

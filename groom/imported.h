@@ -24,12 +24,12 @@ class ImportedStrands {
 
   const FollicleTree& follicles() const { return follicles_; }
   /// Whether the strands follow no skin.
-  bool stands_free() const { return free_; }
+  bool is_free() const { return free_; }
   CurveBasis basis() const { return reader_.basis(); }
   const StrandRepairs& repairs() const { return reader_.repairs(); }
   int strand_points(size_t follicle) const { return static_cast<int>(reader_.points(places()[follicle])); }
 
-  int most_points() const { return static_cast<int>(reader_.most_points()); }
+  int max_points() const { return static_cast<int>(reader_.max_points()); }
 
   /// How many of the follicles from `begin`, at most to `end`, can share a batch: as many as have equally
   /// many points.

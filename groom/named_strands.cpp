@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-void throw_where_named(const Error& error, const AssetPath& file) {
+void rethrow_at_asset(const Error& error, const AssetPath& file) {
   std::vector<Problem> problems = error.problems();
   if (!file.position.file.empty()) {
     for (Problem& problem : problems) {
@@ -19,7 +19,7 @@ void throw_where_named(const Error& error, const AssetPath& file) {
 }
 
 StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options) {
-  return where_named(file, [&] { return read_strands(file.path, options); });
+  return with_errors_at_asset(file, [&] { return read_strands(file.path, options); });
 }
 
 }  // namespace pelage

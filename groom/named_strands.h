@@ -9,16 +9,16 @@ namespace pelage {
 
 /// Rethrows an error in the content of a file that a scene names. The position becomes that of the name in
 /// the scene; each message begins with the position in the file.
-[[noreturn]] void throw_where_named(const Error& error, const AssetPath& file);
+[[noreturn]] void rethrow_at_asset(const Error& error, const AssetPath& file);
 
-/// What `work` returns. Errors of kind kInput go through throw_where_named().
+/// What `work` returns. Errors of kind kInput go through rethrow_at_asset().
 template <class Work>
-auto where_named(const AssetPath& file, const Work& work) {
+auto with_errors_at_asset(const AssetPath& file, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kInput) throw;
-    throw_where_named(error, file);
+    rethrow_at_asset(error, file);
   }
 }
 

@@ -13,8 +13,8 @@ namespace pelage {
 /// cells.
 class OctaveGrid {
  public:
-  /// Of at most about `most` follicles.
-  OctaveGrid(float smallest_spacing, size_t most) : smallest_(smallest_spacing) { items_.reserve(most); }
+  /// Of at most about `max` follicles.
+  OctaveGrid(float smallest_spacing, size_t max) : smallest_(smallest_spacing) { items_.reserve(max); }
   /// What each follicle takes beside the heads of lists: rebuild() makes at most 4 for each that is expected.
   static constexpr size_t kItemBytes = 24;
 

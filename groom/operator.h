@@ -93,7 +93,7 @@ class Operator {
   /// What apply() reads of StrandBatch::rest.
   virtual RestUse rest_use() const { return RestUse::kFrames; }
   /// Whether prepare() runs the operators before this one.
-  virtual bool learns_from_preceding() const { return false; }
+  virtual bool runs_preceding() const { return false; }
   /// Reads maps and files, gathers what it needs of the whole coat (clump centres, guides). Called once.
   /// Charges what it keeps to the ledger. Throws Error (kInput), Error (kMemory) before it makes what there
   /// is no room for, Error (kStopped).

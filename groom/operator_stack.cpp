@@ -52,7 +52,7 @@ void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& cont
   for (size_t i = begin; i < end; ++i) {
     Place& place = places_[i];
     if (place.prepared) continue;
-    if (operators_[i]->learns_from_preceding()) prepare(0, i, context);
+    if (operators_[i]->runs_preceding()) prepare(0, i, context);
     PrepareContext own = context;
     own.preceding = std::span(operators_).first(i);
     own.seed = seed_of(context.seed, i);
@@ -99,18 +99,18 @@ bool OperatorStack::has_one_width_profile(size_t begin, size_t end) const {
 }
 
 RestUse OperatorStack::rest_use(size_t begin, size_t end) const {
-  RestUse most = RestUse::kNone;
-  for (size_t i = begin; i < end; ++i) most = std::max(most, operators_[i]->rest_use());
-  return most;
+  RestUse max = RestUse::kNone;
+  for (size_t i = begin; i < end; ++i) max = std::max(max, operators_[i]->rest_use());
+  return max;
 }
 
 std::optional<AttributeClass> OperatorStack::colors(size_t begin, size_t end) const {
-  std::optional<AttributeClass> most;
+  std::optional<AttributeClass> max;
   for (size_t i = begin; i < end; ++i) {
     const std::optional<AttributeClass> own = operators_[i]->colors();
-    if (own && (!most || *own > *most)) most = own;
+    if (own && (!max || *own > *max)) max = own;
   }
-  return most;
+  return max;
 }
 
 Operator::Brightness OperatorStack::brightness(uint64_t seed, uint64_t strand_id) const {
@@ -170,7 +170,7 @@ void place_in_pose(StrandBatch& batch, const LimitSurface& pose, const FollicleT
   for (size_t s = 0; s < batch.count; ++s) {
     const RootAddress& root = follicles.root(begin + s);
     const SurfacePoint point = pose.evaluate(root.face, root.u, root.v);
-    batch.here.set(s, point.position, frame_at(pose, root, point));
+    batch.current.set(s, point.position, frame_at(pose, root, point));
   }
 }
 

@@ -22,8 +22,8 @@ class PushedStrand {
  public:
   PushedStrand(const StrandBatch& batch, size_t s)
       : skin_(*batch.skin),
-        root_(vector_at(batch.here.position, s)),
-        normal_(vector_at(batch.here.normal, s)) {
+        root_(vector_at(batch.current.position, s)),
+        normal_(vector_at(batch.current.normal, s)) {
     const int count = batch.point_count();
     float arc = 0;
     for (int p = 0; p < count; ++p) {
@@ -43,7 +43,7 @@ class PushedStrand {
     const std::vector<V3f> before = points_;
     for (size_t p = 1; p < points_.size(); ++p) {
       const V3f& from = points_[p - 1];
-      V3f direction = unit_or(before[p] - before[p - 1], normal_);
+      V3f direction = normalised_or(before[p] - before[p - 1], normal_);
       points_[p] = from + direction * lengths_[p];
       for (int round = 0; round < rounds; ++round) {
         V3f target = points_[p];
@@ -56,7 +56,7 @@ class PushedStrand {
         } else {
           direction = target - from;
         }
-        points_[p] = from + unit_or(direction, out) * lengths_[p];
+        points_[p] = from + normalised_or(direction, out) * lengths_[p];
       }
     }
   }
@@ -121,7 +121,7 @@ class PushedStrand {
     if (!skin_.closest(point, limit * 1.001f + 1e-6f, nearest)) return false;
     if (!nearest.inside && nearest.distance >= distance * 0.999f) return false;
     const V3f way = nearest.inside ? nearest.position - point : point - nearest.position;
-    const V3f out = nearest.distance > 1e-6f * limit ? unit_or(way, nearest.normal) : nearest.normal;
+    const V3f out = nearest.distance > 1e-6f * limit ? normalised_or(way, nearest.normal) : nearest.normal;
     // A hair's breadth more, so that rounding does not leave the point on the inner side.
     point = nearest.position + out * (distance + 1e-4f * limit);
     if (out_of) *out_of = out;
@@ -188,12 +188,12 @@ void PushOut::apply(StrandBatch& batch) const {
   for (size_t s = 0; s < batch.count; ++s) {
     const float distance = std::max(offset[s], 0.0f) * batch.scale;
     PushedStrand strand(batch, s);
-    strand.slide(distance, params_.iterations, vector_at(batch.here.tangent, s));
+    strand.slide(distance, params_.iterations, vector_at(batch.current.tangent, s));
     strand.push_points(distance);
     for (int i = 0; i < params_.iterations && strand.push_curve(); ++i) {
     }
     strand.draw_back();
-    const V3f root = vector_at(batch.here.position, s);
+    const V3f root = vector_at(batch.current.position, s);
     for (int p = 1; p < batch.point_count(); ++p) {
       batch.set_offset(p, s, strand.points()[static_cast<size_t>(p)] - root);
     }

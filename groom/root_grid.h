@@ -33,7 +33,7 @@ class RootGrid {
   int nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const;
   size_t bytes() const;
   /// Upper bound of bytes() per place.
-  static constexpr size_t kMostBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
+  static constexpr size_t kMaxBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
 
   /// Calls visit(index, squared distance) for every place within the radius, in no meaningful but a fixed
   /// order.

@@ -22,7 +22,7 @@ inline void sincos_turns(float turns, float& sine, float& cosine) {
 }
 
 /// Unit vector along `v`, or `fallback` where `v` has no direction.
-inline V3f unit_or(const V3f& v, const V3f& fallback) {
+inline V3f normalised_or(const V3f& v, const V3f& fallback) {
   const float length2 = v.dot(v);
   return length2 > 1e-24f ? v * (1.0f / std::sqrt(length2)) : fallback;
 }
@@ -30,7 +30,7 @@ inline V3f unit_or(const V3f& v, const V3f& fallback) {
 /// Some unit vector perpendicular to the unit vector `n`.
 inline V3f any_perpendicular(const V3f& n) {
   const V3f axis = std::fabs(n.x) < 0.6f ? V3f(1, 0, 0) : V3f(0, 1, 0);
-  return unit_or(axis - n * n.dot(axis), V3f(0, 0, 1));
+  return normalised_or(axis - n * n.dot(axis), V3f(0, 0, 1));
 }
 
 /// Turns about a unit axis.

@@ -17,7 +17,7 @@ void RootRows::set(size_t strand, const V3f& position_of_root, const Frame& fram
 void start_strands(StrandBatch& batch, int points) {
   PELAGE_CHECK(points >= 2);
   batch.points.resize(static_cast<size_t>(points));
-  batch.here = batch.rest;
+  batch.current = batch.rest;
   batch.scale = 1;
   batch.skin = nullptr;
   batch.posed = false;
@@ -54,9 +54,9 @@ void carry_to_pose(StrandBatch& batch, float scale) {
   for (size_t row = 0; row < 3; ++row) {
     for (size_t column = 0; column < 3; ++column) {
       float* m = matrix[row][column].data();
-      const float* ht = batch.here.tangent[row].data();
-      const float* hb = batch.here.bitangent[row].data();
-      const float* hn = batch.here.normal[row].data();
+      const float* ht = batch.current.tangent[row].data();
+      const float* hb = batch.current.bitangent[row].data();
+      const float* hn = batch.current.normal[row].data();
       const float* rt = batch.rest.tangent[column].data();
       const float* rb = batch.rest.bitangent[column].data();
       const float* rn = batch.rest.normal[column].data();

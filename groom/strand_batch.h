@@ -55,10 +55,10 @@ struct StrandBatch {
   std::vector<VectorRow>
       colors;  ///< one per point, one for whole strands, or none when nothing asks for colour
   std::array<uint64_t, kBlockStrands> ids;
-  RootRows rest;    ///< in rest space
-  RootRows here;    ///< in the batch's space
-  StrandRow u, v;   ///< texture coordinates of the roots
-  StrandRow clump;  ///< random number of the clump that a strand belongs to, or of the strand itself
+  RootRows rest;     ///< in rest space
+  RootRows current;  ///< in the batch's space
+  StrandRow u, v;    ///< texture coordinates of the roots
+  StrandRow clump;   ///< random number of the clump that a strand belongs to, or of the strand itself
   const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that ask for it
   float scale = 1;     ///< of the character: what a scene unit of an operator measures here
   bool posed = false;  ///< whether the batch's space is that of a pose
@@ -80,7 +80,7 @@ struct StrandBatch {
   float along(int point) const { return static_cast<float>(point) / static_cast<float>(segment_count()); }
   /// A direction of rest space in the batch's space, carried by the follicle frames.
   V3f from_rest(size_t strand, const V3f& direction) const {
-    return posed ? here.frame(strand).to_world(rest.frame(strand).to_local(direction)) : direction;
+    return posed ? current.frame(strand).to_world(rest.frame(strand).to_local(direction)) : direction;
   }
 };
 

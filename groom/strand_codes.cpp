@@ -29,10 +29,8 @@ T at(const std::vector<std::byte>& bytes, size_t i) {
   return value;
 }
 
-/// `part` of `whole` in whole numbers up to `most`.
-float levels(float part, float whole, float most) {
-  return whole > 0 ? std::round(part / whole * most) : 0.0f;
-}
+/// `part` of `whole` in whole numbers up to `max`.
+float levels(float part, float whole, float max) { return whole > 0 ? std::round(part / whole * max) : 0.0f; }
 
 }  // namespace
 
@@ -137,13 +135,13 @@ bool StrandCodes::code_colors(size_t s) {
     good &= std::isfinite(color_row(r)[s]);
     largest[r % 3] = std::max(largest[r % 3], std::fabs(color_row(r)[s]));
   }
-  const float most = std::max({largest[0], largest[1], largest[2]});
-  const std::optional<uint16_t> scale = small_float::nearest(most);
+  const float max = std::max({largest[0], largest[1], largest[2]});
+  const std::optional<uint16_t> scale = small_float::nearest(max);
   good &= scale.has_value();
   append(columns[kColorScale], scale.value_or(0));
   uint32_t hue = 0;
-  for (int c = 0; c < 3 && good && most > 0; ++c)
-    hue |= static_cast<uint32_t>(std::round(std::sqrt(largest[c] / most) * 1023.0f)) << (10 * c);
+  for (int c = 0; c < 3 && good && max > 0; ++c)
+    hue |= static_cast<uint32_t>(std::round(std::sqrt(largest[c] / max) * 1023.0f)) << (10 * c);
   append(columns[kColorHue], hue);
   for (size_t r = 0; r < color_rows * 3; ++r) {
     const float value = good ? color_row(r)[s] : 0.0f;

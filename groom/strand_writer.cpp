@@ -69,9 +69,9 @@ void StrandWriter::write(const StrandBatch& batch, size_t first, size_t key, flo
     float* to = &arrays_.points[(key * total + p) * 4];
     each(batch, first, [&](size_t s, size_t strand, float width, float) {
       float* __restrict out = to + size_t(arrays_.first_point[strand]) * 4;
-      out[0] = batch.here.position[0][s] + rows.offset[0][s] * length;
-      out[1] = batch.here.position[1][s] + rows.offset[1][s] * length;
-      out[2] = batch.here.position[2][s] + rows.offset[2][s] * length;
+      out[0] = batch.current.position[0][s] + rows.offset[0][s] * length;
+      out[1] = batch.current.position[1][s] + rows.offset[1][s] * length;
+      out[2] = batch.current.position[2][s] + rows.offset[2][s] * length;
       out[3] = rows.radius[s] * width;
     });
   }

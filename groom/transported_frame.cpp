@@ -10,19 +10,19 @@ namespace pelage {
 
 TransportedFrame::TransportedFrame(const StrandBatch& batch) : previous_(batch.points.front().offset) {
   for (size_t s = 0; s < batch.count; ++s) {
-    const Frame frame = batch.here.frame(s);
+    const Frame frame = batch.current.frame(s);
     V3f direction = frame.normal;
     for (int p = 1; p < batch.point_count(); ++p) {
       const V3f step = batch.offset(p, s) - batch.offset(0, s);
       if (step.dot(step) > 1e-24f) {
-        direction = unit_or(step, frame.normal);
+        direction = normalised_or(step, frame.normal);
         break;
       }
     }
     V3f first = frame.tangent - direction * direction.dot(frame.tangent);
     if (first.dot(first) < 0.01f) first = frame.bitangent - direction * direction.dot(frame.bitangent);
     set_vector(along_, s, direction);
-    set_vector(first_, s, unit_or(first, frame.bitangent));
+    set_vector(first_, s, normalised_or(first, frame.bitangent));
   }
 }
 

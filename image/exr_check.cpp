@@ -18,11 +18,11 @@ namespace {
 constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kLongNames = 0x400, kMultiPart = 0x1000;
 constexpr int64_t kLargestSide = 1 << 16;
-constexpr int64_t kMostBlockBytes = int64_t(1) << 29;
+constexpr int64_t kMaxBlockBytes = int64_t(1) << 29;
 /// Blocks beyond this must be in proportion to the file.
 constexpr int64_t kAnyBlockBytes = int64_t(1) << 26;
-constexpr int64_t kMostExpansion = 4096;
-constexpr int kMostParts = 1024;
+constexpr int64_t kMaxExpansion = 4096;
+constexpr int kMaxParts = 1024;
 
 /// Rows that are compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
 /// DWAA, DWAB).
@@ -78,7 +78,7 @@ class HeaderWalk {
     int parts = 0;
     while (header()) {
       if (!(version & kMultiPart)) return;
-      if (++parts > kMostParts) fail("has too many parts");
+      if (++parts > kMaxParts) fail("has too many parts");
     }
   }
 
@@ -151,7 +151,7 @@ class HeaderWalk {
       fail("claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
     }
     const int64_t block = width * pixel_bytes * rows;
-    if (block > kMostBlockBytes || block > std::max(kAnyBlockBytes, kMostExpansion * size_)) {
+    if (block > kMaxBlockBytes || block > std::max(kAnyBlockBytes, kMaxExpansion * size_)) {
       fail("claims rows that are too long for a file of " + std::to_string(size_) + " bytes");
     }
     return !is_empty;

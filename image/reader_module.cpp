@@ -15,9 +15,9 @@
 namespace {
 
 constexpr int kLargestSide = 1 << 16;
-constexpr int kMostChannels = 4;
+constexpr int kMaxChannels = 4;
 constexpr size_t kStripValues = size_t(1) << 18;
-constexpr size_t kMostStripValues = size_t(1) << 26;
+constexpr size_t kMaxStripValues = size_t(1) << 26;
 
 /// The library's messages may have several lines.
 std::string one_line(std::string text) {
@@ -68,7 +68,7 @@ class Source {
     PelageImageInfo info{};
     info.width = spec.width;
     info.height = spec.height;
-    info.channels = std::min(spec.nchannels, kMostChannels);
+    info.channels = std::min(spec.nchannels, kMaxChannels);
     info.kind = kind_of(type());
     info.is_integer = spec.format.is_floating_point() ? 0 : 1;
     const auto strip = static_cast<int64_t>(strip_rows(info)) * info.width * info.channels;
@@ -82,7 +82,7 @@ class Source {
     const size_t row = static_cast<size_t>(info.width) * static_cast<size_t>(info.channels);
     const bool tiled = spec.tile_width > 0;
     const int rows = strip_rows(info);
-    if (row * static_cast<size_t>(std::min(rows, info.height)) > kMostStripValues) {
+    if (row * static_cast<size_t>(std::min(rows, info.height)) > kMaxStripValues) {
       throw std::runtime_error("has tiles that are too large");
     }
     const OIIO::TypeDesc values = type();

@@ -26,6 +26,6 @@ struct TexelLayout {
 };
 
 /// Widest texel: four floats.
-constexpr size_t kMostTexelBytes = 16;
+constexpr size_t kMaxTexelBytes = 16;
 
 }  // namespace pelage

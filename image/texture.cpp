@@ -73,7 +73,7 @@ class Texture::Corners {
  private:
   float x_, y_;
   std::array<const std::byte*, 4> at_;
-  std::array<std::byte, 4 * kMostTexelBytes> copies_;
+  std::array<std::byte, 4 * kMaxTexelBytes> copies_;
 };
 
 Texture::Texture(std::shared_ptr<const TexelStore> texels, bool srgb)
@@ -118,7 +118,7 @@ Rgb Texture::texel(int x, int y) const {
     return decoded(all + static_cast<size_t>(y) * layout.row_bytes() +
                    static_cast<size_t>(x) * layout.texel_bytes());
   }
-  std::array<std::byte, kMostTexelBytes> copy;
+  std::array<std::byte, kMaxTexelBytes> copy;
   texels_->read(x, y, 1, 1, copy.data());
   return decoded(copy.data());
 }

@@ -88,10 +88,10 @@ size_t scan(const std::byte* texels, size_t count, const TexelLayout& layout,
 }  // namespace
 
 /// One image on its way in: decides where it will be, checks its values, keeps its rows.
-class TextureLibrary::Intake final : public ImageSink {
+class TextureLibrary::TextureSink final : public ImageSink {
  public:
-  Intake(TextureLibrary& library, const AssetPath& asset) : library_(library), asset_(asset) {}
-  ~Intake() override {
+  TextureSink(TextureLibrary& library, const AssetPath& asset) : library_(library), asset_(asset) {}
+  ~TextureSink() override {
     if (is_shown_) library_.progress_->end();
   }
 
@@ -204,7 +204,7 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
                                                      const std::filesystem::path& path) {
   if (const auto found = stored_.find(path); found != stored_.end()) return found->second;
   check_image_file(asset);
-  Intake intake(*this, asset);
+  TextureSink intake(*this, asset);
   try {
     // Before the file is opened: a progressive JPEG is decoded then.
     std::ifstream stream(asset.path, std::ios::binary);

@@ -47,7 +47,7 @@ class TextureLibrary {
   void check_stop() const;
 
  private:
-  class Intake;
+  class TextureSink;
   struct Stored {
     std::shared_ptr<const TexelStore> texels;
     bool is_integer = false;

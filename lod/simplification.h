@@ -11,7 +11,7 @@
 namespace pelage {
 
 /// What the strands of a coat are like on average. Scene units of the coat where it stands.
-struct StrandNature {
+struct CoatStats {
   float width = 0;
   float length = 0;
   float area_share = 0;  ///< width * length over the area of the skin that they cover; 0 when not known
@@ -23,7 +23,7 @@ struct StrandNature {
 struct RootPlace {
   V3f open{0}, close{0};  ///< when the shutter opens and closes
   V3f normal{0};          ///< of the skin when the shutter opens; 0: not known
-  V3f lie{0};             ///< how strands lie there then: unit, shorter where they lie anyhow
+  V3f direction{0};       ///< how strands lie there then: unit, shorter where they lie anyhow
 };
 
 /// Stochastic simplification of one coat: how many strands are enough at a place, and how wide those must be
@@ -39,12 +39,12 @@ struct RootPlace {
 class Simplification {
  public:
   /// `budget`: factor on the share, of the role of the coat.
-  Simplification(const SimplificationParams& params, const LodView& view, const StrandNature& nature,
+  Simplification(const SimplificationParams& params, const LodView& view, const CoatStats& stats,
                  float budget);
 
   const LodView& view() const { return view_; }
   /// Strands over a point of the skin, on average; 0 when not known.
-  float depth() const { return nature_.density * nature_.width * nature_.length; }
+  float depth() const { return stats_.density * stats_.width * stats_.length; }
 
   /// The share lambda in (0, 1] of the strands with their root here.
   ///
@@ -56,7 +56,7 @@ class Simplification {
   /// of that; there strands may be as much wider.
   float share(const RootPlace& root) const;
   /// No root at this distance from the camera, or further away, has a larger share.
-  float most_share(float distance) const;
+  float max_share(float distance) const;
   /// Half the width of the fade: min(0.1, lambda / 4, 1 - lambda), so that the mean of fade() over all x is
   /// lambda.
   static float fade_half_width(float share);
@@ -76,7 +76,7 @@ class Simplification {
   /// The same of strands that do not fade.
   float gain(float share) const;
   /// No width_factor() of roots up to this distance is larger.
-  float most_width_factor(float distance) const;
+  float max_width_factor(float distance) const;
   /// A strand that is kept stands for others beside it. Light leaves one of them: it is as far along its
   /// length, and its root is up to this distance away on the skin. 0 at share 1.
   float spread(float share) const;
@@ -95,13 +95,13 @@ class Simplification {
  private:
   float share(float pixels, float motion, float across, float confusion) const;
   /// A share that widths or the scene ask for at least: more where a budget gives more, never less.
-  float least_kept(float share) const;
+  float min_kept(float share) const;
   void tabulate_area();
 
   static constexpr size_t kAreaSteps = 32;
   SimplificationParams params_;
   LodView view_;
-  StrandNature nature_;
+  CoatStats stats_;
   float budget_;
   std::array<float, kAreaSteps + 1> area_;  // that is left of the strands' area, by the root of the share
 };

@@ -9,11 +9,11 @@ namespace pelage {
 /// How many strands of a coat are enough: keys of `render.lod`. Each idea has a switch of its own.
 struct SimplificationParams {
   float quality = 1;
-  bool size = true, motion_blur = true, depth_of_field = true, turned_away = true;
+  bool size = true, motion_blur = true, depth_of_field = true, back_facing = true;
   bool width_gain = true, contrast = true, fewer_points = true;
   float guard = 1.5f, under = 1, whisker = 4;
   float blur_strength = 0.75f;
-  float least_share = 0.005f;
+  float min_share = 0.005f;
 };
 
 /// Adds these keys to the table of a struct that derives from SimplificationParams.
@@ -31,7 +31,7 @@ void add_simplification_keys(Schema<P>& s) {
   key("size", &Base::size, {.help = "Strands that look thinner than a pixel are thinned out"});
   key("motion_blur", &Base::motion_blur, {.help = "More so where they move across the picture"});
   key("depth_of_field", &Base::depth_of_field, {.help = "More so where they are out of focus"});
-  key("turned_away", &Base::turned_away,
+  key("turned_away", &Base::back_facing,
       {.help =
            "And where the skin is turned away from the camera, down to a fifth: there they are seen past the "
            "edge of the animal at most, and in shadows"});
@@ -56,7 +56,7 @@ void add_simplification_keys(Schema<P>& s) {
                "all",
        .min = 0,
        .max = 1});
-  key("least_share", &Base::least_share,
+  key("least_share", &Base::min_share,
       {.help = "Part of the strands that is always kept", .min = 1e-4, .max = 1});
 }
 

@@ -54,11 +54,11 @@ void report_vectors(const VectorSurvey& survey, const ViewImage& image, const Ve
   }
   const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
   const bool is_ours = part.attributes.contains("pelage:version");
-  const auto doubt = survey.doubt(params, flag, part.display.width(), is_ours);
-  if (doubt) report.warnings.push_back(*doubt + where);
+  const auto warning = survey.warning(params, flag, part.display.width(), is_ours);
+  if (warning) report.warnings.push_back(*warning + where);
 }
 
-std::string what_was_named(const std::string& what, const std::string& name) {
+std::string layer_label(const std::string& what, const std::string& name) {
   return name.empty() ? what : what + " " + quote(name);
 }
 
@@ -90,13 +90,13 @@ int64_t BandJob::band_bytes(Band band) const {
   const int64_t planes = static_cast<int64_t>(channels->size() + extra_planes);
   // A result of floats, and halves while it is written.
   int64_t bytes = planes * window.width() * (band.last - band.first) * 6;
-  int64_t most_source = 0;  // one view at a time
+  int64_t max_source = 0;  // one view at a time
   for (const MovingView& view : views) {
     const RowRange rows = reach(view, target(view), band);
-    most_source = std::max(most_source, int64_t{4} * view.image->canvas().width() * (rows.last - rows.first) *
-                                            static_cast<int64_t>(view.image->own().size()));
+    max_source = std::max(max_source, int64_t{4} * view.image->canvas().width() * (rows.last - rows.first) *
+                                          static_cast<int64_t>(view.image->own().size()));
   }
-  return bytes + most_source;
+  return bytes + max_source;
 }
 
 BandJob::Band BandJob::next_band(int first) const {

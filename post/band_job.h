@@ -111,7 +111,7 @@ void report_vectors(const VectorSurvey& survey, const ViewImage& image, const Ve
                     const std::string& flag, const std::string& where, PostReport& report);
 
 /// "depth", or "depth 'far'" where it was named.
-std::string what_was_named(const std::string& what, const std::string& name);
+std::string layer_label(const std::string& what, const std::string& name);
 
 /// Throws Error (kInput) saying what is missing, what to do, and what there is.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);

@@ -14,12 +14,12 @@
 namespace pelage {
 namespace {
 
-/// `most`: pixels on each side.
-PixelBox grown_within(const PixelBox& box, const Overhang& by, int most, const PixelBox& limits) {
-  return {std::max(box.x0 - std::min(by.left, most), std::min(limits.x0, box.x0)),
-          std::max(box.y0 - std::min(by.top, most), std::min(limits.y0, box.y0)),
-          std::min(box.x1 + std::min(by.right, most), std::max(limits.x1, box.x1)),
-          std::min(box.y1 + std::min(by.bottom, most), std::max(limits.y1, box.y1))};
+/// `max`: pixels on each side.
+PixelBox grown_within(const PixelBox& box, const Overhang& by, int max, const PixelBox& limits) {
+  return {std::max(box.x0 - std::min(by.left, max), std::min(limits.x0, box.x0)),
+          std::max(box.y0 - std::min(by.top, max), std::min(limits.y0, box.y0)),
+          std::min(box.x1 + std::min(by.right, max), std::max(limits.x1, box.x1)),
+          std::min(box.y1 + std::min(by.bottom, max), std::max(limits.y1, box.y1))};
 }
 
 void enclose(PixelBox& box, const PixelBox& other) {
@@ -58,7 +58,7 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
   if (!motion || !layers.has_colors()) return nullptr;
   const bool without_depth = params.file.layers.depth == "none";
   if (!layers.depth() && !without_depth) {
-    fail_missing(image, what_was_named("depth", params.file.layers.depth) + of_view(view),
+    fail_missing(image, layer_label("depth", params.file.layers.depth) + of_view(view),
                  "name a layer with --depth-layer, or 'none' to go without");
   }
   check_field_memory(image, held, params.file.memory);
@@ -124,7 +124,7 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     if (has_vectors) {
       fail_missing(*bands.views.front().image, "colours to blur", "name their layer with --color-layer");
     }
-    fail_missing(*bands.views.front().image, what_was_named("motion vectors", params.file.layers.motion),
+    fail_missing(*bands.views.front().image, layer_label("motion vectors", params.file.layers.motion),
                  "name their layer with --motion-layer");
   }
   check_named_layers(bands.views, params.file.layers);

@@ -59,7 +59,7 @@ void BoxResolve::see(uint32_t at, uint32_t source, uint32_t count) {
     entries_.push_back({at, state.source, state.count});
     state.is_mixed = true;
     state.count = 0;
-    if (entries_.size() >= kMostEntries) flush();
+    if (entries_.size() >= kMaxEntries) flush();
   }
   state.source = source;
   state.count += count;
@@ -173,7 +173,7 @@ void BoxResolve::finish() {
     const State& state = states_[at];
     if (state.count > 0 && (state.is_mixed || state.count < samples_)) {
       entries_.push_back({at, state.source, state.count});
-      if (entries_.size() >= kMostEntries) flush();
+      if (entries_.size() >= kMaxEntries) flush();
     }
   }
   flush();

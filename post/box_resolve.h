@@ -46,7 +46,7 @@ class BoxResolve {
     uint32_t count = 0;     // samples of `source` that are not in the sums yet
     bool is_mixed = false;  // something is in the sums
   };
-  static constexpr size_t kMostEntries = 1 << 14;
+  static constexpr size_t kMaxEntries = 1 << 14;
 
   void see(uint32_t at, uint32_t source, uint32_t count);
   void flush();

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int most, int row,
+void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int max, int row,
                   std::span<Sample> line, std::span<uint8_t> filled) {
   const int y = row / target.scale + target.origin_y;
   if (y < 0 || y >= field.height()) return;
@@ -25,7 +25,7 @@ void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut,
     }
   };
   const int width = field.width();
-  for (int k = 0; k < std::min(most, width); ++k) {
+  for (int k = 0; k < std::min(max, width); ++k) {
     if (cut.left_is_cut) draw(k, -1 - k);
     if (cut.right_is_cut) draw(width - 1 - k, width + k);
   }

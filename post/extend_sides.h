@@ -15,9 +15,9 @@ namespace pelage {
 /// further than what is before it appears behind it, as it would if the picture were wider.
 ///
 /// `line` is sample row `row` of the result from its column 0 on, warped to time 1; samples that are empty
-/// get what is mirrored, the nearest where several meet, and kExtended in `filled`. At most `most` pixels
+/// get what is mirrored, the nearest where several meet, and kExtended in `filled`. At most `max` pixels
 /// beyond each side are made.
-void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int most, int row,
+void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int max, int row,
                   std::span<Sample> line, std::span<uint8_t> filled);
 
 }  // namespace pelage

@@ -39,11 +39,11 @@ FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vecto
       for (int x = 0; x < width_; ++x) links_[at(x, y)] |= marks[at(x, y)];
     });
   };
-  mark([&](int x, int y) { return four_hang_together(x, y) ? kFour : 0; });
+  mark([&](int x, int y) { return are_four_linked(x, y) ? kFour : 0; });
   mark([&](int x, int y) { return has_own_corners(x, y) ? kRigid : 0; });
   mark([&](int x, int y) {
     const bool may_hide = !is_thin || !(*is_thin)[at(x, y)];
-    return may_hide && hides_behind_another(x, y) ? kSeam : 0;
+    return may_hide && is_occluded(x, y) ? kSeam : 0;
   });
   bound_blocks();
 }
@@ -74,7 +74,7 @@ void FlowField::link_row(int y, const LinkLimits& limits) {
   }
 }
 
-bool FlowField::four_hang_together(int x, int y) const {
+bool FlowField::are_four_linked(int x, int y) const {
   if (x + 1 >= width_ || y + 1 >= height_) return false;
   const int links = linked_right(x, y) + linked_down(x, y) + linked_right(x, y + 1) + linked_down(x + 1, y);
   return links >= 3;
@@ -127,7 +127,7 @@ bool FlowField::is_behind(int x, int y, int other_x, int other_y) const {
   return depth_[p] != depth_[q] ? depth_[p] > depth_[q] : p > q;
 }
 
-bool FlowField::hides_behind_another(int x, int y) const {
+bool FlowField::is_occluded(int x, int y) const {
   const auto hides = [&](int i, int j, bool is_linked) {
     return !is_linked && is_behind(x, y, i, j) && std::isfinite(depth_[at(x, y)]);
   };
@@ -138,9 +138,9 @@ bool FlowField::hides_behind_another(int x, int y) const {
 }
 
 void FlowField::bound_blocks() {
-  const auto widen = [](Flow& low, Flow& high, Flow least, Flow most) {
-    low = {std::min(low.x, least.x), std::min(low.y, least.y)};
-    high = {std::max(high.x, most.x), std::max(high.y, most.y)};
+  const auto widen = [](Flow& low, Flow& high, Flow min, Flow max) {
+    low = {std::min(low.x, min.x), std::min(low.y, min.y)};
+    high = {std::max(high.x, max.x), std::max(high.y, max.y)};
   };
   low_ = high_ = motion_[0];
   for (int y0 = 0; y0 < height_; y0 += kBlockHeight) {

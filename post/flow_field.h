@@ -101,10 +101,10 @@ class FlowField {
   bool is_linked(size_t a, size_t b, const LinkLimits& limits) const;
   void clean(size_t pixel);
   void link_row(int y, const LinkLimits& limits);
-  bool four_hang_together(int x, int y) const;
+  bool are_four_linked(int x, int y) const;
   Flow torn_corner(int x, int y, int right, int bottom) const;
   bool has_own_corners(int x, int y) const;
-  bool hides_behind_another(int x, int y) const;
+  bool is_occluded(int x, int y) const;
   void bound_blocks();
 
   int width_, height_;

@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kFewestSteps = 8, kMostSteps = 64;
+constexpr int kFewestSteps = 8, kMaxSteps = 64;
 
 /// What a worker keeps between pieces.
 struct Scratch {
@@ -56,7 +56,7 @@ std::vector<float> shutter_times(const ShutterParams& shutter, float longest) {
   int steps = shutter.steps;
   if (steps <= 0) {
     const float pixels = std::ceil(longest * std::abs(shutter.length));
-    steps = pixels > 0 ? static_cast<int>(std::clamp<float>(pixels, kFewestSteps, kMostSteps)) : 1;
+    steps = pixels > 0 ? static_cast<int>(std::clamp<float>(pixels, kFewestSteps, kMaxSteps)) : 1;
   }
   std::vector<float> times;
   for (int k = 0; k < steps; ++k) {

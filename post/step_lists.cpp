@@ -20,8 +20,8 @@ void StepLists::gather(const Warp& warp, const std::vector<float>& times, const 
 
 bool StepLists::add(const Warp& warp, const FlowField::Block& block, const std::vector<float>& times,
                     float largest, const PixelBox& samples) {
-  const size_t most = times.size() * FlowField::kBlockWidth * FlowField::kBlockHeight;
-  if (count_ + most > kMost) return false;
+  const size_t max = times.size() * FlowField::kBlockWidth * FlowField::kBlockHeight;
+  if (count_ + max > kMaxPixels) return false;
   for (int y = block.y0; y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) {
       const Warp::Times near = warp.times_near(x, y, largest, samples);

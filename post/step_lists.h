@@ -31,9 +31,9 @@ class StepLists {
   static bool is_needed(const FlowField& field, float largest) {
     return spread(field.low(), field.high()) * largest > kWild;
   }
-  /// Room for kMost pixels, twice that while a list grows.
-  static constexpr size_t kMost = 1 << 19;
-  static constexpr size_t bytes_needed() { return 2 * kMost * sizeof(Pixel); }
+  /// Room for kMaxPixels pixels, twice that while a list grows.
+  static constexpr size_t kMaxPixels = 1 << 19;
+  static constexpr size_t bytes_needed() { return 2 * kMaxPixels * sizeof(Pixel); }
 
  private:
   static constexpr float kWild = 128;

@@ -134,7 +134,7 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
   check_field_memory(image, 0, params.file.memory);
   const LayerFinder& layers = image.layers();
   if (!layers.depth()) {
-    fail_missing(image, what_was_named("depth", params.file.layers.depth), "name a layer with --depth-layer");
+    fail_missing(image, layer_label("depth", params.file.layers.depth), "name a layer with --depth-layer");
   }
   std::vector<uint8_t> edges;
   std::vector<float> depth = image.read_depth(layers.depth(), layers.alpha(), edges);
@@ -180,9 +180,9 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
 
   const Overhang by = overhang(field, {0, 1});
   bands.window = image.canvas();
-  const int most = image.largest_reach();
-  bands.window.x0 = std::max(bands.window.x0 - std::min(by.left, most), image.limits().x0);
-  bands.window.x1 = std::min(bands.window.x1 + std::min(by.right, most), image.limits().x1);
+  const int max = image.largest_reach();
+  bands.window.x0 = std::max(bands.window.x0 - std::min(by.left, max), image.limits().x0);
+  bands.window.x1 = std::min(bands.window.x1 + std::min(by.right, max), image.limits().x1);
   const int width_px = image.limits().x1 - image.limits().x0;
   if (params.parallax.empty() && report.longest > static_cast<float>(width_px)) {
     report.warnings.push_back(

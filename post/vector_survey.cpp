@@ -28,7 +28,7 @@ void VectorSurvey::add(float u, float v, Flow pixels) {
   is_unit_ &= u >= 0 && u <= 1 && v >= 0 && v <= 1;
 }
 
-std::string VectorSurvey::doubt_long(const VectorParams& params, const std::string& flag) const {
+std::string VectorSurvey::long_vector_warning(const VectorParams& params, const std::string& flag) const {
   if (2 * too_long_ <= moving_) {
     return fmt::format(
         "{} of {} vectors are longer than {:.0f} pixels, beyond the picture: they look damaged", too_long_,
@@ -47,9 +47,9 @@ std::string VectorSurvey::doubt_long(const VectorParams& params, const std::stri
   return found + "they look like positions or another quantity; check " + flag + "-layer";
 }
 
-std::optional<std::string> VectorSurvey::doubt(const VectorParams& params, const std::string& flag, int width,
-                                               bool is_ours) const {
-  if (too_long_ > 0) return doubt_long(params, flag);
+std::optional<std::string> VectorSurvey::warning(const VectorParams& params, const std::string& flag,
+                                                 int width, bool is_ours) const {
+  if (too_long_ > 0) return long_vector_warning(params, flag);
   if (is_ours || moving_ == 0) return {};
   if (is_unit_ && 2 * at_half_ > count_) {
     return "the vectors look encoded with 0.5 for no motion; subtract 0.5 from them first";

@@ -29,11 +29,11 @@ class VectorSurvey {
   /// A warning where the vectors are probably in another unit than the parameters say, with the option to
   /// change, or none. `flag` begins the names of the options: "--motion". `width`: of the display window.
   /// `is_ours`: the file comes from Pelage, whose vectors are always pixels.
-  std::optional<std::string> doubt(const VectorParams& params, const std::string& flag, int width,
-                                   bool is_ours) const;
+  std::optional<std::string> warning(const VectorParams& params, const std::string& flag, int width,
+                                     bool is_ours) const;
 
  private:
-  std::string doubt_long(const VectorParams& params, const std::string& flag) const;
+  std::string long_vector_warning(const VectorParams& params, const std::string& flag) const;
 
   float limit_;
   float longest_ = 0;  // pixels, of all finite vectors

@@ -33,10 +33,10 @@ ViewImage::ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channel
   }
   limits_ = enclosing(limits_, canvas_);
   const int64_t width = int64_t{canvas_.x1} - canvas_.x0, height = int64_t{canvas_.y1} - canvas_.y0;
-  const int64_t most = FlowField::kLargestSide;
-  if (width > most || height > most) {
+  const int64_t max = FlowField::kLargestSide;
+  if (width > max || height > max) {
     throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0},
-                fmt::format("its pixels span {} x {}; at most {} a side are supported", width, height, most));
+                fmt::format("its pixels span {} x {}; at most {} a side are supported", width, height, max));
   }
 }
 

@@ -41,10 +41,10 @@ bool Warp::reaches(const FlowField::Block& block, const PixelBox& samples, float
   const auto reach = [&](int begin, int end, float low, float high, int origin, float longest_seam, int s0,
                          int s1) {
     const float slack = field_.slack() * largest_time + longest_seam;
-    const float least = std::min({first * low, first * high, last * low, last * high}) - slack;
-    const float most = std::max({first * low, first * high, last * low, last * high}) + slack;
-    return scale * (static_cast<float>(end - origin) + most) + 1 >= static_cast<float>(s0) &&
-           scale * (static_cast<float>(begin - origin) + least) - 1 <= static_cast<float>(s1);
+    const float min = std::min({first * low, first * high, last * low, last * high}) - slack;
+    const float max = std::max({first * low, first * high, last * low, last * high}) + slack;
+    return scale * (static_cast<float>(end - origin) + max) + 1 >= static_cast<float>(s0) &&
+           scale * (static_cast<float>(begin - origin) + min) - 1 <= static_cast<float>(s1);
   };
   return reach(block.y0, block.y1, block.low.y, block.high.y, target_.origin_y, seam.y, samples.y0,
                samples.y1) &&

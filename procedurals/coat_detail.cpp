@@ -22,8 +22,8 @@ Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
 }  // namespace
 
 CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-                       const Simplification& simplification, std::shared_ptr<const CoatLie> lie)
-    : groom_(std::move(groom)), simplification_(simplification), lie_(std::move(lie)) {
+                       const Simplification& simplification, std::shared_ptr<const CoatDirection> direction)
+    : groom_(std::move(groom)), simplification_(simplification), direction_(std::move(direction)) {
   const Box3f roots = root_box(*groom_, skin);
   if (roots.isEmpty()) return;
   const V3f eye = simplification_.view().open.position;
@@ -31,10 +31,10 @@ CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterS
   const V3f half = 0.5f * roots.size();
   const float nearest = beyond.length();
   const float farthest = (eye - roots.center()).length() + half.length();
-  const float share = simplification_.most_share(nearest);
+  const float share = simplification_.max_share(nearest);
   first_out_ = share >= 1 ? 1.0f : share + Simplification::fade_half_width(share);
-  least_width_factor_ = simplification_.width_factor(share, 0);
-  most_width_factor_ = simplification_.most_width_factor(farthest);
+  min_width_factor_ = simplification_.width_factor(share, 0);
+  max_width_factor_ = simplification_.max_width_factor(farthest);
 }
 
 size_t CoatDetail::candidates(size_t leaf) const {
@@ -65,7 +65,7 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
     place.open = place.close = root.position;
     if (pose.close_key != pose.open_key) place.close = groom_->root(begin + s, skin, pose.close_key).position;
     place.normal = root.du.cross(root.dv).normalized();
-    if (lie_) place.lie = lie_->at(groom_->follicles().root(begin + s), root);
+    if (direction_) place.direction = direction_->at(groom_->follicles().root(begin + s), root);
     const float share = simplification_.share(place);
     const float width = simplification_.width_factor(share, priority);
     if (width <= 0) continue;
@@ -80,8 +80,8 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
 
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail) {
   const Box3f box = skin.bound(BoundSpan::kFrame);
-  const float wider = detail ? detail->least_width_factor() : 1.0f;
-  const float widest = detail ? detail->most_width_factor() : 1.0f, width = groom.width() * skin.scale();
+  const float wider = detail ? detail->min_width_factor() : 1.0f;
+  const float widest = detail ? detail->max_width_factor() : 1.0f, width = groom.width() * skin.scale();
   return {width * wider, box.isEmpty() ? V3f(0) : box.center(), width * widest};
 }
 

@@ -8,7 +8,7 @@
 #include "geom/strand_scale.h"
 #include "groom/groom.h"
 #include "lod/simplification.h"
-#include "procedurals/coat_lie.h"
+#include "procedurals/coat_direction.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
@@ -19,9 +19,9 @@ namespace pelage {
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatDetail {
  public:
-  /// `lie` tells blur along strands from blur across them; null: strands lie anyhow.
+  /// `direction` tells blur along strands from blur across them; null: strands lie anyhow.
   CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-             const Simplification& simplification, std::shared_ptr<const CoatLie> lie);
+             const Simplification& simplification, std::shared_ptr<const CoatDirection> direction);
 
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
@@ -42,15 +42,15 @@ class CoatDetail {
   Choice choose(size_t leaf, const SkinPose& pose) const;
 
   /// No strand is widened by more; none by less that does not fade.
-  float most_width_factor() const { return most_width_factor_; }
-  float least_width_factor() const { return least_width_factor_; }
+  float max_width_factor() const { return max_width_factor_; }
+  float min_width_factor() const { return min_width_factor_; }
 
  private:
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
-  std::shared_ptr<const CoatLie> lie_;
+  std::shared_ptr<const CoatDirection> direction_;
   float first_out_ = 1;  // no strand of this priority or behind it is kept
-  float most_width_factor_ = 1, least_width_factor_ = 1;
+  float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 
 /// Of a whole coat; `detail` is null where every strand is grown.

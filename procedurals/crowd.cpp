@@ -17,9 +17,9 @@ namespace pelage {
 namespace {
 
 /// Random numbers of one animal, in [-1, 1).
-class Dice {
+class MemberRandom {
  public:
-  Dice(uint64_t seed, size_t animal) : seed_(seed), animal_(animal) {}
+  MemberRandom(uint64_t seed, size_t animal) : seed_(seed), animal_(animal) {}
   uint64_t bits(uint64_t use) const { return hash64(seed_, animal_, use); }
   float varied(float value, float variation, uint64_t use) const {
     return value * (1 + variation * signed_float(bits(use)));
@@ -30,20 +30,21 @@ class Dice {
   size_t animal_;
 };
 
-CrowdMember vary(const CrowdParams& params, const Dice& dice) {
+CrowdMember vary(const CrowdParams& params, const MemberRandom& random) {
   CrowdMember member;
-  member.prototype = dice.bits(random_use("crowd prototype")) % params.of.size();
-  const float scale = dice.varied(params.scale.value, params.scale.variation, random_use("crowd scale"));
-  member.scale = {dice.varied(scale, params.scale.axes.x, random_use("crowd scale x")),
-                  dice.varied(scale, params.scale.axes.y, random_use("crowd scale y")),
-                  dice.varied(scale, params.scale.axes.z, random_use("crowd scale z"))};
+  member.prototype = random.bits(random_use("crowd prototype")) % params.of.size();
+  const float scale = random.varied(params.scale.value, params.scale.variation, random_use("crowd scale"));
+  member.scale = {random.varied(scale, params.scale.axes.x, random_use("crowd scale x")),
+                  random.varied(scale, params.scale.axes.y, random_use("crowd scale y")),
+                  random.varied(scale, params.scale.axes.z, random_use("crowd scale z"))};
   member.frame_offset =
-      params.phase.value + params.phase.variation * signed_float(dice.bits(random_use("crowd phase")));
-  member.length = dice.varied(params.length.value, params.length.variation, random_use("crowd length"));
-  const float brightness = dice.varied(1, params.color.variation, random_use("crowd color"));
-  member.tint = params.color.value * Rgb(dice.varied(brightness, params.color.hue, random_use("crowd red")),
-                                         dice.varied(brightness, params.color.hue, random_use("crowd green")),
-                                         dice.varied(brightness, params.color.hue, random_use("crowd blue")));
+      params.phase.value + params.phase.variation * signed_float(random.bits(random_use("crowd phase")));
+  member.length = random.varied(params.length.value, params.length.variation, random_use("crowd length"));
+  const float brightness = random.varied(1, params.color.variation, random_use("crowd color"));
+  member.tint =
+      params.color.value * Rgb(random.varied(brightness, params.color.hue, random_use("crowd red")),
+                               random.varied(brightness, params.color.hue, random_use("crowd green")),
+                               random.varied(brightness, params.color.hue, random_use("crowd blue")));
   return member;
 }
 
@@ -56,8 +57,8 @@ Footprint scaled(const Footprint& footprint, const V3f& scale) {
 
 }  // namespace
 
-int64_t crowd_making_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
-                           size_t obstacles) {
+int64_t crowd_temporary_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
+                              size_t obstacles) {
   size_t discs = 1;
   for (const Footprint& footprint : footprints) discs = std::max(discs, footprint.size());
   const size_t bodies = static_cast<size_t>(params.count) + obstacles;
@@ -69,7 +70,7 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles) {
   const MemoryCharge making =
-      reserve(job.ledger, MemoryTag::kSkins, crowd_making_bytes(params, footprints, obstacles.size()),
+      reserve(job.ledger, MemoryTag::kSkins, crowd_temporary_bytes(params, footprints, obstacles.size()),
               fmt::format("crowd '{}': placing {} animals", name, params.count));
   constexpr float to_radians = std::numbers::pi_v<float> / 180;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed),
@@ -80,7 +81,7 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
   rules.footprints.reserve(static_cast<size_t>(params.count));
   for (size_t i = 0; i < static_cast<size_t>(params.count); ++i) {
     if (i % 4096 == 0) job.check_stop();
-    members.push_back(vary(params, Dice(seed, i)));
+    members.push_back(vary(params, MemberRandom(seed, i)));
     rules.footprints.push_back(scaled(footprints[members.back().prototype], members.back().scale));
   }
   rules.spacing = params.spacing;

@@ -75,8 +75,8 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles = {});
 
 /// Upper bound of the bytes that placing a crowd holds at any moment, what it makes included.
-int64_t crowd_making_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
-                           size_t obstacles);
+int64_t crowd_temporary_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
+                              size_t obstacles);
 
 /// The ground that an animal covers, for the `footprint` of its prototype.
 PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint);

@@ -6,7 +6,7 @@ namespace pelage {
 namespace {
 
 // A share that an animal may lose without vanishing.
-constexpr double kMostVariation = 0.95;
+constexpr double kMaxVariation = 0.95;
 
 }  // namespace
 
@@ -38,9 +38,9 @@ const Schema<CrowdScaleParams>& CrowdScaleParams::schema() {
     Schema<CrowdScaleParams> s("crowd scale", "How large the animals of a crowd are.");
     s.key("value", &CrowdScaleParams::value, {.help = "Of all", .min = 0, .above_min = true});
     s.key("variation", &CrowdScaleParams::variation,
-          {.help = "Most that one is larger or smaller, as a share", .min = 0, .max = kMostVariation});
+          {.help = "Most that one is larger or smaller, as a share", .min = 0, .max = kMaxVariation});
     s.key("axes", &CrowdScaleParams::axes,
-          {.help = "The same for width, height and length by themselves", .min = 0, .max = kMostVariation});
+          {.help = "The same for width, height and length by themselves", .min = 0, .max = kMaxVariation});
     return s;
   }();
   return table;
@@ -52,7 +52,7 @@ const Schema<CrowdLengthParams>& CrowdLengthParams::schema() {
     s.key("value", &CrowdLengthParams::value,
           {.help = "Times what the groom makes", .min = 0, .above_min = true});
     s.key("variation", &CrowdLengthParams::variation,
-          {.help = "Most that one's is longer or shorter, as a share", .min = 0, .max = kMostVariation});
+          {.help = "Most that one's is longer or shorter, as a share", .min = 0, .max = kMaxVariation});
     return s;
   }();
   return table;

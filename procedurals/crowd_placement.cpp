@@ -17,12 +17,12 @@ namespace pelage {
 namespace {
 
 constexpr int kRounds = 40, kSweepsPerRound = 80;
-constexpr size_t kOneInSoManyJumps = 100;
+constexpr size_t kBodiesPerJump = 100;
 // What keeps a crowd of a million from taking hours: places of others that jumps of a round look at, and
 // animals that sweeps visit in all.
-constexpr size_t kMostComparisons = 100'000'000, kMostVisits = 200'000'000;
-constexpr size_t kWorthShowing = 20'000;  // animals; pushed about for some time, if they stand densely
-constexpr int kJumps = 100;               // places that are tried for one that is stuck
+constexpr size_t kMaxComparisons = 100'000'000, kMaxVisits = 200'000'000;
+constexpr size_t kMinForProgress = 20'000;  // animals; pushed about for some time, if they stand densely
+constexpr int kJumps = 100;                 // places that are tried for one that is stuck
 constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
 constexpr double kDensest = 0.9069;  // of equal discs in the plane
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -62,14 +62,14 @@ Body body_of(const Footprint& footprint, const CrowdPlace& place) {
 }
 
 float distance(const Body& a, const Body& b) {
-  float least = std::numeric_limits<float>::infinity();
+  float min = std::numeric_limits<float>::infinity();
   for (size_t p = 0; p < a.discs.size(); ++p) {
     for (size_t q = 0; q < b.discs.size(); ++q) {
       const V2f apart = b.place.position + b.lever(q) - a.place.position - a.lever(p);
-      least = std::min(least, apart.length() - a.discs[p].z - b.discs[q].z);
+      min = std::min(min, apart.length() - a.discs[p].z - b.discs[q].z);
     }
   }
-  return least;
+  return min;
 }
 
 /// Points of the R2 sequence [Roberts18] that fall into the area, each moved at random by part of their
@@ -163,12 +163,12 @@ class Crowd {
     std::sort(contacts_.begin(), contacts_.end(), [](const Contact& a, const Contact& b) {
       return a.depth != b.depth ? a.depth > b.depth : a.body < b.body;
     });
-    const size_t most_jumps =
-        1 + std::min(bodies_.size() / kOneInSoManyJumps, kMostComparisons / (kJumps * bodies_.size()));
-    for (size_t n = 0; n < std::min(most_jumps, contacts_.size()); ++n) {
+    const size_t max_jumps =
+        1 + std::min(bodies_.size() / kBodiesPerJump, kMaxComparisons / (kJumps * bodies_.size()));
+    for (size_t n = 0; n < std::min(max_jumps, contacts_.size()); ++n) {
       const uint32_t i = contacts_[n].body;
       CrowdPlace best = bodies_[i].place;
-      float most = -std::numeric_limits<float>::infinity();
+      float max = -std::numeric_limits<float>::infinity();
       for (uint64_t attempt = 0; attempt < kJumps; ++attempt) {
         job_.check_stop();
         const auto dice = [&](uint64_t use) { return hash64(rules_.seed, i, round, attempt, use); };
@@ -177,9 +177,9 @@ class Crowd {
                                                          size.y * unit_float(dice(random_use("crowd z")))));
         place.heading =
             rules_.heading + rules_.heading_variation * signed_float(dice(random_use("crowd turn")));
-        const float room = room_at(i, place, most);
-        if (room <= most) continue;
-        most = room;
+        const float room = room_at(i, place, max);
+        if (room <= max) continue;
+        max = room;
         best = place;
       }
       bodies_[i].place = best;
@@ -216,8 +216,8 @@ class Crowd {
         deepest = std::max(deepest, separate(a, p, b, q, hash64(rules_.seed, i, j)));
     }
     if (deepest > 0) {
-      settle(a);
-      settle(b);
+      constrain(a);
+      constrain(b);
     }
     return deepest;
   }
@@ -249,12 +249,12 @@ class Crowd {
   }
 
   /// Back into the area and the allowed headings.
-  void settle(Body& body) const {
+  void constrain(Body& body) const {
     if (body.yields == 0) return;
     body.place.position = area_.nearest(body.place.position);
     if (rules_.heading_variation >= kPi) return;
-    const float most = rules_.heading_variation;
-    body.turn_to(rules_.heading + std::clamp(body.place.heading - rules_.heading, -most, most));
+    const float max = rules_.heading_variation;
+    body.turn_to(rules_.heading + std::clamp(body.place.heading - rules_.heading, -max, max));
   }
 
   const GroundArea& area_;
@@ -283,11 +283,11 @@ void require_space(const GroundArea& area, const CrowdRules& rules) {
   const double disc = double(radius) + 0.5 * rules.spacing, over = disc + offset;
   if (!(disc > 0) || rules.footprints.size() < 2) return;
   const double room = area.surface() + area.border() * over + std::numbers::pi * over * over;
-  const double most = kDensest * room / (std::numbers::pi * disc * disc);
-  if (static_cast<double>(rules.footprints.size()) <= most + 1) return;
+  const double max = kDensest * room / (std::numbers::pi * disc * disc);
+  if (static_cast<double>(rules.footprints.size()) <= max + 1) return;
   throw Error(ErrorKind::kInput,
               fmt::format("{} do not fit into its area: there is room for less than {:.0f} at this spacing",
-                          rules.footprints.size(), most + 1));
+                          rules.footprints.size(), max + 1));
 }
 
 }  // namespace
@@ -307,9 +307,9 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
   // Sweeps end as soon as nobody touches anybody: how many there are nobody knows before.
   const size_t visited_by_a_sweep = count + rules.obstacles.size();
   const size_t sweeps =
-      std::min<size_t>(kRounds * kSweepsPerRound, kMostVisits / std::max<size_t>(1, visited_by_a_sweep) + 1);
+      std::min<size_t>(kRounds * kSweepsPerRound, kMaxVisits / std::max<size_t>(1, visited_by_a_sweep) + 1);
   const ProgressStage stage(job.progress, "place animals", static_cast<double>(sweeps),
-                            count >= kWorthShowing);
+                            count >= kMinForProgress);
   const std::vector<V2f> points = spread(area, count, rules.seed, job);
   std::vector<Body> bodies;
   bodies.reserve(count + rules.obstacles.size());
@@ -326,12 +326,12 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
   size_t contacts = 1, visits = 0;
   for (uint64_t round = 0; round < kRounds && contacts > 0; ++round) {
     if (round > 0) crowd.jump(round);
-    for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0 && visits <= kMostVisits; ++sweep) {
+    for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0 && visits <= kMaxVisits; ++sweep) {
       contacts = crowd.sweep();
       visits += crowd.bodies().size();
       stage.advance(1);
     }
-    if (visits > kMostVisits) break;
+    if (visits > kMaxVisits) break;
   }
   if (contacts > 0) {
     throw Error(ErrorKind::kInput,

@@ -17,9 +17,9 @@ namespace pelage {
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// What it divides into, of at most `most_cost` each where its faces allow it (divide_skin). Throws Error
+  /// What it divides into, of at most `max_cost` each where its faces allow it (divide_skin). Throws Error
   /// (kStopped).
-  virtual std::vector<SkinPiece> divide(const View& view, size_t most_cost, const Job& job) const = 0;
+  virtual std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const = 0;
   /// Holds every triangle of a piece over the span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
   /// Poses of tessellate(), at even times over the shutter.
@@ -27,7 +27,7 @@ class DeferredSkin {
   /// The triangles of a piece, the same wherever the skin is divided.
   virtual SkinMesh tessellate(const SkinPiece& piece, const View& view) const = 0;
   /// What tessellate() holds at most beside what it gives, but for what is charged already.
-  virtual size_t making_bytes(const SkinPiece& piece) const = 0;
+  virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
 };
 
 }  // namespace pelage

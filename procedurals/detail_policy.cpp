@@ -1,37 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/detail_policy.h"
 
-#include "procedurals/strand_nature.h"
+#include "procedurals/coat_stats.h"
 
 namespace pelage {
 
 Simplification DetailPolicy::simplification(const Groom& groom, const LimitSurface* rest,
                                             const PosedCharacterSkin& skin) {
-  auto known = natures_.find(&groom);
-  if (known == natures_.end()) {
+  auto known = stats_.find(&groom);
+  if (known == stats_.end()) {
     known =
-        natures_.emplace(&groom, strand_nature(groom, groom.grows_on_skin() ? rest : nullptr, job_.workers))
-            .first;
+        stats_.emplace(&groom, coat_stats(groom, groom.grows_on_skin() ? rest : nullptr, job_.workers)).first;
   }
-  StrandNature nature = known->second;
-  nature.width *= skin.scale();
-  nature.length *= skin.scale() * skin.length();
-  nature.area_share *= skin.length();
-  nature.density /= skin.scale() * skin.scale();
+  CoatStats stats = known->second;
+  stats.width *= skin.scale();
+  stats.length *= skin.scale() * skin.length();
+  stats.area_share *= skin.length();
+  stats.density /= skin.scale() * skin.scale();
   SimplificationParams params = params_;
   if (groom.role() == StrandRole::kWhisker)
-    params.motion_blur = params.depth_of_field = params.turned_away = false;
+    params.motion_blur = params.depth_of_field = params.back_facing = false;
   const float budget = groom.role() == StrandRole::kGuard     ? params.guard
                        : groom.role() == StrandRole::kWhisker ? params.whisker
                                                               : params.under;
-  return {params, view_, nature, budget};
+  return {params, view_, stats, budget};
 }
 
-std::shared_ptr<const CoatLie> DetailPolicy::lie(const Groom& groom,
-                                                 const std::shared_ptr<const LimitSurface>& rest) {
+std::shared_ptr<const CoatDirection> DetailPolicy::direction(
+    const Groom& groom, const std::shared_ptr<const LimitSurface>& rest) {
   if (!blurs_ || !groom.grows_on_skin() || groom.role() == StrandRole::kWhisker) return {};
-  std::shared_ptr<const CoatLie>& known = lies_[&groom];
-  if (!known) known = std::make_shared<const CoatLie>(groom, rest, job_.workers);
+  std::shared_ptr<const CoatDirection>& known = directions_[&groom];
+  if (!known) known = std::make_shared<const CoatDirection>(groom, rest, job_.workers);
   return known;
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/job.h"
 #include "lod/simplification.h"
-#include "procedurals/coat_lie.h"
+#include "procedurals/coat_direction.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
@@ -24,15 +24,16 @@ class DetailPolicy {
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
   /// How its strands lie, which motion blur asks for; null where it does not.
-  std::shared_ptr<const CoatLie> lie(const Groom& groom, const std::shared_ptr<const LimitSurface>& rest);
+  std::shared_ptr<const CoatDirection> direction(const Groom& groom,
+                                                 const std::shared_ptr<const LimitSurface>& rest);
 
  private:
   const SimplificationParams params_;
   const LodView view_;
   const bool blurs_;
   const Job& job_;
-  std::map<const Groom*, StrandNature> natures_;
-  std::map<const Groom*, std::shared_ptr<const CoatLie>> lies_;
+  std::map<const Groom*, CoatStats> stats_;
+  std::map<const Groom*, std::shared_ptr<const CoatDirection>> directions_;
 };
 
 }  // namespace pelage

@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMostSteps = 255;
+constexpr int kMaxSteps = 255;
 constexpr float kSmallestStep = 1e-30f;  // a normal number whatever the processor does to others
 
 /// In double precision, so that what is cut off below can be neglected beside the doubt of every ray test.
@@ -28,7 +28,7 @@ struct Extent {
 FineBoxes::Group empty_group() {
   FineBoxes::Group group;
   for (auto& axis : group) {
-    axis[0].fill(kMostSteps);
+    axis[0].fill(kMaxSteps);
     axis[1].fill(0);
   }
   return group;
@@ -70,7 +70,7 @@ FineBoxes::FineBoxes(std::span<const Box3f> boxes, size_t keys) : count_(uint32_
   }
   for (int i = 0; i < 3; ++i) {
     grid_.corner[i] = std::nextafter(static_cast<float>(all.low[i]), -INFINITY);
-    const double step = (all.high[i] - static_cast<double>(grid_.corner[i])) / kMostSteps;
+    const double step = (all.high[i] - static_cast<double>(grid_.corner[i])) / kMaxSteps;
     grid_.step[i] = std::max(std::nextafter(static_cast<float>(step), INFINITY), kSmallestStep);
   }
 
@@ -81,7 +81,7 @@ FineBoxes::FineBoxes(std::span<const Box3f> boxes, size_t keys) : count_(uint32_
       const double corner = grid_.corner[i], step = grid_.step[i];
       const double low = std::floor((extents[b].low[i] - corner) / step);
       const double high = std::ceil((extents[b].high[i] - corner) / step);
-      PELAGE_CHECK(low >= 0 && high <= kMostSteps);
+      PELAGE_CHECK(low >= 0 && high <= kMaxSteps);
       sides[0][b % 4] = static_cast<uint8_t>(low);
       sides[1][b % 4] = static_cast<uint8_t>(high);
     }

@@ -56,7 +56,7 @@ class FixedSkin final : public DeferredSkin {
   }
   int motion_keys() const override { return mesh_.motion_keys; }
   SkinMesh tessellate(const SkinPiece&, const View&) const override { return mesh_; }
-  size_t making_bytes(const SkinPiece&) const override { return 0; }
+  size_t temporary_bytes(const SkinPiece&) const override { return 0; }
 
  private:
   SkinMesh mesh_;

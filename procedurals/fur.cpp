@@ -34,17 +34,18 @@ Box3f bound_of(const std::vector<std::unique_ptr<Procedural>>& chunks, BoundSpan
 
 FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
                              std::shared_ptr<const PosedCharacterSkin> skin,
-                             const std::optional<Simplification>& lod, std::shared_ptr<const CoatLie> lie)
+                             const std::optional<Simplification>& lod,
+                             std::shared_ptr<const CoatDirection> direction)
     : groom_(std::move(groom)), skin_(std::move(skin)) {
-  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(lie));
-  skin_->expect_leaves(*groom_, detail_ != nullptr);
+  if (lod) detail_ = std::make_shared<const CoatDetail>(groom_, *skin_, *lod, std::move(direction));
+  skin_->reserve_for_leaves(*groom_, detail_ != nullptr);
 }
 
 Box3f FurProcedural::bound(BoundSpan span) const {
   if (groom_->grows_on_skin()) {
     // Without posing the skin: a crowd asks this of every animal.
     Box3f box = skin_->bound(span);
-    const float wider = detail_ ? 0.5f * groom_->width() * (detail_->most_width_factor() - 1) : 0.0f;
+    const float wider = detail_ ? 0.5f * groom_->width() * (detail_->max_width_factor() - 1) : 0.0f;
     const V3f out((groom_->reach() * std::max(1.0f, skin_->length()) + wider) * skin_->scale());
     return {box.min - out, box.max + out};
   }

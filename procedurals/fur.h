@@ -12,10 +12,11 @@ namespace pelage {
 /// The coat of one groom on one character: splits into one leaf per leaf of the groom's follicle hierarchy.
 class FurProcedural final : public Procedural {
  public:
-  /// With `lod`, detail is reduced as that and `lie` (CoatDetail) say, and leaves may go together in one
-  /// chunk.
+  /// With `lod`, detail is reduced as that and `direction` (CoatDetail) say, and leaves may go together in
+  /// one chunk.
   FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
-                const std::optional<Simplification>& lod = {}, std::shared_ptr<const CoatLie> lie = {});
+                const std::optional<Simplification>& lod = {},
+                std::shared_ptr<const CoatDirection> direction = {});
 
   Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;

@@ -109,11 +109,11 @@ V2f GroundArea::nearest(const V2f& point) const {
   if (contains(point)) return point;
   if (outline_.empty()) return center_ + (point - center_) * (radius_ / (point - center_).length());
   V2f best = outline_[0];
-  float least = std::numeric_limits<float>::infinity();
+  float min = std::numeric_limits<float>::infinity();
   for (size_t i = 0; i < outline_.size(); ++i) {
     const V2f here = nearest_on_line(outline_[i], outline_[(i + 1) % outline_.size()], point);
-    if ((here - point).length2() < least) {
-      least = (here - point).length2();
+    if ((here - point).length2() < min) {
+      min = (here - point).length2();
       best = here;
     }
   }

@@ -17,7 +17,7 @@ size_t measuring_bytes(const StrandCounts& counts) {
          SegmentParts::bytes_bound(counts.segments, counts.motion_keys);
 }
 
-bool MeasuredBounds::Family::is_complete() const {
+bool MeasuredBounds::BoundsGroup::is_complete() const {
   return std::find(chunks.begin(), chunks.end(), kNone) == chunks.end();
 }
 
@@ -33,28 +33,28 @@ MeasuredBounds::MeasuredBounds(const BoundingOptions& options, std::span<const P
       }),
       bounds_(chunks.size()),
       areas_(chunks.size()),
-      family_of_(chunks.size(), kNone),
+      group_of_(chunks.size(), kNone),
       known_(chunks.size()) {
   for (ChunkBounds& chunk : bounds_) chunk.keys = keys_;
-  find_families();
+  find_groups();
 }
 
-void MeasuredBounds::find_families() {
+void MeasuredBounds::find_groups() {
   for (uint32_t i = 0; i < chunks_.size(); ++i) {
     const std::optional<BoundsRecord> record = chunks_[i]->bounds_record();
     if (!record) continue;
     // Leaves of a coat come one after the other.
-    if (families_.empty() || families_.back().record.key != record->key ||
-        families_.back().chunks[record->index] != kNone) {
-      families_.push_back({*record, std::vector<uint32_t>(record->count, kNone)});
+    if (groups_.empty() || groups_.back().record.key != record->key ||
+        groups_.back().chunks[record->index] != kNone) {
+      groups_.push_back({*record, std::vector<uint32_t>(record->count, kNone)});
     }
-    families_.back().chunks[record->index] = i;
+    groups_.back().chunks[record->index] = i;
   }
-  left_ = std::vector<std::atomic<uint32_t>>(families_.size());
-  for (uint32_t f = 0; f < families_.size(); ++f) {
-    if (!families_[f].is_complete()) continue;
-    left_[f].store(static_cast<uint32_t>(families_[f].chunks.size()), std::memory_order_relaxed);
-    for (const uint32_t chunk : families_[f].chunks) family_of_[chunk] = f;
+  left_ = std::vector<std::atomic<uint32_t>>(groups_.size());
+  for (uint32_t f = 0; f < groups_.size(); ++f) {
+    if (!groups_[f].is_complete()) continue;
+    left_[f].store(static_cast<uint32_t>(groups_[f].chunks.size()), std::memory_order_relaxed);
+    for (const uint32_t chunk : groups_[f].chunks) group_of_[chunk] = f;
   }
 }
 
@@ -68,12 +68,12 @@ void MeasuredBounds::drop_parts(uint32_t chunk) {
 }
 
 void MeasuredBounds::read(const Job& job) {
-  job.workers.for_each(families_.size(), 1, [&](WorkRange range) {
+  job.workers.for_each(groups_.size(), 1, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end && !job.progress.cancelled(); ++f) {
-      const Family& family = families_[f];
-      std::vector<ChunkBounds> read = read_bounds(family.record, span_, keys_, warn_);
+      const BoundsGroup& group = groups_[f];
+      std::vector<ChunkBounds> read = read_bounds(group.record, span_, keys_, warn_);
       for (size_t i = 0; i < read.size(); ++i) {
-        const uint32_t chunk = family.chunks[i];
+        const uint32_t chunk = group.chunks[i];
         if (chunk == kNone) continue;
         keep(chunk, std::move(read[i]));
         drop_parts(chunk);
@@ -97,29 +97,29 @@ void MeasuredBounds::measure(const Job& job) {
                                    static_cast<int64_t>(measuring_bytes(chunk.counts())));
         keep(unknown[u], chunk.exact_bounds(span_, keys_));
       }
-      settle(unknown[u]);
+      mark_known(unknown[u]);
       job.progress.advance(1);
     }
   });
 }
 
 /// A chunk was measured. The last of its family sees what all others have left.
-void MeasuredBounds::settle(uint32_t chunk) {
-  const uint32_t f = family_of_[chunk];
+void MeasuredBounds::mark_known(uint32_t chunk) {
+  const uint32_t f = group_of_[chunk];
   if (f == kNone) return drop_parts(chunk);
   if (left_[f].fetch_sub(1, std::memory_order_acq_rel) > 1) return;
-  write(families_[f]);
-  for (const uint32_t member : families_[f].chunks) drop_parts(member);
+  write(groups_[f]);
+  for (const uint32_t member : groups_[f].chunks) drop_parts(member);
 }
 
-void MeasuredBounds::write(const Family& family) {
+void MeasuredBounds::write(const BoundsGroup& group) {
   std::vector<const ChunkBounds*> all;
-  for (const uint32_t chunk : family.chunks) all.push_back(&bounds_[chunk]);
-  write_bounds(family.record, span_, keys_, all, [this](const std::string& line) {
+  for (const uint32_t chunk : group.chunks) all.push_back(&bounds_[chunk]);
+  write_bounds(group.record, span_, keys_, all, [this](const std::string& line) {
     {
       const std::lock_guard lock(warning_);
-      if (told_) return;
-      told_ = true;
+      if (warned_) return;
+      warned_ = true;
     }
     warn_(line + "; no more is said of boxes that are not kept");
   });

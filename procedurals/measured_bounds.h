@@ -31,17 +31,17 @@ class MeasuredBounds {
  private:
   static constexpr uint32_t kNone = ~0u;
   /// Chunks whose boxes are remembered in one file: all that the file is about.
-  struct Family {
+  struct BoundsGroup {
     BoundsRecord record;
     std::vector<uint32_t> chunks;  // by index in the file; kNone where a chunk is not among those bounded
     bool is_complete() const;
   };
 
-  void find_families();
+  void find_groups();
   void keep(uint32_t chunk, ChunkBounds bounds);
   void drop_parts(uint32_t chunk);
-  void settle(uint32_t chunk);
-  void write(const Family& family);
+  void mark_known(uint32_t chunk);
+  void write(const BoundsGroup& group);
 
   const BoundingOptions options_;
   const BoundSpan span_;
@@ -49,11 +49,11 @@ class MeasuredBounds {
   const std::span<const Procedural* const> chunks_;
   const WarningSink warn_;  // by one thread at a time
   std::mutex warning_;
-  bool told_ = false;  // that something cannot be kept; guarded by warning_
+  bool warned_ = false;  // that something cannot be kept; guarded by warning_
   std::vector<ChunkBounds> bounds_;
   std::vector<BoundsArea> areas_;  // by chunk, so that their sum is the same for any order
-  std::vector<Family> families_;
-  std::vector<uint32_t> family_of_;          // by chunk; kNone: of none that is complete
+  std::vector<BoundsGroup> groups_;
+  std::vector<uint32_t> group_of_;           // by chunk; kNone: of none that is complete
   std::vector<std::atomic<uint32_t>> left_;  // by family: chunks that are not known yet
   std::vector<char> known_;                  // by chunk: from a file
 };

@@ -18,12 +18,12 @@ void PoseCache::raise(size_t& largest, size_t bytes, size_t count) {
   largest = bytes;
 }
 
-void PoseCache::expect(size_t bytes) {
+void PoseCache::reserve(size_t bytes) {
   const std::lock_guard lock(mutex_);
   raise(largest_, bytes, 2 * threads_);
 }
 
-void PoseCache::expect_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys) {
+void PoseCache::reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys) {
   const std::lock_guard lock(mutex_);
   const auto [known, is_new] = expected_.emplace(&groom, &topology, keys);
   if (!is_new) return;
@@ -33,7 +33,7 @@ void PoseCache::expect_leaves(const Groom& groom, const SurfaceTopology& topolog
   }
 }
 
-void PoseCache::expect_whole(const SurfaceTopology& topology, size_t keys) {
+void PoseCache::reserve_for_whole(const SurfaceTopology& topology, size_t keys) {
   const std::lock_guard lock(mutex_);
   const auto [held, making] = topology.pose_bytes();
   raise(largest_part_, sizeof(SkinPose) + keys * (held + sizeof(M44f)) + making, threads_);

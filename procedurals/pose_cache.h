@@ -27,11 +27,11 @@ class PoseCache {
   PoseCache& operator=(const PoseCache&) = delete;
 
   /// Says that whole poses of `bytes` will be made.
-  void expect(size_t bytes);
+  void reserve(size_t bytes);
   /// Says that leaves of a groom will grow on their part of poses of `keys` times. Both outlive the cache.
-  void expect_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
+  void reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
   /// Says that parts of poses of `keys` times will be made that may hold all faces.
-  void expect_whole(const SurfaceTopology& topology, size_t keys);
+  void reserve_for_whole(const SurfaceTopology& topology, size_t keys);
   /// Keeps `pose` alive until as many others as there are threads have been used after it.
   void keep(std::shared_ptr<const SkinPose> pose);
 

@@ -53,7 +53,7 @@ PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseC
   PELAGE_CHECK(pose_.frame_ends.cages.size() == pose_.frame_ends.transforms.size());
   PELAGE_CHECK(pose_.frame_ends.cages.empty() || pose_.frame_ends.cages.size() == 2);
   // How large the trees are is known when they are made.
-  if (pose_.push_out_view) poses_->expect(make(BoundSpan::kFrame)->bytes());
+  if (pose_.push_out_view) poses_->reserve(make(BoundSpan::kFrame)->bytes());
 }
 
 std::shared_ptr<const SkinPose> PosedCharacterSkin::pose(BoundSpan span) const {
@@ -111,17 +111,17 @@ SkinPose PosedCharacterSkin::pose(BoundSpan span, std::span<const uint32_t> face
   return made;
 }
 
-void PosedCharacterSkin::expect_leaves(const Groom& groom, bool together) const {
+void PosedCharacterSkin::reserve_for_leaves(const Groom& groom, bool together) const {
   const size_t keys = pose_.shutter.cages.size() + pose_.frame_ends.cages.size();
   if (together) {
-    poses_->expect_whole(*pose_.topology, keys);
+    poses_->reserve_for_whole(*pose_.topology, keys);
   } else {
-    poses_->expect_leaves(groom, *pose_.topology, keys);
+    poses_->reserve_for_leaves(groom, *pose_.topology, keys);
   }
 }
 
 /// Whole, for a moment: not kept where making it again is cheaper than what it would take.
-std::shared_ptr<const SkinPose> PosedCharacterSkin::passing_pose() const {
+std::shared_ptr<const SkinPose> PosedCharacterSkin::temporary_pose() const {
   return pose_.push_out_view ? pose(BoundSpan::kShutter) : make(BoundSpan::kShutter);
 }
 
@@ -151,18 +151,18 @@ Box3f PosedCharacterSkin::bound(const SkinPiece& piece, BoundSpan span) const {
   return widened(box);
 }
 
-std::vector<SkinPiece> PosedCharacterSkin::divide(const View& view, size_t most_cost, const Job& job) const {
-  return divide_skin(passing_pose()->keys, view, {}, most_cost, job);
+std::vector<SkinPiece> PosedCharacterSkin::divide(const View& view, size_t max_cost, const Job& job) const {
+  return divide_skin(temporary_pose()->keys, view, {}, max_cost, job);
 }
 
 SkinMesh PosedCharacterSkin::tessellate(const SkinPiece& piece, const View& view) const {
-  if (piece.is_whole()) return pelage::tessellate(passing_pose()->keys, view, {}, Workers::alone());
-  if (pose_.push_out_view) return tessellate_faces(passing_pose()->keys, piece.faces, view, {});
+  if (piece.is_whole()) return pelage::tessellate(temporary_pose()->keys, view, {}, Workers::alone());
+  if (pose_.push_out_view) return tessellate_faces(temporary_pose()->keys, piece.faces, view, {});
   const std::vector<uint32_t> around = faces_around(*pose_.topology, piece.faces);
   return tessellate_faces(pose(BoundSpan::kShutter, around).keys, piece.faces, view, {});
 }
 
-size_t PosedCharacterSkin::making_bytes(const SkinPiece& piece) const {
+size_t PosedCharacterSkin::temporary_bytes(const SkinPiece& piece) const {
   const SurfaceTopology& topology = *pose_.topology;
   std::vector<uint32_t> around;
   if (!piece.is_whole()) around = faces_around(topology, piece.faces);

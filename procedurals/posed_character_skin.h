@@ -56,15 +56,15 @@ class PosedCharacterSkin final : public DeferredSkin {
   SkinPose pose(BoundSpan span, std::span<const uint32_t> faces) const;
   /// Says that the leaves of a groom will grow here, each in the pose of its faces, or, `together`, any
   /// number of them at once.
-  void expect_leaves(const Groom& groom, bool together = false) const;
+  void reserve_for_leaves(const Groom& groom, bool together = false) const;
 
   /// The hull of the control points, a little widened.
   Box3f bound(BoundSpan span) const;
-  std::vector<SkinPiece> divide(const View& view, size_t most_cost, const Job& job) const override;
+  std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const override;
   /// The hull of the control points that shape the piece, a little widened.
   Box3f bound(const SkinPiece& piece, BoundSpan span) const override;
   SkinMesh tessellate(const SkinPiece& piece, const View& view) const override;
-  size_t making_bytes(const SkinPiece& piece) const override;
+  size_t temporary_bytes(const SkinPiece& piece) const override;
 
   /// Of all that shapes what grows here, but for its length: topology, control points of all times,
   /// transforms, scale. Equal poses have equal hashes.
@@ -75,7 +75,7 @@ class PosedCharacterSkin final : public DeferredSkin {
   template <class AddSurface>
   void add_keys(BoundSpan span, SkinPose& pose, const AddSurface& add_surface) const;
   std::shared_ptr<const SkinPose> make(BoundSpan span) const;
-  std::shared_ptr<const SkinPose> passing_pose() const;
+  std::shared_ptr<const SkinPose> temporary_pose() const;
   template <class Visit>
   void visit_cages(BoundSpan span, const Visit& visit) const;
 

@@ -49,7 +49,7 @@ class Procedural {
   /// Of the coat: the same for all that it splits into.
   virtual StrandScale scale() const = 0;
   /// What generate() holds beside what it gives and what growing any leaf takes.
-  virtual size_t making_bytes() const { return 0; }
+  virtual size_t temporary_bytes() const { return 0; }
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
   /// drops it. `keys` is 1, or 2 for boxes linear in time over the shutter.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;

@@ -13,13 +13,13 @@ namespace pelage {
 std::vector<std::unique_ptr<Procedural>> ThinnedFurProcedural::divide(
     std::shared_ptr<const CoatDetail> detail, std::shared_ptr<const PosedCharacterSkin> skin) {
   const auto leaves = detail->groom().follicles().leaves();
-  size_t most = 0;
-  for (const FollicleTree::Leaf& leaf : leaves) most = std::max<size_t>(most, leaf.end - leaf.begin);
+  size_t max = 0;
+  for (const FollicleTree::Leaf& leaf : leaves) max = std::max<size_t>(max, leaf.end - leaf.begin);
   std::vector<size_t> firsts;
   size_t strands = 0;
   for (size_t leaf = 0; leaf < leaves.size(); ++leaf) {
     const size_t more = detail->candidates(leaf);
-    if (firsts.empty() || strands + more > most) {
+    if (firsts.empty() || strands + more > max) {
       firsts.push_back(leaf);
       strands = 0;
     }
@@ -81,7 +81,7 @@ ChunkBounds ThinnedFurProcedural::exact_bounds(BoundSpan span, int keys) const {
 Box3f ThinnedFurProcedural::bound(BoundSpan span) const {
   const Groom& groom = detail_->groom();
   return in_pose(span, [&](const SkinPose& pose) {
-    const V3f wider(0.5f * groom.width() * skin_->scale() * (detail_->most_width_factor() - 1));
+    const V3f wider(0.5f * groom.width() * skin_->scale() * (detail_->max_width_factor() - 1));
     Box3f box;
     for (size_t leaf = first_; leaf < end_; ++leaf)
       box.extendBy(groom.conservative_bound(leaf, pose.skin(), detail_->candidates(leaf)));
@@ -102,7 +102,7 @@ StrandScale ThinnedFurProcedural::scale() const {
   return coat_scale(detail_->groom(), *skin_, detail_.get());
 }
 
-size_t ThinnedFurProcedural::making_bytes() const {
+size_t ThinnedFurProcedural::temporary_bytes() const {
   // Leaves, before and while they become one batch with fewer points.
   const StrandCounts n = counts();
   return (4 * n.points * n.motion_keys + n.attribute_floats) * sizeof(float) +

@@ -26,7 +26,7 @@ class ThinnedFurProcedural final : public Procedural {
   Strands generate() const override;
   StrandCounts counts() const override;
   StrandScale scale() const override;
-  size_t making_bytes() const override;
+  size_t temporary_bytes() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
   std::optional<ContentHash> content() const override;
   std::optional<BoundsRecord> bounds_record() const override;

@@ -51,9 +51,9 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& s
   const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry->fits()).run();
   result.partial = end.partial;
   result.time_limited = end.time_limited;
-  result.samples = loop.least_given();
+  result.samples = loop.min_samples();
   result.clamped_fraction = loop.clamped_fraction();
-  result.mean_samples = loop.mean_given();
+  result.mean_samples = loop.mean_samples();
   result.noise = frame_noise(result.film.moments());
   result.first_tile_s = loop.first_tile_s();
   loop.add_to(statistics);

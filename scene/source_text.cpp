@@ -6,7 +6,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMostBrackets = 256;
+constexpr int kMaxBrackets = 256;
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
@@ -74,7 +74,7 @@ bool SourceText::check(Problems& problems) {
     if (text_[i] == ']' || text_[i] == '}') brackets = std::max(brackets - 1, 0);
     const char* mistake = length == 0                  ? "this is not UTF-8 text"
                           : is_forbidden_control(rest) ? "control characters may not stand in a scene"
-                          : brackets > kMostBrackets   ? "too many brackets are open"
+                          : brackets > kMaxBrackets    ? "too many brackets are open"
                                                        : nullptr;
     if (mistake) {
       problems.add(position_of_byte(i), mistake);

@@ -71,7 +71,7 @@ void require_room_for_strands(const SceneDescription& scene, const Job& job) {
   int64_t kept = 0;
   for (const auto& [name, position, params] : scene.grooms.items) {
     if (!params.strands || params.cache) continue;
-    require_room(job.ledger, kept + follicle_making_bytes(*params.strands),
+    require_room(job.ledger, kept + follicle_temporary_bytes(*params.strands),
                  fmt::format("groom '{}': placing {} strands", name, *params.strands));
     kept += follicle_bytes(*params.strands);
   }

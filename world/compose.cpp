@@ -36,11 +36,11 @@ class Composer {
 
   void add_all() {
     const std::vector<DrawnCharacter> drawn = drawn_characters(scene_, assets_);
-    const std::vector<bool> in_full =
-        characters_in_full(drawn, scene_.render.lod.in_full, lod_view_.open.position, frame_);
+    const std::vector<bool> full_detail =
+        full_detail_characters(drawn, scene_.render.lod.full_detail, lod_view_.open.position, frame_);
     for (size_t i = 0; i < drawn.size(); ++i) {
       job_.check_stop();
-      add(drawn[i], scene_.render.lod.enabled && !in_full[i]);
+      add(drawn[i], scene_.render.lod.enabled && !full_detail[i]);
     }
   }
 
@@ -63,7 +63,7 @@ class Composer {
     const PartParams& part = character.params->parts[index];
     const Assets::Skin& skin = assets_.skins.at(part.skin.name);
     CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
-    if (!scene_.render.shared_topology) pose.topology = own_topology(part.skin.name);
+    if (!scene_.render.shared_topology) pose.topology = unshared_topology(part.skin.name);
     for (const auto& groom : part.grooms.items) {
       if (assets_.grooms.at(groom.name)->needs_closest_point())
         pose.push_out_view = world_.scene.camera.view();
@@ -85,7 +85,7 @@ class Composer {
         if (!densest || fur.lod->depth() > densest->depth()) densest = fur.lod;
       }
       fur.procedurals.push_back(std::make_unique<FurProcedural>(
-          coat, posed, fur.lod, reduced ? detail_.lie(*coat, skin.rest) : nullptr));
+          coat, posed, fur.lod, reduced ? detail_.direction(*coat, skin.rest) : nullptr));
       box.extendBy(fur.procedurals.back()->bound(BoundSpan::kShutter));
       world_.scene.fur.push_back(std::move(fur));
       count(*coat, *posed);
@@ -93,7 +93,7 @@ class Composer {
   }
 
   /// What sharing a topology saves is measured by not doing it.
-  std::shared_ptr<const SurfaceTopology> own_topology(const std::string& skin) {
+  std::shared_ptr<const SurfaceTopology> unshared_topology(const std::string& skin) {
     const SkinParams& params = scene_.skins.find(skin)->value;
     auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,
                                             params.mesh.path.string());

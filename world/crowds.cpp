@@ -41,7 +41,7 @@ std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
   size_t placed = 0;
   for (const auto& [name, position, params] : scene.crowds.items) {
     in_frame += bytes_in_frame(scene, params, drawn_bytes);
-    const int64_t making = crowd_making_bytes(params, footprints_of(scene, params), placed);
+    const int64_t making = crowd_temporary_bytes(params, footprints_of(scene, params), placed);
     require_room(job.ledger, std::max(making, in_frame), fmt::format("crowd '{}' of {}", name, params.count));
     placed += static_cast<size_t>(params.count);
   }

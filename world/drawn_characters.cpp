@@ -96,8 +96,8 @@ bool has_coat(const DrawnCharacter& character) {
                      [](const PartParams& part) { return !part.grooms.items.empty(); });
 }
 
-std::vector<bool> characters_in_full(const std::vector<DrawnCharacter>& characters, int64_t count,
-                                     const V3f& eye, double frame) {
+std::vector<bool> full_detail_characters(const std::vector<DrawnCharacter>& characters, int64_t count,
+                                         const V3f& eye, double frame) {
   std::vector<std::pair<float, size_t>> by_distance;
   for (size_t i = 0; i < characters.size() && count > 0; ++i) {
     if (!has_coat(characters[i])) continue;
@@ -105,12 +105,12 @@ std::vector<bool> characters_in_full(const std::vector<DrawnCharacter>& characte
     by_distance.emplace_back((origin - eye).length(), i);
   }
   std::sort(by_distance.begin(), by_distance.end());
-  std::vector<bool> in_full(characters.size(), false);
+  std::vector<bool> full_detail(characters.size(), false);
   const auto all = static_cast<int64_t>(by_distance.size());
   count = std::min(count, all);
   for (int64_t n = 0; n < count; ++n)
-    in_full[by_distance[static_cast<size_t>((2 * n + 1) * all / (2 * count))].second] = true;
-  return in_full;
+    full_detail[by_distance[static_cast<size_t>((2 * n + 1) * all / (2 * count))].second] = true;
+  return full_detail;
 }
 
 CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,

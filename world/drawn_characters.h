@@ -33,8 +33,8 @@ bool has_coat(const DrawnCharacter& character);
 /// Which of them keep every hair: `count` of those with a coat, one from the middle of each of as many equal
 /// parts of their order by distance from `eye`, so that near and far ones are sampled alike; all when there
 /// are fewer.
-std::vector<bool> characters_in_full(const std::vector<DrawnCharacter>& characters, int64_t count,
-                                     const V3f& eye, double frame);
+std::vector<bool> full_detail_characters(const std::vector<DrawnCharacter>& characters, int64_t count,
+                                         const V3f& eye, double frame);
 
 /// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval when
 /// something moves while the shutter is open.

@@ -10,8 +10,8 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostFrames = 1'000'000;
-constexpr int kMostDigits = 9;
+constexpr size_t kMaxFrames = 1'000'000;
+constexpr int kMaxDigits = 9;
 
 [[noreturn]] void fail(const std::string& text, const std::string& why) {
   throw Error(ErrorKind::kArguments,
@@ -58,7 +58,7 @@ struct Place {
 // Digits of a width at text[i..]; moves i behind them.
 int take_width(std::string_view text, size_t& i) {
   int width = 0;
-  while (i < text.size() && text[i] >= '0' && text[i] <= '9' && width <= kMostDigits) {
+  while (i < text.size() && text[i] >= '0' && text[i] <= '9' && width <= kMaxDigits) {
     width = width * 10 + (text[i++] - '0');
   }
   return width;
@@ -68,19 +68,19 @@ Place find_place(std::string_view text) {
   size_t i = 1;
   if (text[0] == '#') {
     const size_t end = std::min(text.find_first_not_of('#'), text.size());
-    return end <= kMostDigits ? Place{end, static_cast<int>(end)} : Place{};
+    return end <= kMaxDigits ? Place{end, static_cast<int>(end)} : Place{};
   }
   if (text[0] == '%') {
     const int digits = take_width(text, i);
-    return i < text.size() && text[i] == 'd' && digits <= kMostDigits ? Place{i + 1, digits} : Place{};
+    return i < text.size() && text[i] == 'd' && digits <= kMaxDigits ? Place{i + 1, digits} : Place{};
   }
   if (text[0] == '$' && text.substr(1, 1) == "F") {
     const int digits = take_width(text, ++i);
-    return digits <= kMostDigits ? Place{i, digits} : Place{};
+    return digits <= kMaxDigits ? Place{i, digits} : Place{};
   }
   if (text[0] == '<' && text.substr(1, 1) == "F") {
     const int digits = take_width(text, ++i);
-    return i < text.size() && text[i] == '>' && digits <= kMostDigits ? Place{i + 1, digits} : Place{};
+    return i < text.size() && text[i] == '>' && digits <= kMaxDigits ? Place{i + 1, digits} : Place{};
   }
   return {};
 }
@@ -103,7 +103,7 @@ FrameList parse_frames(const std::string& text) {
     const Range range = take_range(rest, text);
     for (int64_t frame = range.first; frame <= range.last; frame += range.step) {
       if (!seen.insert(static_cast<int>(frame)).second) continue;
-      if (seen.size() > kMostFrames) fail(text, "more than " + std::to_string(kMostFrames) + " frames");
+      if (seen.size() > kMaxFrames) fail(text, "more than " + std::to_string(kMaxFrames) + " frames");
       list.frames.push_back(static_cast<int>(frame));
     }
   } while (take(rest, ','));

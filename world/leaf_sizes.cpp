@@ -14,7 +14,7 @@ namespace pelage {
 namespace {
 
 constexpr uint64_t kChunksInMemory = 400, kChunksOfFileInMemory = 32;
-constexpr uint64_t kLeastChunksInMemory = 8;    // where all fits; growing one takes twice its bytes
+constexpr uint64_t kMinChunksInMemory = 8;      // where all fits; growing one takes twice its bytes
 constexpr uint64_t kBytesPerControlPoint = 80;  // of a chunk; half of them are its tree
 constexpr int kStep = 4;
 // Boxes and indices of chunks must not outweigh them.
@@ -69,7 +69,7 @@ std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene, const Extent
 
 int strands_that_fit(uint64_t points, uint64_t chunks, uint64_t limit) {
   const uint64_t fewest = std::clamp(kFewestPoints / points, kFewestLongStrands, kFewestStrands);
-  uint64_t strands = GroomParams::kMostLeafStrands;
+  uint64_t strands = GroomParams::kMaxLeafStrands;
   while (strands > fewest && bytes_of(strands, points) * chunks > limit) strands /= kStep;
   return static_cast<int>(strands);
 }
@@ -86,7 +86,7 @@ void choose_leaf_sizes(SceneDescription& scene) {
   for (auto& [name, position, groom] : scene.grooms.items) {
     const bool from_file = !groom.strands_file.empty();
     if (groom.leaf_strands || groom.cache || (stored && from_file)) continue;
-    const uint64_t chunks = fits ? kLeastChunksInMemory : from_file ? kChunksOfFileInMemory : kChunksInMemory;
+    const uint64_t chunks = fits ? kMinChunksInMemory : from_file ? kChunksOfFileInMemory : kChunksInMemory;
     groom.leaf_strands = stored ? kStoredStrands : strands_that_fit(extents.at(name).points, chunks, limit);
   }
 }

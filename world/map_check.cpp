@@ -64,7 +64,7 @@ class MapChecker {
 
   void complain(const std::vector<Map>& maps, const std::string& why) {
     for (const Map& map : maps) {
-      if (!told_.emplace(map.position.file, map.position.line, map.position.column, why).second) continue;
+      if (!warned_.emplace(map.position.file, map.position.line, map.position.column, why).second) continue;
       problems_.add(map.position, "the map " + map.file.filename().string() +
                                       " is looked up by texture coordinates, but " + why +
                                       " use a number, noise, or a ramp along x, y or z instead");
@@ -74,7 +74,7 @@ class MapChecker {
   const SceneDescription& scene_;
   const std::map<std::string, Assets::Skin>& skins_;
   Problems problems_{20};
-  std::set<std::tuple<std::string, int, int, std::string>> told_;
+  std::set<std::tuple<std::string, int, int, std::string>> warned_;
 };
 
 }  // namespace

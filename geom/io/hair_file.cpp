@@ -167,10 +167,10 @@ std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const S
 
 void write_hair(const std::filesystem::path& path, const Strands& strands) {
   if (strands.strand_count() == 0) fail_to_write(path, "there are no strands to write");
-  constexpr uint32_t kMostSegments = std::numeric_limits<uint16_t>::max();
+  constexpr uint32_t kMaxSegments = std::numeric_limits<uint16_t>::max();
   const int64_t common = common_segments(strands);
   for (size_t s = 0; common < 0 && s < strands.strand_count(); ++s) {
-    if (strands.strand_points(s) - 1 > kMostSegments) {
+    if (strands.strand_points(s) - 1 > kMaxSegments) {
       fail_to_write(path, "the .hair format holds at most 65536 points a strand, strand " +
                               std::to_string(s) + " has " + std::to_string(strands.strand_points(s)));
     }

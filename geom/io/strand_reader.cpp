@@ -97,7 +97,7 @@ void StrandReader::note(const Strands& strands) {
     }
     if (!places_.empty() || place != count_) places_.push_back(place);
     const uint32_t points = strands.strand_points(s);
-    most_points_ = std::max(most_points_, points);
+    max_points_ = std::max(max_points_, points);
     if (count_ == 0) common_points_ = points;
     if (points_.empty() && points != common_points_) points_.assign(count_, common_points_);
     if (!points_.empty() || points != common_points_) points_.push_back(points);

@@ -43,7 +43,7 @@ class StrandReader {
   const StrandRepairs& repairs() const { return repairs_; }
   /// Points of a strand.
   uint32_t points(size_t strand) const { return points_.empty() ? common_points_ : points_[strand]; }
-  uint32_t most_points() const { return most_points_; }
+  uint32_t max_points() const { return max_points_; }
   /// Names, frequencies and components of the strands' attributes; values of constant ones alone.
   std::span<const StrandAttribute> attributes() const;
 
@@ -62,7 +62,7 @@ class StrandReader {
   std::unique_ptr<const RawStrands> raw_;
   float width_ = 0;  // of strands without one; 0 until it is known
   size_t count_ = 0;
-  uint32_t common_points_ = 0, most_points_ = 0;
+  uint32_t common_points_ = 0, max_points_ = 0;
   std::vector<uint32_t> points_;  // empty where all strands have equally many
   std::vector<uint32_t> places_;  // empty where every strand of the file is usable
   StrandRepairs repairs_;

@@ -18,9 +18,9 @@ namespace {
 bool is_fur(const Film& film, int x, int y) { return film.surface(x, y).id != kNoStrand; }
 
 /// Stages of single frames would flood the display: it shows the comparison as one.
-class Quietly final : public Progress {
+class QuietProgress final : public Progress {
  public:
-  explicit Quietly(Progress& outer) : outer_(outer) {}
+  explicit QuietProgress(Progress& outer) : outer_(outer) {}
   void begin(std::string_view, double) override {}
   void advance(double) override {}
   void end() override {}
@@ -98,7 +98,7 @@ ComparedFrame FrameComparer::render(const std::vector<MaterialParams>& materials
   scene_.lights = lights;
   assets_.materials = materials;
   World world = compose(scene_, assets_, scene_.frames.frames.front(), job_);
-  Quietly progress(job_.progress);
+  QuietProgress progress(job_.progress);
   std::vector<double> cpu_s;
   const auto half = [&](int64_t seed) {
     world.scene.render.seed = seed;
@@ -129,7 +129,7 @@ double FrameComparer::furnace(const std::vector<MaterialParams>& materials) {
   scene.render.bounces = kBounces;
   assets_.materials = materials;
   const World world = compose(scene, assets_, scene.frames.frames.front(), job_);
-  Quietly progress(job_.progress);
+  QuietProgress progress(job_.progress);
   Statistics statistics;
   const FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress}, statistics);
   double sum = 0, count = 0;

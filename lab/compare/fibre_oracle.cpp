@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kBetweenLooks = 256;  // paths
+constexpr int kPathsPerCheck = 256;  // paths
 constexpr float kDegree = kPi / 180;
 /// About as rough as the physical models by default.
 constexpr float kOpaqueBlur = 10 * kDegree;
@@ -144,7 +144,7 @@ FibreHistogram FibreOracle::model(float theta_o, int samples, const Look& look) 
   point.color = Rgb(1);
   FibreHistogram histogram;
   for (int i = 0; i < samples; ++i) {
-    if (i % kBetweenLooks == 0) look();
+    if (i % kPathsPerCheck == 0) look();
     WalkRandom random(hash64(random_use("model histogram"), static_cast<uint64_t>(i)));
     point.h = middle_offset(i, samples);
     const V3f u(random.unit(), random.unit(), random.unit());
@@ -159,7 +159,7 @@ FibreHistogram FibreOracle::trace(float theta_o, int paths, const Look& look) co
   for (size_t p = 0; p < 3; ++p) lobes[p] = LongitudinalLobe(longitudinal[p] * longitudinal[p]);
   FibreHistogram histogram;
   for (int i = 0; i < paths; ++i) {
-    if (i % kBetweenLooks == 0) look();
+    if (i % kPathsPerCheck == 0) look();
     FibrePath path =
         trace_fibre(traced, std::sin(theta_o), middle_offset(i, paths), 1, static_cast<uint64_t>(i));
     if (!path.scattered) {

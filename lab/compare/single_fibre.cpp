@@ -39,10 +39,10 @@ Canvas::Color heat(double x) {
 
 /// Energies of cells over four decades below the whole spread evenly over thirty cells.
 void draw_map(Canvas& canvas, int x, int y, const FibreHistogram& histogram) {
-  constexpr double kMost = 1.0 / 30, kDecades = 4;
+  constexpr double kMax = 1.0 / 30, kDecades = 4;
   for (int i = 0; i < FibreHistogram::kSines; ++i) {
     for (int j = 0; j < FibreHistogram::kAzimuths; ++j) {
-      const double value = histogram.cell(i, j) / kMost;
+      const double value = histogram.cell(i, j) / kMax;
       const double shade = value > 0 ? 1 + std::log10(value) / kDecades : 0;
       canvas.fill(x + j * kCellSize, y + (FibreHistogram::kSines - 1 - i) * kCellSize, kCellSize, kCellSize,
                   heat(shade));
@@ -52,7 +52,7 @@ void draw_map(Canvas& canvas, int x, int y, const FibreHistogram& histogram) {
 
 void draw_polar(Canvas& canvas, int x, int y, const SingleFibre& fibre) {
   const std::vector<double> a = fibre.by_model.by_azimuth(), b = fibre.traced.by_azimuth();
-  const double most = std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
+  const double max = std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
   const double radius = 0.5 * kPolar - 4, cx = x + 0.5 * kPolar, cy = y + 0.5 * kPolar;
   constexpr int kCorners = 72;
   for (int k = 0; k < kCorners; ++k) {
@@ -68,7 +68,7 @@ void draw_polar(Canvas& canvas, int x, int y, const SingleFibre& fibre) {
       const size_t i = k % values.size();
       const double phi =
           2 * kPi * ((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()) - 0.5);
-      const double r = most > 0 ? radius * std::sqrt(values[i] / most) : 0;
+      const double r = max > 0 ? radius * std::sqrt(values[i] / max) : 0;
       return std::pair(cx + r * std::cos(phi), cy - r * std::sin(phi));
     };
     for (size_t k = 0; k < values.size(); ++k) {

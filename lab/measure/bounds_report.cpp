@@ -53,7 +53,7 @@ std::string change(double after, double before) {
 // differ from run to run.
 std::string time_text(const Outcome& a, const Outcome& b, const std::string& path, const char* name) {
   const bool known = a.runs.size() > 1 && b.runs.size() > 1;
-  const bool apart = !known || a.least(path) > b.most(path) || a.most(path) < b.least(path);
+  const bool apart = !known || a.min(path) > b.max(path) || a.max(path) < b.min(path);
   return fmt::format("{} times the {}{}", spread_text(ratio_of(a, b, path)), name,
                      apart ? "" : " (less than what runs of the same strategy differ by)");
 }
@@ -69,16 +69,16 @@ std::string touched_text(const Outcome& exact, const Outcome& conservative) {
 
 // Other work on the machine slows runs down, and not all of them alike.
 std::string load_text(const std::vector<Outcome>& outcomes) {
-  double most = 0;
+  double max = 0;
   for (const Outcome& outcome : outcomes) {
-    for (const VariantRun& run : outcome.runs) most = std::max(most, run.load);
+    for (const VariantRun& run : outcome.runs) max = std::max(max, run.load);
   }
   // A run that follows another finds that one's threads in the mean of the last minute.
-  if (most <= 1.5 * available_processors()) return "";
+  if (max <= 1.5 * available_processors()) return "";
   return fmt::format(
       " The machine was busy with other things (a load of {:.0f} on {} processors): counts and memory are "
       "what they are, times are not to be trusted.",
-      most, available_processors());
+      max, available_processors());
 }
 
 // What the numbers say of the strategies that the question is about.

@@ -34,11 +34,11 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
 /// Plain and adaptive sampling: samples at equal error, and bias.
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Level of detail against full detail: what full detail of a whole crowd would take, from `in_full` of its
-/// characters (`crowd`); hairs, working set, time and error by idea, distance, blur and focus (`detail`);
+/// Level of detail against full detail: what full detail of a whole crowd would take, from `full_detail` of
+/// its characters (`crowd`); hairs, working set, time and error by idea, distance, blur and focus (`detail`);
 /// distances by qualities (`wedge`); what changes in the picture while the camera of the detail moves
 /// (`dolly`). `parts`: of kLodParts, or empty for all.
-Measured measure_lod(const SceneDescription& scene, const std::vector<int>& in_full,
+Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
                      const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);
 
 }  // namespace pelage

@@ -32,8 +32,8 @@ std::vector<std::filesystem::path> layers_of(const std::string& groom, const Gro
 }
 
 /// As after an edit of operator `place`: what it and those behind it made is not there.
-void forget_from(size_t place, const std::string& groom, const GroomParams& params,
-                 const std::filesystem::path& cache) {
+void remove_cached_from(size_t place, const std::string& groom, const GroomParams& params,
+                        const std::filesystem::path& cache) {
   const auto layers = layers_of(groom, params, cache);
   std::error_code ignored;
   for (size_t i = place; i < layers.size(); ++i) std::filesystem::remove(layers[i], ignored);
@@ -55,7 +55,7 @@ std::vector<GrowthEdit> growth_edits(const std::string& groom, const GroomParams
     Variant variant = common;
     variant.id = fmt::format("{}-edit-{}-{}", groom, i + 1, op);
     variant.title = fmt::format("{}, {} edited", groom, op);
-    variant.prepare = [=] { forget_from(i, groom, params, cache); };
+    variant.prepare = [=] { remove_cached_from(i, groom, params, cache); };
     edits.push_back({op, i, std::move(variant)});
   }
   return edits;

@@ -56,9 +56,9 @@ Settings both(Settings a, const Settings& b) {
 
 class LodSweep {
  public:
-  LodSweep(const SceneDescription& scene, const std::vector<int>& in_full,
+  LodSweep(const SceneDescription& scene, const std::vector<int>& full_detail,
            const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress)
-      : crowd(scene, setup, in_full),
+      : crowd(scene, setup, full_detail),
         scene_(scene),
         parts_(parts),
         places_(lod_places(scene)),
@@ -95,7 +95,7 @@ class LodSweep {
   }
   bool ended() const { return progress_.cancelled() || (!outcomes.empty() && !outcomes.back().succeeded()); }
   size_t count() const {
-    return (wanted(kCrowd) && !scene_.crowds.items.empty() ? crowd.most_variants() : 0) +
+    return (wanted(kCrowd) && !scene_.crowds.items.empty() ? crowd.max_variants() : 0) +
            (wanted(kDetail) ? 4 * places_.size() + 2 * lod_ideas().size() : 0) +
            (wanted(kWedge) ? kSheetRows * lod_qualities().size() : 0) +
            (wanted(kDolly) ? 2 * std::size(kDollyPlaces) : 0);
@@ -247,9 +247,9 @@ void add_detail(const LodSweep& sweep, Report& report) {
 
 }  // namespace
 
-Measured measure_lod(const SceneDescription& scene, const std::vector<int>& in_full,
+Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
                      const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress) {
-  LodSweep sweep(scene, in_full, parts, setup, progress);
+  LodSweep sweep(scene, full_detail, parts, setup, progress);
   sweep.run();
   Measured measured;
   measured.outcomes = std::move(sweep.outcomes);

@@ -27,11 +27,11 @@ Settings from(const SceneDescription& scene, float factor) {
 }
 
 /// Of all ideas, those that are on.
-Settings ideas(bool motion, bool focus, bool turned_away, bool contrast, bool points) {
+Settings ideas(bool motion, bool focus, bool back_facing, bool contrast, bool points) {
   const auto word = [](bool on) { return std::string(on ? "true" : "false"); };
   return {{"render.lod.motion_blur", word(motion)},
           {"render.lod.depth_of_field", word(focus)},
-          {"render.lod.turned_away", word(turned_away)},
+          {"render.lod.turned_away", word(back_facing)},
           {"render.lod.contrast", word(contrast)},
           {"render.lod.fewer_points", word(points)}};
 }

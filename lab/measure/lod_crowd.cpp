@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-constexpr double kMostWhole = 128;  // characters: with more, full detail of all may be hours
+constexpr double kMaxWhole = 128;  // characters: with more, full detail of all may be hours
 constexpr const char* kFolder = "lod";
 constexpr const char* kBoxes = "boxes-";  // files of boxes in a cache begin so
 constexpr const char* kMemory = "render.memory=";
@@ -48,11 +48,12 @@ LodCrowd::LodCrowd(const SceneDescription& scene, const MeasureSetup& setup, std
   characters_.erase(std::unique(characters_.begin(), characters_.end()), characters_.end());
 }
 
-Variant LodCrowd::variant(int in_full) const {
-  Variant variant{fmt::format("crowd-{}", in_full),
-                  in_full > 0 ? fmt::format("{} in full", in_full) : "reduced detail", "render", arguments_};
+Variant LodCrowd::variant(int full_detail) const {
+  Variant variant{fmt::format("crowd-{}", full_detail),
+                  full_detail > 0 ? fmt::format("{} in full", full_detail) : "reduced detail", "render",
+                  arguments_};
   set(variant, "render.lod.enabled", "true");
-  set(variant, "render.lod.in_full", std::to_string(in_full));
+  set(variant, "render.lod.in_full", std::to_string(full_detail));
   // Without a limit nothing is grown twice.
   const bool limited = std::any_of(setup_.arguments.begin(), setup_.arguments.end(),
                                    [](const std::string& a) { return a.starts_with(kMemory); });
@@ -74,18 +75,18 @@ void LodCrowd::run(const std::function<const Outcome*(const Variant&)>& run) {
   const Outcome* first = run(warm_up);
   if (!first) return;
   all_ = first->number("characters");
-  const auto add = [&](int in_full) {
-    const Outcome* outcome = run(variant(in_full));
+  const auto add = [&](int full_detail) {
+    const Outcome* outcome = run(variant(full_detail));
     if (!outcome) return false;
     points_.push_back(*outcome);
-    in_full_.push_back(in_full);
+    full_detail_.push_back(full_detail);
     return true;
   };
   if (!(all_ > 1) || !add(0)) return;
-  for (const int in_full : characters_) {
-    if (in_full > 0 && in_full < all_ && !add(in_full)) return;
+  for (const int full_detail : characters_) {
+    if (full_detail > 0 && full_detail < all_ && !add(full_detail)) return;
   }
-  if (all_ > kMostWhole || !known()) return;
+  if (all_ > kMaxWhole || !known()) return;
   Variant whole = variant(0);
   whole.id = "crowd-all";
   whole.title = "all in full";
@@ -101,7 +102,7 @@ std::vector<LodCrowd::Line> LodCrowd::lines() const {
   for (const std::string& key : keys) {
     const std::vector<double> values = column_values(numbers, key);
     std::vector<std::pair<double, double>> points;
-    for (size_t i = 0; i < values.size(); ++i) points.emplace_back(in_full_[i], values[i]);
+    for (size_t i = 0; i < values.size(); ++i) points.emplace_back(full_detail_[i], values[i]);
     lines.push_back({select(numbers, {key}, "").columns.front(), fit_line(points)});
   }
   return lines;
@@ -123,7 +124,7 @@ std::string LodCrowd::abstract() const {
       "time "
       "than full detail, which {}.",
       all_, saved("strands_generated"), saved("working_set_bytes"), saved("cpu_s"),
-      whole_.empty() ? fmt::format("is extrapolated from up to {:.0f} of them in full", in_full_.back())
+      whole_.empty() ? fmt::format("is extrapolated from up to {:.0f} of them in full", full_detail_.back())
                      : "was measured");
 }
 

@@ -22,7 +22,7 @@ class LodCrowd {
   LodCrowd(const SceneDescription& scene, const MeasureSetup& setup, std::vector<int> characters);
 
   /// Variants that are run at most.
-  size_t most_variants() const { return characters_.size() + 3; }
+  size_t max_variants() const { return characters_.size() + 3; }
   /// Runs them; `run` returns null where one did not succeed.
   void run(const std::function<const Outcome*(const Variant&)>& run);
 
@@ -39,7 +39,7 @@ class LodCrowd {
     Column column;
     LineFit fit;
   };
-  Variant variant(int in_full) const;
+  Variant variant(int full_detail) const;
   std::vector<Line> lines() const;
 
   const MeasureSetup& setup_;
@@ -48,8 +48,8 @@ class LodCrowd {
   std::vector<std::string> arguments_;
   double all_ = 0;  // characters with a coat
   std::vector<Outcome> points_;
-  std::vector<double> in_full_;  // of each of these
-  std::vector<Outcome> whole_;   // all in full: one, or none
+  std::vector<double> full_detail_;  // of each of these
+  std::vector<Outcome> whole_;       // all in full: one, or none
 };
 
 }  // namespace pelage

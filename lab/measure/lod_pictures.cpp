@@ -44,12 +44,12 @@ PictureChange change_between(const std::filesystem::path& from, const std::files
 }
 
 std::optional<Picture> picture_sheet(const std::vector<std::filesystem::path>& files, size_t columns,
-                                     int most_width, const std::string& caption) {
+                                     int max_width, const std::string& caption) {
   Picture sheet;
   sheet.caption = caption;
   size_t width = 0, height = 0;  // of a tile; width in bytes
   for (size_t i = 0; i < files.size(); ++i) {
-    const auto tile = screen_picture_of(files[i], most_width, "");
+    const auto tile = screen_picture_of(files[i], max_width, "");
     if (!tile) return {};
     if (i == 0) {
       width = static_cast<size_t>(tile->width * tile->channels);

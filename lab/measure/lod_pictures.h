@@ -21,9 +21,9 @@ constexpr int kChangeBlock = 8;
 PictureChange change_between(const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Pictures of equal size as one, `columns` beside each other, each made smaller until it is at most
-/// `most_width` wide. Nothing when one is missing or of another size.
+/// `max_width` wide. Nothing when one is missing or of another size.
 std::optional<Picture> picture_sheet(const std::vector<std::filesystem::path>& files, size_t columns,
-                                     int most_width, const std::string& caption);
+                                     int max_width, const std::string& caption);
 
 /// The layer `lod` in colours: from blue, every strand, over green to red, a hundredth of them; black where
 /// there is nothing. Nothing without the layer.

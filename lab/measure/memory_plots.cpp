@@ -9,15 +9,15 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 constexpr size_t kSeconds = 0, kAnonymous = 1, kFile = 2, kFirstTag = 3;
-constexpr size_t kMostPoints = 250;  // more cannot be seen
+constexpr size_t kMaxPoints = 250;  // more cannot be seen
 
-// At most kMostPoints rows: of neighbours, the one with the most memory, so that no peak is lost.
+// At most kMaxPoints rows: of neighbours, the one with the most memory, so that no peak is lost.
 Rows thinned(const Rows& rows) {
-  if (rows.size() <= kMostPoints) return rows;
+  if (rows.size() <= kMaxPoints) return rows;
   Rows result;
-  for (size_t i = 0; i < kMostPoints; ++i) {
-    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i * rows.size() / kMostPoints);
-    const auto end = rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * rows.size() / kMostPoints);
+  for (size_t i = 0; i < kMaxPoints; ++i) {
+    const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i * rows.size() / kMaxPoints);
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * rows.size() / kMaxPoints);
     result.push_back(*std::max_element(
         begin, end, [](const auto& a, const auto& b) { return a[kAnonymous] < b[kAnonymous]; }));
   }
@@ -52,14 +52,14 @@ LinePlot resident_plot(const std::vector<Outcome>& outcomes, const std::string& 
 }
 
 std::vector<LinePlot> tag_plots(const std::vector<Outcome>& outcomes) {
-  double last = 0, most = 0;
+  double last = 0, max = 0;
   std::vector<bool> used;
   for (const Outcome& outcome : outcomes) {
     const VariantRun* run = outcome.typical();
     if (!has_timeline(run)) continue;
     const Rows& rows = run->statistics->timeline();
     last = std::max(last, rows.back()[kSeconds]);
-    for (const auto& row : rows) most = std::max(most, row[kAnonymous]);
+    for (const auto& row : rows) max = std::max(max, row[kAnonymous]);
     used.resize(std::max(used.size(), rows.front().size()));
     for (size_t tag = kFirstTag; tag < rows.front().size(); ++tag)
       used[tag] = used[tag] || is_used(rows, tag);
@@ -73,7 +73,7 @@ std::vector<LinePlot> tag_plots(const std::vector<Outcome>& outcomes) {
     plot.half = true;
     plot.caption = outcome.variant.title + ": memory by tag of the ledger.";
     plot.x = {"time", Quantity::kSeconds, false, last};
-    plot.y = {"memory", Quantity::kBytes, false, most};
+    plot.y = {"memory", Quantity::kBytes, false, max};
     for (size_t tag = kFirstTag; tag < rows.front().size(); ++tag) {
       if (!used[tag]) continue;
       std::string name = run->statistics->timeline_columns()[tag];

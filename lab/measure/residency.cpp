@@ -42,7 +42,7 @@ std::vector<std::string> same_chunks(const SceneDescription& scene) {
 }
 
 // What a refusal says would do: "...; 120M would do".
-double least_bytes(const Outcome& refused) {
+double min_bytes(const Outcome& refused) {
   const std::string text = refused.error();
   const size_t end = text.find("M would do");
   if (end == std::string::npos) return NAN;
@@ -92,9 +92,9 @@ class Sweep {
     }
     if (done() || !outcomes.back().refused()) return;
     // Refused budgets name the least that would do: the last row tells whether it does.
-    const double least = least_bytes(outcomes.back());
-    if (std::isfinite(least)) {
-      add(limited("least", "least", fmt::format("{:.0f}", least)), {least, (least - fixed) / chunks});
+    const double min = min_bytes(outcomes.back());
+    if (std::isfinite(min)) {
+      add(limited("least", "least", fmt::format("{:.0f}", min)), {min, (min - fixed) / chunks});
     }
   }
 

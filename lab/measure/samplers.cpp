@@ -41,18 +41,18 @@ struct Row {
 
 class Sweep {
  public:
-  Sweep(int most, const MeasureSetup& setup, Progress& progress)
-      : most_(most), progress_(progress), runner_(setup, progress, 2 + 4 * std::size(kPlainShares)) {}
+  Sweep(int max, const MeasureSetup& setup, Progress& progress)
+      : max_(max), progress_(progress), runner_(setup, progress, 2 + 4 * std::size(kPlainShares)) {}
 
   void run() {
     for (const char* id : {"reference-a", "reference-b"}) {
-      Variant reference = variant_of(id, id, kReferenceFactor * most_, outcomes.size());
+      Variant reference = variant_of(id, id, kReferenceFactor * max_, outcomes.size());
       reference.once = true;
       if (!add(reference, 0, 0)) return;
     }
     best = best_gain(read_exr(runner_.picture(outcomes[0].variant)));
     for (const int share : kPlainShares) {
-      const int samples = std::max(1, most_ / share);
+      const int samples = std::max(1, max_ / share);
       const size_t plain = outcomes.size();
       if (!add(
               variant_of(fmt::format("plain-{}", samples), fmt::format("plain, {}", samples), samples, plain),
@@ -62,7 +62,7 @@ class Sweep {
       const std::string noise = fmt::format("{:g}", outcomes[plain].number("noise"));
       const auto adaptive = [&](const char* id, const char* title, const char* rule, const char* goal) {
         Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
-                                     most_, outcomes.size());
+                                     max_, outcomes.size());
         set(variant, "render.adaptive.rule", rule);
         set(variant, "render.adaptive.goal", goal);
         set(variant, "render.adaptive.noise", noise);
@@ -95,7 +95,7 @@ class Sweep {
     return outcomes.back().succeeded() && !progress_.cancelled();
   }
 
-  int most_;
+  int max_;
   Progress& progress_;
   VariantRunner runner_;
 };

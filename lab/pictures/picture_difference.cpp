@@ -60,10 +60,10 @@ std::optional<PictureDifference> compare_picture_files(const std::filesystem::pa
   return first && second ? compare_pictures(*first, *second) : std::nullopt;
 }
 
-std::optional<Picture> screen_picture(const ExrImage& image, int most_width, const std::string& caption) {
+std::optional<Picture> screen_picture(const ExrImage& image, int max_width, const std::string& caption) {
   const ExrChannel* channels[] = {image.find("R"), image.find("G"), image.find("B")};
   if (std::find(std::begin(channels), std::end(channels), nullptr) != std::end(channels)) return {};
-  const int factor = std::max(1, (image.width + most_width - 1) / most_width);
+  const int factor = std::max(1, (image.width + max_width - 1) / max_width);
   Picture picture;
   picture.caption = caption;
   picture.width = std::max(1, image.width / factor);
@@ -85,10 +85,10 @@ std::optional<Picture> screen_picture(const ExrImage& image, int most_width, con
   return picture;
 }
 
-std::optional<Picture> screen_picture_of(const std::filesystem::path& path, int most_width,
+std::optional<Picture> screen_picture_of(const std::filesystem::path& path, int max_width,
                                          const std::string& caption) {
   const std::optional<ExrImage> image = read_if_there(path);
-  return image ? screen_picture(*image, most_width, caption) : std::nullopt;
+  return image ? screen_picture(*image, max_width, caption) : std::nullopt;
 }
 
 }  // namespace pelage

@@ -25,10 +25,10 @@ std::optional<PictureDifference> compare_pictures(const ExrImage& a, const ExrIm
 std::optional<PictureDifference> compare_picture_files(const std::filesystem::path& a,
                                                        const std::filesystem::path& b);
 
-/// R, G and B for a screen (sRGB, clipped), made smaller by whole factors until it is at most `most_width`
+/// R, G and B for a screen (sRGB, clipped), made smaller by whole factors until it is at most `max_width`
 /// wide. Nothing without these channels.
-std::optional<Picture> screen_picture(const ExrImage& image, int most_width, const std::string& caption);
-std::optional<Picture> screen_picture_of(const std::filesystem::path& path, int most_width,
+std::optional<Picture> screen_picture(const ExrImage& image, int max_width, const std::string& caption);
+std::optional<Picture> screen_picture_of(const std::filesystem::path& path, int max_width,
                                          const std::string& caption);
 
 }  // namespace pelage

@@ -119,9 +119,9 @@ LabFur grow_lab_fur(const RenderScene& scene, const Job& job) {
   if (gatherer.empty())
     throw Error(ErrorKind::kArguments, "there is no fur in this scene to trace rays through");
   // One tree has one grid: wide enough that most strands fit narrow leaves.
-  const auto most = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
-  std::nth_element(widths.begin(), most, widths.end());
-  fur.root_width = *most;
+  const auto percentile = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
+  std::nth_element(widths.begin(), percentile, widths.end());
+  fur.root_width = *percentile;
   fur.strands = gatherer.finish();
   fur.centre = centre_of(fur.strands);
   return fur;

@@ -58,10 +58,10 @@ void add(LabRays& set, const Place& from, const V3f& to, float far) {
   set.clear.push_back(4 * from.radius);
 }
 
-LabRays camera_rays(const RenderScene& scene, size_t most) {
+LabRays camera_rays(const RenderScene& scene, size_t max) {
   LabRays set{"camera", false, {}, {}, {}};
   const double width = scene.image.width, height = scene.image.height;
-  const double scale = std::min(1.0, std::sqrt(static_cast<double>(most) / (width * height)));
+  const double scale = std::min(1.0, std::sqrt(static_cast<double>(max) / (width * height)));
   const int columns = std::max(1, static_cast<int>(width * scale)),
             rows = std::max(1, static_cast<int>(height * scale));
   for (int top = 0; top < rows; top += kTile) {
@@ -133,9 +133,9 @@ struct StoredRay {
 }  // namespace
 
 std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& strands,
-                                   const SnappedStrands& snapped, const FurTree& tree, size_t most) {
+                                   const SnappedStrands& snapped, const FurTree& tree, size_t max) {
   const FlushDenormals flush;
-  std::vector<LabRays> sets{camera_rays(scene, most)};
+  std::vector<LabRays> sets{camera_rays(scene, max)};
   std::vector<Place> hits;
   for (const Ray& ray : sets[0].rays) {
     const FurHit hit = tree.closest(ray, {});
@@ -149,9 +149,9 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
   LabRays gather{"gather", false, {}, {}, {}}, shadow{"shadow", true, {}, {}, {}},
       deep{"deep", true, {}, {}, {}};
   Box3f box;
-  for (size_t i = 0; i < most; ++i) {
+  for (size_t i = 0; i < max; ++i) {
     // In the order of the hits, several from each where there are few.
-    const Place& from = hits[i * hits.size() / most];
+    const Place& from = hits[i * hits.size() / max];
     box.extendBy(from.position);
     add(gather, from, direction(i, 10), std::numeric_limits<float>::infinity());
     const auto segment =

@@ -30,9 +30,9 @@ struct LabRays {
 /// shadow: from where camera rays hit fur to points on lights; none without lights;
 /// deep: from places spread evenly over all strands, in all directions.
 ///
-/// `most`: rays of each kind, at most. Throws Error (kArguments) when the camera sees no fur.
+/// `max`: rays of each kind, at most. Throws Error (kArguments) when the camera sees no fur.
 std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& strands,
-                                   const SnappedStrands& snapped, const FurTree& tree, size_t most);
+                                   const SnappedStrands& snapped, const FurTree& tree, size_t max);
 
 /// As store_lab_fur().
 void store_lab_rays(const ContentStore& store, const std::vector<LabRays>& sets);

@@ -84,7 +84,7 @@ LabCost cost_of(const LabRays& set, const Workers& workers, size_t grain, const 
   return best;
 }
 
-std::pair<int64_t, uint64_t> nothing_read() { return {0, 0}; }
+std::pair<int64_t, uint64_t> no_reads() { return {0, 0}; }
 
 LabResult trace_embree(const LabFur& fur, const std::vector<LabRays>& sets, bool compact,
                        const Workers& workers) {
@@ -104,7 +104,7 @@ LabResult trace_embree(const LabFur& fur, const std::vector<LabRays>& sets, bool
             sums.hits += set.shadow ? tree.occluded(ray) : std::isfinite(tree.closest(ray));
           }
         },
-        nothing_read, kPasses);
+        no_reads, kPasses);
     result.rays[set.name].answers = 0;
   }
   return result;
@@ -117,7 +117,7 @@ LabResult trace_fur(const LabFur& fur, const std::vector<LabRays>& sets, FurNode
   const SnappedStrands snapped(fur.strands, fur.grid());
   FurTreeOptions options;
   options.layout = layout;
-  options.build.turn = FurTurn::kWhereItPays;  // as in renders
+  options.build.rotation = FurRotation::kWhenUseful;  // as in renders
   const FurTree tree(snapped, options);
   result.build_cpu_s = cpu_seconds() - start;
   result.bytes = result.resident_bytes = static_cast<double>(tree.bytes());
@@ -133,7 +133,7 @@ LabResult trace_fur(const LabFur& fur, const std::vector<LabRays>& sets, FurNode
             }
           }
         },
-        nothing_read, kPasses);
+        no_reads, kPasses);
     const Sums counted = trace_all(workers, set.size(), kGrain, [&](const WorkRange& range, Sums& sums) {
       for (size_t i = range.begin; i < range.end; ++i) {
         if (set.shadow) {
@@ -296,15 +296,15 @@ LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, c
   return result;
 }
 
-LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_t most_rays, const Job& job) {
+LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_t max_rays, const Job& job) {
   const LabFur fur = grow_lab_fur(scene, job);
   store_lab_fur(store, fur);
   const SnappedStrands snapped(fur.strands, fur.grid());
   const double start = cpu_seconds();
   FurTreeOptions options;
-  options.build.turn = FurTurn::kWhereItPays;  // as in renders
+  options.build.rotation = FurRotation::kWhenUseful;  // as in renders
   const FurTree tree(snapped, options);
-  store_lab_rays(store, make_lab_rays(scene, fur.strands, snapped, tree, most_rays));
+  store_lab_rays(store, make_lab_rays(scene, fur.strands, snapped, tree, max_rays));
   LabResult result;
   result.segments = static_cast<double>(fur.segment_count());
   result.bytes = static_cast<double>(tree.bytes());

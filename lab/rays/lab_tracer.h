@@ -58,6 +58,6 @@ struct LabResult {
 LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, const Job& job);
 
 /// Fills the folder. Throws as growing does.
-LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_t most_rays, const Job& job);
+LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_t max_rays, const Job& job);
 
 }  // namespace pelage

@@ -26,7 +26,7 @@ std::vector<double> ends(const BarPlot& plot) {
     }
     if (plot.stacked) numbers.push_back(sum);
   }
-  for (const auto& [least, most] : plot.spread) numbers.push_back(most);
+  for (const auto& [min, max] : plot.spread) numbers.push_back(max);
   return numbers;
 }
 

@@ -79,13 +79,12 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   add("status", "status", Quantity::kRatio, [](const Outcome& o) -> Cell { return Text{o.status()}; });
   add("runs", "runs", Quantity::kCount, [](const Outcome& o) -> Cell { return double(o.runs.size()); });
   number("wall_s", "time", Quantity::kSeconds, "wall_s");
-  add("wall_least_s", "least", Quantity::kSeconds,
-      [](const Outcome& o) -> Cell { return o.least("wall_s"); });
-  add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.most("wall_s"); });
+  add("wall_least_s", "least", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.min("wall_s"); });
+  add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("wall_s"); });
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
   add("cpu_least_s", "least CPU", Quantity::kSeconds,
-      [](const Outcome& o) -> Cell { return o.least("cpu_s"); });
-  add("cpu_most_s", "most CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.most("cpu_s"); });
+      [](const Outcome& o) -> Cell { return o.min("cpu_s"); });
+  add("cpu_most_s", "most CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("cpu_s"); });
   number("first_pixel_s", "first pixel", Quantity::kSeconds, "first_pixel_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
   number("peak_anonymous_bytes", "peak anonymous", Quantity::kBytes, "peak_anonymous_bytes");
@@ -163,7 +162,7 @@ BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, con
   BarPlot plot = column_plot(table, outcomes, keys_with(table, "stage_"), "wall time", caption);
   plot.stacked = true;
   for (const Outcome& outcome : outcomes) {
-    plot.spread.emplace_back(outcome.least("wall_s"), outcome.most("wall_s"));
+    plot.spread.emplace_back(outcome.min("wall_s"), outcome.max("wall_s"));
     plot.notes.push_back(outcome.succeeded() ? "" : outcome.status());
   }
   return plot;

@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr auto kPoll = std::chrono::milliseconds(5);
-constexpr auto kPatience = std::chrono::seconds(5);  // between SIGTERM and SIGKILL
+constexpr auto kKillDelay = std::chrono::seconds(5);  // between SIGTERM and SIGKILL
 
 double seconds_of(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -41,7 +41,7 @@ class Descriptor {
 };
 
 // In the child, between fork and exec: nothing that allocates or locks.
-[[noreturn]] void become(char* const* arguments, int log, int failure, pid_t parent) {
+[[noreturn]] void exec_child(char* const* arguments, int log, int failure, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int none = ::open("/dev/null", O_RDONLY);
@@ -74,7 +74,7 @@ ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled, double 
       throw Error(ErrorKind::kFailed, std::string("lost a process: ") + std::strerror(errno));
     const Clock::time_point now = Clock::now();
     if (end.interrupted || end.timed_out) {
-      if (now - told > kPatience) ::kill(-child, SIGKILL);
+      if (now - told > kKillDelay) ::kill(-child, SIGKILL);
     } else {
       end.interrupted = cancelled();
       end.timed_out = !end.interrupted && std::chrono::duration<double>(now - began).count() > limit_s;
@@ -103,7 +103,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) throw Error(ErrorKind::kFailed, std::string("no process: ") + std::strerror(errno));
-  if (child == 0) become(arguments.data(), log_file.number(), failure_out.number(), parent);
+  if (child == 0) exec_child(arguments.data(), log_file.number(), failure_out.number(), parent);
   ::setpgid(child, child);  // whichever of the two comes first
 
   failure_out.close();
@@ -118,7 +118,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
   return end;
 }
 
-std::filesystem::path own_program() { return std::filesystem::read_symlink("/proc/self/exe"); }
+std::filesystem::path current_executable() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
 std::string shell_text(const std::vector<std::string>& command) {
   std::string text;

@@ -35,7 +35,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
                        const std::function<bool()>& cancelled, double limit_s = kNoLimit_s);
 
 /// The running program itself, as a path.
-std::filesystem::path own_program();
+std::filesystem::path current_executable();
 
 /// A command line as one would type it in a shell.
 std::string shell_text(const std::vector<std::string>& command);

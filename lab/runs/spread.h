@@ -10,7 +10,7 @@ namespace pelage {
 /// A number of one variant over that of another: by their typical runs, and the least and most that any two
 /// runs give.
 struct RatioSpread {
-  double typical = 0, least = 0, most = 0;
+  double typical = 0, min = 0, max = 0;
 };
 RatioSpread ratio_of(const Outcome& above, const Outcome& below, const std::string& path);
 

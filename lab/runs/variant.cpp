@@ -18,11 +18,11 @@ constexpr int kMemoryExitCode = 4;
 
 // The first lines of a log say what went wrong; quiet runs print nothing else.
 std::string error_lines(const std::filesystem::path& log) {
-  constexpr int kMost = 3;
+  constexpr int kMax = 3;
   std::istringstream lines(read_file(log));
   std::string text;
   int count = 0;
-  for (std::string line; count < kMost && std::getline(lines, line);) {
+  for (std::string line; count < kMax && std::getline(lines, line);) {
     if (line.empty()) continue;
     text += (text.empty() ? "" : "; ") + line;
     ++count;
@@ -72,20 +72,20 @@ double Outcome::number(const std::string& path) const {
   return run ? run->statistics->number(path) : NAN;
 }
 
-double Outcome::least(const std::string& path) const {
-  double least = NAN;
+double Outcome::min(const std::string& path) const {
+  double min = NAN;
   for (const VariantRun& run : runs) {
-    if (run.end.succeeded() && run.statistics) least = std::fmin(least, run.statistics->number(path));
+    if (run.end.succeeded() && run.statistics) min = std::fmin(min, run.statistics->number(path));
   }
-  return least;
+  return min;
 }
 
-double Outcome::most(const std::string& path) const {
-  double most = NAN;
+double Outcome::max(const std::string& path) const {
+  double max = NAN;
   for (const VariantRun& run : runs) {
-    if (run.end.succeeded() && run.statistics) most = std::fmax(most, run.statistics->number(path));
+    if (run.end.succeeded() && run.statistics) max = std::fmax(max, run.statistics->number(path));
   }
-  return most;
+  return max;
 }
 
 VariantRunner::VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count)

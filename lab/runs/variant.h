@@ -58,8 +58,8 @@ struct Outcome {
   /// A number of that run's statistics, by path; not-a-number when it is not known.
   double number(const std::string& path) const;
   /// Least and most of it over all successful runs.
-  double least(const std::string& path) const;
-  double most(const std::string& path) const;
+  double min(const std::string& path) const;
+  double max(const std::string& path) const;
 };
 
 /// Runs variants, each in a process of its own, one at a time.

@@ -10,21 +10,21 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "render/accel/embree_query.h"
-#include "render/accel/growth_gate.h"
+#include "render/accel/fine_box_hits.h"
 #include "render/accel/part_bounds.h"
 
 namespace pelage {
 namespace {
 
 constexpr size_t kPage = 4096;
-constexpr size_t kSegmentsPerPart = 1024, kMostParts = 64;
+constexpr size_t kSegmentsPerPart = 1024, kMaxParts = 64;
 // Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
 // times finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
 constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that has no fine ones
 
 size_t part_count(size_t primitives) {
-  return std::clamp<size_t>(primitives / kSegmentsPerPart, 1, kMostParts);
+  return std::clamp<size_t>(primitives / kSegmentsPerPart, 1, kMaxParts);
 }
 
 /// No strand in a box is wider than the box.
@@ -64,7 +64,7 @@ class ChunkAccel::Growth final : public Grower {
         bounds[chunk] = std::move(bounds[chunk]).in_one_part();
       } else if (counts.strands > 0 && counts.segments % counts.strands == 0)
         patterns.expect(counts.segments / counts.strands, counts.strands);
-      Known& known = known_[chunk];
+      KnownBounds& known = known_[chunk];
       known.fine = std::move(bounds[chunk].fine);
       // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
       known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds[chunk].keys == 1);
@@ -115,7 +115,7 @@ class ChunkAccel::Growth final : public Grower {
       if (learns) bounds = fur->part_bounds(options_.eager ? 1 : part_count(fur->segment_count()));
       unit = std::move(fur);
     } else {
-      if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMostParts);
+      if (learns) bounds = part_bounds(contents, kSegmentsPerPart, kMaxParts);
       unit = std::make_unique<EmbreeChunk>(std::move(contents), slot, grower_.scale(slot).widest,
                                            options_.chunk, device_, patterns_);
     }
@@ -135,7 +135,7 @@ class ChunkAccel::Growth final : public Grower {
   bool knows(uint32_t slot) const { return fine(slot).count() > 0; }
 
  private:
-  struct Known {
+  struct KnownBounds {
     FineBoxes fine;
     float margin = 0;
     bool learns = true;
@@ -165,7 +165,7 @@ class ChunkAccel::Growth final : public Grower {
   const FurChunkOptions fur_;
   const EmbreeDevice& device_;
   SegmentPatterns& patterns_;
-  std::vector<Known> known_;
+  std::vector<KnownBounds> known_;
   std::vector<std::atomic<const PartBoxes*>> learned_;
   std::vector<std::atomic<uint32_t>> build_pages_;  // what the tree needed when it was built, once it was
   MemoryCharge charge_;
@@ -256,10 +256,10 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
       entry = learned->enter(walk.slabs(), far());
     }
     if (resident || !growth_->knows(chunk) || entry == std::numeric_limits<float>::infinity()) return entry;
-    const GatePassage passage = pass_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), any,
-                                                thread.counts.box_tests, growth_->margin(chunk));
-    boxes = passage.boxes;
-    return passage.entry;
+    const FineBoxHits hits = intersect_fine_boxes(growth_->fine(chunk), walk.slabs(), far(), any,
+                                                  thread.counts.box_tests, growth_->margin(chunk));
+    boxes = hits.boxes;
+    return hits.entry;
   };
   // The far end of a ray is often infinite too.
   const auto reaches = [&](float entry) {

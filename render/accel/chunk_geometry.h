@@ -25,7 +25,7 @@ struct NearestSoFar {
                       triangle);
   }
   /// Whether `other` comes before it.
-  bool gives_way_to(const NearestSoFar& other) const {
+  bool comes_after(const NearestSoFar& other) const {
     if (other.hit.distance != hit.distance) return other.hit.distance < hit.distance;
     return !hit || other.rank() < rank();
   }

@@ -27,7 +27,7 @@ void ChunkWalk::open(uint32_t index, float far) {
   const ChunkTree::Node& node = tree_.nodes_[index];
   const FourBoxes* motion = tree_.motions_.empty() ? nullptr : &tree_.motions_[index];
   Four enter, leave;
-  const auto met = slabs_.meet(node.boxes, motion, far, enter, leave);
+  const auto met = slabs_.intersect(node.boxes, motion, far, enter, leave);
   const Four rank = order_ == Order::kFrontToBack ? enter : enter - leave;
   // All four are written and those that are met counted: no branch that nothing foretells.
   Entry* entries = &stack_[count_];

@@ -46,7 +46,7 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
     return;
   }
   if (distance == query.distance && query.geometry != RTC_INVALID_GEOMETRY_ID &&
-      !query.scene.stands_before(geometry, primitive, query.geometry, query.primitive)) {
+      !query.scene.precedes(geometry, primitive, query.geometry, query.primitive)) {
     report.reject();
     return;
   }
@@ -54,7 +54,7 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   query.geometry = geometry;
   query.primitive = primitive;
   if (const float longest = query.scene.longest_segment(); longest > 0) {
-    report.trace_on_until(std::min(query.far, far_behind(distance, longest)));
+    report.set_ray_end(std::min(query.far, far_behind(distance, longest)));
   }
   if (!query.scene.is_skin(geometry)) query.scene.curves(geometry).fetch_ahead(primitive);
 }

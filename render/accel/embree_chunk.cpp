@@ -123,7 +123,7 @@ struct EmbreeChunk::Filters {
     query.distance = distance;
     query.primitive = primitive;
     if (chunk.longest_ > 0) {
-      report.trace_on_until(std::min(query.ray.far, far_behind(query.distance, chunk.longest_)));
+      report.set_ray_end(std::min(query.ray.far, far_behind(query.distance, chunk.longest_)));
     }
     if (chunk.strands_) chunk.strands_->fetch_ahead(primitive);
   }
@@ -182,7 +182,7 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, uint32_t number, float widest,
   {
     const auto lock = device_.one_at_a_time();
     const EmbreeMeter meter;
-    Workers::alone().lend_to_library([&] {
+    Workers::alone().run_library([&] {
       // Embree's own threads of this moment: the calling one.
       const FlushDenormals flush;
       build();

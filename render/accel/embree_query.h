@@ -31,7 +31,7 @@ class EmbreeReport {
   }
   void reject() const { arguments_->valid[0] = 0; }
   /// To be said of a candidate that is kept: from now on the ray ends there instead of at the candidate.
-  void trace_on_until(float far) const { RTCRayN_tfar(arguments_->ray, 1, 0) = far; }
+  void set_ray_end(float far) const { RTCRayN_tfar(arguments_->ray, 1, 0) = far; }
 
  private:
   const RTCFilterFunctionNArguments* arguments_;

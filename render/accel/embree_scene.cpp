@@ -36,7 +36,7 @@ EmbreeScene::EmbreeScene(const std::vector<AccelStrands>& strands, const std::ve
     for (uint32_t i = 0; i < skins.size(); ++i) {
       add_skin(*skins[i], static_cast<uint32_t>(curves_.size()) + i);
     }
-    workers.lend_to_library([&] { rtcCommitScene(scene_); });
+    workers.run_library([&] { rtcCommitScene(scene_); });
     device_.rethrow();
   } catch (...) {
     rtcReleaseScene(scene_);
@@ -88,8 +88,8 @@ void EmbreeScene::add_skin(const SkinMesh& mesh, uint32_t id) {
   attach(geometry, id);
 }
 
-bool EmbreeScene::stands_before(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b,
-                                uint32_t primitive_b) const {
+bool EmbreeScene::precedes(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b,
+                           uint32_t primitive_b) const {
   if (is_skin(geometry_a) || is_skin(geometry_b)) {
     return geometry_a != geometry_b ? geometry_a < geometry_b : primitive_a < primitive_b;
   }

@@ -31,8 +31,7 @@ class EmbreeScene {
 
   /// The order that decides between equal distances: strands before skins, then by strand id, part and
   /// segment.
-  bool stands_before(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b,
-                     uint32_t primitive_b) const;
+  bool precedes(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b, uint32_t primitive_b) const;
   CrossingPlace crossing(const EmbreeCurves& batch, EmbreeCurves::Place place, float u) const;
 
  private:

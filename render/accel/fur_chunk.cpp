@@ -132,7 +132,7 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   hit.v = found.h;
   hit.start = {number_, first, strands_.strand_segments(place.strand),
                static_cast<float>(place.segment) + found.u};
-  if (!nearest.gives_way_to(candidate)) return false;
+  if (!nearest.comes_after(candidate)) return false;
   nearest = candidate;
   copy_strand(place.strand, met.strand);
   return true;
@@ -155,7 +155,7 @@ void FurChunk::copy_strand(uint32_t strand, Strands& out) const {
   const uint32_t first = strands_.first_segment(strand), segments = strands_.strand_segments(strand);
   const size_t key_floats = size_t(4) * (3 * segments + 1);
   for (uint32_t s = 0; s < segments; ++s) {
-    const FurPlaces::Place place = places_.find(tree, first + s);
+    const FurSegmentLookup::Place place = places_.find(tree, first + s);
     for (int key = 0; key < tree.motion_keys; ++key) {
       // The last point of a segment is the first of the next.
       float* point = &arrays.points[static_cast<size_t>(key) * key_floats + size_t(12) * s];
@@ -179,15 +179,15 @@ void FurChunk::copy_strand(uint32_t strand, Strands& out) const {
 
 size_t FurChunk::bytes_bound(const ChunkCounts& n, const FurChunkOptions& options) {
   const size_t segments = n.segments;
-  const size_t packed = PackedStrands::bytes_bound(n, PackedPoints::kElsewhere);
+  const size_t packed = PackedStrands::bytes_bound(n, PackedPoints::kInFurTree);
   const size_t tree = FurTree::build_bytes_bound(segments, n.motion_keys, options.tree);
   return bytes_bound(n, sizeof(FurChunk) + grown_bytes_bound(n) + packed + SnappedStrands::bytes(n.strands) +
-                            tree + FurPlaces::bytes_bound(segments));
+                            tree + FurSegmentLookup::bytes_bound(segments));
 }
 
 size_t FurChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
   const size_t packing =
-      PackedStrands::bytes_bound(n, PackedPoints::kElsewhere) + PackedStrands::scratch_bytes_bound(n);
+      PackedStrands::bytes_bound(n, PackedPoints::kInFurTree) + PackedStrands::scratch_bytes_bound(n);
   return std::max(sizeof(FurChunk) + grown_bytes_bound(n) + std::max(packing, n.growth_bytes), build_peak);
 }
 

@@ -4,14 +4,14 @@
 #include "render/accel/chunk_geometry.h"
 #include "render/accel/chunk_grower.h"
 #include "render/accel/fur/fur_parts.h"
-#include "render/accel/fur/fur_places.h"
+#include "render/accel/fur/fur_segment_lookup.h"
 #include "render/accel/fur/fur_tree.h"
 #include "render/accel/packed_strands.h"
 
 namespace pelage {
 
 struct FurChunkOptions {
-  FurChunkOptions() { tree.build.turn = FurTurn::kWhereItPays; }
+  FurChunkOptions() { tree.build.rotation = FurRotation::kWhenUseful; }
 
   FurTreeOptions tree;
   bool compact_attributes = true;
@@ -59,7 +59,7 @@ class FurChunk final : public ChunkGeometry {
   uint32_t part_, number_;
   PackedStrands strands_;
   FurTree tree_;
-  FurPlaces places_;
+  FurSegmentLookup places_;
   size_t bytes_ = 0, build_peak_ = 0;
 };
 

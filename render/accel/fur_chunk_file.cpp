@@ -16,7 +16,7 @@ namespace {
 const std::string kKind = "fur-chunks";
 constexpr size_t kOverhead = size_t(16) << 10;  // small pieces of a chunk, generously
 constexpr size_t kUnmet = 4096;                 // segments of a chunk beyond those in full blocks
-constexpr size_t kMostHead = size_t(1) << 20;
+constexpr size_t kMaxHead = size_t(1) << 20;
 
 enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
 
@@ -149,7 +149,7 @@ size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);
   const uint64_t nodes = file_.section_bytes(first + kNodes), leaves = file_.section_bytes(first + kLeaves);
   const size_t places =
-      FurPlaces::bytes_bound(leaves / kNarrowBlock.block(1) * FurBlockHeader::kLanes + kUnmet);
+      FurSegmentLookup::bytes_bound(leaves / kNarrowBlock.block(1) * FurBlockHeader::kLanes + kUnmet);
   return kOverhead + 2 * file_.section_bytes(first + kHead) +
          PageBlock::held_bytes(file_.section_bytes(first + kPacked)) +
          PageBlock::held_bytes(FurTree::leaves_offset(nodes) + leaves) + places;
@@ -178,7 +178,7 @@ std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, const WarningSink& 
 std::unique_ptr<FurChunk> FurChunkFile::parse(uint32_t chunk, PagePool* pool) const {
   const size_t first = kSections * size_t(chunk);
   const uint64_t known_bytes = file_.section_bytes(first + kHead);
-  if (known_bytes < sizeof(Head) || known_bytes > kMostHead) refuse(file_);
+  if (known_bytes < sizeof(Head) || known_bytes > kMaxHead) refuse(file_);
   std::vector<std::byte> known(known_bytes);
   file_.read(first + kHead, known);
   Head head;

@@ -118,8 +118,8 @@ size_t PackedStrands::bytes() const {
 
 namespace {
 
-constexpr size_t kArrays = 12;                                 // beside the attributes
-constexpr size_t kMostAttributes = 16, kAttributeBytes = 256;  // generous, for bytes_bound()
+constexpr size_t kArrays = 12;                                // beside the attributes
+constexpr size_t kMaxAttributes = 16, kAttributeBytes = 256;  // generous, for bytes_bound()
 
 /// Of attributes, opacities and roots.
 size_t numbers_bound(const ChunkCounts& n) { return n.attribute_floats + n.points + 4 * n.strands; }
@@ -129,11 +129,11 @@ size_t numbers_bound(const ChunkCounts& n) { return n.attribute_floats + n.point
 size_t PackedStrands::bytes_bound(const ChunkCounts& n, PackedPoints points) {
   const auto keys = static_cast<size_t>(n.motion_keys);
   const size_t vertices = 16 * keys * (n.points + 2 * n.strands) + sizeof(uint32_t) * n.segments;
-  const size_t block = (points == PackedPoints::kHere ? vertices : 0) +
+  const size_t block = (points == PackedPoints::kInPlace ? vertices : 0) +
                        n.strands * (sizeof(uint64_t) + sizeof(uint32_t)) +
                        sizeof(uint32_t) * (n.strands + 1) + sizeof(float) * numbers_bound(n);
   // Per attribute: its name and places, the end of its array.
-  const size_t named = kAttributeBytes * (kArrays + std::min(n.attribute_floats, kMostAttributes));
+  const size_t named = kAttributeBytes * (kArrays + std::min(n.attribute_floats, kMaxAttributes));
   return sizeof(PackedStrands) + PageBlock::held_bytes(block) + named;
 }
 

@@ -18,8 +18,8 @@ namespace pelage {
 
 /// Where the control points of packed strands are.
 enum class PackedPoints {
-  kHere,      ///< as Embree reads them
-  kElsewhere  ///< in a fur tree: strands are in the order of their ids, segments have the tree's numbers
+  kInPlace,   ///< as Embree reads them
+  kInFurTree  ///< in a fur tree: strands are in the order of their ids, segments have the tree's numbers
 };
 
 /// The strands of a chunk as they are kept: one block of memory with the control points as Embree reads them,
@@ -90,7 +90,7 @@ class PackedStrands {
   /// What is held, this object included.
   size_t bytes() const;
   /// At least bytes() of every batch of these counts.
-  static size_t bytes_bound(const ChunkCounts& counts, PackedPoints points = PackedPoints::kHere);
+  static size_t bytes_bound(const ChunkCounts& counts, PackedPoints points = PackedPoints::kInPlace);
   /// What is held beside it while it is packed.
   static size_t scratch_bytes_bound(const ChunkCounts& counts);
 

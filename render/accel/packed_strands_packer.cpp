@@ -103,13 +103,13 @@ class PackedStrands::Packer {
   }
 
   void plan_ids() {
-    uint64_t least = std::numeric_limits<uint64_t>::max(), most = 0;
+    uint64_t min = std::numeric_limits<uint64_t>::max(), max = 0;
     for (uint32_t s : kept_) {
-      least = std::min(least, strands_.id(s));
-      most = std::max(most, strands_.id(s));
+      min = std::min(min, strands_.id(s));
+      max = std::max(max, strands_.id(s));
     }
-    out_.wide_ids_ = !kept_.empty() && most - least > std::numeric_limits<uint32_t>::max();
-    out_.first_id_ = least;
+    out_.wide_ids_ = !kept_.empty() && max - min > std::numeric_limits<uint32_t>::max();
+    out_.first_id_ = min;
     out_.ids_ = place((out_.wide_ids_ ? sizeof(uint64_t) : sizeof(uint32_t)) * kept_.size());
   }
 
@@ -117,18 +117,18 @@ class PackedStrands::Packer {
     out_.has_roots_ = strands_.has_roots();
     out_.has_root_uv_ = !strands_.arrays().root_uv.empty();
     if (out_.has_roots_) {
-      uint32_t least = std::numeric_limits<uint32_t>::max(), most = 0;
+      uint32_t min = std::numeric_limits<uint32_t>::max(), max = 0;
       std::vector<float> uv;
       uv.reserve(2 * kept_.size());
       for (uint32_t s : kept_) {
         const RootAddress& root = strands_.root(s);
-        least = std::min(least, root.face);
-        most = std::max(most, root.face);
+        min = std::min(min, root.face);
+        max = std::max(max, root.face);
         uv.push_back(root.u);
         uv.push_back(root.v);
       }
-      out_.wide_faces_ = !kept_.empty() && most - least > std::numeric_limits<uint16_t>::max();
-      out_.first_face_ = least;
+      out_.wide_faces_ = !kept_.empty() && max - min > std::numeric_limits<uint16_t>::max();
+      out_.first_face_ = min;
       out_.faces_ = place((out_.wide_faces_ ? sizeof(uint32_t) : sizeof(uint16_t)) * kept_.size());
       plan(out_.root_place_, std::move(uv), AttributeClass::kPerStrand, 2);
     }

@@ -9,8 +9,8 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kMostComponents = 16, kMostNames = 1 << 12;
-constexpr int kMostMotionKeys = 64;
+constexpr uint32_t kMaxComponents = 16, kMaxNames = 1 << 12;
+constexpr int kMaxMotionKeys = 64;
 
 class ByteWriter {
  public:
@@ -50,7 +50,7 @@ class ByteReader {
   }
   bool get(std::string& text) {
     uint32_t size = 0;
-    if (!get(size) || size > kMostNames || size > rest_.size()) return false;
+    if (!get(size) || size > kMaxNames || size > rest_.size()) return false;
     text.assign(reinterpret_cast<const char*>(rest_.data()), size);
     rest_ = rest_.subspan(size);
     return true;
@@ -102,7 +102,7 @@ std::optional<PackedStrands> PackedStrands::from_stored(std::span<const std::byt
   bool good = true;
   for_each_number(packed, [&](auto& number) { good = good && reader.get(number); });
   uint32_t attributes = 0;
-  good = good && reader.get(attributes) && attributes <= kMostNames;
+  good = good && reader.get(attributes) && attributes <= kMaxNames;
   for (uint32_t i = 0; good && i < attributes; ++i) {
     Attribute attribute;
     Values& values = attribute.values;
@@ -116,10 +116,10 @@ std::optional<PackedStrands> PackedStrands::from_stored(std::span<const std::byt
 }
 
 bool PackedStrands::is_possible() const {
-  constexpr size_t kMost = UINT32_MAX;
+  constexpr size_t kMax = UINT32_MAX;
   const size_t bytes = block_.bytes();
-  if (strand_count_ > kMost || segment_count_ > kMost) return false;
-  if (motion_keys_ < 1 || motion_keys_ > kMostMotionKeys) return false;
+  if (strand_count_ > kMax || segment_count_ > kMax) return false;
+  if (motion_keys_ < 1 || motion_keys_ > kMaxMotionKeys) return false;
   if (basis_ > CurveBasis::kCatmullRom || extra_ != (basis_ == CurveBasis::kLinear ? 1 : 3)) return false;
   const bool pinned = basis_ == CurveBasis::kPinnedBSpline || basis_ == CurveBasis::kCatmullRom;
   if (phantoms_ != (pinned ? 2 : 0)) return false;
@@ -138,7 +138,7 @@ bool PackedStrands::is_possible() const {
   const size_t points = segment_count_ + size_t(extra_ - phantoms_) * strand_count_;
   const auto fits = [&](const Values& values) {
     if (values.precision > Precision::kUnorm8) return false;
-    if (values.components < 1 || values.components > kMostComponents) return false;
+    if (values.components < 1 || values.components > kMaxComponents) return false;
     size_t count = values.components;
     if (values.frequency == AttributeClass::kPerStrand) {
       count *= strand_count_;

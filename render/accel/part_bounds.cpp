@@ -79,7 +79,7 @@ Box3f bounds_at(const Primitives& primitives, std::span<const Item> items, int k
 
 }  // namespace
 
-ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t most_parts) {
+ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t max_parts) {
   const Primitives primitives(contents);
   const int last = primitives.keys() - 1;
   ChunkBounds bounds;
@@ -90,7 +90,7 @@ ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part,
     items[i] = {primitives.box(i, 0), i};
     if (last > 0) items[i].box.extendBy(primitives.box(i, last));
   }
-  const size_t parts = std::clamp<size_t>(items.size() / segments_per_part, 1, most_parts);
+  const size_t parts = std::clamp<size_t>(items.size() / segments_per_part, 1, max_parts);
   divide(std::span(items), parts, [&](std::span<const Item> part) {
     if (last == 0) {
       Box3f box;

@@ -11,10 +11,10 @@
 
 namespace pelage {
 
-/// Boxes of about `segments_per_part` neighbouring segments or triangles each, at most `most_parts`, over the
+/// Boxes of about `segments_per_part` neighbouring segments or triangles each, at most `max_parts`, over the
 /// whole shutter; linear in time when there is motion. Parts do not follow strands: a box of a piece of many
 /// strands is much smaller than one of a few whole strands.
-ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t most_parts);
+ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t max_parts);
 /// Enlarges the boxes at shutter open and close so that between them they hold `inside` at `time`.
 void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time);
 /// Moves all sides of all boxes outward.
@@ -32,7 +32,7 @@ class PartBoxes {
     float nearest = std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < boxes_.size(); ++i) {
       Four enter, leave;
-      const auto met = ray.meet(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter, leave);
+      const auto met = ray.intersect(boxes_[i], motions_.empty() ? nullptr : &motions_[i], far, enter, leave);
       for (size_t lane = 0; lane < 4; ++lane) {
         if (met[lane]) nearest = std::min(nearest, enter[lane]);
       }

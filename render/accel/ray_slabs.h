@@ -25,7 +25,7 @@ class RaySlabs {
   /// `reach`: the largest coordinate of all boxes.
   RaySlabs(const Ray& ray, float reach) : near_(ray.near), time_(four(ray.time)) {
     const auto size = [](const V3f& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
-    const float doubt = kDoubt * (size(ray.origin) + reach);
+    const float error_bound = kErrorBound * (size(ray.origin) + reach);
     for (int i = 0; i < 3; ++i) {
       float d = ray.direction[i];
       if (std::abs(d) < kSmallest) d = std::copysign(kSmallest, d);
@@ -33,8 +33,8 @@ class RaySlabs {
       const bool backward = d < 0;
       axis.near_side = backward ? 1 : 0;
       // Low sides are moved down by the doubt and high sides up, whichever of them the ray meets first.
-      axis.near_origin = four(ray.origin[i] + (backward ? -doubt : doubt));
-      axis.far_origin = four(ray.origin[i] + (backward ? doubt : -doubt));
+      axis.near_origin = four(ray.origin[i] + (backward ? -error_bound : error_bound));
+      axis.far_origin = four(ray.origin[i] + (backward ? error_bound : -error_bound));
       axis.inverse = four(1.0f / d);
     }
   }
@@ -44,7 +44,7 @@ class RaySlabs {
   /// Which of the boxes the ray meets between its near end and `far`: lanes of -1, others 0. `enter` and
   /// `leave` become where it enters them at the earliest and leaves them at the latest. `motion`, if any: how
   /// far their sides move until shutter close.
-  auto meet(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
+  auto intersect(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
     for (size_t i = 0; i < 3; ++i) {
@@ -54,8 +54,8 @@ class RaySlabs {
         near_side += time_ * (*motion)[i][axis.near_side];
         far_side += time_ * (*motion)[i][1 - axis.near_side];
       }
-      enter = larger((near_side - axis.near_origin) * axis.inverse * four(1 - kDoubt), enter);
-      leave = smaller((far_side - axis.far_origin) * axis.inverse * four(1 + kDoubt), leave);
+      enter = larger((near_side - axis.near_origin) * axis.inverse * four(1 - kErrorBound), enter);
+      leave = smaller((far_side - axis.far_origin) * axis.inverse * four(1 + kErrorBound), leave);
     }
     return enter <= leave;
   }
@@ -65,7 +65,7 @@ class RaySlabs {
 
   // What rounding may move a side or a hit by, relative to the largest number that goes in: 32 units in the
   // last place. The hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
-  static constexpr float kDoubt = 0x1p-19f;
+  static constexpr float kErrorBound = 0x1p-19f;
   static constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
 
   struct Axis {
@@ -87,8 +87,8 @@ class GridSlabs {
       const RaySlabs::Axis& of = ray.axes_[axis];
       const Four corner = four(grid.corner[i]) + ray.time_ * four(grid.motion[i]), step = four(grid.step[i]);
       const Four outward = four(of.near_side == 1 ? margin : -margin);
-      const Four near_inverse = of.inverse * four(1 - RaySlabs::kDoubt);
-      const Four far_inverse = of.inverse * four(1 + RaySlabs::kDoubt);
+      const Four near_inverse = of.inverse * four(1 - RaySlabs::kErrorBound);
+      const Four far_inverse = of.inverse * four(1 + RaySlabs::kErrorBound);
       axes_[axis] = {(corner + outward - of.near_origin) * near_inverse, step * near_inverse,
                      (corner - outward - of.far_origin) * far_inverse, step * far_inverse, of.near_side};
     }
@@ -96,7 +96,7 @@ class GridSlabs {
 
   /// As RaySlabs::meet(). The doubt on the scale of the scene covers what rounding does here: the corner lies
   /// in the scene.
-  auto meet(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
+  auto intersect(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
     for (size_t i = 0; i < 3; ++i) {

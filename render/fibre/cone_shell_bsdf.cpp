@@ -53,9 +53,9 @@ ConeShellBsdf::ConeShellBsdf(const ConeShellMaterial& material, const Rgb& color
               ConeShell(material.secondary_shape, material.variant, wo.dot(tangents[2]))},
       albedos_{color * material.diffuse, material.primary, color * material.secondary} {
   const Rgb sum = albedo();
-  const float most = max_component(sum);
-  if (most > 1.0f) {
-    for (Rgb& lobe : albedos_) lobe *= 1.0f / most;
+  const float max = max_component(sum);
+  if (max > 1.0f) {
+    for (Rgb& lobe : albedos_) lobe *= 1.0f / max;
   }
   float total = 0;
   for (int l = 0; l < kLobeGroups; ++l) {

@@ -37,7 +37,7 @@ std::optional<float> index_of(const MaterialParams& params) {
       params);
 }
 
-bool absorbs_as_given(const MedullaParams& params) {
+bool has_given_absorption(const MedullaParams& params) {
   const YanOptics optics = params.optics();
   return optics.sigma_ca && optics.sigma_ma;
 }
@@ -45,14 +45,14 @@ bool absorbs_as_given(const MedullaParams& params) {
 /// Whether the colour is turned into what a fibre absorbs by the look of much of it together. Chiang fibres,
 /// from which that look comes, and those of d'Eon, which are the same from afar, have a formula.
 bool takes_coat_color(const MaterialParams& params) {
-  return std::visit(
-      Overloaded{[](const ConeShellParams& p) { return !p.diffuse; },
-                 [](const LambertCylinderParams& p) { return !p.albedo; },
-                 [](const KajiyaKayParams& p) { return !p.diffuse; },
-                 [](const MarschnerParams& p) { return !given_absorption(p); },
-                 [](const YanFastParams& p) { return !absorbs_as_given(p); },
-                 [](const YanParams& p) { return !absorbs_as_given(p); }, [](const auto&) { return false; }},
-      params);
+  return std::visit(Overloaded{[](const ConeShellParams& p) { return !p.diffuse; },
+                               [](const LambertCylinderParams& p) { return !p.albedo; },
+                               [](const KajiyaKayParams& p) { return !p.diffuse; },
+                               [](const MarschnerParams& p) { return !given_absorption(p); },
+                               [](const YanFastParams& p) { return !has_given_absorption(p); },
+                               [](const YanParams& p) { return !has_given_absorption(p); },
+                               [](const auto&) { return false; }},
+                    params);
 }
 
 Rgb passed(const Rgb& absorption) {

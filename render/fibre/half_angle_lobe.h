@@ -26,13 +26,13 @@ class HalfAngleLobe {
     const float high = (0.5f * (theta_o + kPi / 2) - center) / width;
     below_ = normal_below(low);
     within_ = std::max(0.0f, normal_below(high) - below_);
-    if (!(within_ > kLeastMass)) return;
+    if (!(within_ > kMinMass)) return;
     for (int k = 1; k < kPlaces - 1; ++k) {
       const float x = normal_sample(below_ + kPlace[k] * within_);
       energy_[k] = energy(center + width * std::clamp(x, low, high));
     }
-    const float least = kLeastShare * *std::max_element(energy_.begin(), energy_.end());
-    for (float& e : energy_) e = std::max(e, least);
+    const float min = kMinShare * *std::max_element(energy_.begin(), energy_.end());
+    for (float& e : energy_) e = std::max(e, min);
     energy_.front() = energy_[1] * left_at_end(-low);
     energy_.back() = energy_[kPlaces - 2] * left_at_end(high);
     for (int k = 0; k < kPlaces - 1; ++k) mean_ += part(k);
@@ -67,8 +67,8 @@ class HalfAngleLobe {
  private:
   static constexpr int kPlaces = 5;
   static constexpr std::array<float, kPlaces> kPlace{0, 0.1f, 0.5f, 0.9f, 1};
-  static constexpr float kLeastShare = 0.02f;  // of the greatest energy
-  static constexpr float kLeastMass = 1e-5f;   // below it the place of a float in the tail is uncertain
+  static constexpr float kMinShare = 0.02f;  // of the greatest energy
+  static constexpr float kMinMass = 1e-5f;   // below it the place of a float in the tail is uncertain
 
   static float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
   /// Energy at an end over that beside it: none at a pole that cuts the Gaussian, as much where it is not

@@ -46,10 +46,10 @@ KajiyaKayBsdf::KajiyaKayBsdf(const KajiyaKayMaterial& material, const Rgb& color
       specular_(material.specular),
       inverse_norm_(1 / material.specular_norm(frame.sin_theta_o(), frame.cos_theta_o())) {
   const Rgb sum = albedo();
-  const float most = std::max({sum.x, sum.y, sum.z});
-  if (most > 1) {
-    diffuse_ /= most;
-    specular_ /= most;
+  const float max = std::max({sum.x, sum.y, sum.z});
+  if (max > 1) {
+    diffuse_ /= max;
+    specular_ /= max;
   }
   const float d = luminance(diffuse_), s = luminance(specular_);
   diffuse_choice_ = d + s > 0 ? d / (d + s) : 1;

@@ -9,7 +9,7 @@ namespace pelage {
 namespace {
 
 /// Where both directions lie along the fibre, 1 / cos^2(theta_d) has no bound.
-constexpr float kLeastCosine = 1e-2f;
+constexpr float kMinCosine = 1e-2f;
 /// The part of all samples that goes everywhere: far from all peaks the lobes are not known well.
 constexpr float kEverywhere = 0.01f;
 
@@ -46,7 +46,7 @@ MarschnerBsdf::MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame
 }
 
 MarschnerBsdf::Crossing MarschnerBsdf::crossing(float theta_d) const {
-  const float cos_d = std::max(std::cos(theta_d), kLeastCosine);
+  const float cos_d = std::max(std::cos(theta_d), kMinCosine);
   return {FibreCrossing(material_->eta_, 0, std::sin(theta_d), cos_d, h_), cos_d};
 }
 
@@ -55,7 +55,7 @@ MarschnerBsdf::Crossing MarschnerBsdf::crossing(float theta_d) const {
 /// FibreCrossing has it, without its angles: a new point of a strand asks nine times.
 float MarschnerBsdf::energy(int lobe, float theta_h) const {
   const float cos_i = std::max(0.0f, std::cos(2 * theta_h - theta_o_));
-  const float cos_d = std::max(std::cos(theta_o_ - theta_h), kLeastCosine);
+  const float cos_d = std::max(std::cos(theta_o_ - theta_h), kMinCosine);
   const float slant = cos_i / cos_d, eta = material_->eta_;
   const float cos2_d = cos_d * cos_d, across2 = h_ * h_;
   const float f = dielectric_reflectance(cos_d * std::sqrt(std::max(0.0f, 1 - across2)), eta);
@@ -90,11 +90,11 @@ FibreValue MarschnerBsdf::eval(const V3f& wi) const {
   value[LobeGroup::kPrimary] = amplitudes[0] * d[0];
   value[LobeGroup::kDiffuse] = amplitudes[1] * d[1];
   value[LobeGroup::kSecondary] = amplitudes[2] * d[2];
-  value.pdf = pdf * measure + everywhere() * (0.25f / kPi);
+  value.pdf = pdf * measure + uniform_share() * (0.25f / kPi);
   return value;
 }
 
-float MarschnerBsdf::everywhere() const { return 1 - (choice_[0] + choice_[1] + choice_[2]); }
+float MarschnerBsdf::uniform_share() const { return 1 - (choice_[0] + choice_[1] + choice_[2]); }
 
 std::optional<FibreSample> MarschnerBsdf::sample(const V3f& u) const {
   int p = 0;

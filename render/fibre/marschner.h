@@ -61,7 +61,7 @@ class MarschnerBsdf {
   Crossing crossing(float theta_d) const;
   float energy(int lobe, float theta_h) const;
   /// The part of samples that goes everywhere: all of them where every lobe is black.
-  float everywhere() const;
+  float uniform_share() const;
 
   const MarschnerMaterial* material_;
   FibreFrame frame_;

@@ -42,11 +42,11 @@ void accumulate(std::array<float, N>& cells) {
 }
 
 Node make_node(const TracedFibre& fibre, float theta, float h, uint64_t seed, int paths, const Job& job) {
-  constexpr int kBetweenLooks = 64;  // paths
+  constexpr int kPathsPerCheck = 64;  // paths
   Node node{};
   std::vector<FibrePath> scattered;
   for (int k = 0; k < paths; ++k) {
-    if (k % kBetweenLooks == 0) job.check_stop();
+    if (k % kPathsPerCheck == 0) job.check_stop();
     const FibrePath path = trace_fibre(fibre, std::sin(theta), h, seed, static_cast<uint64_t>(k));
     if (!path.scattered) continue;
     scattered.push_back(path);

@@ -9,12 +9,12 @@ namespace pelage {
 namespace {
 
 /// Beyond, what is left of a walk is as good as lost: fibres that absorb a thousandth keep under 1 %.
-constexpr int kMostScatterings = 1000;
+constexpr int kMaxScatterings = 1000;
 /// A walk that carries so much more than it began with is on its way to infinity.
 constexpr float kRunaway = 30;
 
 /// A fibre about a walk along `direction`: any way, but met as often as it is seen broadside.
-V3f met_tangent(const V3f& direction, WalkRandom& random) {
+V3f hit_tangent(const V3f& direction, WalkRandom& random) {
   for (;;) {
     const float z = 2 * random.unit() - 1, turn = 2 * kPi * random.unit();
     const float across = std::sqrt(std::max(0.0f, (1 - z) * (1 + z)));
@@ -27,10 +27,10 @@ V3f met_tangent(const V3f& direction, WalkRandom& random) {
 double walk(const TangleScatter& scatter, V3f direction, WalkRandom& random) {
   float weight = 1;
   double height = 0;
-  for (int i = 0; i < kMostScatterings; ++i) {
+  for (int i = 0; i < kMaxScatterings; ++i) {
     height += static_cast<double>(direction.z) * random.free_path(1);
     if (height > 0) return weight;
-    TangleHit hit{met_tangent(direction, random), -direction, 2 * random.unit() - 1};
+    TangleHit hit{hit_tangent(direction, random), -direction, 2 * random.unit() - 1};
     const V3f u(random.unit(), random.unit(), random.unit());
     const std::optional<FibreSample> s = scatter(hit, u);
     if (!s) return 0;

@@ -21,9 +21,9 @@ constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t
 /// Most that a piece of skin costs, in triangles of about 250 bytes each: 1/256 of the budget, so that small
 /// budgets can hold many; but no less than what a leaf of some hundred strands takes, because every piece
 /// poses the faces around it too.
-size_t most_piece_cost(uint64_t memory_limit) {
-  constexpr uint64_t kLeast = 4096, kMost = 65536;
-  return memory_limit == 0 ? kMost : std::clamp<uint64_t>(memory_limit >> 16, kLeast, kMost);
+size_t max_piece_cost(uint64_t memory_limit) {
+  constexpr uint64_t kMin = 4096, kMax = 65536;
+  return memory_limit == 0 ? kMax : std::clamp<uint64_t>(memory_limit >> 16, kMin, kMax);
 }
 
 /// Dividing a skin that takes so much is worth all threads: about 0.05 s of one.
@@ -56,27 +56,27 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job) : scene_(scen
 
 void FrameChunks::divide_skins(const Job& job) {
   std::vector<size_t> making(scene_.skins.size());
-  for (size_t i = 0; i < making.size(); ++i) making[i] = scene_.skins[i].skin->making_bytes({});
+  for (size_t i = 0; i < making.size(); ++i) making[i] = scene_.skins[i].skin->temporary_bytes({});
   if (making.empty()) return;
-  const auto most = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
-  const size_t largest = making[most];
+  const auto max = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
+  const size_t largest = making[max];
   const uint64_t limit = scene_.render.memory.bytes;
   require_room(job.ledger, static_cast<int64_t>(largest),
-               scene_.skins[most].name + ": its skin, posed to be divided");
-  const size_t at_once = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
-  const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(at_once * largest) <=
+               scene_.skins[max].name + ": its skin, posed to be divided");
+  const size_t concurrency = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
+  const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(concurrency * largest) <=
                                      static_cast<int64_t>(limit);
   const MemoryCharge passing(job.ledger, MemoryTag::kChunks,
-                             static_cast<int64_t>(fit ? at_once * largest : largest));
-  const size_t most_cost = most_piece_cost(limit);
-  std::vector<std::vector<PieceOfSkin>> pieces(making.size());
+                             static_cast<int64_t>(fit ? concurrency * largest : largest));
+  const size_t max_cost = max_piece_cost(limit);
+  std::vector<std::vector<SkinChunk>> pieces(making.size());
   const auto divide = [&](size_t i, const Workers& workers) {
     const DeferredSkin& skin = *scene_.skins[i].skin;
-    for (SkinPiece& piece : skin.divide(scene_.camera.view(), most_cost, {workers, job.ledger, job.progress}))
+    for (SkinPiece& piece : skin.divide(scene_.camera.view(), max_cost, {workers, job.ledger, job.progress}))
       pieces[i].push_back({static_cast<uint32_t>(i), std::move(piece), 0});
     Job{workers, job.ledger, job.progress}.for_each(pieces[i].size(), 1, [&](WorkRange range) {
       for (size_t k = range.begin; k < range.end; ++k)
-        pieces[i][k].making_bytes = skin.making_bytes(pieces[i][k].piece);
+        pieces[i][k].temporary_bytes = skin.temporary_bytes(pieces[i][k].piece);
     });
   };
   // Large skins one after the other, each by all threads; the others beside each other.
@@ -90,7 +90,7 @@ void FrameChunks::divide_skins(const Job& job) {
     }
   });
   for (auto& of_skin : pieces) {
-    for (PieceOfSkin& piece : of_skin) pieces_.push_back(std::move(piece));
+    for (SkinChunk& piece : of_skin) pieces_.push_back(std::move(piece));
   }
 }
 
@@ -109,7 +109,7 @@ void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t 
 
 ChunkContents FrameChunks::grow(uint32_t chunk) const {
   if (is_skin(chunk)) {
-    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    const SkinChunk& piece = pieces_[chunk - leaves_.size()];
     return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
   }
   const FurPart& part = scene_.fur[parts_[chunk]];
@@ -127,11 +127,11 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
 ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   ChunkCounts counts;
   if (is_skin(chunk)) {
-    const PieceOfSkin& piece = pieces_[chunk - leaves_.size()];
+    const SkinChunk& piece = pieces_[chunk - leaves_.size()];
     counts.vertices = piece.piece.vertices;
     counts.triangles = piece.piece.triangles;
     counts.motion_keys = scene_.skins[piece.skin].skin->motion_keys();
-    counts.growth_bytes = piece.making_bytes;
+    counts.growth_bytes = piece.temporary_bytes;
     return counts;
   }
   const StrandCounts strands = leaves_[chunk]->counts();
@@ -140,7 +140,7 @@ ChunkCounts FrameChunks::counts(uint32_t chunk) const {
   counts.segments = strands.segments;
   counts.attribute_floats = strands.attribute_floats;
   counts.motion_keys = static_cast<int>(strands.motion_keys);
-  counts.growth_bytes = growth_bytes(strands) + leaves_[chunk]->making_bytes();
+  counts.growth_bytes = growth_bytes(strands) + leaves_[chunk]->temporary_bytes();
   return counts;
 }
 
@@ -168,14 +168,14 @@ size_t FrameChunks::bytes() const {
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
                scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]);
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
-  for (const PieceOfSkin& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
+  for (const SkinChunk& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
   return sum;
 }
 
-FrameChunks::Measuring FrameChunks::measuring(const Job& job) const {
+FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   // The strands of a leaf are charged where they are measured; the block on its way through the operators
   // counts here.
-  Measuring most;
+  MeasurePlan plan;
   // A chunk that is grown again for a ray takes its tree too: what would do for that is said at once.
   const bool read = !scene_.render.bvh.file.path.empty();
   uint32_t which = 0;
@@ -190,19 +190,19 @@ FrameChunks::Measuring FrameChunks::measuring(const Job& job) const {
       largest = whole;
       which = leaf;
     }
-    most.block = std::max(most.block, n.growth_bytes);
+    plan.block = std::max(plan.block, n.growth_bytes);
     strands = std::max(strands, own);
   }
-  if (leaves_.empty()) return most;
-  const auto one = static_cast<int64_t>(most.block + strands);
+  if (leaves_.empty()) return plan;
+  const auto one = static_cast<int64_t>(plan.block + strands);
   require_room(job.ledger, std::max(one, static_cast<int64_t>(largest)),
                scene_.fur[parts_[which]].name + ": growing the largest of its parts");
-  most.at_once = job.workers.thread_count();
+  plan.concurrency = job.workers.thread_count();
   if (job.ledger.limit() > 0) {
-    most.at_once = static_cast<int>(std::clamp<int64_t>(
-        (job.ledger.limit() - job.ledger.budgeted()) / std::max<int64_t>(1, one), 1, most.at_once));
+    plan.concurrency = static_cast<int>(std::clamp<int64_t>(
+        (job.ledger.limit() - job.ledger.budgeted()) / std::max<int64_t>(1, one), 1, plan.concurrency));
   }
-  return most;
+  return plan;
 }
 
 std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& counts) const {
@@ -213,10 +213,10 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& cou
   std::optional<Workers> fewer;
   MemoryCharge blocks;
   if (measures_strands(options.strategy)) {
-    const Measuring measuring = this->measuring(job);
+    const MeasurePlan measure_plan = this->measure_plan(job);
     blocks = MemoryCharge(job.ledger, MemoryTag::kChunks,
-                          static_cast<int64_t>(measuring.block) * measuring.at_once);
-    if (measuring.at_once < job.workers.thread_count()) fewer.emplace(measuring.at_once);
+                          static_cast<int64_t>(measure_plan.block) * measure_plan.concurrency);
+    if (measure_plan.concurrency < job.workers.thread_count()) fewer.emplace(measure_plan.concurrency);
   }
   std::vector<ChunkBounds> bounds =
       bound_chunks(options, leaves_, {fewer ? *fewer : job.workers, job.ledger, job.progress}, &counts);
@@ -224,7 +224,7 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& cou
   bounds.resize(size());
   job.workers.for_each(pieces_.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
-      const PieceOfSkin& piece = pieces_[i];
+      const SkinChunk& piece = pieces_[i];
       ChunkBounds& box = bounds[leaves_.size() + i];
       box.keys = bound_keys(options.strategy);
       box.boxes.assign(static_cast<size_t>(box.keys),

@@ -48,18 +48,18 @@ class FrameChunks final : public ChunkGrower {
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
 
  private:
-  struct PieceOfSkin {
+  struct SkinChunk {
     uint32_t skin = 0;  // of RenderScene::skins
     SkinPiece piece;
-    size_t making_bytes = 0;
+    size_t temporary_bytes = 0;
   };
 
   /// How leaves are grown to be measured within `render.memory`.
-  struct Measuring {
-    int at_once = 1;
+  struct MeasurePlan {
+    int concurrency = 1;
     size_t block = 0;  // bytes of a block of strands on its way through the operators
   };
-  Measuring measuring(const Job& job) const;
+  MeasurePlan measure_plan(const Job& job) const;
 
   void divide_skins(const Job& job);
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
@@ -70,7 +70,7 @@ class FrameChunks final : public ChunkGrower {
   std::vector<uint32_t> parts_;      // of RenderScene::fur, per leaf
   std::vector<StrandScale> scales_;  // of coats: of what stands in the scene, before it is split
   std::vector<uint32_t> coats_;      // per leaf
-  std::vector<PieceOfSkin> pieces_;
+  std::vector<SkinChunk> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0};
 };
 

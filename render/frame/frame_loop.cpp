@@ -23,17 +23,20 @@ FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& f
       clock_(clock),
       tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
       costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
-      given_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())) {
+      sample_counts_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())) {
   for (int worker = 0; worker < job.workers.thread_count(); ++worker) {
     scratch_.push_back(integrator.make_scratch());
     scratch_.back()->thread.worker = worker;
   }
 }
 
-uint32_t FrameLoop::least_given() const { return *std::min_element(given_.begin(), given_.end()); }
+uint32_t FrameLoop::min_samples() const {
+  return *std::min_element(sample_counts_.begin(), sample_counts_.end());
+}
 
-double FrameLoop::mean_given() const {
-  return std::accumulate(given_.begin(), given_.end(), 0.0) / static_cast<double>(given_.size());
+double FrameLoop::mean_samples() const {
+  return std::accumulate(sample_counts_.begin(), sample_counts_.end(), 0.0) /
+         static_cast<double>(sample_counts_.size());
 }
 
 FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
@@ -69,7 +72,7 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
   for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
     for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
       uint32_t& given =
-          given_[static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x)];
+          sample_counts_[static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x)];
       const uint32_t before = given;
       stopped = !trace_pixel(x, y, goal, given, scratch);
       traced += given - before;
@@ -83,11 +86,11 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
 }
 
 bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch) {
-  constexpr uint32_t kBetweenLooks = 16;  // samples: a tile of many takes minutes
+  constexpr uint32_t kSamplesPerCheck = 16;  // samples: a tile of many takes minutes
   const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
   for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
     for (; given < until; ++given) {
-      if (given % kBetweenLooks == 0 && job_.progress.cancelled()) return false;
+      if (given % kSamplesPerCheck == 0 && job_.progress.cancelled()) return false;
       integrator_.trace(x, y, given, scratch);
       if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
     }

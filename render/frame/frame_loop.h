@@ -30,12 +30,12 @@ class FrameLoop {
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
-  size_t pixel_count() const { return given_.size(); }
+  size_t pixel_count() const { return sample_counts_.size(); }
   const Film& film() const { return film_; }
   /// Samples that were traced for a pixel.
-  uint32_t given(size_t pixel) const { return given_[pixel]; }
-  uint32_t least_given() const;
-  double mean_given() const;
+  uint32_t sample_count(size_t pixel) const { return sample_counts_[pixel]; }
+  uint32_t min_samples() const;
+  double mean_samples() const;
 
   /// Brings every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, far from each
   /// other, so that threads that begin together do not wait for the same fur. Samples of one pixel are added
@@ -65,7 +65,7 @@ class FrameLoop {
   const Stopwatch& clock_;
   std::vector<Tile> tiles_;
   std::vector<TileCost> costs_;                          // of tiles row by row
-  std::vector<uint32_t> given_;                          // by pixel
+  std::vector<uint32_t> sample_counts_;                  // by pixel
   std::vector<std::unique_ptr<SampleScratch>> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};
   std::atomic<double> first_tile_s_{0};

@@ -52,9 +52,9 @@ constexpr float kSkinRise = 0.08f;
 
 /// Numbers of what is seen and of the line of sight, not of the place where it was met: what changes a little
 /// from frame to frame must not draw anew.
-class SightDice {
+class ViewRandom {
  public:
-  SightDice(const Ray& ray, uint64_t seen) : ray_(ray), seen_(seen) {}
+  ViewRandom(const Ray& ray, uint64_t seen) : ray_(ray), seen_(seen) {}
   float number(uint64_t use) const {
     return unit_float(hash64(use, seen_, bits(0), bits(1) << 32 | bits(2)));
   }
@@ -76,21 +76,21 @@ class SightDice {
 /// One of the strands that a strand with reduced detail stands for, from which light goes on: were it to go
 /// on from the wide strand, it would find its way as clear as the line of sight, and the room empty where the
 /// others would be.
-struct Deputy {
+struct RepresentedStrand {
   V3f away{0};
-  bool meets_own = false;
+  bool can_hit_own_strand = false;
 };
 
-Deputy deputy_of(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
-                 const Strands& strand) {
-  Deputy deputy;
+RepresentedStrand represented_strand(const Simplification& lod, float share, const Ray& ray, const Hit& hit,
+                                     const Strands& strand) {
+  RepresentedStrand represented;
   const std::optional<RootDetail> detail = RootDetail::of(strand, 0);
   const float spread = lod.spread(share);
-  if (!detail || !(spread > 0)) return deputy;
-  const SightDice dice(ray, hit.strand_id);
-  deputy.away = dice.on_skin(detail->normal(), spread);
-  deputy.meets_own = dice.number(random_use("deputy: own")) < lod.own_shadow(share);
-  return deputy;
+  if (!detail || !(spread > 0)) return represented;
+  const ViewRandom random(ray, hit.strand_id);
+  represented.away = random.on_skin(detail->normal(), spread);
+  represented.can_hit_own_strand = random.number(random_use("deputy: own")) < lod.own_shadow(share);
+  return represented;
 }
 
 /// Never lighter than white, unless the colour itself is.
@@ -156,13 +156,18 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const std::optional<Simplification>& lod = scene_.fur[hit.part].lod;
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1) {
-    Deputy deputy = deputy_of(*lod, share, ray, hit, strand);
+    RepresentedStrand represented = represented_strand(*lod, share, ray, hit, strand);
     // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
     // coat from the side are the upper edges of wide strands.
     const float beside_axis = 1 - 1 / lod->gain(share);
-    deputy.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
-    return {point.position, point.tangent, point.radius / lod->gain(share), deputy.away, deputy.meets_own,
-            at.h,           bsdf};
+    represented.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
+    return {point.position,
+            point.tangent,
+            point.radius / lod->gain(share),
+            represented.away,
+            represented.can_hit_own_strand,
+            at.h,
+            bsdf};
   }
   // Flat strands are met where the ray is nearest to the axis, round ones where it enters.
   const float entry = scene_.render.curves == CurveShape::kFlat ? entry_place(at, hit.v) : 0.0f;
@@ -201,7 +206,7 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
     const V3f open = point.position - ray.time * point.shutter_motion;
     const float share =
         part.lod->share({.open = open, .close = open + point.shutter_motion, .normal = point.normal});
-    V3f away = SightDice(ray, hit.part).on_skin(point.normal, part.lod->spread(share));
+    V3f away = ViewRandom(ray, hit.part).on_skin(point.normal, part.lod->spread(share));
     const float rise = skin_rise(triangle, ray.time, point.normal, away);
     away += (rise + kSkinRise * away.length()) * point.normal;
     point.position += away;

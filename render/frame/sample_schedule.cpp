@@ -12,8 +12,8 @@ namespace pelage {
 namespace {
 
 /// `count`, a real number of any size, as a number of samples.
-uint32_t limited(double count, uint32_t least, uint32_t most) {
-  return std::max(least, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(most))));
+uint32_t limited(double count, uint32_t min, uint32_t max_samples) {
+  return std::max(min, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(max_samples))));
 }
 
 /// Of the pilot, what is spent on finding out where something varies at all.
@@ -39,19 +39,19 @@ SampleSchedule::SampleSchedule(FrameLoop& loop, const RenderParams& params, cons
     : loop_(loop), params_(params), job_(job), clock_(clock), in_passes_(stays || params.time_limit > 0) {}
 
 double SampleSchedule::deadline() const {
-  const bool limited = params_.time_limit > 0 && loop_.least_given() > 0;
+  const bool limited = params_.time_limit > 0 && loop_.min_samples() > 0;
   return limited ? double{params_.time_limit} : std::numeric_limits<double>::infinity();
 }
 
 ScheduleEnd SampleSchedule::run() {
   End end = End::kDone;
   if (!params_.adaptive) {
-    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * most());
-    end = uniform(most());
+    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * max_samples());
+    end = uniform(max_samples());
   } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
     end = two_stage();
   } else {
-    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * most());
+    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * max_samples());
     end = seed();
   }
   job_.progress.end();
@@ -79,12 +79,12 @@ SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
 }
 
 SampleSchedule::End SampleSchedule::pilot() {
-  const uint32_t pilot = std::min(most(), static_cast<uint32_t>(params_.adaptive->pilot));
+  const uint32_t pilot = std::min(max_samples(), static_cast<uint32_t>(params_.adaptive->pilot));
   const uint32_t probe = (pilot + kProbeShare - 1) / kProbeShare;
   job_.progress.begin("pilot", static_cast<double>(loop_.pixel_count()) * pilot);
   End end = uniform(probe);
   if (end == End::kDone) {
-    const std::vector<uint8_t> worth = worth_a_pilot(pilot_of(loop_.film()));
+    const std::vector<uint8_t> worth = needs_full_pilot(pilot_of(loop_.film()));
     const auto goal = [&](size_t pixel, uint32_t) { return worth[pixel] ? pilot : probe; };
     double expected = 0;
     for (size_t i = 0; i < worth.size(); ++i) expected += goal(i, 0);
@@ -98,7 +98,7 @@ SampleSchedule::End SampleSchedule::pilot() {
 SampleSchedule::End SampleSchedule::two_stage() {
   End end = pilot();
   std::vector<uint32_t> before(loop_.pixel_count());
-  for (size_t i = 0; i < before.size(); ++i) before[i] = loop_.given(i);
+  for (size_t i = 0; i < before.size(); ++i) before[i] = loop_.sample_count(i);
   const std::vector<uint32_t> counts = end == End::kDone ? second_stage_counts() : before;
   double missing = 0;
   for (size_t i = 0; i < before.size(); ++i) missing += counts[i] - before[i];
@@ -115,17 +115,19 @@ SampleSchedule::End SampleSchedule::two_stage() {
 }
 
 std::vector<uint32_t> SampleSchedule::second_stage_counts() {
-  const std::vector<float> wanted = two_stage_counts(pilot_of(loop_.film()), *params_.adaptive, most());
+  const std::vector<float> wanted =
+      two_stage_counts(pilot_of(loop_.film()), *params_.adaptive, max_samples());
   const auto count = [&](size_t pixel, double factor) {
-    return limited(whole_blocks(std::min<double>(factor * wanted[pixel], most())), loop_.given(pixel),
-                   most());
+    return limited(whole_blocks(std::min<double>(factor * wanted[pixel], max_samples())),
+                   loop_.sample_count(pixel), max_samples());
   };
   double factor = 1;
   if (params_.time_limit > 0) {
     const double left = (params_.time_limit - clock_.seconds()) * job_.workers.thread_count();
     const auto cost = [&](double tried) {
       double sum = 0;
-      for (size_t i = 0; i < wanted.size(); ++i) sum += loop_.cost(i) * (count(i, tried) - loop_.given(i));
+      for (size_t i = 0; i < wanted.size(); ++i)
+        sum += loop_.cost(i) * (count(i, tried) - loop_.sample_count(i));
       return sum;
     };
     if (cost(1) > left) {
@@ -148,29 +150,29 @@ SampleSchedule::End SampleSchedule::seed() {
   const double noise = params_.adaptive->noise;
   const std::vector<PixelMoments>& moments = loop_.film().moments();
   End end = End::kDone;
-  for (uint32_t cap = in_passes_ ? std::min(batch, most()) : most(); end == End::kDone;) {
+  for (uint32_t cap = in_passes_ ? std::min(batch, max_samples()) : max_samples(); end == End::kDone;) {
     const auto goal = [&](size_t pixel, uint32_t given) {
       if (given > 0 && looks_converged(moments[pixel], noise)) return given;
       return std::min(cap, given + batch);
     };
-    end = loop_.pass(goal, loop_.given(0) == 0 && in_passes_, deadline());
+    end = loop_.pass(goal, loop_.sample_count(0) == 0 && in_passes_, deadline());
     // What pixels that go on will need, if they vary as they did.
     double expected = 0;
     bool done = true;
     for (size_t i = 0; i < loop_.pixel_count(); ++i) {
-      const uint32_t given = loop_.given(i);
+      const uint32_t given = loop_.sample_count(i);
       const PixelMoments& m = moments[i];
-      if (given >= most() || (given > 0 && looks_converged(m, noise))) {
+      if (given >= max_samples() || (given > 0 && looks_converged(m, noise))) {
         expected += given;
         continue;
       }
       done = false;
       const double needed = m.variance() * std::pow(kConfidence / (noise * m.mean), 2);
-      expected += limited(needed, given, most());
+      expected += limited(needed, given, max_samples());
     }
     job_.progress.expect(expected);
     if (done) break;
-    cap = cap > most() / 2 ? most() : 2 * cap;
+    cap = cap > max_samples() / 2 ? max_samples() : 2 * cap;
   }
   return end;
 }

@@ -35,13 +35,13 @@ class SampleSchedule {
   using End = FrameLoop::End;
   /// All pixels to `samples`.
   End uniform(uint32_t samples);
-  /// A quarter of the pilot for every pixel, and the rest where worth_a_pilot() says so.
+  /// A quarter of the pilot for every pixel, and the rest where needs_full_pilot() says so.
   End pilot();
   End two_stage();
   End seed();
   /// What two_stage_counts() asks for, as counts that fit the time limit.
   std::vector<uint32_t> second_stage_counts();
-  uint32_t most() const { return static_cast<uint32_t>(params_.samples); }
+  uint32_t max_samples() const { return static_cast<uint32_t>(params_.samples); }
   double deadline() const;
 
   FrameLoop& loop_;

@@ -68,8 +68,8 @@ float skin_rise(const SkinMesh& triangle, float time, const V3f& normal, const V
   const float s = away.cross(v).dot(across) / square, t = u.cross(away).dot(across) / square;
   V3f turned = s * (b.normal - a.normal) + t * (c.normal - a.normal);
   if (a.normal.dot(normal) < 0) turned = -turned;
-  const float most = away.length();
-  return std::clamp(-0.5f * turned.dot(away), -most, most);
+  const float max = away.length();
+  return std::clamp(-0.5f * turned.dot(away), -max, max);
 }
 
 V2f skin_parameters(const SkinMesh& triangle, const Hit& hit) {

@@ -13,7 +13,7 @@ namespace {
 std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkOptions& options) {
   ContentHasher hasher;
   hasher.add("stored fur").add(options.compact_attributes).add(options.tree.layout);
-  hasher.add(options.tree.build.node_cost).add(options.tree.build.cuts).add(options.tree.build.turn);
+  hasher.add(options.tree.build.node_cost).add(options.tree.build.cuts).add(options.tree.build.rotation);
   for (uint32_t leaf = 0; leaf < chunks.leaves().size(); ++leaf) {
     const std::optional<ContentHash> content = chunks.leaves()[leaf]->content();
     if (!content) return {};

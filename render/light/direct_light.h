@@ -75,8 +75,8 @@ class DirectLight {
   /// Calls `found(light, hit, weight)` for each light that a ray in `direction`, drawn from the lobes with
   /// density `lobe_pdf`, meets before `distance`.
   template <class Found>
-  void meet(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
-            const DirectLightScratch& scratch, const Found& found) const;
+  void find_lights(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
+                   const DirectLightScratch& scratch, const Found& found) const;
 
  private:
   /// Points on lights among which one shadow ray chooses.
@@ -160,8 +160,8 @@ void DirectLight::choose(double total, float u, const DirectLightScratch& scratc
 }
 
 template <class Found>
-void DirectLight::meet(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
-                       const DirectLightScratch& scratch, const Found& found) const {
+void DirectLight::find_lights(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
+                              const DirectLightScratch& scratch, const Found& found) const {
   const V3f from = point.exit().origin(direction);
   for (size_t i = 0; i < lights_.size(); ++i) {
     const Light& light = lights_.light(i);

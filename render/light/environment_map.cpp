@@ -25,15 +25,15 @@ bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) &
 
 /// One of a few entries in proportion to their weights, which are not all zero. `rest` is where in [0, 1)
 /// `u` lies within it.
-struct FewDraw {
+struct DiscreteSample {
   int index = 0;
   float rest = 0;
 };
-FewDraw draw_of_few(const double* weights, int count, float u) {
+DiscreteSample sample_discrete(const double* weights, int count, float u) {
   double total = 0;
   for (int i = 0; i < count; ++i) total += weights[i];
   double left = static_cast<double>(u) * total;
-  FewDraw draw;
+  DiscreteSample draw;
   for (int i = 0; i < count; ++i) {
     if (!(weights[i] > 0)) continue;
     draw = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
@@ -45,9 +45,9 @@ FewDraw draw_of_few(const double* weights, int count, float u) {
 
 }  // namespace
 
-int EnvironmentMap::cell_side(int width, int height, int64_t most_cells) {
+int EnvironmentMap::cell_side(int width, int height, int64_t max_cells) {
   int side = 1;
-  while (side < kBlock && int64_t(divided_up(width, side)) * divided_up(height, side) > most_cells) side *= 2;
+  while (side < kBlock && int64_t(divided_up(width, side)) * divided_up(height, side) > max_cells) side *= 2;
   return side;
 }
 
@@ -58,18 +58,18 @@ size_t EnvironmentMap::bytes(int width, int height, int cell) {
          (guide_size(rows) + guide_size(columns) * rows) * sizeof(uint32_t);
 }
 
-size_t EnvironmentMap::bytes_for(int width, int height, int64_t most_cells) {
-  return bytes(width, height, cell_side(width, height, most_cells));
+size_t EnvironmentMap::bytes_for(int width, int height, int64_t max_cells) {
+  return bytes(width, height, cell_side(width, height, max_cells));
 }
 
 EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& factor,
-                               const std::function<void()>& check_stop, int64_t most_cells)
+                               const std::function<void()>& check_stop, int64_t max_cells)
     : image_(std::move(image)), factor_(factor) {
   const int width = image_->width(), height = image_->height();
   if (width < 1 || height < 1 || image_->channels() < 1) {
     throw Error(ErrorKind::kInput, "the environment image is empty");
   }
-  cell_ = cell_side(width, height, most_cells);
+  cell_ = cell_side(width, height, max_cells);
   columns_ = divided_up(width, cell_);
   rows_ = divided_up(height, cell_);
   row_cosine_.resize(static_cast<size_t>(height) + 1);
@@ -158,18 +158,18 @@ EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, c
     for (int i = 0; i < width; ++i) by_row[static_cast<size_t>(j)] += weight(i, j);
     by_row[static_cast<size_t>(j)] *= texel_solid_angle(y + j);
   }
-  const FewDraw drawn_row = draw_of_few(by_row.data(), height, rest.y);
+  const DiscreteSample drawn_row = sample_discrete(by_row.data(), height, rest.y);
   for (int i = 0; i < width; ++i) in_row[static_cast<size_t>(i)] = weight(i, drawn_row.index);
-  const FewDraw drawn_column = draw_of_few(in_row.data(), width, rest.x);
+  const DiscreteSample drawn_column = sample_discrete(in_row.data(), width, rest.x);
   return {{x + drawn_column.index, y + drawn_row.index}, {drawn_column.rest, drawn_row.rest}};
 }
 
 EnvironmentMap::Draw EnvironmentMap::sample(const V2f& u) const {
-  const GuidedDraw row = draw_guided(row_cdf_, row_guide_, u.y);
+  const GuidedSample row = sample_guided(row_cdf_, row_guide_, u.y);
   const auto columns = static_cast<size_t>(columns_);
-  const GuidedDraw column =
-      draw_guided({&column_cdf_[row.index * columns], columns},
-                  {&column_guide_[row.index * column_guide_size_], column_guide_size_}, u.x);
+  const GuidedSample column =
+      sample_guided({&column_cdf_[row.index * columns], columns},
+                    {&column_guide_[row.index * column_guide_size_], column_guide_size_}, u.x);
   const auto [texel, rest] = place_in_cell(column.index, row.index, {column.rest, row.rest});
   const double top = row_cosine_[texel.y], bottom = row_cosine_[texel.y + 1];
   const double cosine = top + rest.y * (bottom - top);

@@ -17,18 +17,18 @@ namespace pelage {
 /// each texel, and texels are sampled uniformly over their exact solid angle, so that density and radiance
 /// are proportional everywhere, poles included: nothing that shines has density zero.
 ///
-/// The distribution has at most kMostCells cells, whatever the size of the image: of larger images, a cell is
+/// The distribution has at most kMaxCells cells, whatever the size of the image: of larger images, a cell is
 /// a square of texels, and the texel within it is drawn by looking at all of them. Of a cell, one float and a
 /// sixteenth of a number are kept. Immutable; thread safe.
 class EnvironmentMap {
  public:
-  static constexpr int64_t kMostCells = int64_t(1) << 21;
+  static constexpr int64_t kMaxCells = int64_t(1) << 21;
 
   /// The first three channels (or the only one) of `image` times `factor` are the radiance. Negative values
   /// count as black. `check_stop` is called often and may throw. Throws Error (kInput) for an empty image and
   /// for values that are not finite.
   EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& factor,
-                 const std::function<void()>& check_stop = {}, int64_t most_cells = kMostCells);
+                 const std::function<void()>& check_stop = {}, int64_t max_cells = kMaxCells);
 
   struct Texel {
     int x, y;
@@ -51,7 +51,7 @@ class EnvironmentMap {
   /// Memory beside the image.
   size_t bytes() const { return bytes(image_->width(), image_->height(), cell_); }
   /// The same, of an image that is yet to be used.
-  static size_t bytes_for(int width, int height, int64_t most_cells = kMostCells);
+  static size_t bytes_for(int width, int height, int64_t max_cells = kMaxCells);
 
  private:
   /// A texel, and where in it.
@@ -59,7 +59,7 @@ class EnvironmentMap {
     Texel texel;
     V2f rest;
   };
-  static int cell_side(int width, int height, int64_t most_cells);
+  static int cell_side(int width, int height, int64_t max_cells);
   static size_t bytes(int width, int height, int cell);
   Rgb shown(const Rgb& stored) const;
   void measure_band(int row, const std::function<void()>& check_stop);

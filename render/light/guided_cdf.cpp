@@ -28,7 +28,7 @@ double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide) {
   return total;
 }
 
-GuidedDraw draw_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u) {
+GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u) {
   const size_t cell = std::min(static_cast<size_t>(u * static_cast<float>(guide.size())), guide.size() - 1);
   // Rounding may have put u into the cell after its own: one entry further back is then still right.
   size_t low = guide[cell];

@@ -18,11 +18,11 @@ inline size_t guide_size(size_t count) { return count / 16 + 1; }
 double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide);
 
 /// A drawn entry and `u` stretched to [0, 1) within it.
-struct GuidedDraw {
+struct GuidedSample {
   size_t index;
   float rest;
 };
 /// Never gives an entry of weight zero, unless all are.
-GuidedDraw draw_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u);
+GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u);
 
 }  // namespace pelage

@@ -34,10 +34,10 @@ void LightSet::importances(const V3f& from, const V3f& tangent, std::span<float>
 
 void LightSet::probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const {
   importances(from, tangent, out);
-  share_out(out);
+  normalise(out);
 }
 
-void LightSet::share_out(std::span<float> out) {
+void LightSet::normalise(std::span<float> out) {
   double total = 0;
   size_t useful = 0;
   for (const float importance : out) {

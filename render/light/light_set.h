@@ -49,13 +49,13 @@ class LightSet {
       const std::optional<V3f> middle = lights_[i]->middle(from);
       if (middle) out[i] *= 0.5f + 0.5f * (4 * kPi * lobes(*middle));
     }
-    share_out(out);
+    normalise(out);
   }
 
  private:
   void importances(const V3f& from, const V3f& tangent, std::span<float> out) const;
   /// Turns importances into probabilities.
-  static void share_out(std::span<float> out);
+  static void normalise(std::span<float> out);
 
   std::vector<std::unique_ptr<Light>> lights_;
 };

@@ -24,11 +24,11 @@ class ScatterPoint {
                const FibreBsdf& bsdf, float farther = 0)
       : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
   /// The same of a strand that stands for many: light leaves one of them, which is `away` from it; the strand
-  /// itself may be in its way (`meets_own`).
-  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool meets_own, float h,
-               const FibreBsdf& bsdf)
+  /// itself may be in its way (`can_hit_own_strand`).
+  ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool can_hit_own_strand,
+               float h, const FibreBsdf& bsdf)
       : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
-    meets_own_ = meets_own;
+    can_hit_own_strand_ = can_hit_own_strand;
   }
   /// A point of a skin: `start` is where rays that leave it begin.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
@@ -44,7 +44,7 @@ class ScatterPoint {
   const ExitCircle& exit() const { return exit_; }
 
   /// Whether rays that start here may meet the strand that was hit, near this place too.
-  bool meets_own() const { return meets_own_; }
+  bool can_hit_own_strand() const { return can_hit_own_strand_; }
 
   FibreValue eval(const V3f& wi) const {
     if (const auto* fibre = std::get_if<FibreBsdf>(&bsdf_)) return fibre->eval(wi);
@@ -91,7 +91,7 @@ class ScatterPoint {
   V3f position_;
   V3f surface_;
   ExitCircle exit_;
-  bool meets_own_ = false;
+  bool can_hit_own_strand_ = false;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

@@ -138,7 +138,7 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
   ray.direction = to.direction;
   ray.far = to.distance * DirectLight::kJustBefore;
   ray.time = path.time;
-  if (!point.meets_own()) ray.start = path.hit.start;
+  if (!point.can_hit_own_strand()) ray.start = path.hit.start;
   ++path.scratch.rays.shadow;
   const float through = accel_.transmittance(ray, path.scratch.thread);
   if (through > 0) path.add_scattered(to.light, to.value, to.arriving * (through * factor));
@@ -148,16 +148,16 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
 /// `shadowed`, what lies between has yet to be found out.
 void PathTracer::gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                bool shadowed, Path& path) const {
-  direct_.meet(point, ray.direction, distance, lobe_pdf, path.scratch.direct,
-               [&](size_t light, const LightHit& hit, float weight) {
-                 if (shadowed) {
-                   Ray shadow = ray;
-                   shadow.far = hit.distance * DirectLight::kJustBefore;
-                   ++path.scratch.rays.shadow;
-                   weight *= accel_.transmittance(shadow, path.scratch.thread);
-                 }
-                 if (weight > 0) path.add(light, path.first, path.throughput * hit.radiance * weight);
-               });
+  direct_.find_lights(point, ray.direction, distance, lobe_pdf, path.scratch.direct,
+                      [&](size_t light, const LightHit& hit, float weight) {
+                        if (shadowed) {
+                          Ray shadow = ray;
+                          shadow.far = hit.distance * DirectLight::kJustBefore;
+                          ++path.scratch.rays.shadow;
+                          weight *= accel_.transmittance(shadow, path.scratch.thread);
+                        }
+                        if (weight > 0) path.add(light, path.first, path.throughput * hit.radiance * weight);
+                      });
 }
 
 /// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
@@ -180,7 +180,7 @@ bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   ray.origin = point.start(sample->wi);
   ray.direction = sample->wi;
   ray.time = path.time;
-  if (!point.meets_own()) ray.start = path.hit.start;
+  if (!point.can_hit_own_strand()) ray.start = path.hit.start;
   if (last) {
     gather_lights(point, ray, ray.far, value.pdf, true, path);
     return false;

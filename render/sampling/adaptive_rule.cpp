@@ -28,12 +28,8 @@ double squared(double x) { return x * x; }
 /// Counts of the pixels of one colour.
 class ColorCounts {
  public:
-  ColorCounts(const Pilot& pilot, int color, const AdaptiveParams& params, uint32_t most)
-      : pilot_(pilot),
-        color_(color),
-        params_(params),
-        most_(most),
-        floor2_(squared(kDark * mean_of_other())) {}
+  ColorCounts(const Pilot& pilot, int color, const AdaptiveParams& params, uint32_t max)
+      : pilot_(pilot), color_(color), params_(params), max_(max), floor2_(squared(kDark * mean_of_other())) {}
 
   void fill(std::vector<float>& counts) const {
     std::vector<Variance> variances;
@@ -52,7 +48,7 @@ class ColorCounts {
     const bool frame = params_.goal == NoiseGoal::kFrame;
     const double factor = frame ? frame_factor(variances, known, budget) : kExcess / budget;
     const double average =
-        known == 0 ? static_cast<double>(most_) : factor * (frame ? roots : sum) / static_cast<double>(known);
+        known == 0 ? static_cast<double>(max_) : factor * (frame ? roots : sum) / static_cast<double>(known);
     size_t i = 0;
     for_each_pixel([&](int x, int y) {
       const double v = variances[i++].value;
@@ -126,7 +122,7 @@ class ColorCounts {
       double sum = 0;
       for (const auto& [v, given] : variances) {
         if (v > 0)
-          sum += v / std::clamp(k * std::sqrt(v), static_cast<double>(given), static_cast<double>(most_));
+          sum += v / std::clamp(k * std::sqrt(v), static_cast<double>(given), static_cast<double>(max_));
       }
       return sum - budget * static_cast<double>(known);
     };
@@ -141,13 +137,13 @@ class ColorCounts {
   const Pilot& pilot_;
   int color_;
   const AdaptiveParams& params_;
-  uint32_t most_;
+  uint32_t max_;
   double floor2_;
 };
 
 }  // namespace
 
-std::vector<uint8_t> worth_a_pilot(const Pilot& probe) {
+std::vector<uint8_t> needs_full_pilot(const Pilot& probe) {
   std::vector<uint8_t> worth(probe.pixels.size());
   for (int y = 0; y < probe.height; ++y) {
     for (int x = 0; x < probe.width; ++x) {
@@ -172,9 +168,9 @@ uint32_t whole_blocks(double count) {
   return static_cast<uint32_t>(std::round(count / block) * block);
 }
 
-std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t most) {
+std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max) {
   std::vector<float> counts(pilot.pixels.size());
-  for (int color : {0, 1}) ColorCounts(pilot, color, params, most).fill(counts);
+  for (int color : {0, 1}) ColorCounts(pilot, color, params, max).fill(counts);
   return counts;
 }
 

@@ -36,10 +36,10 @@ struct Pilot {
 /// Which pixels should have the whole pilot, by a first part of it (as many samples for every pixel): 0 where
 /// all samples of the neighbours met nothing and are alike, 1 elsewhere. Pixels are coloured like a chess
 /// board; neighbours are the 12 others of the same colour in the 5 x 5 pixels about one.
-std::vector<uint8_t> worth_a_pilot(const Pilot& probe);
+std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 
 /// The number of samples, those of the pilot included, that each pixel should have to keep the noise budget:
-/// a real number, not limited from below or above except that `most` stands where the pilot knows nothing.
+/// a real number, not limited from below or above except that `max` stands where the pilot knows nothing.
 ///
 /// The counts of one colour are a function of the pilot of the other colour alone, whose length is one of
 /// that other colour's probes. Samples of different pixels are independent, so a pixel's count is independent
@@ -52,7 +52,7 @@ std::vector<uint8_t> worth_a_pilot(const Pilot& probe);
 /// keeps the mean of variance / count with the least sum of counts; for each pixel, with the variance. Where
 /// brightness changes from pixel to pixel the neighbourhood's mean hides dark pixels, and the noise that is
 /// left is somewhat above the budget: frame_noise() of the outcome says what it is.
-std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t most);
+std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max);
 
 /// The nearest number of the form 4, 5, 6, 7 times a power of two: a pixel's samples are a sequence whose
 /// aligned blocks of 2^k are stratified, and a number in between leaves a block torn. Up to 4, the next whole

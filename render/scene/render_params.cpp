@@ -26,7 +26,7 @@ const Schema<LodParams>& LodParams::schema() {
         "camera", &LodParams::camera,
         {.help = "Camera whose view decides, and whose shutter and lens are those whose blur counts: one for "
                  "both eyes of a stereo pair, or for shots that show the same hair"});
-    s.key("in_full", &LodParams::in_full,
+    s.key("in_full", &LodParams::full_detail,
           {.help = "So many characters with a coat keep every hair, evenly chosen in the order of their "
                    "distance from that camera; to measure what the others save",
            .min = 0});

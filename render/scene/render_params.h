@@ -49,7 +49,7 @@ struct ValueReader<LodCamera> {
 struct LodParams : SimplificationParams {
   bool enabled = true;
   LodCamera camera;
-  int64_t in_full = 0;  ///< characters that keep every hair
+  int64_t full_detail = 0;  ///< characters that keep every hair
   static const Schema<LodParams>& schema();
 };
 

@@ -112,7 +112,7 @@ TEST(Workers, AloneWorksInPlaceInsideAnotherTeam) {
       sum += static_cast<int>(range.end - range.begin);
       elsewhere += std::this_thread::get_id() != here || range.worker != 0;
     });
-    alone.lend_to_library([&] { elsewhere += std::this_thread::get_id() != here; });
+    alone.run_library([&] { elsewhere += std::this_thread::get_id() != here; });
     EXPECT_THROW(alone.for_each(1, 1, [](WorkRange) { throw 7; }), int);
   });
   EXPECT_EQ(sum, 300);

@@ -17,12 +17,12 @@ namespace {
 
 constexpr int kThreads = 4;
 constexpr size_t kSlots = 300;
-constexpr size_t kMostWords = 512;
+constexpr size_t kMaxWords = 512;
 
 /// Percent of all units; 0 is just the largest of them, so that threads grow one after the other.
 class ResidencyStress : public testing::TestWithParam<int> {
  protected:
-  ResidencyStress() : grower_(kSlots, kMostWords, 3) {}
+  ResidencyStress() : grower_(kSlots, kMaxWords, 3) {}
 
   /// A budget beside `fixed_` bytes of film.
   uint64_t limit(int percent) {
@@ -61,12 +61,12 @@ class Walk {
 
 TEST_P(ResidencyStress, EveryVisitSeesItsUnitWhole) {
   const MemoryCharge film(ledger_, MemoryTag::kFilm, fixed_);
-  const uint64_t most = limit(GetParam());
+  const uint64_t max = limit(GetParam());
   grower_.before = [](uint32_t, uint64_t) { std::this_thread::yield(); };
   const uint64_t visits = 170'000 * soak_scale();
   ResidencyCounts counts;
   {
-    Residency residency(grower_, kSlots, kThreads, MemoryBudget{most}, ledger_, MemoryTag::kChunks);
+    Residency residency(grower_, kSlots, kThreads, MemoryBudget{max}, ledger_, MemoryTag::kChunks);
     std::atomic<uint64_t> broken = 0;
     std::vector<std::thread> threads;
     for (int thread = 0; thread < kThreads; ++thread) {
@@ -88,7 +88,7 @@ TEST_P(ResidencyStress, EveryVisitSeesItsUnitWhole) {
   }
   EXPECT_EQ(ledger_.budgeted(), fixed_);
   EXPECT_EQ(grower_.live_bytes(), 0);
-  EXPECT_LE(ledger_.peak(MemoryTag::kChunks) + fixed_, static_cast<int64_t>(most));
+  EXPECT_LE(ledger_.peak(MemoryTag::kChunks) + fixed_, static_cast<int64_t>(max));
   EXPECT_LE(grower_.live_peak(), counts.peak_bytes);
   EXPECT_EQ(counts.expansions, grower_.grown());
   EXPECT_EQ(counts.expansions, counts.touched + counts.reexpansions);

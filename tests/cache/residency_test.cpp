@@ -242,9 +242,9 @@ TEST_F(ResidencyTest, RefusesABudgetBelowTheLargestChunk) {
   // What it says would do does, and a MiB less does not.
   std::smatch match;
   ASSERT_TRUE(std::regex_search(text, match, std::regex("; (\\d+)M would do")));
-  const uint64_t least = std::stoull(match[1]) << 20;
-  with_limit(least);
-  EXPECT_THROW(with_limit(least - (1 << 20)), Error);
+  const uint64_t min = std::stoull(match[1]) << 20;
+  with_limit(min);
+  EXPECT_THROW(with_limit(min - (1 << 20)), Error);
   EXPECT_EQ(ledger_.budgeted(), 3 << 20);
 }
 

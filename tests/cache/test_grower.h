@@ -50,8 +50,8 @@ inline bool is_whole(Resident& unit, uint32_t slot, uint64_t where = 1) {
 /// alive.
 class TestGrower : public Grower {
  public:
-  TestGrower(size_t slots, size_t most_words, uint64_t seed = 1) {
-    for (size_t slot = 0; slot < slots; ++slot) words_.push_back(1 + hash64(seed, slot) % most_words);
+  TestGrower(size_t slots, size_t max_words, uint64_t seed = 1) {
+    for (size_t slot = 0; slot < slots; ++slot) words_.push_back(1 + hash64(seed, slot) % max_words);
   }
   static TestGrower of_equal_units(size_t slots, size_t words) {
     TestGrower grower(slots, 1);
@@ -67,9 +67,9 @@ class TestGrower : public Grower {
     return sum;
   }
   size_t largest_reservation() const {
-    size_t most = 0;
-    for (uint32_t slot = 0; slot < words_.size(); ++slot) most = std::max(most, reserve_bytes(slot));
-    return most;
+    size_t max = 0;
+    for (uint32_t slot = 0; slot < words_.size(); ++slot) max = std::max(max, reserve_bytes(slot));
+    return max;
   }
   int64_t live_bytes() const { return live_; }
   int64_t live_peak() const { return live_peak_; }

@@ -47,7 +47,7 @@ class LodPictures : public testing::Test {
     ASSERT_TRUE(difference);
     EXPECT_EQ(difference->differing, 0) << a << " " << b;
   }
-  static float most_left_out(const std::filesystem::path& path) {
+  static float max_left_out(const std::filesystem::path& path) {
     const ExrImage image = read_exr(path);
     const std::vector<float>& layer = image.find("lod")->pixels;
     return *std::max_element(layer.begin(), layer.end());
@@ -60,7 +60,7 @@ const Override kOn{"render.lod.enabled", "true"}, kOff{"render.lod.enabled", "fa
 
 TEST_F(LodPictures, NothingButTheViewDecides) {
   const auto first = render("first", {kOn});
-  EXPECT_GT(most_left_out(first), 0.3f);
+  EXPECT_GT(max_left_out(first), 0.3f);
   expect_equal(first, render("warm", {kOn}));
   expect_equal(first, render("leaves", {kOn, {"grooms.under.leaf_strands", "41"}}));
   expect_equal(first, render("boxes", {kOn, {"render.bounds", "conservative"}}));
@@ -71,7 +71,7 @@ TEST_F(LodPictures, NothingButTheViewDecides) {
 TEST_F(LodPictures, WhereEverythingIsKeptItIsAsIfThereWereNone) {
   const Settings kept{kOn, {"render.lod.quality", "100"}, {"render.lod.least_share", "1"}};
   const auto off = render("off", {kOff});
-  EXPECT_EQ(most_left_out(off), 0);
+  EXPECT_EQ(max_left_out(off), 0);
   expect_equal(off, render("on", kept));
 }
 

@@ -26,14 +26,14 @@ TEST(TimeLeft, WhatASlowBeginningSuggestsIsNotSaid) {
   // of the whole time would foretell half an hour when that begins.
   TimeLeft left;
   const auto done = [](double t) { return t < 30 ? t / 30000 : 0.001 + (t - 30) / 60; };
-  double most = 0;
+  double max = 0;
   for (double t = 0.1; t < 85; t += 0.1) {
     left.add(t, done(t));
-    if (left.estimate()) most = std::max(most, *left.estimate() - (89.5 - t));
+    if (left.estimate()) max = std::max(max, *left.estimate() - (89.5 - t));
   }
   ASSERT_TRUE(left.estimate());
   EXPECT_NEAR(*left.estimate(), 4.6, 1);
-  EXPECT_LT(most, 20);
+  EXPECT_LT(max, 20);
 }
 
 TEST(TimeLeft, NothingIsSaidOfAStageThatDoesNotAdvance) {

@@ -32,7 +32,7 @@ void fuzz_leaf(std::span<const uint8_t> bytes) {
   const auto batch = std::make_unique<StrandBatch>();
   for (size_t s = 0; s < kBlockStrands; ++s) {
     batch->ids[s] = s;
-    batch->here.set(s, V3f(0), Frame{V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1)});
+    batch->current.set(s, V3f(0), Frame{V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1)});
   }
   if (const std::optional<FrozenLeaf> leaf = FrozenLeaf::read(aligned)) {
     size_t strands = 0;
@@ -42,7 +42,7 @@ void fuzz_leaf(std::span<const uint8_t> bytes) {
       batch->points.resize(static_cast<size_t>(block.points));
       batch->colors.resize(static_cast<size_t>(block.points));
       leaf->attributes(block, *batch);
-      leaf->shape(block, batch->here, 1, *batch);
+      leaf->shape(block, batch->current, 1, *batch);
     }
     PELAGE_CHECK(strands == leaf->strand_count());
   }

@@ -40,7 +40,7 @@ std::unique_ptr<FurChunk> small_chunk(uint32_t kind) {
   FurChunkOptions options;
   options.compact_attributes = kind != 5;
   options.tree.layout = kind == 4 ? FurNodeLayout::kFloat : FurNodeLayout::kQuantised;
-  options.tree.build.turn = kind == 0 ? FurTurn::kAlways : FurTurn::kNever;
+  options.tree.build.rotation = kind == 0 ? FurRotation::kAlways : FurRotation::kNever;
   return std::make_unique<FurChunk>(ChunkContents{std::move(fur), kind}, kind, FurGrid(shape.width), options);
 }
 

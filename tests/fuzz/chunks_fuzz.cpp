@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostChunks = 16;
+constexpr size_t kMaxChunks = 16;
 
 /// Through the middle of a chunk, each a little beside the others.
 Ray ray_at(const V3f& middle, float size, int i) {
@@ -76,7 +76,7 @@ void use(const FurChunk& chunk) {
 void feed(std::span<const uint8_t> bytes) {
   try {
     const FurChunkFile file{StoredSections(fuzz_file(bytes, ".cache"))};
-    const size_t chunks = std::min(file.chunk_count(), kMostChunks);
+    const size_t chunks = std::min(file.chunk_count(), kMaxChunks);
     for (uint32_t c = 0; c < chunks; ++c) {
       if (!file.has(c)) continue;
       const std::unique_ptr<FurChunk> chunk = file.read(c, [](const std::string&) {});

@@ -8,13 +8,14 @@
 namespace pelage {
 namespace {
 
-FurTree small_tree(size_t strands, int motion_keys, FurNodeLayout layout, FurTurn turn = FurTurn::kNever) {
+FurTree small_tree(size_t strands, int motion_keys, FurNodeLayout layout,
+                   FurRotation rotation = FurRotation::kNever) {
   GroomShape shape;
   shape.motion_keys = motion_keys;
   const Strands groom = random_groom(shape, strands, 3);
   FurTreeOptions options;
   options.layout = layout;
-  options.build.turn = turn;
+  options.build.rotation = rotation;
   return FurTree(SnappedStrands(groom, FurGrid(shape.width)), options);
 }
 
@@ -28,7 +29,7 @@ std::vector<std::string> fur_corpus() {
     FurPageFile::Writer writer(store, {1, 2}, size_t(4) << 10);
     writer.add(small_tree(12, keys, FurNodeLayout::kQuantised));
     writer.add(small_tree(5, keys, FurNodeLayout::kFloat));
-    writer.add(small_tree(8, 1, FurNodeLayout::kQuantised, FurTurn::kAlways));
+    writer.add(small_tree(8, 1, FurNodeLayout::kQuantised, FurRotation::kAlways));
     writer.commit([](const std::string&) {});
     files.push_back(read_file(std::filesystem::directory_iterator(folder.path())->path()));
   }
@@ -39,7 +40,7 @@ std::vector<std::string> treelet_corpus() {
   std::vector<std::string> treelets;
   for (const FurNodeLayout layout : {FurNodeLayout::kQuantised, FurNodeLayout::kFloat}) {
     const bool turned = layout == FurNodeLayout::kQuantised;
-    const FurTree tree = small_tree(10, 1, layout, turned ? FurTurn::kAlways : FurTurn::kNever);
+    const FurTree tree = small_tree(10, 1, layout, turned ? FurRotation::kAlways : FurRotation::kNever);
     std::string bytes(16, '\0');
     bytes[0] = layout == FurNodeLayout::kQuantised ? '\0' : '\1';
     bytes[4] = turned ? '\1' : '\0';

@@ -20,7 +20,7 @@ struct Replay {
   int count;  ///< damaged copies of each kind
   /// Bytes that one input may make the reader take. OpenImageIO asks for 64 MiB to read the smallest of
   /// images.
-  size_t most_heap;
+  size_t max_heap;
 };
 
 class Fuzz : public testing::TestWithParam<Replay> {};
@@ -50,7 +50,7 @@ TEST_P(Fuzz, SurvivesItsCorpus) {
     replay.feed({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
     const size_t cost = peak_bytes() - std::min(before, peak_bytes());
     worst = std::max(worst, cost);
-    EXPECT_LE(cost, replay.most_heap) << "input " << inputs << " of " << bytes.size() << " bytes";
+    EXPECT_LE(cost, replay.max_heap) << "input " << inputs << " of " << bytes.size() << " bytes";
     ++inputs;
   };
   const std::vector<std::string> corpus = replay.corpus();

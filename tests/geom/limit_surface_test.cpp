@@ -62,15 +62,15 @@ TEST(LimitSurface, DenseCagesStayNearTheLimit) {
     ASSERT_GT(cage.face_count(), n == 56 ? 6000u : SurfaceTopology::kDenseFaces);
     const LimitSurface surface = surface_of(cage);
     const double size = surface.control_bounds().size().length();
-    double most = 0, most_angle = 0;
+    double max = 0, max_angle = 0;
     for (const LimitVertex& vertex : uniform_limit(cage, kCatmull, kCorners, n == 56 ? 3 : 2)) {
       const Frame frame = surface.frame(vertex.face, vertex.u, vertex.v);
       const V3d off = V3d(surface.evaluate(vertex.face, vertex.u, vertex.v).position) - vertex.position;
-      most = std::max(most, std::abs(off.dot(vertex.normal.normalized())));
-      most_angle = std::max(most_angle, angle_between(V3d(frame.normal), vertex.normal));
+      max = std::max(max, std::abs(off.dot(vertex.normal.normalized())));
+      max_angle = std::max(max_angle, angle_between(V3d(frame.normal), vertex.normal));
     }
-    EXPECT_LT(most, 1e-5 * size) << n;
-    EXPECT_LT(most_angle, 1e-2) << n;
+    EXPECT_LT(max, 1e-5 * size) << n;
+    EXPECT_LT(max_angle, 1e-2) << n;
   }
 }
 

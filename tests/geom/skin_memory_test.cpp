@@ -24,24 +24,24 @@ struct Case {
 void expect_bounded(const Case& c) {
   SCOPED_TRACE(c.name);
   const SkinMemory estimate = skin_memory(c.mesh, c.scheme);
-  const auto most = [&](size_t measured) {
+  const auto peak = [&](size_t measured) {
     return static_cast<size_t>(c.over * static_cast<double>(measured)) + (1 << 17);
   };
   reset_peak();
   const size_t before = live_bytes();
   const auto topology = SurfaceTopology::create(c.mesh, c.scheme, BoundaryRule::kEdgeAndCorner, "test");
   EXPECT_LE(peak_bytes() - before, estimate.making);
-  EXPECT_GE(most(peak_bytes() - before), estimate.making);
+  EXPECT_GE(peak(peak_bytes() - before), estimate.making);
   const LimitSurface surface(topology, c.mesh.positions);
   const size_t held = live_bytes() - before;
   EXPECT_LE(held, estimate.held);
-  EXPECT_GE(most(held), estimate.held);
+  EXPECT_GE(peak(held), estimate.held);
   reset_peak();
   const SkinMesh skin = tessellate(std::span(&surface, 1), View(), {}, Workers(1));
   const ClosestPointTree tree(skin, 0);
   EXPECT_LE(peak_bytes() - before - held, estimate.triangles);
-  EXPECT_GE(most(peak_bytes() - before - held), estimate.triangles);
-  EXPECT_GE(estimate.most(), std::max(estimate.making, held));
+  EXPECT_GE(peak(peak_bytes() - before - held), estimate.triangles);
+  EXPECT_GE(estimate.peak(), std::max(estimate.making, held));
 }
 
 TEST(SkinMemory, IsBoundedBeforeAnythingIsMade) {

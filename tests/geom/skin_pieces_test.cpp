@@ -31,7 +31,7 @@ std::map<uint32_t, size_t> first_triangles(const SkinMesh& mesh) {
 
 /// Every triangle of the whole skin stands in one piece, bit by bit as in the whole, and pieces are posed on
 /// the faces around them alone.
-void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme scheme, size_t most) {
+void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme scheme, size_t max) {
   const auto topology = SurfaceTopology::create(cage, scheme, BoundaryRule::kEdgeAndCorner, "test");
   std::vector<V3f> moved = cage.positions;
   for (V3f& p : moved) p += V3f(0.1f * p.y, 0.05f * p.x, 0.1f);
@@ -41,8 +41,8 @@ void expect_pieces_of_the_whole(const ControlMesh& cage, SubdivisionScheme schem
   const SkinMesh whole = tessellate(keys, view, options, Workers(2));
   const auto first = first_triangles(whole);
 
-  const std::vector<SkinPiece> pieces = divide_skin(keys, view, options, most, QuietJob(2));
-  if (whole.triangle_count() + kTrianglesPerPose * topology->face_count() > most) {
+  const std::vector<SkinPiece> pieces = divide_skin(keys, view, options, max, QuietJob(2));
+  if (whole.triangle_count() + kTrianglesPerPose * topology->face_count() > max) {
     EXPECT_GT(pieces.size(), 1u);
   }
   size_t triangles = 0;
@@ -86,13 +86,13 @@ void crease(ControlMesh& cage, size_t face) {
 }
 
 TEST(SkinPieces, TogetherAreTheWholeBitByBit) {
-  for (const size_t most : {1, 300, 1500}) {
-    SCOPED_TRACE(most);
-    expect_pieces_of_the_whole(torus_cage(12, 8), SubdivisionScheme::kCatmullClark, most);
-    expect_pieces_of_the_whole(cube_cage(), SubdivisionScheme::kCatmullClark, most);
-    expect_pieces_of_the_whole(cube_cage(), SubdivisionScheme::kBilinear, most);
-    expect_pieces_of_the_whole(prism_cage(5), SubdivisionScheme::kCatmullClark, most);
-    expect_pieces_of_the_whole(prism_cage(3), SubdivisionScheme::kCatmullClark, most);
+  for (const size_t max : {1, 300, 1500}) {
+    SCOPED_TRACE(max);
+    expect_pieces_of_the_whole(torus_cage(12, 8), SubdivisionScheme::kCatmullClark, max);
+    expect_pieces_of_the_whole(cube_cage(), SubdivisionScheme::kCatmullClark, max);
+    expect_pieces_of_the_whole(cube_cage(), SubdivisionScheme::kBilinear, max);
+    expect_pieces_of_the_whole(prism_cage(5), SubdivisionScheme::kCatmullClark, max);
+    expect_pieces_of_the_whole(prism_cage(3), SubdivisionScheme::kCatmullClark, max);
   }
 }
 
@@ -125,9 +125,9 @@ TEST(SkinPieces, AreMuchAlikeInSize) {
   const LimitSurface surface(
       SurfaceTopology::create(cage, SubdivisionScheme::kCatmullClark, BoundaryRule::kEdgeAndCorner, "test"),
       cage.positions);
-  constexpr size_t kMost = 2000;
+  constexpr size_t kMax = 2000;
   const std::vector<SkinPiece> pieces =
-      divide_skin(std::span(&surface, 1), near_view(surface), {2, 16}, kMost, QuietJob(2));
+      divide_skin(std::span(&surface, 1), near_view(surface), {2, 16}, kMax, QuietJob(2));
   ASSERT_GT(pieces.size(), 4u);
   size_t all = 0, largest = 0;
   for (const SkinPiece& piece : pieces) {
@@ -135,8 +135,8 @@ TEST(SkinPieces, AreMuchAlikeInSize) {
     all += cost;
     largest = std::max(largest, cost);
   }
-  EXPECT_LE(largest, kMost);
-  EXPECT_GT(all, pieces.size() * kMost * 6 / 10);
+  EXPECT_LE(largest, kMax);
+  EXPECT_GT(all, pieces.size() * kMax * 6 / 10);
 }
 
 TEST(SkinPieces, LieWithinTheHullOfTheVerticesAround) {

@@ -79,10 +79,10 @@ TEST(Follicles, EveryPrefixIsBlueNoise) {
     const double area = measure_surface(*rest, {}, QuietJob(1)).area;
     for (size_t prefix = count; prefix >= 300; prefix /= 2) {
       // Largest possible distance of that many points: hexagons [Yuksel15, section 3.1].
-      const double most = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * static_cast<double>(prefix)));
-      const float distance = smallest_distance(places, prefix, static_cast<float>(most));
-      EXPECT_GT(distance / most, 0.6) << prefix;
-      RecordProperty("ratio", std::to_string(distance / most));
+      const double max = 2 * std::sqrt(area / (2 * std::sqrt(3.0) * static_cast<double>(prefix)));
+      const float distance = smallest_distance(places, prefix, static_cast<float>(max));
+      EXPECT_GT(distance / max, 0.6) << prefix;
+      RecordProperty("ratio", std::to_string(distance / max));
     }
   }
 }

@@ -45,12 +45,12 @@ TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
       const Job job{workers_, ledger, progress_};
       const int64_t peak = peak_of([&] { tree = FollicleTree::build(*rest_, wanted, job); });
       RecordProperty("peak_share", std::to_string(static_cast<double>(peak) /
-                                                  static_cast<double>(follicle_making_bytes(count))));
+                                                  static_cast<double>(follicle_temporary_bytes(count))));
       // Parts of the candidates while they are made, and the statistics of faces.
       constexpr int64_t kBeside = 10 << 20;
-      EXPECT_LE(peak, follicle_making_bytes(count) + kBeside) << count;
-      EXPECT_GE(peak, follicle_making_bytes(count) * 6 / 10) << count;
-      EXPECT_EQ(ledger.peak(MemoryTag::kGrooms), follicle_making_bytes(count)) << count;
+      EXPECT_LE(peak, follicle_temporary_bytes(count) + kBeside) << count;
+      EXPECT_GE(peak, follicle_temporary_bytes(count) * 6 / 10) << count;
+      EXPECT_EQ(ledger.peak(MemoryTag::kGrooms), follicle_temporary_bytes(count)) << count;
       EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
       EXPECT_LE(static_cast<int64_t>(tree.bytes()), follicle_bytes(count) + (1 << 16));
     }

@@ -99,7 +99,7 @@ class OperatorTest : public testing::Test {
 
   /// The operator moves no point of random strands by more than its bound, some point by more than 1 / 1.5 of
   /// it, and what it says of its result holds.
-  void check_bounds(const Operator& op, const StrandReach& before, float least = 1.0f / 1.5f) const {
+  void check_bounds(const Operator& op, const StrandReach& before, float min = 1.0f / 1.5f) const {
     const float bound = op.displacement_bound(before);
     const StrandReach after = op.reach_after(before);
     float measured = 0;
@@ -121,7 +121,7 @@ class OperatorTest : public testing::Test {
           length += step.length();
           if (step.length() > 1e-5f) {
             const float cosine =
-                std::clamp(unit_or(step, V3f(0)).dot(vector_at(batch->rest.normal, s)), -1.0f, 1.0f);
+                std::clamp(normalised_or(step, V3f(0)).dot(vector_at(batch->rest.normal, s)), -1.0f, 1.0f);
             seen.lean = std::max(seen.lean, std::acos(cosine));
           }
         }
@@ -131,7 +131,7 @@ class OperatorTest : public testing::Test {
     }
     const float room = 1.0f + 1e-4f;
     EXPECT_LE(measured, bound * room);
-    EXPECT_GT(measured, bound * least) << "the bound is loose";
+    EXPECT_GT(measured, bound * min) << "the bound is loose";
     EXPECT_LE(seen.length, after.length * room);
     EXPECT_LE(seen.distance, after.distance * room);
     EXPECT_LE(seen.radius, after.radius * room);

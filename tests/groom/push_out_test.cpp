@@ -27,7 +27,7 @@ class PushOutTest : public OperatorTest {
   static std::vector<V3f> curve_of(const StrandBatch& batch, size_t s) {
     std::vector<V3f> points;
     const int last = batch.point_count() - 1;
-    const V3f root = vector_at(batch.here.position, s);
+    const V3f root = vector_at(batch.current.position, s);
     const auto at = [&](int p) {
       if (p < 0) return batch.offset(0, s) * 2.0f - batch.offset(1, s);
       if (p > last) return batch.offset(last, s) * 2.0f - batch.offset(last - 1, s);
@@ -98,7 +98,7 @@ TEST_F(PushOutTest, KeepsADistance) {
     EXPECT_NEAR(length_of(*batch, s), 0.5f, 0.05f);
     for (int p = 2; p < 8; ++p) {
       ClosestPoint nearest;
-      ASSERT_TRUE(tree_.closest(vector_at(batch->here.position, s) + batch->offset(p, s), 10, nearest));
+      ASSERT_TRUE(tree_.closest(vector_at(batch->current.position, s) + batch->offset(p, s), 10, nearest));
       EXPECT_GT(nearest.distance, 0.029f);
     }
   }

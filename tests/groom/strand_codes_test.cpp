@@ -81,15 +81,15 @@ class StrandCodesTest : public testing::Test {
     return decoded;
   }
   float longest(size_t s) const {
-    float most = 0;
+    float max = 0;
     for (int p = 1; p < kPoints; ++p)
-      most = std::max(most, (batch_->offset(p, s) - batch_->offset(p - 1, s)).length());
-    return most;
+      max = std::max(max, (batch_->offset(p, s) - batch_->offset(p - 1, s)).length());
+    return max;
   }
   float widest(size_t s) const {
-    float most = 0;
-    for (const auto& point : batch_->points) most = std::max(most, point.radius[s]);
-    return most;
+    float max = 0;
+    for (const auto& point : batch_->points) max = std::max(max, point.radius[s]);
+    return max;
   }
 
   std::unique_ptr<StrandBatch> batch_ = std::make_unique<StrandBatch>();
@@ -111,9 +111,9 @@ TEST_F(StrandCodesTest, ComeBackAsNearAsStated) {
         for (const VectorRow& row : batch_->colors) {
           for (int c = 0; c < 3; ++c) brightest[c] = std::max(brightest[c], std::fabs(vector_at(row, s)[c]));
         }
-        const float most = std::max({brightest.x, brightest.y, brightest.z});
+        const float max = std::max({brightest.x, brightest.y, brightest.z});
         for (int c = 0; c < 3; ++c)
-          EXPECT_NEAR(vector_at(now.colors[i], s)[c], vector_at(batch_->colors[i], s)[c], 0.0015f * most);
+          EXPECT_NEAR(vector_at(now.colors[i], s)[c], vector_at(batch_->colors[i], s)[c], 0.0015f * max);
       }
     }
   }

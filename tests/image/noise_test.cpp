@@ -33,7 +33,7 @@ TEST(Noise, IsContinuousAcrossCells) {
 
 TEST(Noise, StaysWithinOneAndComesNearIt) {
   // The most that eight edge gradients can add up to, over the cell.
-  double most = 0;
+  double max = 0;
   const int steps = 64;
   const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   for (int i = 0; i <= steps; ++i) {
@@ -42,22 +42,22 @@ TEST(Noise, StaysWithinOneAndComesNearIt) {
         const double p[3] = {double(i) / steps, double(j) / steps, double(k) / steps};
         double sum = 0;
         for (int corner = 0; corner < 8; ++corner) {
-          double weight = 1, total = 0, least = 1;
+          double weight = 1, total = 0, min = 1;
           for (int axis = 0; axis < 3; ++axis) {
             const int bit = corner >> axis & 1;
             weight *= bit ? fade(p[axis]) : 1 - fade(p[axis]);
             const double d = std::abs(p[axis] - bit);
             total += d;
-            least = std::min(least, d);
+            min = std::min(min, d);
           }
-          sum += weight * (total - least);  // the two longest components, signs as they please
+          sum += weight * (total - min);  // the two longest components, signs as they please
         }
-        most = std::max(most, sum);
+        max = std::max(max, sum);
       }
     }
   }
-  EXPECT_NEAR(most, 1.036354, 2e-4);
-  EXPECT_LE(most, 1.036354);
+  EXPECT_NEAR(max, 1.036354, 2e-4);
+  EXPECT_LE(max, 1.036354);
 
   float highest = 0;
   for (uint64_t i = 0; i < 200000; ++i) highest = std::max(highest, std::abs(perlin_noise(random_point(i))));

@@ -57,13 +57,13 @@ uint32_t number(int x, int y, int c) {
       hash64(static_cast<uint64_t>(x), static_cast<uint64_t>(y), static_cast<uint64_t>(c), 7));
 }
 
-void write_pnm(const std::filesystem::path& file, const Case& c, int most) {
+void write_pnm(const std::filesystem::path& file, const Case& c, int max) {
   std::string bytes = (c.channels == 3 ? "P6 " : "P5 ") + std::to_string(c.width) + " " +
-                      std::to_string(c.height) + " " + std::to_string(most) + "\n";
+                      std::to_string(c.height) + " " + std::to_string(max) + "\n";
   for (int y = 0; y < c.height; ++y) {
     for (int i = 0; i < c.width * c.channels; ++i) {
       const uint32_t v = number(i, y, 0);
-      if (most > 255) bytes += static_cast<char>(v >> 8);
+      if (max > 255) bytes += static_cast<char>(v >> 8);
       bytes += static_cast<char>(v);
     }
   }
@@ -313,12 +313,12 @@ TEST_F(TextureBudget, TilesThatAreLostAreAnError) {
 // The truth in plain code: what the texel decoder says of every stored value.
 TEST(TexelDecoder, FollowsTheDefinitionOfSrgb) {
   for (TexelKind kind : {TexelKind::kU8, TexelKind::kU16}) {
-    const uint32_t most = kind == TexelKind::kU8 ? 255 : 65535;
+    const uint32_t max = kind == TexelKind::kU8 ? 255 : 65535;
     const TexelDecoder decode({1, 1, 2, kind}, true);
-    for (uint32_t i = 0; i <= most; ++i) {
+    for (uint32_t i = 0; i <= max; ++i) {
       std::array<std::byte, 4> texel{};
       for (size_t c = 0; c < 2; ++c) std::memcpy(&texel[c * value_bytes(kind)], &i, value_bytes(kind));
-      const double v = static_cast<double>(i) / most;
+      const double v = static_cast<double>(i) / max;
       const double linear = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
       ASSERT_NEAR(decode(texel.data(), 0), linear, 1e-6);
       ASSERT_FLOAT_EQ(decode(texel.data(), 1), static_cast<float>(v)) << "alpha";

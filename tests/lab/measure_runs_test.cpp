@@ -125,8 +125,8 @@ TEST_F(MeasureRuns, TheMedianRunCounts) {
       3);
   ASSERT_EQ(three.runs.size(), 3u);
   EXPECT_EQ(three.number("wall_s"), 2);
-  EXPECT_EQ(three.least("wall_s"), 1);
-  EXPECT_EQ(three.most("wall_s"), 3);
+  EXPECT_EQ(three.min("wall_s"), 1);
+  EXPECT_EQ(three.max("wall_s"), 3);
   EXPECT_EQ(three.typical()->statistics->sum("rays"), 10);
   EXPECT_EQ(three.typical()->statistics->timeline().size(), 2u);
   EXPECT_EQ(three.typical()->statistics->json().find("timeline"), std::string::npos);
@@ -142,8 +142,8 @@ TEST_F(MeasureRuns, RatiosHaveASpread) {
   const Outcome slow = runs("6", "9", "8"), fast = runs("2", "1", "4");
   const RatioSpread ratio = ratio_of(slow, fast, "cpu_s");
   EXPECT_EQ(ratio.typical, 4);
-  EXPECT_EQ(ratio.least, 1.5);
-  EXPECT_EQ(ratio.most, 9);
+  EXPECT_EQ(ratio.min, 1.5);
+  EXPECT_EQ(ratio.max, 9);
   EXPECT_EQ(spread_text(ratio), "4.00 (1.50 to 9.00)");
   EXPECT_EQ(spread_text({2, 2, 2}), "2.00");
 }

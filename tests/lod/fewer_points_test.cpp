@@ -52,14 +52,14 @@ V3f at(const Strands& strands, size_t strand, float v, float time) {
 }
 
 float farthest_apart(const Strands& a, const Strands& b, size_t strand) {
-  float most = 0;
+  float max = 0;
   for (const float time : {0.0f, 1.0f}) {
     for (int i = 0; i <= 50; ++i) {
       const float v = static_cast<float>(i) / 50;
-      most = std::max(most, (at(a, strand, v, time) - at(b, strand, v, time)).length());
+      max = std::max(max, (at(a, strand, v, time) - at(b, strand, v, time)).length());
     }
   }
-  return most;
+  return max;
 }
 
 class FewerPointsOf : public testing::TestWithParam<uint32_t> {};

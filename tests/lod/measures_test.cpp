@@ -8,9 +8,9 @@
 
 #include "base/hash.h"
 #include "lod/depth_of_field.h"
+#include "lod/facing.h"
 #include "lod/motion_blur.h"
 #include "lod/size.h"
-#include "lod/turned_away.h"
 
 namespace pelage {
 namespace {

@@ -20,10 +20,10 @@ LodView view_from(const V3f& position, float focal_pixels = 1000) {
   return view;
 }
 
-constexpr StrandNature kHair{0.01f, 1.0f, 1e-5f};
+constexpr CoatStats kHair{0.01f, 1.0f, 1e-5f};
 
-Simplification sized(const StrandNature& nature = kHair, float budget = 1) {
-  return {SimplificationParams{}, view_from(V3f(0)), nature, budget};
+Simplification sized(const CoatStats& stats = kHair, float budget = 1) {
+  return {SimplificationParams{}, view_from(V3f(0)), stats, budget};
 }
 
 float share_at(const Simplification& s, float distance) {
@@ -44,22 +44,22 @@ TEST(Simplification, SharesFallSmoothlyWithTheDistance) {
     const float share = share_at(s, distance);
     EXPECT_LE(share, before * (1 + 1e-6f));  // equal shares are off by rounding
     EXPECT_GT(share, before * 0.997f);
-    EXPECT_LE(share, s.most_share(distance));
+    EXPECT_LE(share, s.max_share(distance));
     before = share;
   }
 }
 
 TEST(Simplification, NoStrandGrowsBeyondThePixelOrAQuarterOfItself) {
   for (const float length : {0.1f, 1.0f, 5.0f}) {
-    const StrandNature nature{0.01f, length, 1e-6f};
-    const Simplification s = sized(nature);
+    const CoatStats stats{0.01f, length, 1e-6f};
+    const Simplification s = sized(stats);
     for (float distance = 5; distance < 1e4f; distance *= 1.1f) {
       const float share = share_at(s, distance), pixels = 1000 / distance;
       if (share >= 1) continue;
       const float widened = 0.01f * pixels * s.width_factor(share, 0);
       EXPECT_LE(widened, 1.0001f) << distance;
       EXPECT_LE(widened, 0.2501f * length * pixels) << distance;
-      EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+      EXPECT_LE(s.width_factor(share, 0), s.max_width_factor(distance));
     }
   }
 }
@@ -77,7 +77,7 @@ TEST(Simplification, BlurThinsFurtherAndLetsStrandsBeAsWideAsATenthOfIt) {
     EXPECT_LE(share, before * (1 + 1e-6f));  // equal shares are off by rounding
     const float width = 0.01f * 1000 / distance * still.width_factor(share, 0);
     EXPECT_LE(width, std::hypot(1.0f, 0.1f * pixels) * 1.0001f);
-    EXPECT_LE(still.width_factor(share, 0), still.most_width_factor(distance));
+    EXPECT_LE(still.width_factor(share, 0), still.max_width_factor(distance));
     before = share;
   }
   EXPECT_LT(before, 0.3f * still.share({here, here}));
@@ -91,7 +91,7 @@ TEST(Simplification, BlurThinsFurtherAndLetsStrandsBeAsWideAsATenthOfIt) {
   EXPECT_EQ(Simplification(params, view, kHair, 1).share({here, here + V3f(3, 0, 0)}),
             still.share({here, here}));
   params.size = false;
-  params.least_share = 1;
+  params.min_share = 1;
   EXPECT_EQ(Simplification(params, view, kHair, 1).share({here, here}), 1);
 }
 
@@ -104,16 +104,16 @@ TEST(Simplification, MotionHidesTheWidthOfStrandsAcrossItOnly) {
   for (int degrees = 0; degrees <= 90; degrees += 5) {
     const float angle = static_cast<float>(degrees) * 0.0174532925f;
     RootPlace root{here, there};
-    root.lie = V3f(std::cos(angle), std::sin(angle), 0);
+    root.direction = V3f(std::cos(angle), std::sin(angle), 0);
     const float share = s.share(root);
     EXPECT_LT(share, before) << degrees;
     EXPECT_LE(share, still);
     EXPECT_LE(0.01f * 1000 / distance * s.width_factor(share, 0),
               std::hypot(1.0f, 0.1f * pixels * std::sin(angle)) * 1.0001f);
-    root.lie = -root.lie;
+    root.direction = -root.direction;
     EXPECT_EQ(s.share(root), share);
-    EXPECT_LE(share, s.most_share(distance));
-    EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+    EXPECT_LE(share, s.max_share(distance));
+    EXPECT_LE(s.width_factor(share, 0), s.max_width_factor(distance));
     before = share;
   }
   EXPECT_LT(before, 0.3f * still);
@@ -137,12 +137,12 @@ TEST(Simplification, FewerStayWhereTheSkinIsTurnedAway) {
       if (degrees <= 95) {
         EXPECT_EQ(share, whole);  // what is seen, and what stands on the edge
       }
-      EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+      EXPECT_LE(s.width_factor(share, 0), s.max_width_factor(distance));
       before = share;
     }
     EXPECT_FLOAT_EQ(before, 0.2f * whole);
   }
-  params.turned_away = false;
+  params.back_facing = false;
   const V3f here(0, 0, -100);
   const Simplification all(params, view_from(V3f(0)), kHair, 1);
   EXPECT_EQ(all.share({here, here, V3f(0, 0, -1)}), all.share({here, here}));
@@ -180,17 +180,17 @@ TEST(Simplification, TheVisibleAreaStays) {
 
 // Intervals of length mu / n at n places of a line of length 1 that keep a distance of room / n: brute force.
 TEST(Simplification, WhatIsCoveredStaysWhereStrandsStandEvenly) {
-  const StrandNature nature{0.002f, 0.5f, 1e-6f, 1200.0f, true};
-  const Simplification s = sized(nature);
+  const CoatStats stats{0.002f, 0.5f, 1e-6f, 1200.0f, true};
+  const Simplification s = sized(stats);
   const auto bare = [&](float share) {
-    const double width = nature.width * s.gain(share), density = nature.density * share;
+    const double width = stats.width * s.gain(share), density = stats.density * share;
     const double on_line = density * width, room = 0.6 * std::sqrt(density) * width / on_line;
     // Gaps behind the room that each takes up are exponential.
     const double mean_gap = 1 / on_line - room;
     double at = 0, clear = 0;
     for (uint64_t i = 0; i < 400000; ++i) {
       const double gap = room - mean_gap * std::log(1 - unit_float(hash64(i, 7)));
-      clear += std::max(0.0, gap - nature.length);
+      clear += std::max(0.0, gap - stats.length);
       at += gap;
     }
     return clear / at;
@@ -199,21 +199,21 @@ TEST(Simplification, WhatIsCoveredStaysWhereStrandsStandEvenly) {
   EXPECT_GT(full, 0.2);
   for (const float share : {0.9f, 0.5f, 0.1f, 0.03f}) EXPECT_NEAR(bare(share), full, 0.004) << share;
   EXPECT_LT(s.gain(0.03f), 0.9f / 0.03f);
-  StrandNature anywhere = nature;
+  CoatStats anywhere = stats;
   anywhere.even = false;
   EXPECT_NEAR(sized(anywhere).gain(0.03f), 1 / 0.03f, 0.01f);
 }
 
 TEST(Simplification, LightStartsFartherAwayTheMoreAStrandStandsFor) {
-  StrandNature nature{0.002f, 0.5f, 1e-6f, 1200.0f, true};
-  const Simplification s = sized(nature);
+  CoatStats stats{0.002f, 0.5f, 1e-6f, 1200.0f, true};
+  const Simplification s = sized(stats);
   EXPECT_EQ(s.spread(1), 0);
   EXPECT_EQ(s.own_shadow(1), 0);
   float spread = 0, shadow = 0;
   for (float share = 0.999f; share > 0.01f; share *= 0.98f) {
     EXPECT_GE(s.spread(share), spread);
     EXPECT_GE(s.own_shadow(share), shadow);
-    EXPECT_LT(s.spread(share), 4.001f * nature.width * s.gain(share));
+    EXPECT_LT(s.spread(share), 4.001f * stats.width * s.gain(share));
     EXPECT_NEAR(s.spread(share), spread, 0.02f / std::sqrt(share));  // continuous
     EXPECT_NEAR(s.own_shadow(share), shadow, 0.05f);
     spread = s.spread(share);
@@ -221,11 +221,11 @@ TEST(Simplification, LightStartsFartherAwayTheMoreAStrandStandsFor) {
   }
   EXPECT_GT(shadow, 0.5f);
   EXPECT_LT(shadow, 1.0f);
-  nature.density = 0;  // not known
-  EXPECT_EQ(sized(nature).spread(0.1f), 0);
-  nature.density = 1200;
-  nature.even = false;  // as in a strands file: no room
-  EXPECT_EQ(sized(nature).own_shadow(0.1f), 0);
+  stats.density = 0;  // not known
+  EXPECT_EQ(sized(stats).spread(0.1f), 0);
+  stats.density = 1200;
+  stats.even = false;  // as in a strands file: no room
+  EXPECT_EQ(sized(stats).own_shadow(0.1f), 0);
 }
 
 TEST(Simplification, IsNestedAndContinuous) {
@@ -259,14 +259,14 @@ TEST(Simplification, BudgetsAndQualityKeepMore) {
 // A small budget thins out sooner, but strands become no wider than others' do, and what is always kept is.
 TEST(Simplification, SmallBudgetsKeepWhatIsLeast) {
   SimplificationParams params;
-  params.least_share = 0.02f;
+  params.min_share = 0.02f;
   const Simplification s(params, view_from(V3f(0)), kHair, 0.1f), all = sized();
   for (const float distance : {12.0f, 20.0f, 100.0f, 1000.0f, 1e5f}) {
     const float share = share_at(s, distance), width = 0.01f * 1000 / distance;
     EXPECT_LE(share, share_at(all, distance) + 1e-6f);
     EXPECT_GE(share, std::min(1.0f, width / std::min(1.0f, 25 * width)) * 0.999f) << distance;
     EXPECT_GE(share, 0.02f);
-    EXPECT_LE(s.width_factor(share, 0), s.most_width_factor(distance));
+    EXPECT_LE(s.width_factor(share, 0), s.max_width_factor(distance));
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "procedurals/strand_nature.h"
+#include "procedurals/coat_stats.h"
 #include "tests/procedurals/random_coats.h"
 
 namespace pelage {
@@ -47,14 +47,14 @@ TEST(CoatSample, WhatAStrandIsLikeDoesNotDependOnLeaves) {
     RandomCoatOptions options;
     options.leaf_strands = 8000;
     const RandomCoat whole(seed, options);
-    const StrandNature nature = strand_nature(*whole.groom, whole.rest.get(), Workers(1));
+    const CoatStats stats = coat_stats(*whole.groom, whole.rest.get(), Workers(1));
     options.leaf_strands = 23;
     const RandomCoat divided(seed, options);
-    const StrandNature other = strand_nature(*divided.groom, divided.rest.get(), Workers(1));
-    EXPECT_EQ(nature.width, other.width);
-    EXPECT_EQ(nature.length, other.length);
-    EXPECT_EQ(nature.area_share, other.area_share);
-    EXPECT_EQ(nature.density, other.density);
+    const CoatStats other = coat_stats(*divided.groom, divided.rest.get(), Workers(1));
+    EXPECT_EQ(stats.width, other.width);
+    EXPECT_EQ(stats.length, other.length);
+    EXPECT_EQ(stats.area_share, other.area_share);
+    EXPECT_EQ(stats.density, other.density);
   }
 }
 

@@ -270,7 +270,7 @@ TEST(CrowdMemory, PlacingHoldsWhatItAsksForOrIsRefusedByName) {
   params.count = 20000;
   params.spacing = 0;
   const std::vector<Footprint> footprints{{V3f(0, 0, 1e-5f)}, {V3f(0, 0, 1e-5f), V3f(0, 1e-5f, 1e-5f)}};
-  const int64_t says = crowd_making_bytes(params, footprints, 0);
+  const int64_t says = crowd_temporary_bytes(params, footprints, 0);
   const size_t before = live_bytes();
   reset_peak();
   const auto members = make_crowd("herd", {}, params, footprints, QuietJob(1));

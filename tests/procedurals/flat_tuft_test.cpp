@@ -8,8 +8,8 @@
 #include "base/hash.h"
 #include "base/parallel.h"
 #include "image/texture_library.h"
+#include "procedurals/coat_stats.h"
 #include "procedurals/fur.h"
-#include "procedurals/strand_nature.h"
 #include "tests/groom/shapes.h"
 #include "tests/groom/stacks.h"
 #include "tests/support/quiet_job.h"
@@ -33,7 +33,7 @@ class FlatTuft : public testing::Test {
     stacks::add<Width>(params.operators,
                        {.root = Field(0.00015f), .tip = Field(0.00015f), .profile = 1, .variation = 0});
     groom_ = Groom::create("tuft", params, rest, textures_, QuietJob(2, ledger_));
-    nature_ = strand_nature(*groom_, rest.get(), workers_);
+    stats_ = coat_stats(*groom_, rest.get(), workers_);
     CharacterPose pose;
     pose.topology = rest->shared_topology();
     pose.shutter.cages.push_back(cage.positions);
@@ -46,10 +46,10 @@ class FlatTuft : public testing::Test {
     std::optional<Simplification> lod;
     if (share < 1) {
       SimplificationParams params;
-      params.least_share = share;
+      params.min_share = share;
       LodView view;
       view.open.position = view.close.position = V3f(0.5f, 0.5f, 1e6f);
-      lod.emplace(params, view, nature_, 1.0f);
+      lod.emplace(params, view, stats_, 1.0f);
     }
     const FurProcedural fur(groom_, skin_, lod);
     Lines lines;
@@ -97,7 +97,7 @@ class FlatTuft : public testing::Test {
   TextureLibrary textures_;
   Workers workers_;
   std::shared_ptr<const Groom> groom_;
-  StrandNature nature_;
+  CoatStats stats_;
   std::shared_ptr<const PosedCharacterSkin> skin_;
 };
 

@@ -75,9 +75,9 @@ TEST_F(PosedCharacterSkinTest, BoundsHoldAndCountsAreExact) {
   }
   EXPECT_LT(frame.min.x, shutter.min.x - 2);
   EXPECT_GT(frame.max.x, shutter.max.x + 2);
-  for (const size_t most : {size_t(1), SIZE_MAX}) {
+  for (const size_t max : {size_t(1), SIZE_MAX}) {
     size_t triangles = 0;
-    for (const SkinPiece& piece : moving->divide(view_, most, QuietJob(1))) {
+    for (const SkinPiece& piece : moving->divide(view_, max, QuietJob(1))) {
       const SkinMesh part = moving->tessellate(piece, view_);
       EXPECT_EQ(piece.vertices, part.vertex_count());
       EXPECT_EQ(piece.triangles, part.triangle_count());
@@ -153,7 +153,7 @@ TEST_F(PosedCharacterSkinTest, PartsOfPosesAreTheSameAndChargedBeforeTheyAreMade
   TextureLibrary textures(ledger_);
   const auto groom = Groom::create("coat", params, rest, textures, QuietJob(Workers::alone(), ledger_));
   const int64_t before = ledger_.current(MemoryTag::kSkins);
-  moving->expect_leaves(*groom);
+  moving->reserve_for_leaves(*groom);
   const int64_t charged = ledger_.current(MemoryTag::kSkins) - before;
   size_t largest = 0;
   for (size_t leaf = 0; leaf < groom->follicles().leaves().size(); ++leaf) {
@@ -172,7 +172,7 @@ TEST_F(PosedCharacterSkinTest, PartsOfPosesAreTheSameAndChargedBeforeTheyAreMade
     }
   }
   EXPECT_GE(charged, static_cast<int64_t>(2 * largest));
-  skin(pose(1))->expect_leaves(*groom);
+  skin(pose(1))->reserve_for_leaves(*groom);
   EXPECT_EQ(ledger_.current(MemoryTag::kSkins) - before, charged);
 }
 

@@ -144,16 +144,16 @@ TEST_F(RememberedBounds, CanBeHadInOnePart) {
   EXPECT_EQ(cold_counts.area.parts, counts.area.parts);
   EXPECT_EQ(warm_counts.area.parts, counts.area.parts);
   EXPECT_EQ(warm_counts.area.chunks, counts.area.chunks);
-  size_t most = 0;
+  size_t max = 0;
   for (size_t i = 0; i < chunks_.size(); ++i) {
-    most = std::max(most, parts[i].part_count());
+    max = std::max(max, parts[i].part_count());
     for (const ChunkBounds* one : {&cold[i], &warm[i]}) {
       ASSERT_EQ(one->part_count(), 1u);
       EXPECT_EQ(one->boxes[0], parts[i].whole());
       EXPECT_TRUE(same(one->fine, parts[i].fine));
     }
   }
-  EXPECT_GT(most, 1u);
+  EXPECT_GT(max, 1u);
 }
 
 TEST_F(RememberedBounds, OfPartOfACoatAreNotWritten) {

@@ -24,10 +24,10 @@ TEST(SegmentParts, HoldEverySegmentOnceInCellsOfEqualSize) {
     const SegmentDivision division{.cell_segments = 20, .part_cells = 8};
     const SegmentParts parts(strands, division);
     std::map<std::pair<uint32_t, uint32_t>, int> seen;
-    size_t least = SIZE_MAX, most = 0, total = 0;
+    size_t min = SIZE_MAX, max = 0, total = 0;
     for (size_t c = 0; c < parts.cell_count(); ++c) {
-      least = std::min(least, parts.cell(c).size());
-      most = std::max(most, parts.cell(c).size());
+      min = std::min(min, parts.cell(c).size());
+      max = std::max(max, parts.cell(c).size());
       for (SegmentPlace place : parts.cell(c)) ++seen[{place.strand, place.segment}];
     }
     for (size_t s = 0; s < count; ++s) total += segment_count(strands.basis(), strands.strand_points(s));
@@ -35,8 +35,8 @@ TEST(SegmentParts, HoldEverySegmentOnceInCellsOfEqualSize) {
     ASSERT_EQ(parts.part_count(), (parts.cell_count() + 7) / 8);
     EXPECT_EQ(seen.size(), total);
     for (const auto& [place, times] : seen) EXPECT_EQ(times, 1);
-    EXPECT_LE(most, 20u);
-    EXPECT_GE(least + 1, most);
+    EXPECT_LE(max, 20u);
+    EXPECT_GE(min + 1, max);
     size_t in_parts = 0;
     for (size_t p = 0; p < parts.part_count(); ++p) in_parts += parts.part(p).size();
     EXPECT_EQ(in_parts, total);

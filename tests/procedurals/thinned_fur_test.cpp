@@ -9,8 +9,8 @@
 #include "base/temporary_folder.h"
 #include "geom/curve_bounds.h"
 #include "geom/io/strand_file.h"
+#include "procedurals/coat_stats.h"
 #include "procedurals/fur.h"
-#include "procedurals/strand_nature.h"
 #include "tests/procedurals/random_coats.h"
 #include "tests/support/quiet_job.h"
 
@@ -32,10 +32,10 @@ Simplification seen(const RandomCoat& coat, const Seen& s) {
   view.lens_diameter = s.confusion;
   view.focus_distance = 1;
   const Workers workers(1);
-  StrandNature nature = strand_nature(*coat.groom, coat.rest.get(), workers);
-  nature.width *= coat.skin->scale();
-  nature.length *= coat.skin->scale() * coat.skin->length();
-  return {s.params, view, nature, 1};
+  CoatStats stats = coat_stats(*coat.groom, coat.rest.get(), workers);
+  stats.width *= coat.skin->scale();
+  stats.length *= coat.skin->scale() * coat.skin->length();
+  return {s.params, view, stats, 1};
 }
 
 using Points = std::vector<float>;
@@ -65,7 +65,7 @@ TEST(ThinnedFur, CloseByItIsTheWholeCoatBitByBit) {
   const RandomCoat coat(3, {});
   Seen close;
   close.focal_pixels = 1e7f;
-  close.params.motion_blur = close.params.turned_away = false;
+  close.params.motion_blur = close.params.back_facing = false;
   const auto whole = by_id(FurProcedural(coat.groom, coat.skin));
   EXPECT_TRUE(by_id(FurProcedural(coat.groom, coat.skin, seen(coat, close))) == whole);
   EXPECT_EQ(whole.size(), coat.groom->follicles().size());
@@ -94,15 +94,15 @@ TEST(ThinnedFur, EachStrandIsKeptForWhereItsRootStands) {
     s.distance = 12;
     s.confusion = 0.02f;
     const Simplification lod = seen(coat, s);
-    const auto lie = std::make_shared<const CoatLie>(*coat.groom, coat.rest, Workers(1));
-    const auto kept = by_id(FurProcedural(coat.groom, coat.skin, lod, lie));
+    const auto direction = std::make_shared<const CoatDirection>(*coat.groom, coat.rest, Workers(1));
+    const auto kept = by_id(FurProcedural(coat.groom, coat.skin, lod, direction));
     const auto pose = coat.skin->pose(BoundSpan::kShutter);
     std::set<uint64_t> expected;
     for (size_t f = 0; f < coat.groom->follicles().size(); ++f) {
       const SurfacePoint open = coat.groom->root(f, pose->skin(), 0);
       const RootPlace root{open.position, coat.groom->root(f, pose->skin(), pose->keys.size() - 1).position,
                            open.du.cross(open.dv).normalized(),
-                           lie->at(coat.groom->follicles().root(f), open)};
+                           direction->at(coat.groom->follicles().root(f), open)};
       if (lod.width_factor(lod.share(root), coat.groom->priority(f)) > 0)
         expected.insert(coat.groom->follicles().id(f));
     }
@@ -148,8 +148,8 @@ TEST(ThinnedFur, FartherIsASubset) {
   for (float distance = 10; distance < 3000; distance *= 1.5f) {
     Seen s;
     s.distance = distance;
-    s.params.least_share = 1e-3f;
-    s.params.turned_away = false;  // from farther away more of a ball is seen
+    s.params.min_share = 1e-3f;
+    s.params.back_facing = false;  // from farther away more of a ball is seen
     std::set<uint64_t> now;
     for (const auto& [id, points] : by_id(FurProcedural(coat.groom, coat.skin, seen(coat, s)))) {
       EXPECT_TRUE(before.count(id));

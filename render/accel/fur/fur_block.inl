@@ -38,17 +38,17 @@ class Block {
       if constexpr (kMoving) r[i] = mix(kFloats, r[i], radius(place + kSizes.key()));
     }
   }
-  HWY_INLINE V most_radius() const {
+  HWY_INLINE V max_radius() const {
     if constexpr (kWide || kMoving) {
       V r[4];
       load_radii(r);
       return hn::Max(hn::Max(r[0], r[1]), hn::Max(r[2], r[3]));
     } else {
       const hn::Full128<uint8_t> bytes;
-      auto most = hn::Load(bytes, reinterpret_cast<const uint8_t*>(key_ + 3 * kSizes.axis));
-      most = hn::Max(most, hn::ShiftRightBytes<8>(bytes, most));
-      most = hn::Max(most, hn::ShiftRightBytes<4>(bytes, most));
-      return square_of(hn::ConvertTo(kFloats, hn::PromoteTo(kInts, hn::LowerHalf(hn::LowerHalf(most)))));
+      auto max = hn::Load(bytes, reinterpret_cast<const uint8_t*>(key_ + 3 * kSizes.axis));
+      max = hn::Max(max, hn::ShiftRightBytes<8>(bytes, max));
+      max = hn::Max(max, hn::ShiftRightBytes<4>(bytes, max));
+      return square_of(hn::ConvertTo(kFloats, hn::PromoteTo(kInts, hn::LowerHalf(hn::LowerHalf(max)))));
     }
   }
 
@@ -77,13 +77,14 @@ class Block {
     const std::byte* before = place - kSizes.axis / 4;
     if constexpr (kWide) {
       const auto points = hn::LoadU(d, reinterpret_cast<const float*>(place));
-      return hn::Sub(points, but_first_point(d, first, hn::LoadU(d, reinterpret_cast<const float*>(before))));
+      return hn::Sub(points,
+                     without_first_point(d, first, hn::LoadU(d, reinterpret_cast<const float*>(before))));
     } else {
       const hn::Rebind<uint16_t, D> words;
       const hn::Rebind<int32_t, D> ints;
       const auto points = hn::PromoteTo(ints, hn::LoadU(words, reinterpret_cast<const uint16_t*>(place)));
       const auto last = hn::PromoteTo(ints, hn::LoadU(words, reinterpret_cast<const uint16_t*>(before)));
-      const auto difference = hn::ConvertTo(d, hn::Sub(points, but_first_point(ints, first, last)));
+      const auto difference = hn::ConvertTo(d, hn::Sub(points, without_first_point(ints, first, last)));
       return hn::Add(difference, of_first_point(d, first, hn::Set(d, origin_[axis])));
     }
   }

@@ -106,7 +106,7 @@ constexpr float kShort = 0x1p-13f;
 // One block of ten thousand takes more than six steps. A curve that comes to rest near the ray has a root
 // that is all but fivefold: there Newton's steps take but a fifth of the rest, and every other one is a
 // halving.
-constexpr int kNewtonSteps = 8, kMostSteps = kNewtonSteps + 2 * 26;
+constexpr int kNewtonSteps = 8, kMaxSteps = kNewtonSteps + 2 * 26;
 
 /// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
 /// bracket; each lane stops by itself, with a step of at most kClose along the curve as the ray sees it and
@@ -118,7 +118,7 @@ HWY_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V
   // the root beyond them.
   auto done = hn::Lt(dot(at.x[3], at.y[3], at.dx[2], at.dy[2]), low);
   u = hn::IfThenElse(done, high, u);
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     const V cx = x.value(u), cy = y.value(u);
     const Derivatives dx(at.dx, u), dy(at.dy, u);
     const V f = dot(cx, cy, dx.first, dy.first);  // a third of c . c'

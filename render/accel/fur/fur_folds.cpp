@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDeepest = 20;  // halvings
 // Newton's; then every other one is a halving, which ends wherever rounding lets it (see fur_curves.inl).
-constexpr int kNewtonSteps = 16, kMostSteps = kNewtonSteps + 2 * 22;
+constexpr int kNewtonSteps = 16, kMaxSteps = kNewtonSteps + 2 * 22;
 constexpr float kNear = 0x1p-22f;  // of the parameter
 
 /// c . c' / 3 over a part of the curve, in Bernstein form times ten over binomials.
@@ -71,7 +71,7 @@ float solve(const PlaneCurve& curve, float begin, float end) {
     return ((a * u + b) * u + c) * u + point;
   };
   float u = 0.5f * (begin + end);
-  for (int i = 0; i < kMostSteps && end - begin > kNear; ++i) {
+  for (int i = 0; i < kMaxSteps && end - begin > kNear; ++i) {
     float x1, x2, y1, y2;
     const float x = evaluate(curve.x[0], curve.dx, u, x1, x2), y = evaluate(curve.y[0], curve.dy, u, y1, y2);
     const float f = x * x1 + y * y1;

@@ -25,10 +25,10 @@ using Samples = std::vector<SnappedSegment>;
 /// same one each, of their roots say, which are combed where nothing else is.
 Samples samples_of(const SnappedStrands& strands) {
   Samples samples;
-  const uint64_t count = strands.segment_count(), most = std::min<uint64_t>(count, kSamples);
-  samples.reserve(most);
-  for (uint64_t i = 0; i < most; ++i) {
-    const uint64_t first = i * count / most, end = (i + 1) * count / most;
+  const uint64_t count = strands.segment_count(), max = std::min<uint64_t>(count, kSamples);
+  samples.reserve(max);
+  for (uint64_t i = 0; i < max; ++i) {
+    const uint64_t first = i * count / max, end = (i + 1) * count / max;
     const auto number = static_cast<uint32_t>(first + hash64(i, random_use("fur frame")) % (end - first));
     const SnappedSegment segment = strands.segment(strands.locate(number), 0);
     if (SnappedStrands::is_drawable(segment)) samples.push_back(segment);
@@ -92,19 +92,19 @@ SnappedSegment FurFrame::operator()(const SnappedSegment& segment) const {
   return result;
 }
 
-FurBox FurFrame::unturned(const FurBox& box) const {
+FurBox FurFrame::unrotated(const FurBox& box) const {
   if (!turned || box.is_empty()) return box;
   FurBox result;
   for (size_t axis = 0; axis < 3; ++axis) {
-    double centre = 0, half = 0, most = 0;
+    double centre = 0, half = 0, max = 0;
     for (size_t i = 0; i < 3; ++i) {
       const double along = axes[i][static_cast<int>(axis)];
       centre += along * 0.5 * (double(box.low[i]) + box.high[i]);
       half += std::abs(along) * 0.5 * (double(box.high[i]) - box.low[i]);
-      most += std::abs(box.low[i]) + std::abs(box.high[i]);
+      max += std::abs(box.low[i]) + std::abs(box.high[i]);
     }
     // Axes are floats, and at right angles as far as these go.
-    half += 0x1p-20 * most;
+    half += 0x1p-20 * max;
     result.low[axis] = static_cast<float>(centre - half);
     result.high[axis] = static_cast<float>(centre + half);
   }
@@ -120,18 +120,18 @@ bool FurFrame::is_possible() const {
   return true;
 }
 
-FurFrame choose_frame(const SnappedStrands& strands, FurTurn turn) {
-  if (turn == FurTurn::kNever || strands.motion_keys() > 1) return {};
+FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation) {
+  if (rotation == FurRotation::kNever || strands.motion_keys() > 1) return {};
   const Samples samples = samples_of(strands);
   const V3f direction = common_direction(samples);
   FurFrame best;
   const double aligned = box_area(samples, best);
-  double least = turn == FurTurn::kAlways ? INFINITY : kWorth * aligned;
+  double min = rotation == FurRotation::kAlways ? INFINITY : kWorth * aligned;
   for (int spin = 0; spin < kSpins; ++spin) {
     const FurFrame frame =
         frame_along(direction, std::numbers::pi_v<float> / 2 * static_cast<float>(spin) / kSpins);
     const double area = box_area(samples, frame);
-    if (area < least) least = area, best = frame;
+    if (area < min) min = area, best = frame;
   }
   return best;
 }

@@ -21,7 +21,7 @@ struct FurFrame {
   V3f operator()(const V3f& p) const { return {axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)}; }
   SnappedSegment operator()(const SnappedSegment& segment) const;
   /// A box along the axes of the grid around one that stands in this frame.
-  FurBox unturned(const FurBox& box) const;
+  FurBox unrotated(const FurBox& box) const;
   /// The same axes, turned or not.
   bool operator==(const FurFrame& o) const { return turned == o.turned && (!turned || axes == o.axes); }
   /// Whether it may come from a file.
@@ -29,14 +29,14 @@ struct FurFrame {
 };
 
 /// Which frames a tree may have. Trees over moving strands stand along the grid always.
-enum class FurTurn : uint8_t {
+enum class FurRotation : uint8_t {
   kNever,
-  kWhereItPays,  ///< where boxes of single segments are so much smaller that boxes of four are, too
-  kAlways,       ///< for tests
+  kWhenUseful,  ///< where boxes of single segments are so much smaller that boxes of four are, too
+  kAlways,      ///< for tests
 };
 
 /// A frame that is good for most segments, found from a few hundred of them: the direction that they have in
 /// common as one axis, and of several pairs of others the best. The same for the same strands.
-FurFrame choose_frame(const SnappedStrands& strands, FurTurn turn);
+FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation);
 
 }  // namespace pelage

@@ -26,7 +26,7 @@ struct FurHit {
 
   explicit operator bool() const { return number != kNone; }
   /// Nearer, or as near and of the smaller number.
-  bool stands_before(const FurHit& o) const {
+  bool precedes(const FurHit& o) const {
     return distance != o.distance ? distance < o.distance : number < o.number;
   }
 };

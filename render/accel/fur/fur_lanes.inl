@@ -41,7 +41,7 @@ HWY_INLINE hn::Vec<D> of_first_point(D d, size_t first, hn::Vec<D> v) {
   return hn::IfThenElseZero(hn::FirstN(d, 4), v);
 }
 template <class D>
-HWY_INLINE hn::Vec<D> but_first_point(D d, size_t first, hn::Vec<D> v) {
+HWY_INLINE hn::Vec<D> without_first_point(D d, size_t first, hn::Vec<D> v) {
   if (first > 0) return v;
   if constexpr (hn::MaxLanes(D()) == 4) return hn::Zero(d);
   return hn::IfThenZeroElse(hn::FirstN(d, 4), v);

@@ -10,7 +10,7 @@ namespace pelage {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kMostSteps = 255;
+constexpr float kMaxSteps = 255;
 
 void write_float_node(int motion_keys, std::span<const FurChild> children, std::byte* out) {
   for (size_t key = 0; key < static_cast<size_t>(motion_keys); ++key) {
@@ -31,14 +31,14 @@ void write_float_node(int motion_keys, std::span<const FurChild> children, std::
 
 /// The largest step from which origin + step * scale does not exceed `low`.
 uint8_t step_below(float low, float origin, float scale) {
-  float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMostSteps);
+  float step = std::clamp(std::floor((low - origin) / scale), 0.0f, kMaxSteps);
   while (step > 0 && origin + step * scale > low) --step;
   return static_cast<uint8_t>(step);
 }
 
 uint8_t step_above(float high, float origin, float scale) {
-  float step = std::clamp(std::ceil((high - origin) / scale), 0.0f, kMostSteps);
-  while (step < kMostSteps && origin + step * scale < high) ++step;
+  float step = std::clamp(std::ceil((high - origin) / scale), 0.0f, kMaxSteps);
+  while (step < kMaxSteps && origin + step * scale < high) ++step;
   return static_cast<uint8_t>(step);
 }
 
@@ -53,7 +53,7 @@ void write_quantised_node(int motion_keys, std::span<const FurChild> children, s
     // A little more than needed, so that the last step lies beyond the high side in floats too; and not below
     // what a float can add there.
     const float reach = std::max(std::abs(whole.low[axis]), std::abs(whole.high[axis]));
-    scale[axis] = std::max({extent / (kMostSteps - 1), reach * 0x1p-23f, 0x1p-40f});
+    scale[axis] = std::max({extent / (kMaxSteps - 1), reach * 0x1p-23f, 0x1p-40f});
   }
   uint32_t references[4] = {};
   for (size_t i = 0; i < children.size(); ++i) references[i] = children[i].reference.bits();

@@ -53,7 +53,7 @@ class FurPageFile {
   /// read or is not what was written.
   void read(uint32_t page, std::span<std::byte> out) const;
   /// Says that a page will be read next: the system may fetch it meanwhile.
-  void expect(uint32_t page) const { file_.expect(page); }
+  void prefetch(uint32_t page) const { file_.prefetch(page); }
   /// Reads all pages once. Whether they are what was written; otherwise `warn` has been told.
   bool check_all(const Workers& workers, const WarningSink& warn) const;
 

@@ -20,7 +20,7 @@ void add_children(const FurTreeView& tree, const std::byte* node, std::vector<Su
     Subtree child{child_reference(tree.layout, tree.motion_keys, node, i), {}, 0};
     if (child.reference.is_none()) continue;
     for (int key = 0; key < tree.motion_keys; ++key) {
-      child.boxes.push_back(tree.frame.unturned(child_box(tree.layout, node, i, key)));
+      child.boxes.push_back(tree.frame.unrotated(child_box(tree.layout, node, i, key)));
       child.area += child.boxes.back().area();
     }
     out.push_back(std::move(child));

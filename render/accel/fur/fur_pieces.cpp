@@ -7,7 +7,7 @@
 namespace pelage {
 namespace {
 
-constexpr int kMostCuts = 3;  // levels of halving: eight pieces at most
+constexpr int kMaxCuts = 3;  // levels of halving: eight pieces at most
 
 Four as_four(const std::array<float, 4>& p) { return Four{p[0], p[1], p[2], p[3]}; }
 
@@ -116,7 +116,7 @@ class Cutter {
     for (size_t i = 0, used = 0; i < gains.size() && used < budget; ++i) {
       int levels = 1;
       const float typical = gains[gains.size() / 2].area;
-      for (float left = gains[i].area / 4; levels < kMostCuts && left > 4 * typical; left /= 4) ++levels;
+      for (float left = gains[i].area / 4; levels < kMaxCuts && left > 4 * typical; left /= 4) ++levels;
       const size_t extra = (size_t(1) << levels) - 1;
       if (gains[i].area <= 0 || used + extra > budget) break;
       cuts[gains[i].number] = static_cast<uint8_t>(levels);

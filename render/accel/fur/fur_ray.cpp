@@ -10,7 +10,7 @@ namespace {
 // What rounding may move a box by, relative to the largest number that goes in: 32 units in the last place,
 // of which slabs take less than half. Points in ray space that floats make are off by less than
 // 35, turned frames (in which numbers may be smaller by the root of 3) included.
-constexpr float kDoubt = 0x1p-19f;
+constexpr float kErrorBound = 0x1p-19f;
 constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
 
 bool is_finite(const Ray& ray) {
@@ -34,7 +34,7 @@ bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& fr
   if (!(largest(origin) <= FurGrid::kReach)) return false;
   direction = d;
   inverse[3] = near_origin[3] = far_origin[3] = 0;
-  stands_ = false;
+  is_transformed_ = false;
   begin(tree, ray, from);
 
   const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
@@ -80,20 +80,20 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
   near = ray.near * grid;
   far = ray.far * grid;
   start = from;
-  if (!stands_ || !(frame_ == tree.frame)) stand_in(tree.frame);
+  if (!is_transformed_ || !(frame_ == tree.frame)) transform_to(tree.frame);
   // Turning rounds boxes and rays by a few units more.
   const float reach = slab_reach_ + tree.reach;
-  const float doubt = (tree.frame.turned ? 2 * kDoubt : kDoubt) * reach;
-  point_doubt = 2 * kDoubt * reach;
+  const float error_bound = (tree.frame.turned ? 2 * kErrorBound : kErrorBound) * reach;
+  point_error_bound = 2 * kErrorBound * reach;
   for (int i = 0; i < 3; ++i) {
-    const float outward = near_side[i] == 1 ? doubt : -doubt;
+    const float outward = near_side[i] == 1 ? error_bound : -error_bound;
     near_origin[i] = slab_origin_[i] - outward;
     far_origin[i] = slab_origin_[i] + outward;
   }
 }
 
-void FurRay::stand_in(const FurFrame& frame) {
-  stands_ = true;
+void FurRay::transform_to(const FurFrame& frame) {
+  is_transformed_ = true;
   frame_ = frame;
   slab_origin_ = frame.turned ? frame(origin) : origin;
   slab_reach_ = largest(slab_origin_);

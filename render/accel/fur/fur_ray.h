@@ -15,7 +15,7 @@ namespace pelage {
 /// d_j P_k vanish on the whole line through the origin, whatever their rounding does to lengths [Woop13]; x
 /// and y are X and Y made orthonormal, z is the distance along the ray. Of a segment that a ray may meet the
 /// end points are brought there in double precision, so that neither their distance nor the ray's costs any
-/// accuracy; floats decide only which segments come near, with `point_doubt` to spare.
+/// accuracy; floats decide only which segments come near, with `point_error_bound` to spare.
 struct FurRay {
   // Slab test [Kay86], by axis of the tree's frame; the fourth lane is unused.
   alignas(16) float inverse[4];
@@ -29,7 +29,7 @@ struct FurRay {
   float scale_x, scale_y, shear_y;  ///< x = scale_x X, y = scale_y Y - shear_y X
   float depth[3];                   ///< z = depth . P - origin_depth
   double origin_depth;
-  float point_doubt;  ///< by how much x and y may be off where floats make them from points of the tree
+  float point_error_bound;  ///< by how much x and y may be off where floats make them from points of the tree
 
   float near, far;
   V3f origin, direction;
@@ -43,9 +43,9 @@ struct FurRay {
  private:
   friend class FurRays;
   void begin(const FurTreeView& tree, const Ray& ray, const FurStart& from);
-  void stand_in(const FurFrame& frame);
+  void transform_to(const FurFrame& frame);
 
-  bool stands_ = false;  // in frame_
+  bool is_transformed_ = false;  // in frame_
   FurFrame frame_;
   V3f slab_origin_;
   float slab_reach_ = 0;  // its largest coordinate

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Part of fur_kernels.cpp: the curves of a block as a ray sees them.
 
-/// The first points of a block as the ray sees them, off by at most its point_doubt, and the differences of
-/// the others, off by no more than belongs to their size.
+/// The first points of a block as the ray sees them, off by at most its point_error_bound, and the
+/// differences of the others, off by no more than belongs to their size.
 template <class Curves>
 HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& flat) {
   alignas(64) float xs[16], ys[16];

@@ -14,10 +14,11 @@ HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& que
   const V ex = hn::Add(to_third_x, flat.dx[2]), ey = hn::Add(to_third_y, flat.dy[2]);
   const V c0 = cross(ex, ey, flat.x[0], flat.y[0]);
   const V a = cross(ex, ey, flat.dx[0], flat.dy[0]), b = cross(ex, ey, to_third_x, to_third_y);
-  const V zero = hn::Zero(kFloats), most = all(0.75f);
-  const V high = hn::Add(c0, hn::Mul(most, hn::Max(zero, hn::Max(a, b))));
-  const V low = hn::Add(c0, hn::Mul(most, hn::Min(zero, hn::Min(a, b))));
-  const V reach = hn::Mul(hn::Add(curves.most_radius(), all(ray.point_doubt)), hn::Sqrt(dot(ex, ey, ex, ey)));
+  const V zero = hn::Zero(kFloats), max = all(0.75f);
+  const V high = hn::Add(c0, hn::Mul(max, hn::Max(zero, hn::Max(a, b))));
+  const V low = hn::Add(c0, hn::Mul(max, hn::Min(zero, hn::Min(a, b))));
+  const V reach =
+      hn::Mul(hn::Add(curves.max_radius(), all(ray.point_error_bound)), hn::Sqrt(dot(ex, ey, ex, ey)));
   const uint32_t near_strip = bits_of<float>(hn::And(hn::Le(low, reach), hn::Ge(hn::Add(high, reach), zero)));
   if (near_strip == 0) return false;
 

@@ -20,7 +20,7 @@ class FloatSlabs {
   HWY_INLINE const uint32_t* references(const std::byte* node) const {
     return reinterpret_cast<const uint32_t*>(node + references_);
   }
-  HWY_INLINE hn::Mask<Floats> meet(const std::byte* node, V& enter, V leave) const {
+  HWY_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       const V near_side = side(node + near_side_[axis]),
               far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
@@ -60,22 +60,22 @@ class QuantisedSlabs {
   HWY_INLINE const uint32_t* references(const std::byte* node) const {
     return reinterpret_cast<const uint32_t*>(node + FurQuantisedNode::kReferences);
   }
-  HWY_INLINE hn::Mask<Floats> meet(const std::byte* node, V& enter, V leave) const {
+  HWY_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
     const V origin = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kOrigin));
     const V scale = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kScale));
     const V step = hn::Mul(scale, inverse_);
     const V first = hn::Mul(hn::Sub(origin, near_origin_), inverse_);
     const V last = hn::Mul(hn::Sub(origin, far_origin_), inverse_);
     node += key_;
-    meet_axis<0>(node, step, first, last, enter, leave);
-    meet_axis<1>(node, step, first, last, enter, leave);
-    meet_axis<2>(node, step, first, last, enter, leave);
+    intersect_axis<0>(node, step, first, last, enter, leave);
+    intersect_axis<1>(node, step, first, last, enter, leave);
+    intersect_axis<2>(node, step, first, last, enter, leave);
     return hn::Le(enter, leave);
   }
 
  private:
   template <int kAxis>
-  HWY_INLINE void meet_axis(const std::byte* planes, V step, V first, V last, V& enter, V& leave) const {
+  HWY_INLINE void intersect_axis(const std::byte* planes, V step, V first, V last, V& enter, V& leave) const {
     const V steps = hn::Broadcast<kAxis>(step);
     const V near_side = side(planes + near_side_[kAxis]);
     const V far_side = side(planes + (near_side_[kAxis] ^ FurQuantisedNode::kSide));

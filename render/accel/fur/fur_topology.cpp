@@ -241,8 +241,8 @@ CurvePart FurPiece::part() const {
 FurTopologySize topology_bound(size_t pieces) {
   // A split makes one more block half empty than there was, unless it falls between blocks: that happens only
   // where both sides are large. Nodes above other nodes have four children, the others two blocks or more.
-  const size_t most = blocks(pieces) + pieces / kFewest;
-  return {2 * most / 3 + 1, most};
+  const size_t max = blocks(pieces) + pieces / kFewest;
+  return {2 * max / 3 + 1, max};
 }
 
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options) {

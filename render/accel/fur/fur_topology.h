@@ -33,7 +33,7 @@ struct FurBuildOptions {
   /// Pieces that long or diagonal segments may be cut into beyond one, over the number of segments. Each
   /// piece has a box of its own and tests the whole segment.
   float cuts = 0;
-  FurTurn turn = FurTurn::kNever;
+  FurRotation rotation = FurRotation::kNever;
 };
 
 /// The shape of a fur tree, before it is written in any layout.

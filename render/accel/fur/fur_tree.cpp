@@ -198,7 +198,7 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
   view_.motion_keys = strands.motion_keys();
   view_.step = strands.grid().step();
   view_.anchor = strands.grid().anchor();
-  view_.frame = choose_frame(strands, options.build.turn);
+  view_.frame = choose_frame(strands, options.build.rotation);
   std::vector<FurPiece> pieces = make_pieces(strands, options.build.cuts, view_.frame);
   build_bytes_ = pieces.capacity() * sizeof(FurPiece);
   const FurTopology topology = build_topology(std::move(pieces), options.build);

@@ -56,7 +56,7 @@ HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
       const std::byte* node = tree.nodes + FurReference::from_bits(next).node_offset();
       if constexpr (Query::kCounts) query.tests.boxes += 4;
       V enter = all(ray.near);
-      const auto met = slabs.meet(node, enter, all(query.far()));
+      const auto met = slabs.intersect(node, enter, all(query.far()));
       const auto references = hn::LoadU(kWords, slabs.references(node));
       const auto is_leaf =
           hn::MaskFromVec(hn::BitCast(kFloats, hn::BroadcastSignBit(hn::BitCast(kInts, references))));

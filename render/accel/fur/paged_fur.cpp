@@ -16,7 +16,7 @@
 namespace pelage {
 namespace {
 
-constexpr size_t kMostAbsent = 64;  // treelets of one ray whose pages are not resident
+constexpr size_t kMaxAbsent = 64;  // treelets of one ray whose pages are not resident
 
 bool is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
@@ -32,8 +32,8 @@ FurFrame frame_of(const FurPageTable& table) {
   return std::any_of(table.treelets.begin(), table.treelets.end(), has_another) ? FurFrame() : frame;
 }
 
-Box3f unturned(const FurFrame& frame, const Box3f& box) {
-  const FurBox grid = frame.unturned({{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
+Box3f unrotated(const FurFrame& frame, const Box3f& box) {
+  const FurBox grid = frame.unrotated({{box.min.x, box.min.y, box.min.z}, {box.max.x, box.max.y, box.max.z}});
   return {V3f(grid.low[0], grid.low[1], grid.low[2]), V3f(grid.high[0], grid.high[1], grid.high[2])};
 }
 
@@ -45,7 +45,7 @@ std::vector<ChunkBounds> treelet_bounds(const FurPageTable& table, const FurFram
     const FurFrame& own = table.trees[table.treelets[i].tree].frame;
     for (size_t key = 0; key < keys; ++key) {
       const Box3f& box = table.boxes[i * keys + key];
-      bounds[i].boxes.push_back(own == frame ? box : unturned(own, box));
+      bounds[i].boxes.push_back(own == frame ? box : unrotated(own, box));
     }
   }
   return bounds;
@@ -77,13 +77,13 @@ class PagedFur::Pages final : public Grower {
   Pages(const FurPageFile& file, const PagedFurOptions& options)
       : file_(file),
         frame_bytes_(file.table().largest_page()),
-        most_idle_(static_cast<size_t>(options.threads)),
+        max_idle_(static_cast<size_t>(options.threads)),
         poison_(options.poison) {}
 
   class Page final : public Resident {
    public:
     Page(Pages& pages, PageBlock frame) : pages_(pages), frame_(std::move(frame)) {}
-    ~Page() override { pages_.give_back(std::move(frame_)); }
+    ~Page() override { pages_.release_block(std::move(frame_)); }
     const std::byte* data() const { return frame_.data(); }
 
    private:
@@ -114,14 +114,14 @@ class PagedFur::Pages final : public Grower {
     }
     return PageBlock(frame_bytes_);
   }
-  void give_back(PageBlock frame) {
+  void release_block(PageBlock frame) {
     if (poison_) std::memset(frame.data(), 0xdd, frame.bytes());
     const std::lock_guard lock(mutex_);
-    if (idle_.size() < most_idle_) idle_.push_back(std::move(frame));
+    if (idle_.size() < max_idle_) idle_.push_back(std::move(frame));
   }
 
   const FurPageFile& file_;
-  const size_t frame_bytes_, most_idle_;
+  const size_t frame_bytes_, max_idle_;
   const bool poison_;
   std::atomic<uint64_t> bytes_read_{0};
   std::mutex mutex_;
@@ -200,12 +200,12 @@ bool PagedFur::occluded(const Ray& ray, const PagedFurStart& start, int thread,
   if (!is_finite(ray)) return false;
   Any query(ray, start, hit);
   ChunkWalk way = walk(ray, Any::kOrder);
-  uint32_t absent[kMostAbsent];
+  uint32_t absent[kMaxAbsent];
   size_t count = 0;
   uint32_t treelet = 0;
   float entry = 0;
   while (!hit && way.next(query.far(), treelet, entry)) {
-    if (count < kMostAbsent && !is_resident(treelet)) {
+    if (count < kMaxAbsent && !is_resident(treelet)) {
       absent[count++] = treelet;
       continue;
     }
@@ -243,7 +243,7 @@ class PagedFur::Batch {
         uint32_t slot = waiting_.release(*page);
         for (bool is_read = false; slot != WaitingRays::kNone; is_read = true) {
           const uint32_t after = waiting_[slot].next;
-          go_on(slot);
+          advance(slot);
           if (!is_read) page = expect_next();
           slot = after;
         }
@@ -255,7 +255,7 @@ class PagedFur::Batch {
   }
 
  private:
-  using Ahead = WaitingRays::Ahead;
+  using UpcomingSteps = WaitingRays::UpcomingSteps;
   using Step = WaitingRays::Step;
 
   Query query(size_t i) { return {rays_[i], start_of(starts_, i), answers_[i]}; }
@@ -265,7 +265,7 @@ class PagedFur::Batch {
   std::optional<uint32_t> expect_next() const {
     if (waiting_.is_empty()) return {};
     const uint32_t page = waiting_.fullest();
-    if (!fur_.residency_->is_resident(page)) fur_.file_.expect(page);
+    if (!fur_.residency_->is_resident(page)) fur_.file_.prefetch(page);
     return page;
   }
 
@@ -275,35 +275,35 @@ class PagedFur::Batch {
     answers_[i] = {};
     if (!is_finite(rays_[i])) return;
     Query asks = query(i);
-    Ahead ahead;
-    if (!look(asks, ahead, [&](const Step& step) {
-          if (Query::kNearestFirst && !ahead.is_empty()) return true;
+    UpcomingSteps upcoming;
+    if (!look(asks, upcoming, [&](const Step& step) {
+          if (Query::kNearestFirst && !upcoming.is_empty()) return true;
           return !is_resident(step.treelet);
         }))
       return;
-    if (ahead.is_empty()) return;
+    if (upcoming.is_empty()) return;
     const uint32_t slot = waiting_.begin();
     WaitingRays::Ray& ray = waiting_[slot];
     ray.number = static_cast<uint32_t>(i);
-    ray.sees_all = !ahead.is_full();
-    ray.ahead = ahead;
+    ray.is_complete = !upcoming.is_full();
+    ray.upcoming = upcoming;
     wait(slot);
   }
 
-  /// Goes through the treelets in the ray's way. Those that `is_for_later` go into `ahead` as far as there is
-  /// room, the others are visited. False when the ray has its answer.
+  /// Goes through the treelets in the ray's way. Those that `is_for_later` go into `upcoming` as far as there
+  /// is room, the others are visited. False when the ray has its answer.
   template <class IsForLater>
-  bool look(Query& asks, Ahead& ahead, const IsForLater& is_for_later) {
+  bool look(Query& asks, UpcomingSteps& upcoming, const IsForLater& is_for_later) {
     ChunkWalk way = fur_.walk(asks.ray, Query::kOrder);
     Step step;
     bool open = true;
     while (open) {
       // What the walk comes to in order and behind a full list would not be kept.
-      const bool no_farther = Query::kNearestFirst && ahead.is_full();
-      const float far = no_farther ? std::min(asks.far(), ahead.back().entry) : asks.far();
+      const bool no_farther = Query::kNearestFirst && upcoming.is_full();
+      const float far = no_farther ? std::min(asks.far(), upcoming.back().entry) : asks.far();
       if (!way.next(far, step.treelet, step.entry)) break;
       if (is_for_later(step)) {
-        ahead.add(step);
+        upcoming.add(step);
       } else {
         open = fur_.visit(step.treelet, asks, thread_, counts_);
       }
@@ -313,41 +313,41 @@ class PagedFur::Batch {
   }
 
   void wait(uint32_t slot) {
-    waiting_.wait(slot, fur_.table().treelets[waiting_[slot].ahead.front().treelet].page);
+    waiting_.wait(slot, fur_.table().treelets[waiting_[slot].upcoming.front().treelet].page);
   }
 
   /// The page that the ray waits for is read if need be, and the ray goes through all that is resident.
-  void go_on(uint32_t slot) {
+  void advance(uint32_t slot) {
     WaitingRays::Ray& ray = waiting_[slot];
     Query asks = query(ray.number);
     const auto resident = [&](uint32_t treelet) { return is_resident(treelet); };
     do {
-      const uint32_t treelet = ray.ahead.front().treelet;
-      ray.ahead.pop();
+      const uint32_t treelet = ray.upcoming.front().treelet;
+      ray.upcoming.pop();
       if (!fur_.visit(treelet, asks, thread_, counts_)) break;
-      if (ray.ahead.is_empty() && !look_further(ray, asks)) break;
+      if (ray.upcoming.is_empty() && !find_next(ray, asks)) break;
       // What only has to be met may be met anywhere.
-      if (!Query::kNearestFirst) ray.ahead.bring_forward(resident);
-      if (ray.ahead.front().entry > asks.far()) break;
-      if (!is_resident(ray.ahead.front().treelet)) return wait(slot);
+      if (!Query::kNearestFirst) ray.upcoming.bring_forward(resident);
+      if (ray.upcoming.front().entry > asks.far()) break;
+      if (!is_resident(ray.upcoming.front().treelet)) return wait(slot);
     } while (true);
     waiting_.end(slot);
   }
 
   /// What comes after all that was ahead. False if there is nothing.
-  bool look_further(WaitingRays::Ray& ray, Query& asks) {
-    if (ray.sees_all) return false;
-    const Step last = ray.ahead.last();
-    ray.ahead.clear();
+  bool find_next(WaitingRays::Ray& ray, Query& asks) {
+    if (ray.is_complete) return false;
+    const Step last = ray.upcoming.last();
+    ray.upcoming.clear();
     ChunkWalk way = fur_.walk(asks.ray, Query::kOrder);
     Step step;
-    while (way.next(ray.ahead.is_full() ? std::min(asks.far(), ray.ahead.back().entry) : asks.far(),
+    while (way.next(ray.upcoming.is_full() ? std::min(asks.far(), ray.upcoming.back().entry) : asks.far(),
                     step.treelet, step.entry)) {
-      if (last < step) ray.ahead.add(step);
+      if (last < step) ray.upcoming.add(step);
     }
     counts_.box_tests += way.box_tests();
-    ray.sees_all = !ray.ahead.is_full();
-    return !ray.ahead.is_empty();
+    ray.is_complete = !ray.upcoming.is_full();
+    return !ray.upcoming.is_empty();
   }
 
   const PagedFur& fur_;

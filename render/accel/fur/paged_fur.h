@@ -21,9 +21,9 @@ struct PagedFurHit {
 
   explicit operator bool() const { return bool(hit); }
   /// Nearer; or as near, and of the smaller tree or segment.
-  bool stands_before(const PagedFurHit& o) const {
+  bool precedes(const PagedFurHit& o) const {
     if (hit.distance == o.hit.distance && tree != o.tree) return tree < o.tree;
-    return hit.stands_before(o.hit);
+    return hit.precedes(o.hit);
   }
 };
 

@@ -32,7 +32,7 @@ struct PagedFur::Nearest {
     const FurRay* prepared = rays.prepare(view, shorter, tree == start.tree ? start.start : FurStart());
     if (!prepared) return true;
     const PagedFurHit found{closest_fur(view, *prepared, nullptr, tests), tree};
-    if (found && (!best || found.stands_before(best))) best = found;
+    if (found && (!best || found.precedes(best))) best = found;
     return true;
   }
 

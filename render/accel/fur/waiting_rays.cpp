@@ -9,14 +9,14 @@ namespace pelage {
 
 static_assert(sizeof(WaitingRays::Ray) == 64);
 
-void WaitingRays::Ahead::add(const Step& step) {
+void WaitingRays::UpcomingSteps::add(const Step& step) {
   if (is_full() && !(step < back())) return;
-  size_t at = is_full() ? kMost - 1 : end_++;
+  size_t at = is_full() ? kMaxSteps - 1 : end_++;
   for (; at > begin_ && step < steps_[at - 1]; --at) steps_[at] = steps_[at - 1];
   steps_[at] = step;
 }
 
-WaitingRays::Step WaitingRays::Ahead::last() const {
+WaitingRays::Step WaitingRays::UpcomingSteps::last() const {
   return *std::max_element(steps_.begin(), steps_.begin() + end_);
 }
 

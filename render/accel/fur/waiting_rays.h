@@ -25,12 +25,12 @@ class WaitingRays {
 
   /// The first few of the steps that a ray has before it. Those behind them are found again when it gets
   /// there.
-  class Ahead {
+  class UpcomingSteps {
    public:
-    static constexpr size_t kMost = 6;
+    static constexpr size_t kMaxSteps = 6;
 
     bool is_empty() const { return begin_ == end_; }
-    bool is_full() const { return end_ - begin_ == kMost; }
+    bool is_full() const { return end_ - begin_ == kMaxSteps; }
     /// In order, unless bring_forward() was called.
     const Step& front() const { return steps_[begin_]; }
     const Step& back() const { return steps_[size_t(end_) - 1]; }
@@ -51,15 +51,15 @@ class WaitingRays {
     Step last() const;
 
    private:
-    std::array<Step, kMost> steps_;
+    std::array<Step, kMaxSteps> steps_;
     uint16_t begin_ = 0, end_ = 0;
   };
 
   struct Ray {
-    uint32_t number = 0;    ///< among the rays that are asked for
-    uint32_t next = kNone;  ///< the slot of the next ray that waits for the same page, or that is free
-    bool sees_all = false;  ///< no steps come after those ahead
-    Ahead ahead;
+    uint32_t number = 0;       ///< among the rays that are asked for
+    uint32_t next = kNone;     ///< the slot of the next ray that waits for the same page, or that is free
+    bool is_complete = false;  ///< no steps come after those ahead
+    UpcomingSteps upcoming;
   };
 
   /// Room for so many rays; none: no memory.

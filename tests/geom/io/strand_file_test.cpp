@@ -116,12 +116,12 @@ void expect_equal(const Strands& a, const Strands& b) {
 }
 
 TEST_F(StrandFiles, HairComesBackBitForBit) {
-  for (uint32_t most : {2u, 9u, 5000u}) {
+  for (uint32_t max : {2u, 9u, 5000u}) {
     RandomStrandOptions options;
-    options.strands = most > 100 ? 9 : 60;
+    options.strands = max > 100 ? 9 : 60;
     options.min_points = 2;
-    options.max_points = most;
-    const Strands strands = dressed(random_strands(most, options), false);
+    options.max_points = max;
+    const Strands strands = dressed(random_strands(max, options), false);
     write_strands(folder.path() / "a.hair", strands);
     const StrandFile back = read_strands(folder.path() / "a.hair");
     EXPECT_EQ(back.format, "hair");

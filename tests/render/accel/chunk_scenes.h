@@ -70,10 +70,10 @@ class TestChunks final : public ChunkGrower {
   }
 
   /// Boxes of every chunk: of its parts, or one box around all that is `slack` times too large.
-  std::vector<ChunkBounds> bounds(size_t most_parts, float slack = 1) const {
+  std::vector<ChunkBounds> bounds(size_t max_parts, float slack = 1) const {
     std::vector<ChunkBounds> result;
     for (const ChunkContents& chunk : contents) {
-      result.push_back(part_bounds(chunk, 200, most_parts));
+      result.push_back(part_bounds(chunk, 200, max_parts));
       if (slack == 1) continue;
       const Box3f box = result.back().whole();
       const V3f more = 0.5f * (slack - 1) * box.size();

@@ -122,7 +122,7 @@ TEST_F(EmbreeChunkTest, MeetsNearStrandsButTheOneThatARayStartsOn) {
   TestChunks chunks;
   chunks.add_fur(Strands(std::move(straight)), 0);
   chunks.widest = 0.5f;
-  constexpr uint32_t kNumber = 5, kElsewhere = 6;
+  constexpr uint32_t kNumber = 5, kInFurTree = 6;
   const FurGrid grid(0.5f);
   const EmbreeChunk embree(chunks.grow(0), kNumber, chunks.widest, {}, device_, patterns_);
   const FurChunk fur(chunks.grow(0), kNumber, grid, {});
@@ -153,7 +153,7 @@ TEST_F(EmbreeChunkTest, MeetsNearStrandsButTheOneThatARayStartsOn) {
   ray.start.place = 3.5f;
   ray.origin.z = -1.1f;  // farther than two widths along the ray
   expect_met(ray, true);
-  ray.start.chunk = kElsewhere;
+  ray.start.chunk = kInFurTree;
   ray.origin.z = -0.2f;
   expect_met(ray, true);
   ray.near = 0.3f;

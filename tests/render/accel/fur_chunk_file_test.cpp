@@ -35,7 +35,7 @@ class FurChunkFileTest : public ChunkAccelTest {
       if (std::holds_alternative<FurContents>(chunks.contents[c].geometry)) {
         const StrandScale scale = chunks.scale(c);
         FurChunkOptions options;
-        options.tree.build.turn = FurTurn::kAlways;
+        options.tree.build.rotation = FurRotation::kAlways;
         chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale.width, scale.anchor), options);
       }
       writer.add(chunk.get());

@@ -62,7 +62,7 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   for (int keys : {1, 2})
     expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500 * more);
   ChunkAccelOptions turned = fur_options();
-  turned.fur.tree.build.turn = FurTurn::kAlways;
+  turned.fur.tree.build.rotation = FurRotation::kAlways;
   expect_same(*whole, *make(chunks, chunks.bounds(8), turned), 5, 2500 * more);
   turned.eager = true;
   expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), turned), 6,

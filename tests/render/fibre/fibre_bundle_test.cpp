@@ -176,11 +176,12 @@ TEST(FibreBundle, ScattersAsByBruteForce) {
       const double paths = double{kRuns} * kSamples * kPixels * kPixels;
       for (size_t c = 0; c < 3; ++c) {
         const double plain = truth.standard_error[c] * std::sqrt(160000 / paths);
-        const double doubt = std::hypot(truth.standard_error[c], std::max(plain, rendered.standard_error[c]));
-        EXPECT_NEAR(rendered.mean[c], truth.mean[c], 3.5 * doubt)
+        const double error_bound =
+            std::hypot(truth.standard_error[c], std::max(plain, rendered.standard_error[c]));
+        EXPECT_NEAR(rendered.mean[c], truth.mean[c], 3.5 * error_bound)
             << "channel " << c << ", slanted by " << slant
             << (shape == CurveShape::kFlat ? ", flat" : ", round");
-        EXPECT_LT(doubt, 0.012 * truth.mean[c]) << "enough paths";
+        EXPECT_LT(error_bound, 0.012 * truth.mean[c]) << "enough paths";
       }
     }
   }

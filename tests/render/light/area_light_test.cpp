@@ -274,12 +274,12 @@ TEST(AreaLight, FibreBoundHoldsOverTheLight) {
     const SphereLight light("s", V3f(0), radius, Rgb(1), true);
     const V3f from = random.direction() * random.between(0.5f, 6), tangent = random.direction();
     const float bound = light.importance(from, tangent) / light.importance(from, V3f(0));
-    float most = 0;
+    float max = 0;
     for (int k = 0; k < 30; ++k) {
       const std::optional<LightSample> s = light.sample(from, random.unit2());
-      if (s) most = std::max(most, std::sqrt(std::max(0.0f, 1 - std::pow(s->direction.dot(tangent), 2.0f))));
+      if (s) max = std::max(max, std::sqrt(std::max(0.0f, 1 - std::pow(s->direction.dot(tangent), 2.0f))));
     }
-    ASSERT_LE(most, bound + 1e-4f);
+    ASSERT_LE(max, bound + 1e-4f);
     ASSERT_LE(bound, 1.0f + 1e-6f);
   }
 }

@@ -41,7 +41,7 @@ TEST(GuidedCdf, DrawsEveryEntryInProportion) {
     const auto compare = [&](float u) {
       size_t slow = 0;
       while (cdf[slow] <= u) ++slow;
-      const GuidedDraw draw = draw_guided(cdf, guide, u);
+      const GuidedSample draw = sample_guided(cdf, guide, u);
       ASSERT_EQ(draw.index, slow) << u << " of " << count;
       ASSERT_GT(weights[slow], 0.0f);
       ASSERT_GE(draw.rest, 0.0f);
@@ -51,7 +51,7 @@ TEST(GuidedCdf, DrawsEveryEntryInProportion) {
     for (int i = 0; i < 20000; ++i) {
       const float u = random.unit();
       compare(u);
-      observed[draw_guided(cdf, guide, u).index] += 1;
+      observed[sample_guided(cdf, guide, u).index] += 1;
     }
     for (float edge : cdf) {
       if (edge < 1) compare(edge), compare(std::nextafter(edge, 0.0f)), compare(std::nextafter(edge, 1.0f));

@@ -46,13 +46,13 @@ class Average {
   PixelMoments values_, samples_;
 };
 
-Estimate by_seed_rule(const Sampler& sampler, uint32_t least, int pixels) {
+Estimate by_seed_rule(const Sampler& sampler, uint32_t min, int pixels) {
   Average average;
   for (int p = 0; p < pixels; ++p) {
     PixelMoments m;
     do {
       for (int i = 0; i < 16; ++i) m.add(sampler(random(p, m.count)));
-    } while (m.count < least || (!looks_converged(m, 0.05) && m.count < 8192));
+    } while (m.count < min || (!looks_converged(m, 0.05) && m.count < 8192));
     average.add(m.mean, m.count);
   }
   return average.get();
@@ -65,7 +65,7 @@ enum class Peek { kNone, kOwnProbe, kOwnPilot };
 Estimate by_two_stages(const Sampler& sampler, const AdaptiveParams& params, int frames,
                        Peek peek = Peek::kNone) {
   constexpr int kWidth = 24, kHeight = 17;
-  constexpr double kMost = 2048;
+  constexpr double kMax = 2048;
   Average average;
   for (int frame = 0; frame < frames; ++frame) {
     std::vector<PixelMoments> pixels(size_t{kWidth} * kHeight);
@@ -82,20 +82,20 @@ Estimate by_two_stages(const Sampler& sampler, const AdaptiveParams& params, int
       return result;
     };
     for (size_t p = 0; p < pixels.size(); ++p) bring_to(p, params.pilot / 4);
-    std::vector<uint8_t> worth = worth_a_pilot(pilot());
+    std::vector<uint8_t> worth = needs_full_pilot(pilot());
     for (size_t p = 0; p < pixels.size(); ++p) {
       if (peek == Peek::kOwnProbe) worth[p] = pixels[p].mean > 0;
       if (worth[p]) bring_to(p, params.pilot);
     }
-    const std::vector<float> counts = two_stage_counts(pilot(), params, static_cast<uint32_t>(kMost));
+    const std::vector<float> counts = two_stage_counts(pilot(), params, static_cast<uint32_t>(kMax));
     for (size_t p = 0; p < pixels.size(); ++p) {
       double count = counts[p];
       if (peek == Peek::kOwnProbe) count = 0;
       if (peek == Peek::kOwnPilot) {
         const double root = kConfidence / (params.noise * pixels[p].mean);
-        count = pixels[p].mean > 0 ? pixels[p].variance() * root * root : kMost;
+        count = pixels[p].mean > 0 ? pixels[p].variance() * root * root : kMax;
       }
-      bring_to(p, whole_blocks(std::min(count, kMost)));
+      bring_to(p, whole_blocks(std::min(count, kMax)));
       average.add(pixels[p].mean, pixels[p].count);
     }
   }
@@ -141,19 +141,19 @@ TEST(AdaptiveTwoStage, CountsFromThePixelsOwnSamplesWouldBeBiased) {
 TEST(AdaptiveTwoStage, ThePilotGoesWhereOthersOfTheColorMetSomethingOrDiffer) {
   const PilotPixel sky{0.5f, 0, false, 4};
   const Pilot empty{16, 16, std::vector<PilotPixel>(256, sky)};
-  const std::vector<uint8_t> none = worth_a_pilot(empty);
+  const std::vector<uint8_t> none = needs_full_pilot(empty);
   EXPECT_EQ(std::count(none.begin(), none.end(), 0), 256);
   for (const PilotPixel& odd :
        {PilotPixel{0.5f, 0, true, 4}, PilotPixel{0.5f, 0.1f, false, 4}, PilotPixel{0.6f, 0, false, 4}}) {
     Pilot probe = empty;
     probe.pixels[16 * 8 + 8] = odd;
-    const std::vector<uint8_t> worth = worth_a_pilot(probe);
+    const std::vector<uint8_t> worth = needs_full_pilot(probe);
     EXPECT_EQ(worth[16 * 8 + 8], 0) << "never by itself";
     EXPECT_EQ(worth[16 * 8 + 9], 0) << "the other colour";
     EXPECT_EQ(std::count(worth.begin(), worth.end(), 1), 12);
     EXPECT_EQ(worth[16 * 10 + 8] + worth[16 * 7 + 7] + worth[16 * 6 + 10], 3);
   }
-  EXPECT_EQ(worth_a_pilot({1, 1, {sky}}), std::vector<uint8_t>{1}) << "no neighbours";
+  EXPECT_EQ(needs_full_pilot({1, 1, {sky}}), std::vector<uint8_t>{1}) << "no neighbours";
 }
 
 TEST(AdaptiveTwoStage, CountsAreWholeBlocks) {

@@ -29,8 +29,8 @@ Strands combed(const V3f& direction, float disorder) {
   return Strands(std::move(a));
 }
 
-FurFrame frame_of(const Strands& strands, FurTurn turn = FurTurn::kWhereItPays) {
-  return choose_frame(SnappedStrands(strands, kGrid), turn);
+FurFrame frame_of(const Strands& strands, FurRotation rotation = FurRotation::kWhenUseful) {
+  return choose_frame(SnappedStrands(strands, kGrid), rotation);
 }
 
 TEST(FurFrame, stands_along_combed_strands) {
@@ -50,9 +50,9 @@ TEST(FurFrame, is_that_of_the_grid_where_no_other_is_much_better) {
   EXPECT_FALSE(frame_of(Strands()).turned);
   const Strands diagonal = combed(V3f(1, 1, 1).normalized(), 0.05f);
   EXPECT_TRUE(frame_of(diagonal).turned);
-  EXPECT_FALSE(frame_of(diagonal, FurTurn::kNever).turned);
+  EXPECT_FALSE(frame_of(diagonal, FurRotation::kNever).turned);
   GroomShape moving = groom_shapes()[9];
-  EXPECT_FALSE(frame_of(random_groom(moving, 50, 1), FurTurn::kAlways).turned);
+  EXPECT_FALSE(frame_of(random_groom(moving, 50, 1), FurRotation::kAlways).turned);
 }
 
 TEST(FurFrame, is_told_by_all_parts_of_strands_however_many_segments_they_have) {
@@ -84,7 +84,7 @@ TEST(FurFrame, is_told_by_all_parts_of_strands_however_many_segments_they_have) 
 TEST(FurFrame, boxes_along_the_grid_hold_those_that_are_turned) {
   TestRandom random(4);
   for (int i = 0; i < 200; ++i) {
-    const FurFrame frame = frame_of(combed(random.direction(), 0.1f), FurTurn::kAlways);
+    const FurFrame frame = frame_of(combed(random.direction(), 0.1f), FurRotation::kAlways);
     ASSERT_TRUE(frame.turned && frame.is_possible());
     const float place = std::ldexp(random.between(-1, 1), i % 24);
     FurBox box;
@@ -92,7 +92,7 @@ TEST(FurFrame, boxes_along_the_grid_hold_those_that_are_turned) {
       box.low[axis] = place + random.unit();
       box.high[axis] = box.low[axis] + 100 * random.unit();
     }
-    const FurBox grid = frame.unturned(box);
+    const FurBox grid = frame.unrotated(box);
     for (int corner = 0; corner < 8; ++corner) {
       V3d p(0);
       for (int axis = 0; axis < 3; ++axis) {

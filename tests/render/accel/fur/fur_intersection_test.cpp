@@ -55,9 +55,9 @@ bool agrees_near_edge(const FurTruth& truth, const FurHit& hit, double margin) {
 float float_step(const Ray& ray, double distance, const V3f& anchor) {
   const V3d from = V3d(ray.origin) - V3d(anchor);
   const V3d to = from + (std::isfinite(distance) ? distance : 0) * V3d(ray.direction);
-  double most = 0;
-  for (int i = 0; i < 3; ++i) most = std::max({most, std::abs(from[i]), std::abs(to[i])});
-  const auto coordinate = static_cast<float>(most);
+  double max = 0;
+  for (int i = 0; i < 3; ++i) max = std::max({max, std::abs(from[i]), std::abs(to[i])});
+  const auto coordinate = static_cast<float>(max);
   return std::nextafter(coordinate, std::numeric_limits<float>::infinity()) - coordinate;
 }
 

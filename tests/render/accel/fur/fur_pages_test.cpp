@@ -92,9 +92,9 @@ PageBlock placed(const std::vector<std::byte>& page) {
 TEST_P(FurPagesOf, keep_boxes_around_all_that_is_in_their_treelets) {
   const Strands strands = random_groom(GetParam(), 200, 3);
   const SnappedStrands snapped(strands, FurGrid(GetParam().width, V3f(0.3f, -1, 2)));
-  for (const FurTurn turn : {FurTurn::kNever, FurTurn::kAlways}) {
-    const FurTree tree(snapped, fur_options(FurNodeLayout::kQuantised, turn));
-    EXPECT_EQ(tree.view().frame.turned, turn == FurTurn::kAlways && GetParam().motion_keys == 1);
+  for (const FurRotation rotation : {FurRotation::kNever, FurRotation::kAlways}) {
+    const FurTree tree(snapped, fur_options(FurNodeLayout::kQuantised, rotation));
+    EXPECT_EQ(tree.view().frame.turned, rotation == FurRotation::kAlways && GetParam().motion_keys == 1);
     const FurTree* trees[] = {&tree};
     const Cut pages = cut(trees, kSmallPages);
     const FurPagedTree& of = pages.table.trees[0];
@@ -127,8 +127,8 @@ TEST_P(FurPagesOf, hold_every_segment_once_in_possible_treelets) {
   const Strands strands = random_groom(GetParam(), 400, 3);
   const SnappedStrands snapped(strands, FurGrid(GetParam().width));
   for (const FurNodeLayout layout : {FurNodeLayout::kFloat, FurNodeLayout::kQuantised}) {
-    const FurTurn turn = layout == FurNodeLayout::kFloat ? FurTurn::kNever : FurTurn::kAlways;
-    const FurTree tree(snapped, fur_options(layout, turn));
+    const FurRotation rotation = layout == FurNodeLayout::kFloat ? FurRotation::kNever : FurRotation::kAlways;
+    const FurTree tree(snapped, fur_options(layout, rotation));
     const FurTree* trees[] = {&tree};
     for (const size_t page_bytes : {size_t(4) << 10, size_t(16) << 10, FurCutter::kPageBytes}) {
       const Cut pages = cut(trees, page_bytes);
@@ -189,7 +189,7 @@ TEST(FurPages, of_axes_that_are_none_are_not_possible) {
   const GroomShape combed = groom_shapes()[11];
   const Strands strands = random_groom(combed, 50, 3);
   const FurTree tree(SnappedStrands(strands, FurGrid(combed.width)),
-                     fur_options(FurNodeLayout::kQuantised, FurTurn::kWhereItPays));
+                     fur_options(FurNodeLayout::kQuantised, FurRotation::kWhenUseful));
   ASSERT_TRUE(tree.view().frame.turned);
   const FurTree* trees[] = {&tree};
   const FurPageTable table = cut(trees, kSmallPages).table;
@@ -208,17 +208,17 @@ TEST(FurPages, of_axes_that_are_none_are_not_possible) {
   EXPECT_FALSE(with_axes(x, y, V3f(0, 0, INFINITY)));
 }
 
-class FurPageFileOf : public testing::TestWithParam<FurTurn> {};
+class FurPageFileOf : public testing::TestWithParam<FurRotation> {};
 
-INSTANTIATE_TEST_SUITE_P(Frames, FurPageFileOf, testing::Values(FurTurn::kNever, FurTurn::kAlways),
+INSTANTIATE_TEST_SUITE_P(Frames, FurPageFileOf, testing::Values(FurRotation::kNever, FurRotation::kAlways),
                          [](const auto& test) {
-                           return test.param == FurTurn::kNever ? "along_the_grid" : "turned";
+                           return test.param == FurRotation::kNever ? "along_the_grid" : "turned";
                          });
 
 TEST_P(FurPageFileOf, gives_back_what_was_cut) {
   StoredGroom groom(groom_shapes()[0], 300, FurNodeLayout::kQuantised, GetParam());
   const FurPageFile file = groom.open();
-  EXPECT_EQ(file.table().trees.at(0).frame.turned, GetParam() == FurTurn::kAlways);
+  EXPECT_EQ(file.table().trees.at(0).frame.turned, GetParam() == FurRotation::kAlways);
   EXPECT_TRUE(file.table().trees.at(0).frame == groom.tree.view().frame);
   EXPECT_TRUE(groom.warnings.lines.empty());
   const FurTree* trees[] = {&groom.tree};
@@ -233,7 +233,7 @@ TEST_P(FurPageFileOf, gives_back_what_was_cut) {
   }
   EXPECT_TRUE(file.check_all(Workers(2), groom.warnings.sink()));
   // What is only expected may never be read.
-  file.expect(0);
+  file.prefetch(0);
   EXPECT_FALSE(FurPageFile::open(groom.store, {5, 6}, groom.warnings.sink()));
   EXPECT_TRUE(groom.warnings.lines.empty());
 }

@@ -20,20 +20,20 @@ struct FurWarnings {
   }
 };
 
-inline FurTreeOptions fur_options(FurNodeLayout layout, FurTurn turn = FurTurn::kNever) {
+inline FurTreeOptions fur_options(FurNodeLayout layout, FurRotation rotation = FurRotation::kNever) {
   FurTreeOptions options;
   options.layout = layout;
-  options.build.turn = turn;
+  options.build.rotation = rotation;
   return options;
 }
 
 /// A groom, the tree over it in memory, and the same tree in a file.
 struct StoredGroom {
-  StoredGroom(const GroomShape& shape, size_t count, FurNodeLayout layout, FurTurn turn = FurTurn::kNever,
-              size_t page_bytes = kSmallPages)
+  StoredGroom(const GroomShape& shape, size_t count, FurNodeLayout layout,
+              FurRotation rotation = FurRotation::kNever, size_t page_bytes = kSmallPages)
       : strands(random_groom(shape, count, 7)),
         snapped(strands, FurGrid(shape.width)),
-        tree(snapped, fur_options(layout, turn)),
+        tree(snapped, fur_options(layout, rotation)),
         store(folder.path()) {
     FurPageFile::Writer writer(store, kFurKey, page_bytes);
     writer.add(tree);

@@ -18,9 +18,9 @@ constexpr size_t kStrands = 300;
 constexpr uint64_t kRays = repetitions(2500);
 
 FurTreeOptions options_of(FurNodeLayout layout, float cuts = 0, float node_cost = 1,
-                          FurTurn turn = FurTurn::kNever) {
+                          FurRotation rotation = FurRotation::kNever) {
   FurTreeOptions options;
-  options.build.turn = turn;
+  options.build.rotation = rotation;
   options.layout = layout;
   options.build.cuts = cuts;
   options.build.node_cost = node_cost;
@@ -80,12 +80,13 @@ class FurTreeOf : public testing::TestWithParam<GroomShape> {
 };
 
 TEST_P(FurTreeOf, answers_alike_in_every_layout_and_shape) {
-  const FurTree others[] = {FurTree(snapped_, options_of(FurNodeLayout::kQuantised)),
-                            FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 0)),
-                            FurTree(snapped_, options_of(FurNodeLayout::kFloat, 0.5f, 3)),
-                            FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 2, 1)),
-                            FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 1, FurTurn::kAlways)),
-                            FurTree(snapped_, options_of(FurNodeLayout::kFloat, 1, 1, FurTurn::kAlways))};
+  const FurTree others[] = {
+      FurTree(snapped_, options_of(FurNodeLayout::kQuantised)),
+      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 0)),
+      FurTree(snapped_, options_of(FurNodeLayout::kFloat, 0.5f, 3)),
+      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 2, 1)),
+      FurTree(snapped_, options_of(FurNodeLayout::kQuantised, 0, 1, FurRotation::kAlways)),
+      FurTree(snapped_, options_of(FurNodeLayout::kFloat, 1, 1, FurRotation::kAlways))};
   with_rays([&](const Ray& ray, const FurHit& expected, uint64_t i) {
     for (const FurTree& other : others) {
       ASSERT_TRUE(same_bits(expected, other.closest(ray, {}))) << i;

@@ -121,7 +121,7 @@ class FurTruth {
     std::array<double, 5> derivative;
     for (size_t i = 0; i < 5; ++i) derivative[i] = static_cast<double>(i + 1) * polynomial[i + 1];
     std::vector<double> places{kFirst};
-    for (const double turn : roots<4>(derivative, kFirst, kLast)) places.push_back(turn);
+    for (const double rotation : roots<4>(derivative, kFirst, kLast)) places.push_back(rotation);
     places.push_back(kLast);
     for (size_t i = 0; i + 1 < places.size(); ++i) {
       double low = places[i], high = places[i + 1];

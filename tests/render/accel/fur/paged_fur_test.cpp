@@ -78,17 +78,17 @@ INSTANTIATE_TEST_SUITE_P(Grooms, PagedFurOf, testing::ValuesIn(groom_shapes()), 
 
 struct Built {
   FurNodeLayout layout;
-  FurTurn turn;
+  FurRotation rotation;
 };
 
 TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
-  for (const auto& [layout, turn] : {Built{FurNodeLayout::kFloat, FurTurn::kNever},
-                                     Built{FurNodeLayout::kQuantised, FurTurn::kWhereItPays},
-                                     Built{FurNodeLayout::kQuantised, FurTurn::kAlways}}) {
-    StoredGroom groom(GetParam(), kStrands, layout, turn);
+  for (const auto& [layout, rotation] : {Built{FurNodeLayout::kFloat, FurRotation::kNever},
+                                         Built{FurNodeLayout::kQuantised, FurRotation::kWhenUseful},
+                                         Built{FurNodeLayout::kQuantised, FurRotation::kAlways}}) {
+    StoredGroom groom(GetParam(), kStrands, layout, rotation);
     const bool moves = GetParam().motion_keys > 1;
-    const bool pays = turn == FurTurn::kWhereItPays && GetParam().name == "combed";
-    EXPECT_EQ(groom.tree.view().frame.turned, (turn == FurTurn::kAlways && !moves) || pays);
+    const bool pays = rotation == FurRotation::kWhenUseful && GetParam().name == "combed";
+    EXPECT_EQ(groom.tree.view().frame.turned, (rotation == FurRotation::kAlways && !moves) || pays);
     const Queries q = queries(GetParam(), groom);
     EXPECT_GT(std::count(q.occluded.begin(), q.occluded.end(), 1), ptrdiff_t(kRays / 50));
     for (const double share : {1.0, 0.25, 0.0}) {
@@ -114,7 +114,7 @@ TEST_P(PagedFurOf, answers_as_the_tree_in_memory) {
 }
 
 TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
-  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurTurn::kWhereItPays);
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurRotation::kWhenUseful);
   const Queries q = queries(GetParam(), groom);
   const FlushDenormals flush;
   MemoryLedger ledger, other;
@@ -137,7 +137,7 @@ TEST_P(PagedFurOf, answers_many_rays_at_once_with_fewer_faults) {
 }
 
 TEST_P(PagedFurOf, answers_alike_however_few_rays_may_wait) {
-  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurTurn::kAlways);
+  StoredGroom groom(GetParam(), kStrands, FurNodeLayout::kQuantised, FurRotation::kAlways);
   const Queries q = queries(GetParam(), groom);
   const FlushDenormals flush;
   for (const size_t waiting_rays : {0, 1, 7, 10000}) {
@@ -194,8 +194,8 @@ TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
   for (size_t i = 0; i < 3; ++i) {
     const Strands strands = random_groom(*shapes[i], 100, 40 + i);
     const SnappedStrands snapped(strands, FurGrid(shapes[i]->width, V3f(0, static_cast<float>(i), 1)));
-    trees.emplace_back(snapped,
-                       fur_options(FurNodeLayout::kQuantised, i == 2 ? FurTurn::kNever : FurTurn::kAlways));
+    trees.emplace_back(
+        snapped, fur_options(FurNodeLayout::kQuantised, i == 2 ? FurRotation::kNever : FurRotation::kAlways));
     writer.add(trees.back());
   }
   ASSERT_TRUE(writer.commit(warnings.sink()));
@@ -212,7 +212,7 @@ TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
     PagedFurHit truth;
     for (uint32_t t = 0; t < 3; ++t) {
       const PagedFurHit hit{trees[t].closest(ray, {}), t};
-      if (hit && (!truth || hit.stands_before(truth))) truth = hit;
+      if (hit && (!truth || hit.precedes(truth))) truth = hit;
     }
     const PagedFurHit hit = fur.closest(ray, {}, 0, counts);
     ASSERT_TRUE(same_hit(hit.hit, truth.hit)) << i;
@@ -225,7 +225,7 @@ TEST(PagedFur, answers_of_trees_that_stand_along_different_axes) {
 
 TEST(PagedFur, answers_alike_for_any_number_of_threads) {
   const GroomShape shape = groom_shapes()[11];
-  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurTurn::kAlways);
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurRotation::kAlways);
   const Queries q = queries(shape, groom);
   for (const int threads : {2, 5}) {
     for (const double share : {0.5, 0.0}) {
@@ -259,7 +259,7 @@ TEST(PagedFur, answers_alike_for_any_number_of_threads) {
 // Each thread has a queue of its own: that another's is full makes no ray of this one go alone.
 TEST(PagedFur, lets_rays_of_every_thread_wait) {
   const GroomShape shape = groom_shapes()[0];
-  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurTurn::kNever);
+  StoredGroom groom(shape, kStrands, FurNodeLayout::kQuantised, FurRotation::kNever);
   const Queries q = queries(shape, groom);
   constexpr int kThreads = 3;
   const auto faults = [&](size_t waiting_rays) {

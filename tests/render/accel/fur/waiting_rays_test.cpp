@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-using Ahead = WaitingRays::Ahead;
+using UpcomingSteps = WaitingRays::UpcomingSteps;
 using Step = WaitingRays::Step;
 
 TEST(WaitingRays, know_the_first_steps_ahead) {
@@ -22,30 +22,30 @@ TEST(WaitingRays, know_the_first_steps_ahead) {
     std::vector<Step> steps;
     // Some entries are equal.
     for (uint32_t t = 0; t < count; ++t) steps.push_back({std::floor(6 * random.unit()), 100 - t});
-    Ahead ahead;
-    for (const Step& step : steps) ahead.add(step);
+    UpcomingSteps upcoming;
+    for (const Step& step : steps) upcoming.add(step);
     std::sort(steps.begin(), steps.end());
-    EXPECT_EQ(ahead.is_full(), count >= Ahead::kMost);
-    const size_t kept = std::min(count, Ahead::kMost);
-    EXPECT_EQ(ahead.back().treelet, steps[kept - 1].treelet);
-    for (size_t i = 0; i < kept; ++i, ahead.pop()) {
-      EXPECT_EQ(ahead.front().entry, steps[i].entry);
-      EXPECT_EQ(ahead.front().treelet, steps[i].treelet);
+    EXPECT_EQ(upcoming.is_full(), count >= UpcomingSteps::kMaxSteps);
+    const size_t kept = std::min(count, UpcomingSteps::kMaxSteps);
+    EXPECT_EQ(upcoming.back().treelet, steps[kept - 1].treelet);
+    for (size_t i = 0; i < kept; ++i, upcoming.pop()) {
+      EXPECT_EQ(upcoming.front().entry, steps[i].entry);
+      EXPECT_EQ(upcoming.front().treelet, steps[i].treelet);
     }
-    EXPECT_TRUE(ahead.is_empty());
-    EXPECT_EQ(ahead.last().treelet, steps[kept - 1].treelet);
+    EXPECT_TRUE(upcoming.is_empty());
+    EXPECT_EQ(upcoming.last().treelet, steps[kept - 1].treelet);
   }
 }
 
 TEST(WaitingRays, take_steps_out_of_turn) {
-  Ahead ahead;
-  for (uint32_t t = 0; t < 4; ++t) ahead.add({float(t), t});
-  ahead.bring_forward([](uint32_t t) { return t == 3; });
-  EXPECT_EQ(ahead.front().treelet, 3u);
-  ahead.pop();
-  ahead.bring_forward([](uint32_t t) { return t == 3; });
-  EXPECT_EQ(ahead.front().treelet, 1u);
-  EXPECT_EQ(ahead.last().treelet, 3u);
+  UpcomingSteps upcoming;
+  for (uint32_t t = 0; t < 4; ++t) upcoming.add({float(t), t});
+  upcoming.bring_forward([](uint32_t t) { return t == 3; });
+  EXPECT_EQ(upcoming.front().treelet, 3u);
+  upcoming.pop();
+  upcoming.bring_forward([](uint32_t t) { return t == 3; });
+  EXPECT_EQ(upcoming.front().treelet, 1u);
+  EXPECT_EQ(upcoming.last().treelet, 3u);
 }
 
 /// Against queues that take what memory they like.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cache/growth_turns.h"
+#include "cache/growth_throttle.h"
 
 #include <algorithm>
 
@@ -11,46 +11,47 @@ namespace {
 constexpr int kWindow = 64, kTooMany = 75, kFew = 40;
 /// Every time that there turned out to be too many, twice as many good windows are wanted before one more is
 /// tried, up to this.
-constexpr int kMostNeeded = 64;
+constexpr int kMaxNeeded = 64;
 
 }  // namespace
 
-GrowthTurns::GrowthTurns(int threads) : threads_(threads), at_once_(threads) {}
+GrowthThrottle::GrowthThrottle(int threads) : threads_(threads), concurrency_(threads) {}
 
-bool GrowthTurns::may_grow(int thread, Clock::time_point now) {
-  if (at_once_ >= threads_) return true;
+bool GrowthThrottle::may_grow(int thread, Clock::time_point now) {
+  if (concurrency_ >= threads_) return true;
   const auto own =
       std::find_if(turns_.begin(), turns_.end(), [&](const Turn& t) { return t.thread == thread; });
   if (own != turns_.end()) return true;
-  std::erase_if(turns_, [&](const Turn& t) { return now - t.used > kPatience; });
-  if (static_cast<int>(turns_.size()) >= at_once_) return false;
+  std::erase_if(turns_, [&](const Turn& t) { return now - t.used > kIdleTimeout; });
+  if (static_cast<int>(turns_.size()) >= concurrency_) return false;
   turns_.push_back({thread, now});
   return true;
 }
 
-void GrowthTurns::grown(int thread, bool again_soon, Clock::time_point now) {
+void GrowthThrottle::grown(int thread, bool again_soon, Clock::time_point now) {
   for (Turn& turn : turns_) {
     if (turn.thread == thread) turn.used = now;
   }
   again_ += again_soon ? 1 : 0;
   if (++window_ < kWindow) return;
-  if (100 * again_ > kTooMany * kWindow && at_once_ > 1) {
-    set_at_once(at_once_ / 2);
+  if (100 * again_ > kTooMany * kWindow && concurrency_ > 1) {
+    set_concurrency(concurrency_ / 2);
     good_ = 0;
-    needed_ = std::min(2 * needed_, kMostNeeded);
-  } else if (100 * again_ < kFew * kWindow && at_once_ < threads_ && ++good_ >= needed_) {
-    set_at_once(at_once_ + 1);
+    needed_ = std::min(2 * needed_, kMaxNeeded);
+  } else if (100 * again_ < kFew * kWindow && concurrency_ < threads_ && ++good_ >= needed_) {
+    set_concurrency(concurrency_ + 1);
     good_ = 0;
   }
   window_ = again_ = 0;
 }
 
-void GrowthTurns::set_at_once(int count) {
-  at_once_ = count;
-  if (at_once_ >= threads_) turns_.clear();
+void GrowthThrottle::set_concurrency(int count) {
+  concurrency_ = count;
+  if (concurrency_ >= threads_) turns_.clear();
   // Who used it last has the most to lose.
   std::sort(turns_.begin(), turns_.end(), [](const Turn& a, const Turn& b) { return a.used > b.used; });
-  if (static_cast<int>(turns_.size()) > at_once_) turns_.resize(static_cast<size_t>(at_once_), {0, {}});
+  if (static_cast<int>(turns_.size()) > concurrency_)
+    turns_.resize(static_cast<size_t>(concurrency_), {0, {}});
 }
 
 }  // namespace pelage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cache/growth_turns.h"
+#include "cache/growth_throttle.h"
 
 #include <gtest/gtest.h>
 
@@ -14,52 +14,52 @@ class GrowthTurnsTest : public testing::Test {
   void grow(int growths, int again_of_ten) {
     for (int i = 0; i < growths; now_ += 1ms) {
       const int thread = i % 4;
-      if (turns_.may_grow(thread, now_)) turns_.grown(thread, i % 10 < again_of_ten, now_);
+      if (throttle_.may_grow(thread, now_)) throttle_.grown(thread, i % 10 < again_of_ten, now_);
       ++i;
     }
   }
   int allowed() {
     int count = 0;
-    for (int thread = 0; thread < 4; ++thread) count += turns_.may_grow(thread, now_) ? 1 : 0;
+    for (int thread = 0; thread < 4; ++thread) count += throttle_.may_grow(thread, now_) ? 1 : 0;
     return count;
   }
 
-  GrowthTurns turns_{4};
-  GrowthTurns::Clock::time_point now_{};
+  GrowthThrottle throttle_{4};
+  GrowthThrottle::Clock::time_point now_{};
 };
 
 TEST_F(GrowthTurnsTest, EverybodyMayGrowWhereUnitsStay) {
   grow(10000, 4);
-  EXPECT_EQ(turns_.at_once(), 4);
+  EXPECT_EQ(throttle_.concurrency(), 4);
   EXPECT_EQ(allowed(), 4);
 }
 
 TEST_F(GrowthTurnsTest, FewerMayWhereTheyTakeEachOthersUnits) {
   grow(10000, 9);
-  EXPECT_EQ(turns_.at_once(), 1);
+  EXPECT_EQ(throttle_.concurrency(), 1);
   EXPECT_EQ(allowed(), 1);
 }
 
 TEST_F(GrowthTurnsTest, MoreMayOnceItIsOver) {
   grow(10000, 9);
   grow(10000, 0);
-  EXPECT_EQ(turns_.at_once(), 4);
+  EXPECT_EQ(throttle_.concurrency(), 4);
 }
 
 TEST_F(GrowthTurnsTest, WhoGrowsNothingLosesItsTurn) {
   grow(10000, 9);
   int holder = 0;
-  while (!turns_.may_grow(holder, now_)) ++holder;
+  while (!throttle_.may_grow(holder, now_)) ++holder;
   const int other = (holder + 1) % 4;
-  EXPECT_FALSE(turns_.may_grow(other, now_ + GrowthTurns::kPatience / 2));
-  turns_.grown(holder, true, now_ + GrowthTurns::kPatience / 2);
-  EXPECT_FALSE(turns_.may_grow(other, now_ + GrowthTurns::kPatience + 1ms));
-  EXPECT_TRUE(turns_.may_grow(other, now_ + 2 * GrowthTurns::kPatience));
-  EXPECT_FALSE(turns_.may_grow(holder, now_ + 2 * GrowthTurns::kPatience));
+  EXPECT_FALSE(throttle_.may_grow(other, now_ + GrowthThrottle::kIdleTimeout / 2));
+  throttle_.grown(holder, true, now_ + GrowthThrottle::kIdleTimeout / 2);
+  EXPECT_FALSE(throttle_.may_grow(other, now_ + GrowthThrottle::kIdleTimeout + 1ms));
+  EXPECT_TRUE(throttle_.may_grow(other, now_ + 2 * GrowthThrottle::kIdleTimeout));
+  EXPECT_FALSE(throttle_.may_grow(holder, now_ + 2 * GrowthThrottle::kIdleTimeout));
 }
 
 TEST_F(GrowthTurnsTest, OneThreadAlwaysMay) {
-  GrowthTurns alone(1);
+  GrowthThrottle alone(1);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(alone.may_grow(0, now_));
     alone.grown(0, true, now_);

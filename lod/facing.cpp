@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lod/turned_away.h"
+#include "lod/facing.h"
 
 namespace pelage {
 

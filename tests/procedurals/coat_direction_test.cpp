@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "procedurals/coat_lie.h"
+#include "procedurals/coat_direction.h"
 
 #include <gtest/gtest.h>
 
@@ -40,9 +40,9 @@ class CombedBall {
   TextureLibrary textures_{ledger_};
 };
 
-TEST(CoatLie, IsHowStrandsLieInAnyPose) {
+TEST(CoatDirection, IsHowStrandsLieInAnyPose) {
   const CombedBall ball(0.1f);
-  const CoatLie lie(*ball.groom, ball.rest, ball.workers);
+  const CoatDirection direction(*ball.groom, ball.rest, ball.workers);
   M44f turn;
   turn.rotate(V3f(0.7f, -1.2f, 2.1f));
   std::vector<V3f> positions = ball.cage.positions;
@@ -57,7 +57,7 @@ TEST(CoatLie, IsHowStrandsLieInAnyPose) {
     const Strands strands = ball.groom->grow(leaf, pose);
     for (size_t s = 0; s < strands.strand_count(); ++s, ++count) {
       const size_t follicle = follicles.leaves()[leaf].begin + s;
-      const V3f at = lie.at(follicles.root(follicle), ball.groom->root(follicle, pose, 0));
+      const V3f at = direction.at(follicles.root(follicle), ball.groom->root(follicle, pose, 0));
       const uint32_t first = strands.first_point(s);
       const V3f chord =
           (strands.point(first + strands.strand_points(s) - 1) - strands.point(first)).normalized();
@@ -70,14 +70,14 @@ TEST(CoatLie, IsHowStrandsLieInAnyPose) {
   EXPECT_GT(close, 0.93 * static_cast<double>(count));  // all but those about the two whorls of the comb
 }
 
-TEST(CoatLie, IsContinuousAlongTheSkin) {
+TEST(CoatDirection, IsContinuousAlongTheSkin) {
   const CombedBall ball(0.6f);
-  const CoatLie lie(*ball.groom, ball.rest, ball.workers);
+  const CoatDirection direction(*ball.groom, ball.rest, ball.workers);
   for (uint32_t face = 0; face < ball.rest->topology().face_count(); face += 7) {
     V3f before(0);
     for (int step = 0; step <= 1000; ++step) {
       const RootAddress root{face, static_cast<float>(step) / 1000, 0.37f};
-      const V3f at = lie.at(root, ball.rest->evaluate(root.face, root.u, root.v));
+      const V3f at = direction.at(root, ball.rest->evaluate(root.face, root.u, root.v));
       if (step > 0) {
         EXPECT_LT((at - before).length(), 0.01f) << face << " " << step;
       }
@@ -93,7 +93,7 @@ TEST(CoatLie, IsContinuousAlongTheSkin) {
         const SurfacePoint point = ball.rest->evaluate(next, u, v);
         if ((point.position - end).length() >= nearest) continue;
         nearest = (point.position - end).length();
-        there = lie.at({next, u, v}, point);
+        there = direction.at({next, u, v}, point);
       }
     }
     EXPECT_LT(nearest, 1e-5f);
@@ -101,15 +101,15 @@ TEST(CoatLie, IsContinuousAlongTheSkin) {
   }
 }
 
-TEST(CoatLie, IsTheSameBitByBitForAnyLeaves) {
+TEST(CoatDirection, IsTheSameBitByBitForAnyLeaves) {
   const CombedBall whole(0.4f);
-  const CoatLie lie(*whole.groom, whole.rest, whole.workers);
+  const CoatDirection direction(*whole.groom, whole.rest, whole.workers);
   for (const int leaf_strands : {1000, 137}) {
     const CombedBall divided(0.4f, leaf_strands);
-    const CoatLie other(*divided.groom, divided.rest, divided.workers);
+    const CoatDirection other(*divided.groom, divided.rest, divided.workers);
     for (const RootAddress& root : whole.groom->follicles().roots()) {
       const SurfacePoint point = whole.rest->evaluate(root.face, root.u, root.v);
-      EXPECT_EQ(lie.at(root, point), other.at(root, point)) << leaf_strands;
+      EXPECT_EQ(direction.at(root, point), other.at(root, point)) << leaf_strands;
     }
   }
 }

@@ -15,9 +15,9 @@ class Workers;
 /// place, from some thousand of them. The same, bit by bit, however the groom is divided into leaves.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
-class CoatLie {
+class CoatDirection {
  public:
-  CoatLie(const Groom& groom, std::shared_ptr<const LimitSurface> rest, const Workers& workers);
+  CoatDirection(const Groom& groom, std::shared_ptr<const LimitSurface> rest, const Workers& workers);
 
   /// In the pose in which the skin at `root` is `posed`: a unit vector, shorter where strands lie in many
   /// directions, zero where none stands.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/growth_gate.h"
+#include "render/accel/fine_box_hits.h"
 
 #include <gtest/gtest.h>
 
@@ -77,8 +77,8 @@ TEST_P(GrowthGate, IsPassedAsItsBoxesAreOneByOne) {
       perhaps += outer < INFINITY;
     }
     int64_t tests = 0, all_tests = 0;
-    const GatePassage first_met = pass_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, false, tests);
-    const GatePassage all_met = pass_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, true, all_tests);
+    const FineBoxHits first_met = intersect_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, false, tests);
+    const FineBoxHits all_met = intersect_fine_boxes(boxes, RaySlabs(ray, reach), ray.far, true, all_tests);
     const float enter = first_met.entry;
     ASSERT_EQ(enter, all_met.entry) << i;
     ASSERT_GE(all_met.boxes, surely) << i;
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Boxes, GrowthGate, testing::Values(1, 4, 5, 37, 64, 175
 
 TEST(GrowthGate, NothingIsMetWhereThereAreNoBoxes) {
   int64_t tests = 0;
-  EXPECT_EQ(pass_fine_boxes(FineBoxes(), RaySlabs(Ray(), 1), 1e9f, false, tests).entry, INFINITY);
+  EXPECT_EQ(intersect_fine_boxes(FineBoxes(), RaySlabs(Ray(), 1), 1e9f, false, tests).entry, INFINITY);
   EXPECT_EQ(tests, 0);
 }
 

@@ -11,11 +11,11 @@ namespace pelage {
 
 /// Where each segment of a fur tree stands in its leaves: the way back from numbers to points. Two bytes per
 /// segment where the tree is small and has no wide leaf, otherwise four. Thread safety: immutable.
-class FurPlaces {
+class FurSegmentLookup {
  public:
-  FurPlaces() = default;
+  FurSegmentLookup() = default;
   /// Walks through a tree over segments 0 .. segment_count - 1.
-  FurPlaces(const FurTreeView& tree, uint32_t segment_count);
+  FurSegmentLookup(const FurTreeView& tree, uint32_t segment_count);
 
   /// A lane of a block.
   struct Place {

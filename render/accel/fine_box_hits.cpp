@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/growth_gate.h"
+#include "render/accel/fine_box_hits.h"
 
 #include <algorithm>
 #include <array>
 
 namespace pelage {
 
-GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests,
-                            float margin) {
-  GatePassage passage;
-  if (boxes.count() == 0) return passage;
+FineBoxHits intersect_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
+                                 int64_t& tests, float margin) {
+  FineBoxHits hits;
+  if (boxes.count() == 0) return hits;
   const GridSlabs slabs(ray, boxes.grid(), margin);
   struct Entry {
     float distance;
@@ -24,15 +24,15 @@ GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float f
     if (top.distance > far) continue;
     const auto groups = boxes.level(top.level);
     Four enter, leave;
-    const auto met = slabs.meet(groups[top.group], far, enter, leave);
+    const auto met = slabs.intersect(groups[top.group], far, enter, leave);
     tests += 4;
     const size_t first = waiting;
     for (uint32_t lane = 0; lane < 4; ++lane) {
       if (!met[lane]) continue;
       if (top.level == 0) {
-        passage.entry = std::min(passage.entry, enter[lane]);
-        ++passage.boxes;
-        if (!all) far = std::min(far, passage.entry);
+        hits.entry = std::min(hits.entry, enter[lane]);
+        ++hits.boxes;
+        if (!all) far = std::min(far, hits.entry);
         continue;
       }
       const uint32_t group = 4 * top.group + lane;
@@ -42,7 +42,7 @@ GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float f
       stack[at] = {enter[lane], top.level - 1, group};
     }
   }
-  return passage;
+  return hits;
 }
 
 }  // namespace pelage

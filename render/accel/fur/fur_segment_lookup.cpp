@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/accel/fur/fur_places.h"
+#include "render/accel/fur/fur_segment_lookup.h"
 
 #include <algorithm>
 #include <cstring>
@@ -40,7 +40,7 @@ void for_each_block(const FurTreeView& tree, const Use& use) {
 
 }  // namespace
 
-FurPlaces::FurPlaces(const FurTreeView& tree, uint32_t segment_count) {
+FurSegmentLookup::FurSegmentLookup(const FurTreeView& tree, uint32_t segment_count) {
   const size_t narrow = kNarrowBlock.block(tree.motion_keys);
   uint64_t blocks = 0;
   bool any_wide = false;
@@ -73,7 +73,7 @@ FurPlaces::FurPlaces(const FurTreeView& tree, uint32_t segment_count) {
   });
 }
 
-FurPlaces::Place FurPlaces::find(const FurTreeView& tree, uint32_t number) const {
+FurSegmentLookup::Place FurSegmentLookup::find(const FurTreeView& tree, uint32_t number) const {
   if (short_) {
     const uint32_t place = reinterpret_cast<const uint16_t*>(block_.data())[number];
     if (place == kShortNowhere) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "procedurals/strand_nature.h"
+#include "procedurals/coat_stats.h"
 
 #include <cmath>
 #include <numeric>
@@ -65,22 +65,22 @@ double density(const FollicleTree& follicles, const std::vector<double>& areas) 
 
 }  // namespace
 
-StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
+CoatStats coat_stats(const Groom& groom, const LimitSurface* rest, const Workers& workers) {
   Sums sums;
   visit_coat_sample(groom, rest, kSample, workers,
                     [&](const Strands& strands, size_t s) { add_strand(strands, s, sums); });
-  StrandNature nature;
-  if (!(sums.length > 0)) return nature;
-  nature.width = static_cast<float>(sums.area / sums.length);
-  nature.length = static_cast<float>(sums.length / sums.strands);
-  nature.even = groom.has_priority_order();
+  CoatStats stats;
+  if (!(sums.length > 0)) return stats;
+  stats.width = static_cast<float>(sums.area / sums.length);
+  stats.length = static_cast<float>(sums.length / sums.strands);
+  stats.even = groom.has_priority_order();
   if (rest) {
     const std::vector<double> areas = face_areas(*rest);
-    nature.area_share =
+    stats.area_share =
         static_cast<float>(sums.area / sums.strands / std::accumulate(areas.begin(), areas.end(), 0.0));
-    nature.density = static_cast<float>(density(groom.follicles(), areas));
+    stats.density = static_cast<float>(density(groom.follicles(), areas));
   }
-  return nature;
+  return stats;
 }
 
 }  // namespace pelage

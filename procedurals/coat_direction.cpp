@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "procedurals/coat_lie.h"
+#include "procedurals/coat_direction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,8 @@ constexpr float kKnown = 0.5f;
 
 }  // namespace
 
-CoatLie::CoatLie(const Groom& groom, std::shared_ptr<const LimitSurface> rest, const Workers& workers)
+CoatDirection::CoatDirection(const Groom& groom, std::shared_ptr<const LimitSurface> rest,
+                             const Workers& workers)
     : rest_(std::move(rest)) {
   const Box3f box = rest_->control_bounds();
   const V3f size = box.size();
@@ -42,7 +43,7 @@ CoatLie::CoatLie(const Groom& groom, std::shared_ptr<const LimitSurface> rest, c
 }
 
 template <class Use>
-void CoatLie::visit_nodes(const V3f& place, const Use& use) const {
+void CoatDirection::visit_nodes(const V3f& place, const Use& use) const {
   int base[3];
   float t[3];
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -63,7 +64,7 @@ void CoatLie::visit_nodes(const V3f& place, const Use& use) const {
   }
 }
 
-V3f CoatLie::at(const RootAddress& root, const SurfacePoint& posed) const {
+V3f CoatDirection::at(const RootAddress& root, const SurfacePoint& posed) const {
   const SurfacePoint rest = rest_->evaluate(root.face, root.u, root.v);
   V3f mean(0);
   visit_nodes(rest.position, [&](size_t node, float weight) { mean += weight * directions_[node]; });

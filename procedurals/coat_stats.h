@@ -12,6 +12,6 @@ class Workers;
 /// What the strands of a groom are like at rest, for a character of scale 1: means over the strands of the
 /// smallest ids, some hundreds that stand all over the skin. Does not depend on how the groom is divided into
 /// leaves. `rest`: null for a groom on no skin.
-StrandNature strand_nature(const Groom& groom, const LimitSurface* rest, const Workers& workers);
+CoatStats coat_stats(const Groom& groom, const LimitSurface* rest, const Workers& workers);
 
 }  // namespace pelage

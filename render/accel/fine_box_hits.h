@@ -10,7 +10,7 @@
 namespace pelage {
 
 /// What a ray meets of the fine boxes of a chunk.
-struct GatePassage {
+struct FineBoxHits {
   float entry =
       std::numeric_limits<float>::infinity();  ///< where it enters the first; infinity: it meets none
   uint32_t boxes = 0;                          ///< how many it meets, where that was asked for
@@ -18,7 +18,7 @@ struct GatePassage {
 
 /// Looks before `far` for the first of the fine boxes that a ray meets, or, with `all`, for all of them. Adds
 /// to `tests` how many were looked at. Boxes are taken to be larger by `margin` on every side.
-GatePassage pass_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all, int64_t& tests,
-                            float margin = 0);
+FineBoxHits intersect_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
+                                 int64_t& tests, float margin = 0);
 
 }  // namespace pelage
