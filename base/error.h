@@ -25,7 +25,7 @@ struct Problem {
   std::string message;
 };
 
-/// What an error means for the exit code of the command (design.md section 7).
+/// What an error means for the exit code of the command (docs/RUNNING.md).
 enum class ErrorKind {
   kFailed,     ///< render failed or an output could not be written: 1
   kArguments,  ///< bad arguments: 2

@@ -10,7 +10,7 @@
 
 namespace pelage {
 
-/// Numbers of one run, as `--stats` writes them (design.md section 7). A value: rooms fill their part and
+/// Numbers of one run, as `--stats` writes them. A value: rooms fill their part and
 /// hand it up; nothing registers itself. Counts are of the whole run, over all frames.
 struct Statistics {
   double wall_s = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiple scattering in pale fur: the ball that docs/MEASURE.md describes, with the fibres of Chiang et al.:
-// absorption 0.10, 0.18, 0.38 per radius, roughness 0.3, tilt 2 degrees.
+// Multiple scattering in pale fur: the ball that docs/lab/MEASURE.md describes, with the fibres of Chiang et
+// al.: absorption 0.10, 0.18, 0.38 per radius, roughness 0.3, tilt 2 degrees.
 //
 //   cpu/16spp   processor seconds of 16 samples of a picture of 960 x 540, by the cost of a sample
 //   relMSE16    mean over fur pixels and channels of (a - b)^2 / (b^2 + 0.01) at 16 samples
@@ -9,7 +9,7 @@
 //
 // Errors are half the squared differences of pictures of independent seeds; b is the mean of other pictures
 // of 64 samples. How Pelage compares with Cycles on this ball, on one machine in the same hour, is in
-// docs/MEASURE.md; seconds of different machines or hours must not be compared.
+// docs/lab/MEASURE.md; seconds of different machines or hours must not be compared.
 //
 // Found on 4 cores at 2 GHz that others used five times over, which makes CPU seconds longer:
 //

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// Exit code of the process for a kind of error (design.md section 7).
+/// Exit code of the process for a kind of error; docs/RUNNING.md lists the codes.
 int exit_code(ErrorKind kind);
 
 /// What the user sees: a line "file:line:column: message" per problem, "pelage: error: message" where there

@@ -11,7 +11,7 @@ namespace pelage {
 /// Version of the object that --stats writes: goes up when a name changes its meaning or vanishes.
 constexpr int kStatisticsSchema = 1;
 
-/// The numbers of a run as one JSON object (design.md section 7), names as in base/statistics.h, units in
+/// The numbers of a run as one JSON object, names as in base/statistics.h, units in
 /// names.
 std::string statistics_json(const Statistics& statistics);
 

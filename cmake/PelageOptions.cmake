@@ -17,7 +17,7 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fno-omit-frame-pointer")
 
 add_library(pelage_options INTERFACE)
-# Law 1: the same scene gives the same pixels, so no contraction into fused multiply-add and no -march=native.
+# Law 1 (docs/LAWS.md): the same scene gives the same pixels, so no contraction into fused multiply-add and no -march=native.
 target_compile_options(pelage_options INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 target_compile_features(pelage_options INTERFACE cxx_std_20)
 

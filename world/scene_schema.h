@@ -21,7 +21,8 @@
 
 namespace pelage {
 
-// The scene file as one value (design.md section 8). What is below a block of another room is that room's.
+// The scene file as one value; docs/MANUAL.md has its keys. What is below a block of another room is that
+// room's.
 
 /// `pelage:`, the version of the scene format.
 struct FormatVersion {

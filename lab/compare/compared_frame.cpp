@@ -54,7 +54,7 @@ Picture mean_picture(const Film& a, const Film& b) {
   return *screen_picture(image, image.width, "");
 }
 
-/// Luminance and relMSE over fur; relMSE by design.md, section 10, with the mean of the halves for the
+/// Luminance and relMSE over fur; relMSE as docs/NOTATION.md defines it, with the mean of the halves for the
 /// reference: a quarter of their squared difference is the variance of that mean.
 void measure(const Film& a, const Film& b, ComparedFrame& frame) {
   double sum = 0, count = 0;
