@@ -65,7 +65,7 @@ TEST_F(GroomMemoryTest, WhatDoesNotFitIsRefusedByNameBeforeItIsMade) {
       ADD_FAILURE() << "placed";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-      EXPECT_TRUE(std::string(error.what()).starts_with("groom 'coat': placing 5000000 strands: needs 1."))
+      EXPECT_TRUE(std::string(error.what()).starts_with("groom 'coat': placing 5000000 strands: needs 6"))
           << error.what();
     }
   });
@@ -189,10 +189,10 @@ class StopsAfterLooks final : public Progress {
 };
 
 TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
-  // Placing this many looks some hundred times; each place where it looks is left by the same error.
+  // Placing this many looks some thousand times; each place where it looks is left by the same error.
   const Workers one(1);
   int stopped = 0, looks = 0;
-  for (bool ended = false; !ended; looks += 7) {
+  for (bool ended = false; !ended; looks += 41) {
     StopsAfterLooks progress(looks);
     try {
       FollicleTree::build(*rest_, options(30'000), Job{one, ledger_, progress});
