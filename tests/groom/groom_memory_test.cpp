@@ -252,7 +252,7 @@ TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
   // Placing this many looks some thousand times; each place where it looks is left by the same error.
   const Workers one(1);
   int stopped = 0, looks = 0;
-  for (bool ended = false; !ended; looks += 83) {
+  for (bool ended = false; !ended; looks += 31) {
     StopsAfterLooks progress(looks);
     try {
       FollicleTree::build(*rest_, options(30'000), Job{one, ledger_, progress});
