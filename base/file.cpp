@@ -92,8 +92,13 @@ AtomicFile::AtomicFile(std::filesystem::path path, Links links) : named_(std::mo
   const bool replaces = ::lstat(path_.c_str(), &old) == 0;
   if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode))
     fail_write(named_, S_ISDIR(old.st_mode) ? "it is a folder" : "it is not a regular file");
-  std::error_code ignored;
-  if (path_.has_parent_path()) std::filesystem::create_directories(path_.parent_path(), ignored);
+  if (path_.has_parent_path()) {
+    std::error_code ignored;
+    // Where a link leads to a folder that is not there, a disk may be missing: that folder would hide it.
+    if (path_ != named_ && !std::filesystem::exists(path_.parent_path(), ignored))
+      fail_write(named_, "it is a link to " + path_.string() + ", whose folder does not exist");
+    std::filesystem::create_directories(path_.parent_path(), ignored);
+  }
   TemporaryFile file = create_temporary(path_);
   if (file.descriptor < 0) fail_write(named_, reason());
   descriptor_ = file.descriptor;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/job.h"
+#include "base/progress_stage.h"
 #include "groom/groom_params.h"
 #include "groom/skin_binding.h"
 
@@ -48,7 +49,11 @@ bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job&
   }
   const auto place = [&](size_t i) { return rest.evaluate(roots[i].face, roots[i].u, roots[i].v).position; };
   std::vector<float> gaps(positions.size());
+  constexpr size_t kMinForProgress = 50'000;  // a strand takes some 10 us
+  const ProgressStage stage(job.progress, "bind strands", static_cast<double>(positions.size()),
+                            positions.size() >= kMinForProgress);
   job.for_each(positions.size(), 256, [&](WorkRange range) {
+    stage.advance(static_cast<double>(range.end - range.begin));
     for (size_t i = range.begin; i < range.end; ++i) {
       roots[i] = binding.nearest(positions[i]);
       gaps[i] = (place(i) - positions[i]).length();

@@ -175,47 +175,86 @@ uint64_t FollicleCandidates::order_key(uint64_t attempt) const {
   return mix64(stream(face_of(attempt), attempt));
 }
 
-RootAddress FollicleCandidates::root(const FollicleCandidate& candidate) const {
-  const size_t face = face_of(candidate.attempt);
-  return place_on_face(rest_, static_cast<uint32_t>(face), faces_[face], stream(face, candidate.attempt))
-      .root;
+RootAddress FollicleCandidates::root(uint32_t attempt, V3f* position) const {
+  const size_t face = face_of(attempt);
+  const Place place = place_on_face(rest_, static_cast<uint32_t>(face), faces_[face], stream(face, attempt));
+  *position = place.point.position;
+  return place.root;
 }
 
-std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job) const {
+template <class Visit>
+void FollicleCandidates::try_all(uint64_t begin, uint64_t end, const CandidateShare& share,
+                                 const Visit& visit) const {
+  size_t f = face_of(begin);
+  for (uint64_t i = begin; i < end; ++i) {
+    while (i >= first_[f + 1]) ++f;
+    const uint64_t stream = this->stream(f, i);
+    const uint64_t number = mix64(stream) >> 32;
+    if (number < share.begin || number >= share.end) continue;
+    FollicleCandidate candidate;
+    if (!try_candidate(rest_, density_, static_cast<uint32_t>(f), faces_[f], room_, stream, candidate))
+      continue;
+    candidate.attempt = static_cast<uint32_t>(i);
+    candidate.number = static_cast<uint32_t>(number);
+    visit(candidate);
+  }
+}
+
+// Small faces are done together and large ones in parts, whatever the threads; what a few parts hold beside
+// the result is little.
+constexpr uint64_t kPart = 4096, kGroup = 64;
+
+CandidateSurvey FollicleCandidates::survey(const Job& job) const {
   const uint64_t tries = first_.back();
+  std::vector<CandidateSurvey> parts(kGroup);
+  CandidateSurvey result;
+  for (uint64_t group = 0; group < tries; group += kGroup * kPart) {
+    const uint64_t count = std::min(kGroup, (tries - group + kPart - 1) / kPart);
+    job.for_each(count, 1, [&](WorkRange range) {
+      for (size_t part = range.begin; part < range.end; ++part) {
+        const uint64_t begin = group + part * kPart;
+        CandidateSurvey seen;
+        try_all(begin, std::min(tries, begin + kPart), {},
+                [&](const FollicleCandidate& candidate) { seen.add(candidate); });
+        parts[part] = seen;
+      }
+    });
+    for (size_t part = 0; part < count; ++part) {
+      result.count += parts[part].count;
+      result.box.extendBy(parts[part].box);
+      result.smallest_spacing = std::min(result.smallest_spacing, parts[part].smallest_spacing);
+    }
+    job.progress.advance(static_cast<double>(std::min(kGroup * kPart, tries - group)) /
+                         static_cast<double>(tries));
+  }
+  return result;
+}
+
+std::vector<FollicleCandidate> FollicleCandidates::make(const Job& job, const CandidateShare& share) const {
+  const uint64_t tries = first_.back();
+  const double part_of_all = static_cast<double>(share.end - share.begin) * 0x1p-32;
+  const auto expected = static_cast<uint64_t>(part_of_all * static_cast<double>(wanted_));
   std::vector<FollicleCandidate> result;
-  result.reserve(std::min<uint64_t>(tries, wanted_ + wanted_ / 64 + 1024));
-  // Small faces are done together and large ones in parts, whatever the threads; what a few parts hold beside
-  // the result is little.
-  constexpr uint64_t kPart = 4096, kGroup = 64;
+  result.reserve(std::min<uint64_t>(tries, max_of(expected)));
   std::vector<std::vector<FollicleCandidate>> kept(kGroup);
   for (uint64_t group = 0; group < tries; group += kGroup * kPart) {
     const uint64_t parts = std::min(kGroup, (tries - group + kPart - 1) / kPart);
     job.for_each(parts, 1, [&](WorkRange range) {
       for (size_t part = range.begin; part < range.end; ++part) {
-        const uint64_t begin = group + part * kPart, end = std::min(tries, begin + kPart);
+        const uint64_t begin = group + part * kPart;
         kept[part].clear();
-        size_t f = face_of(begin);
-        for (uint64_t i = begin; i < end; ++i) {
-          while (i >= first_[f + 1]) ++f;
-          const uint64_t stream = this->stream(f, i);
-          FollicleCandidate candidate;
-          if (!try_candidate(rest_, density_, static_cast<uint32_t>(f), faces_[f], room_, stream, candidate))
-            continue;
-          candidate.attempt = static_cast<uint32_t>(i);
-          candidate.next = static_cast<uint32_t>(mix64(stream) >> 32);
-          kept[part].push_back(candidate);
-        }
+        try_all(begin, std::min(tries, begin + kPart), share,
+                [&](const FollicleCandidate& candidate) { kept[part].push_back(candidate); });
       }
     });
     for (size_t part = 0; part < parts; ++part)
       result.insert(result.end(), kept[part].begin(), kept[part].end());
-    job.progress.advance(static_cast<double>(std::min(kGroup * kPart, tries - group)) /
+    job.progress.advance(part_of_all * static_cast<double>(std::min(kGroup * kPart, tries - group)) /
                          static_cast<double>(tries));
   }
   stoppable_sort(job, result.begin(), result.end(),
                  [&](const FollicleCandidate& a, const FollicleCandidate& b) {
-                   if (a.next != b.next) return a.next < b.next;
+                   if (a.number != b.number) return a.number < b.number;
                    const uint64_t ka = order_key(a.attempt), kb = order_key(b.attempt);
                    return ka != kb ? ka < kb : a.attempt < b.attempt;
                  });

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "base/vector.h"
@@ -23,13 +25,31 @@ struct FollicleDensity {
   float at(const SurfaceTopology& topology, const RootAddress& address, const SurfacePoint& point) const;
 };
 
-/// A place where a follicle may grow. Several of them are held for each follicle, so every byte counts.
+/// A place where a follicle may grow. Many of them are held at a time, so every byte counts.
 struct FollicleCandidate {
   float x = 0, y = 0, z = 0;
   uint32_t normal = 0;   ///< packed, see pack_normal
   float spacing = 1;     ///< 1 / sqrt(density)
   uint32_t attempt = 0;  ///< its number among all places that were tried: FollicleCandidates::root()
-  uint32_t next = 0;     ///< for lists of whoever holds the candidates
+  uint32_t number = 0;   ///< random, by which they are in order; later its rank in that order
+};
+
+/// Part of the candidates: those whose random numbers lie in [begin, end).
+struct CandidateShare {
+  uint64_t begin = 0, end = uint64_t(1) << 32;
+};
+
+/// What must be known of all candidates before the first is used.
+struct CandidateSurvey {
+  size_t count = 0;
+  Box3f box;
+  float smallest_spacing = std::numeric_limits<float>::infinity();
+
+  void add(const FollicleCandidate& candidate) {
+    ++count;
+    box.extendBy(V3f(candidate.x, candidate.y, candidate.z));
+    smallest_spacing = std::min(smallest_spacing, candidate.spacing);
+  }
 };
 
 /// Area of the surface and its integral of the density.
@@ -59,12 +79,21 @@ class FollicleCandidates {
   FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t wanted,
                      const Job& job);
 
-  /// About `wanted` candidates (how many pass is random) in random order.
-  std::vector<FollicleCandidate> make(const Job& job) const;
-  /// Where on the skin a candidate is.
-  RootAddress root(const FollicleCandidate& candidate) const;
+  /// About `wanted` candidates (how many pass is random) in random order; of a share, those that are in it.
+  std::vector<FollicleCandidate> make(const Job& job, const CandidateShare& share = {}) const;
+  /// Of what make() returns for all; holds none of them.
+  CandidateSurvey survey(const Job& job) const;
+  /// The most that are expected of so many that are wanted.
+  static constexpr uint64_t max_of(uint64_t wanted) { return wanted + wanted / 64 + 1024; }
+  /// About how many make() returns for all.
+  size_t wanted() const { return wanted_; }
+  /// Where on the skin a candidate is, and its position there.
+  RootAddress root(uint32_t attempt, V3f* position) const;
 
  private:
+  /// Calls visit(candidate) for the candidates of [begin, end) that are in the share.
+  template <class Visit>
+  void try_all(uint64_t begin, uint64_t end, const CandidateShare& share, const Visit& visit) const;
   size_t face_of(uint64_t attempt) const;
   uint64_t stream(size_t face, uint64_t attempt) const;
   uint64_t order_key(uint64_t attempt) const;

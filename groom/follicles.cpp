@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -67,33 +68,56 @@ FollicleTree FollicleTree::over(std::span<const V3f> rest_positions, std::span<c
 namespace {
 
 constexpr size_t kMoreCandidates = 100;  // for coats of a few strands
+// Of a follicle while the tree is made: its position, its root twice, its id and its place in the order.
+constexpr size_t kBytesOfTree = sizeof(V3f) + 2 * sizeof(RootAddress) + 3 * sizeof(uint32_t);
 
 /// Candidates that are tried for `count` follicles in the first round.
 size_t candidates_for(size_t count) { return count * kCandidatesPerFollicle + kMoreCandidates; }
 
+/// Candidates that are follicles, in their progressive order; empty optional where there are too few of them.
+std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, size_t count, double mass,
+                                            bool few_will_do, const FollicleOptions& options,
+                                            const Job& job) {
+  const HeldCandidates held = HeldCandidates::of(source.wanted(), count);
+  size_t all = 0;
+  {
+    CandidateSupply supply(source, held.parts, job);
+    all = supply.survey().count;
+    if (all < count && !few_will_do) return std::nullopt;
+    const HeldCandidates max{held.parts, held.parts == 1 ? all : held.max_waiting};
+    if (auto order = progressive_order(supply, count, mass, max, job)) return order;
+  }
+  // A skin that is narrower than follicles are apart: nothing may be forgotten.
+  const HeldCandidates whole{held.parts, all};
+  const size_t more = progressive_order_bytes(source.wanted(), count, whole) -
+                      progressive_order_bytes(source.wanted(), count, held);
+  const MemoryCharge charge =
+      reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(more),
+              fmt::format("{}: placing {} {} on so narrow a skin", options.owner, count, options.noun));
+  CandidateSupply supply(source, whole.parts, job);
+  return progressive_order(supply, count, mass, whole, job);
+}
+
 /// Places of follicles in their progressive order.
-void place(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t count, double mass,
-           const Job& job, std::vector<V3f>& positions, std::vector<RootAddress>& roots) {
+void place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
+           size_t count, double mass, const Job& job, std::vector<V3f>& positions,
+           std::vector<RootAddress>& roots) {
   // How many candidates pass is random: ask again with more in the rare case that they are too few.
   MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     if (round > 0) {
+      const size_t bytes = progressive_order_bytes(wanted, count, HeldCandidates::of(wanted, count));
       more = {};
-      more = reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(wanted * sizeof(FollicleCandidate)),
-                     "more places for strands");
+      more = reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes),
+                     fmt::format("{}: placing {} {} of uneven density", options.owner, count, options.noun));
     }
-    const FollicleCandidates source(rest, density, seed, wanted, job);
-    std::vector<FollicleCandidate> candidates = source.make(job);
-    if (candidates.size() < count && round < 7) continue;
-    const std::vector<uint32_t> order = progressive_order(candidates, count, mass, job);
-    positions.resize(order.size());
-    roots.resize(order.size());
-    job.for_each(order.size(), 4096, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i) {
-        const FollicleCandidate& c = candidates[order[i]];
-        positions[i] = V3f(c.x, c.y, c.z);
-        roots[i] = source.root(c);
-      }
+    const FollicleCandidates source(rest, density, options.seed, wanted, job);
+    const auto order = choose(source, count, mass, round == 7, options, job);
+    if (!order) continue;
+    positions.resize(order->size());
+    roots.resize(order->size());
+    job.for_each(order->size(), 4096, [&](WorkRange range) {
+      for (size_t i = range.begin; i < range.end; ++i) roots[i] = source.root((*order)[i], &positions[i]);
     });
     return;
   }
@@ -104,8 +128,8 @@ class PlacingStage final : public Progress {
  public:
   PlacingStage(Progress& whole, const FollicleOptions& options, size_t count)
       : whole_(whole), shown_(count >= kMinForProgress) {
-    // The candidates and their order count 1 each.
-    if (shown_) whole_.begin("place " + options.noun, 2);
+    // The survey of the candidates, their making and their order count 1 each.
+    if (shown_) whole_.begin("place " + options.noun, 3);
   }
   ~PlacingStage() override { end(); }
   PlacingStage(const PlacingStage&) = delete;
@@ -130,7 +154,9 @@ class PlacingStage final : public Progress {
 
 int64_t follicle_temporary_bytes(int64_t count) {
   const auto n = static_cast<size_t>(count);
-  return static_cast<int64_t>(progressive_order_bytes(candidates_for(n) + candidates_for(n) / 64, n));
+  const size_t candidates = candidates_for(n), max = FollicleCandidates::max_of(candidates);
+  const size_t choosing = progressive_order_bytes(candidates, n, HeldCandidates::of(max, n));
+  return static_cast<int64_t>(std::max(choosing, n * kBytesOfTree));
 }
 
 int64_t follicle_bytes(int64_t count) {
@@ -160,7 +186,7 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const Job placing{job.workers, job.ledger, stage};
   std::vector<V3f> positions;
   std::vector<RootAddress> roots;
-  place(rest, density, options.seed, count, measure.mass, placing, positions, roots);
+  place(rest, density, options, count, measure.mass, placing, positions, roots);
   std::vector<uint32_t> ids(roots.size());
   std::iota(ids.begin(), ids.end(), 0u);
   std::vector<uint32_t> places;

@@ -84,6 +84,20 @@ OperatorList with_width(const GroomParams& params) {
 
 }  // namespace
 
+namespace {
+
+/// Refuses strands of so many points that not even one block of them fits. What would do for a picture is
+/// said at once: there a part of them takes two blocks with colours, and itself.
+void require_growing(const MemoryLedger& ledger, int points, bool colored, const std::string& owner) {
+  constexpr int64_t kBytesOfPoint = 256;  // of a strand that stands alone in its part, and its tree
+  const int64_t block = StrandBatch::bytes(points, colored);
+  if (ledger.limit() == 0 || ledger.budgeted() + block <= ledger.limit()) return;
+  require_room(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
+               fmt::format("{}: growing strands of {} points", owner, points));
+}
+
+}  // namespace
+
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
                                            std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
                                            const Job& job) {
@@ -119,8 +133,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .digest();
 
   const int max_points = impl->source.imported ? impl->source.imported->max_points() : params.points;
-  require_room(job.ledger, StrandBatch::bytes(max_points, stack.colors().has_value()),
-               fmt::format("{}: growing strands of {} points", context.owner, max_points));
+  require_growing(job.ledger, max_points, stack.colors().has_value(), context.owner);
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {

@@ -23,7 +23,7 @@ int32_t cell_of(float coordinate) {
 void OctaveGrid::rebuild(size_t expected, float radius) {
   cell_ = 2.0f * radius * smallest_;
   release(heads_);  // the old ones go before the new ones are made
-  heads_.assign(std::max<size_t>(std::bit_ceil(2 * expected), 64), kNone);
+  heads_.assign(head_count(expected), kNone);
   for (uint32_t i = 0; i < items_.size(); ++i) link(i);
 }
 

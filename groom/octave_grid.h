@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -15,8 +17,10 @@ class OctaveGrid {
  public:
   /// Of at most about `max` follicles.
   OctaveGrid(float smallest_spacing, size_t max) : smallest_(smallest_spacing) { items_.reserve(max); }
-  /// What each follicle takes beside the heads of lists: rebuild() makes at most 4 for each that is expected.
-  static constexpr size_t kItemBytes = 24;
+  /// What a grid of at most `max` follicles takes once rebuild() has made room for `expected`.
+  static size_t bytes(size_t max, size_t expected) {
+    return max * sizeof(Item) + head_count(expected) * sizeof(uint32_t);
+  }
 
   /// Files everything anew for searches at radii up to `radius`, with room for about `expected` follicles.
   void rebuild(size_t expected, float radius);
@@ -36,8 +40,7 @@ class OctaveGrid {
     uint32_t next;
   };
 
-  static_assert(sizeof(Item) == kItemBytes);
-
+  static size_t head_count(size_t expected) { return std::max<size_t>(std::bit_ceil(2 * expected), 64); }
   void link(uint32_t item);
   float nearest_in(uint32_t item, const FollicleCandidate& candidate, const V3f& normal, float best) const;
   int octave_of(float spacing) const;

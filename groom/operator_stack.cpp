@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "base/hash.h"
+#include "base/nearest_name.h"
 
 namespace pelage {
 namespace {
@@ -16,14 +18,35 @@ uint64_t hash_name(std::string_view name) {
   return h;
 }
 
+/// The first attribute that a parameter of an operator reads and strands do not have while they grow; empty
+/// where there is none.
+std::string unknown_attribute(const Operator& op, std::span<const std::string> known) {
+  constexpr std::string_view kForm = "{attribute: ";
+  for (const ParameterText& parameter : op.parameters()) {
+    const std::string& text = parameter.text;
+    for (size_t at = text.find(kForm); at != std::string::npos; at = text.find(kForm, at + 1)) {
+      const size_t begin = at + kForm.size();
+      std::string name = text.substr(begin, text.find('}', begin) - begin);
+      if (std::find(known.begin(), known.end(), name) == known.end()) return name;
+    }
+  }
+  return {};
+}
+
 /// Bounds need the largest value of every field; attributes of strands have none.
 void check_bounded(const Operator& op, const SourcePosition& position) {
   const StrandReach after = op.reach_after({});
   if (std::isfinite(after.length) && std::isfinite(after.distance) && std::isfinite(after.radius)) return;
-  throw Error(
-      ErrorKind::kInput, position,
-      "a number of '" + std::string(op.name()) +
-          "' has no largest value, because it reads an attribute that has none: only random and clump have");
+  const std::vector<std::string> known{"random", "clump", "color"};
+  const std::string name(op.name());
+  if (const std::string unknown = unknown_attribute(op, known); !unknown.empty()) {
+    throw Error(ErrorKind::kInput, position,
+                "'" + name + "' reads the unknown attribute " + quote(unknown) + suggest(unknown, known));
+  }
+  throw Error(ErrorKind::kInput, position,
+              "a number of '" + name +
+                  "' has no largest value, because it reads an attribute that has none: only random and "
+                  "clump have");
 }
 
 /// The frame at a point already evaluated; only where it is ill defined is the surface asked again.

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "base/hash.h"
 #include "base/release.h"
 #include "base/stoppable_sort.h"
 #include "groom/octave_grid.h"
+#include "groom/waiting_candidates.h"
 
 namespace pelage {
 namespace {
@@ -18,31 +20,18 @@ namespace {
 constexpr double kShrink = 0.94;
 /// Part of the densest packing (hexagons) that dart throwing is expected to fill.
 constexpr double kExpectedFill = 0.5;
+/// Levels beyond the one that is expected to be the last.
+constexpr int kSpareLevels = 1;
+/// Part of what is expected that is found at least, but for a few levels.
+constexpr double kFill = 0.5;
 /// Candidates that take part per follicle expected: a fifth more than there are per follicle in the end.
 constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
 /// To a radius of 1e-11 of the first: only coincident candidates are left.
 constexpr int kLevels = 400;
-constexpr uint32_t kEndOfList = 0xffffffffu;
 
-/// Candidates that wait for a level each, as lists through FollicleCandidate::next.
-class WaitingLists {
- public:
-  explicit WaitingLists(std::span<FollicleCandidate> candidates)
-      : candidates_(candidates), heads_(kLevels + 1, kEndOfList), sizes_(kLevels + 1, 0) {}
-  void add(int level, uint32_t candidate) {
-    uint32_t& head = heads_[static_cast<size_t>(level)];
-    candidates_[candidate].next = head;
-    head = candidate;
-    ++sizes_[static_cast<size_t>(level)];
-  }
-  size_t size(int level) const { return sizes_[static_cast<size_t>(level)]; }
-  uint32_t first(int level) const { return heads_[static_cast<size_t>(level)]; }
-  uint32_t after(uint32_t candidate) const { return candidates_[candidate].next; }
-
- private:
-  std::span<FollicleCandidate> candidates_;
-  std::vector<uint32_t> heads_;
-  std::vector<size_t> sizes_;
+/// A follicle of the level that is tried.
+struct Accepted {
+  uint32_t rank, attempt;
 };
 
 /// The radii of progressive dart throwing.
@@ -61,6 +50,10 @@ class Radii {
   /// Follicles expected: hexagonal packing puts 2 / (sqrt(3) r^2) points at distance r on a unit of area.
   double expected(double radius) const {
     return kExpectedFill * area_ * 2.0 / (std::sqrt(3.0) * radius * radius);
+  }
+  /// The level at which `count` follicles are found on a skin that is much wider than their distance.
+  int last_level(size_t count) const {
+    return level_of(static_cast<float>(std::sqrt(kFill * expected(1.0) / static_cast<double>(count))));
   }
 
  private:
@@ -82,91 +75,209 @@ uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse)
          spread((c.z - origin.z) * inverse) << 2;
 }
 
-}  // namespace
-
-namespace {
-
 /// The last level may find more than are wanted, of which the last go again.
 size_t with_overshoot(size_t count) { return count + count / 6; }
 
-}  // namespace
+/// One run of progressive_order().
+class DartThrowing {
+ public:
+  DartThrowing(CandidateSupply& supply, size_t count, double area, size_t max_waiting, const Job& job)
+      : supply_(supply),
+        job_(job),
+        radii_(area),
+        count_(std::min(count, supply.survey().count)),
+        grid_(supply.survey().smallest_spacing, with_overshoot(count_)),
+        waiting_(kLevels + 1, max_waiting) {
+    const V3f size = supply.survey().box.size();
+    extent_ = std::max({size.x, size.y, size.z, 1e-30f});
+    if (max_waiting < supply.survey().count) last_ = radii_.last_level(count_);
+    order_.reserve(with_overshoot(count_));
+  }
 
-size_t progressive_order_bytes(size_t candidates, size_t count) {
-  // Of each follicle: its place in the order, its entry in the grid and at most 4 heads of lists; and some
-  // candidates are tried at a time.
-  constexpr size_t kOfFollicle = 4 + OctaveGrid::kItemBytes, kHeads = 16, kTried = 24;
-  return candidates * sizeof(FollicleCandidate) + with_overshoot(count) * kOfFollicle +
-         count * (kHeads + kTried);
+  /// False where it needs candidates that did not fit.
+  bool run();
+  std::vector<uint32_t> order() && { return std::move(order_); }
+
+ private:
+  struct Tried {
+    uint32_t region, rank, place;
+    bool operator<(const Tried& other) const {
+      return region != other.region ? region < other.region : rank < other.rank;
+    }
+  };
+
+  bool throw_at(int level);
+  bool arrive(const V3f& origin, float inverse);
+  bool collect(int level, double radius);
+  void accept_or_file(int level, float radius);
+  void append_accepted();
+  void forget_the_hopeless(int level);
+
+  CandidateSupply& supply_;
+  const Job& job_;
+  const Radii radii_;
+  const size_t count_;
+  float extent_ = 0;
+  int last_ = kLevels;  // candidates that wait for later levels are forgotten
+  double grid_radius_ = std::numeric_limits<double>::infinity();
+  OctaveGrid grid_;
+  WaitingCandidates waiting_;
+  std::vector<uint32_t> arrived_;  // places of those that are to join, in order of rank
+  size_t joined_ = 0;              // of arrived_
+  std::vector<Tried> tried_;
+  std::vector<Accepted> accepted_;
+  std::vector<uint32_t> order_;
+};
+
+bool DartThrowing::run() {
+  for (int level = 0; level <= kLevels && order_.size() < count_; ++level) {
+    if (level > last_ || level >= waiting_.dropped() || !throw_at(level)) return false;
+  }
+  order_.resize(std::min(order_.size(), count_));
+  return true;
 }
 
-std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates, size_t count, double area,
-                                        const Job& job) {
-  count = std::min(count, candidates.size());
-  std::vector<uint32_t> order;
-  order.reserve(with_overshoot(count));
-  if (count == 0) return order;
-
-  float smallest = std::numeric_limits<float>::infinity();
-  Box3f box;
-  for (const FollicleCandidate& c : candidates) {
-    smallest = std::min(smallest, c.spacing);
-    box.extendBy(V3f(c.x, c.y, c.z));
+bool DartThrowing::throw_at(int level) {
+  const double radius = radii_.at(level);
+  if (radius < 0.6 * grid_radius_ && level < kLevels) {
+    grid_radius_ = radius;
+    const double ahead = std::min(radii_.expected(0.6 * radius), static_cast<double>(count_));
+    grid_.rebuild(static_cast<size_t>(ahead), static_cast<float>(radius));
   }
-  const float extent = std::max({box.size().x, box.size().y, box.size().z, 1e-30f});
-  const Radii radii(area);
-  OctaveGrid grid(smallest, with_overshoot(count));
-  WaitingLists waiting(candidates);
-  std::vector<std::pair<uint32_t, uint32_t>> tried;  // region, candidate
-  size_t joined = 0;
-  double grid_radius = std::numeric_limits<double>::infinity();
-  for (int level = 0; level <= kLevels && order.size() < count; ++level) {
-    const double radius = radii.at(level);
-    const auto r = static_cast<float>(radius);
-    if (radius < 0.6 * grid_radius && level < kLevels) {
-      grid_radius = radius;
-      const double ahead = std::min(radii.expected(0.6 * radius), static_cast<double>(count));
-      grid.rebuild(static_cast<size_t>(ahead), r);
-    }
-    // Regions hold some thousand follicles, so that what is looked at together stays in the cache.
-    const float inverse = std::min(1.0f / (64.0f * r * smallest), 1023.0f / extent);
-    const double join =
-        std::min(kTakePart * radii.expected(radius) + 1, static_cast<double>(candidates.size()));
-    const size_t joining =
-        static_cast<double>(joined) < join ? static_cast<size_t>(std::ceil(join)) - joined : 0;
-    tried.clear();
-    if (waiting.size(level) + joining > tried.capacity()) {
-      release(tried);  // the old ones go before room for more is made
-      tried.reserve(waiting.size(level) + joining);
-    }
-    const auto add = [&](uint32_t i) { tried.emplace_back(region_of(candidates[i], box.min, inverse), i); };
-    for (uint32_t i = waiting.first(level); i != kEndOfList; i = waiting.after(i)) add(i);
-    for (; static_cast<double>(joined) < join; ++joined) add(static_cast<uint32_t>(joined));
-    stoppable_sort(job, tried.begin(), tried.end(), std::less<>());
+  if (!collect(level, radius)) return false;
+  accept_or_file(level, static_cast<float>(radius));
+  const size_t before = order_.size();
+  append_accepted();
+  if (last_ < kLevels) forget_the_hopeless(level);
+  job_.progress.advance(static_cast<double>(std::min(order_.size(), count_) - std::min(before, count_)) /
+                        static_cast<double>(count_));
+  return true;
+}
 
-    const size_t before = order.size();
-    size_t looked_at = 0;
-    for (const auto& [region, i] : tried) {
-      if ((++looked_at & 0xfff) == 0) job.check_stop();
-      const float distance = level < kLevels ? grid.nearest(candidates[i], r) : r;
-      if (distance >= r) {
-        order.push_back(i);
-        if (level < kLevels) grid.insert(candidates[i]);
-      } else {
-        waiting.add(std::max(radii.level_of(distance), level + 1), i);
-      }
-    }
-    // Which of a level come first must not depend on where they are.
-    stoppable_sort(job, order.begin() + static_cast<std::ptrdiff_t>(before), order.end(),
-                   [](uint32_t a, uint32_t b) {
-                     const uint64_t ha = hash64(a, random_use("follicle order")),
-                                    hb = hash64(b, random_use("follicle order"));
-                     return ha != hb ? ha < hb : a < b;
+/// Gathers what is tried at a level, neighbours together.
+bool DartThrowing::collect(int level, double radius) {
+  // Regions hold some thousand follicles, so that what is looked at together stays in the cache.
+  const CandidateSurvey& survey = supply_.survey();
+  const float inverse =
+      std::min(1.0f / (64.0f * static_cast<float>(radius) * survey.smallest_spacing), 1023.0f / extent_);
+  const double join = std::min(kTakePart * radii_.expected(radius) + 1, static_cast<double>(survey.count));
+  while (static_cast<double>(supply_.supplied()) < join && !supply_.ended()) {
+    if (!arrive(survey.box.min, inverse)) return false;
+  }
+  size_t joining = joined_;
+  while (joining < arrived_.size() && static_cast<double>(waiting_[arrived_[joining]].number) < join)
+    ++joining;
+  const size_t wanted = waiting_.size(level) + joining - joined_;
+  tried_.clear();
+  if (wanted > tried_.capacity()) {
+    release(tried_);  // the old ones go before room for more is made
+    tried_.reserve(wanted);
+  }
+  const auto add = [&](uint32_t place) {
+    const FollicleCandidate& candidate = waiting_[place];
+    tried_.push_back({region_of(candidate, survey.box.min, inverse), candidate.number, place});
+  };
+  waiting_.take(level, add);
+  for (; joined_ < joining; ++joined_) add(arrived_[joined_]);
+  stoppable_sort(job_, tried_.begin(), tried_.end(), std::less<>());
+  return true;
+}
+
+/// Holds the next candidates, but for those that follicles keep away to the last level.
+bool DartThrowing::arrive(const V3f& origin, float inverse) {
+  std::vector<FollicleCandidate> candidates = supply_.next(job_);
+  const auto r = static_cast<float>(radii_.at(last_));
+  if (last_ < kLevels && !order_.empty()) {
+    stoppable_sort(job_, candidates.begin(), candidates.end(),
+                   [&](const FollicleCandidate& a, const FollicleCandidate& b) {
+                     return region_of(a, origin, inverse) < region_of(b, origin, inverse);
                    });
-    job.progress.advance(static_cast<double>(std::min(order.size(), count) - std::min(before, count)) /
-                         static_cast<double>(count));
+    job_.for_each(candidates.size(), 4096, [&](WorkRange range) {
+      for (size_t i = range.begin; i < range.end; ++i) {
+        if (grid_.nearest(candidates[i], r) < r) candidates[i].spacing = 0;
+      }
+    });
+    std::erase_if(candidates, [](const FollicleCandidate& candidate) { return candidate.spacing == 0; });
+    stoppable_sort(
+        job_, candidates.begin(), candidates.end(),
+        [](const FollicleCandidate& a, const FollicleCandidate& b) { return a.number < b.number; });
   }
-  order.resize(std::min(order.size(), count));
-  return order;
+  arrived_.erase(arrived_.begin(), arrived_.begin() + static_cast<std::ptrdiff_t>(joined_));
+  joined_ = 0;
+  arrived_.reserve(arrived_.size() + candidates.size());
+  for (const FollicleCandidate& candidate : candidates) {
+    const uint32_t place = waiting_.add(candidate);
+    if (place == WaitingCandidates::kNone) return false;
+    arrived_.push_back(place);
+  }
+  return true;
+}
+
+void DartThrowing::accept_or_file(int level, float radius) {
+  size_t looked_at = 0;
+  for (const Tried& tried : tried_) {
+    if ((++looked_at & 0xfff) == 0) job_.check_stop();
+    const FollicleCandidate& candidate = waiting_[tried.place];
+    const float distance = level < kLevels ? grid_.nearest(candidate, radius) : radius;
+    if (distance >= radius) {
+      accepted_.push_back({tried.rank, candidate.attempt});
+      if (level < kLevels) grid_.insert(candidate);
+      waiting_.remove(tried.place);
+      continue;
+    }
+    const int later = std::max(radii_.level_of(distance), level + 1);
+    if (later > last_) {
+      waiting_.remove(tried.place);
+    } else {
+      waiting_.wait_for(later, tried.place);
+    }
+  }
+}
+
+/// Numbers of follicles grow as 1 / radius^2, unless the skin is no wider than their distance.
+void DartThrowing::forget_the_hopeless(int level) {
+  if (order_.size() < std::max<size_t>(count_ / 50, 1000)) return;
+  const double growth = std::max(static_cast<double>(count_) / static_cast<double>(order_.size()), 1.0);
+  const int left = static_cast<int>(std::ceil(std::log(growth) / (-2 * std::log(kShrink))));
+  last_ = std::min(last_, level + left + kSpareLevels);
+  waiting_.drop_from(last_ + 1);
+}
+
+/// Which of a level come first must not depend on where they are.
+void DartThrowing::append_accepted() {
+  stoppable_sort(job_, accepted_.begin(), accepted_.end(), [](const Accepted& a, const Accepted& b) {
+    const uint64_t ha = hash64(a.rank, random_use("follicle order")),
+                   hb = hash64(b.rank, random_use("follicle order"));
+    return ha != hb ? ha < hb : a.rank < b.rank;
+  });
+  for (const Accepted& accepted : accepted_) order_.push_back(accepted.attempt);
+  accepted_.clear();
+}
+
+}  // namespace
+
+HeldCandidates HeldCandidates::of(size_t candidates, size_t count) {
+  // Few are made once and held; of many, 1.8 per follicle are held on a plane, when half of them are placed.
+  constexpr size_t kFew = size_t(1) << 17, kParts = 16;
+  if (candidates <= kFew) return all(candidates);
+  return {kParts, std::min(candidates, 2 * count)};
+}
+
+size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held) {
+  // Those that are tried at a level are less than one per follicle, unless all of the first are.
+  const size_t part = FollicleCandidates::max_of(candidates / held.parts);
+  const size_t tried = std::min(held.max_waiting, count);
+  constexpr size_t kArrivedBytes = 4, kTriedBytes = 12;
+  return part * (sizeof(FollicleCandidate) + kArrivedBytes) +
+         held.max_waiting * WaitingCandidates::kItemBytes + tried * kTriedBytes +
+         OctaveGrid::bytes(with_overshoot(count), count) + with_overshoot(count) * sizeof(uint32_t);
+}
+
+std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
+                                                       const HeldCandidates& held, const Job& job) {
+  DartThrowing darts(supply, count, area, held.max_waiting, job);
+  if (!darts.run()) return std::nullopt;
+  return std::move(darts).order();
 }
 
 }  // namespace pelage

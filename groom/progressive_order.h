@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <vector>
 
-#include "groom/follicle_candidates.h"
+#include "groom/candidate_supply.h"
 
 namespace pelage {
 
@@ -13,6 +13,17 @@ struct Job;
 
 /// Candidates that are tried per follicle wanted. More pack the last follicles tighter, at proportional cost.
 inline constexpr size_t kCandidatesPerFollicle = 6;
+
+/// How many candidates are in memory at a time.
+struct HeldCandidates {
+  size_t parts = 1;        ///< they are made in, see CandidateSupply
+  size_t max_waiting = 0;  ///< of those that wait to be tried (again)
+
+  /// All, of so many: what no choice can fail for.
+  static HeldCandidates all(size_t candidates) { return {1, candidates}; }
+  /// What does for `count` follicles on almost any skin.
+  static HeldCandidates of(size_t candidates, size_t count);
+};
 
 /// Chooses `count` candidates in an order of which every prefix is blue noise: progressive dart throwing, in
 /// which the forbidden radius shrinks slowly and each radius is tried on all candidates before the next
@@ -24,12 +35,15 @@ inline constexpr size_t kCandidatesPerFollicle = 6;
 /// is looked at a few times in all: O(N log N). `area` is that of the surface where the spacing is 1 (the
 /// integral of the density); it only says how many follicles to expect of a radius.
 ///
-/// Returns indices of candidates; fewer than `count` when there are fewer candidates. Overwrites
-/// FollicleCandidate::next. Sequential; throws Error (kStopped).
-std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates, size_t count, double area,
-                                        const Job& job);
+/// Returns attempts of candidates; fewer than `count` when there are fewer candidates. Where not all fit into
+/// `held`, those are forgotten that the follicles placed so far keep away to the end: the order is the same,
+/// bit by bit. How far the radius shrinks to the end is known by then, because follicles grow as 1 / radius^2
+/// in number; where they do not (a skin that is narrower than their distance), candidates that were forgotten
+/// may be missed, and there is no result. Parallel in the making of candidates only; throws Error (kStopped).
+std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
+                                                       const HeldCandidates& held, const Job& job);
 
 /// Upper bound of the bytes that making `count` follicles from `candidates` takes at any moment.
-size_t progressive_order_bytes(size_t candidates, size_t count);
+size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held);
 
 }  // namespace pelage

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -21,8 +22,9 @@ constexpr size_t kBodiesPerJump = 100;
 // What keeps a crowd of a million from taking hours: places of others that jumps of a round look at, and
 // animals that sweeps visit in all.
 constexpr size_t kMaxComparisons = 100'000'000, kMaxVisits = 200'000'000;
-constexpr size_t kMinForProgress = 20'000;  // animals; pushed about for some time, if they stand densely
-constexpr int kJumps = 100;                 // places that are tried for one that is stuck
+constexpr size_t kMinForProgress = 20'000;       // animals, however they stand
+constexpr size_t kVisitsWorthShowing = 400'000;  // some tenths of a second
+constexpr int kJumps = 100;                      // places that are tried for one that is stuck
 constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
 constexpr double kDensest = 0.9069;  // of equal discs in the plane
 constexpr float kPi = std::numbers::pi_v<float>;
@@ -308,8 +310,9 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
   const size_t visited_by_a_sweep = count + rules.obstacles.size();
   const size_t sweeps =
       std::min<size_t>(kRounds * kSweepsPerRound, kMaxVisits / std::max<size_t>(1, visited_by_a_sweep) + 1);
-  const ProgressStage stage(job.progress, "place animals", static_cast<double>(sweeps),
-                            count >= kMinForProgress);
+  std::optional<ProgressStage> stage;
+  const auto show = [&] { stage.emplace(job.progress, "place animals", static_cast<double>(sweeps)); };
+  if (count >= kMinForProgress) show();
   const std::vector<V2f> points = spread(area, count, rules.seed, job);
   std::vector<Body> bodies;
   bodies.reserve(count + rules.obstacles.size());
@@ -329,7 +332,11 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
     for (int sweep = 0; sweep < kSweepsPerRound && contacts > 0 && visits <= kMaxVisits; ++sweep) {
       contacts = crowd.sweep();
       visits += crowd.bodies().size();
-      stage.advance(1);
+      if (!stage && visits >= kVisitsWorthShowing) {
+        show();
+        stage->advance(static_cast<double>(visits / visited_by_a_sweep - 1));
+      }
+      if (stage) stage->advance(1);
     }
     if (visits > kMaxVisits) break;
   }

@@ -11,6 +11,29 @@ namespace {
 
 using Map = ParameterText::Map;
 
+/// What is looked up by texture coordinates.
+struct Lookup {
+  std::string what;  ///< "the map spots.png"
+  SourcePosition position;
+};
+
+/// Of a parameter or field as it is printed; `position` is that of the operator, material or groom, since
+/// only maps have one of their own.
+void add_lookups(const std::string& text, const std::vector<Map>& maps, const SourcePosition& position,
+                 std::vector<Lookup>& lookups) {
+  for (const Map& map : maps) lookups.push_back({"the map " + map.file.filename().string(), map.position});
+  for (const char* axis : {"u", "v"}) {
+    if (text.find(std::string("{ramp: {along: ") + axis + ",") != std::string::npos)
+      lookups.push_back({std::string("a ramp along ") + axis, position});
+  }
+}
+
+void add_lookups(const Field& field, const SourcePosition& position, std::vector<Lookup>& lookups) {
+  std::vector<Map> maps;
+  ValueReader<Field>::add_maps(field, maps);
+  add_lookups(ValueReader<Field>::print(field), maps, position, lookups);
+}
+
 class MapChecker {
  public:
   MapChecker(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins)
@@ -18,56 +41,57 @@ class MapChecker {
 
   void check() {
     for (const auto& groom : scene_.grooms.items) {
-      std::vector<Map> maps;
-      if (groom.value.density) ValueReader<Field>::add_maps(*groom.value.density, maps);
+      std::vector<Lookup> lookups;
+      if (groom.value.density) add_lookups(*groom.value.density, groom.position, lookups);
       for (const OperatorList::Item& item : groom.value.operators.items) {
         for (const ParameterText& parameter : item.prototype->parameters())
-          maps.insert(maps.end(), parameter.maps.begin(), parameter.maps.end());
+          add_lookups(parameter.text, parameter.maps, item.position, lookups);
       }
-      check_strands(groom.name, groom.value, maps);
+      check_strands(groom.name, groom.value, lookups);
     }
     for (const auto& character : scene_.characters.items) {
       for (const PartParams& part : character.value.parts) {
-        check_skin(part.skin.name, maps_of(part.material.name));
+        check_skin(part.skin.name, lookups_of(part.material.name));
         for (const auto& groom : part.grooms.items)
-          check_strands(groom.name, scene_.grooms.find(groom.name)->value, maps_of(groom.value.name));
+          check_strands(groom.name, scene_.grooms.find(groom.name)->value, lookups_of(groom.value.name));
       }
     }
     problems_.throw_if_any();
   }
 
  private:
-  std::vector<Map> maps_of(const std::string& material) const {
-    std::vector<Map> maps;
+  std::vector<Lookup> lookups_of(const std::string& material) const {
+    std::vector<Lookup> lookups;
+    const auto& named = *scene_.materials.find(material);
     std::visit(
         [&](const auto& params) {
-          ValueReader<Field>::add_maps(params.color, maps);
-          if constexpr (requires { params.opacity; }) ValueReader<Field>::add_maps(params.opacity, maps);
+          add_lookups(params.color, named.position, lookups);
+          if constexpr (requires { params.opacity; }) add_lookups(params.opacity, named.position, lookups);
         },
-        scene_.materials.find(material)->value);
-    return maps;
+        named.value);
+    return lookups;
   }
 
-  void check_skin(const std::string& skin, const std::vector<Map>& maps) {
+  void check_skin(const std::string& skin, const std::vector<Lookup>& lookups) {
     if (!skins_.at(skin).cage.face_uv.empty()) return;
     const std::string mesh = scene_.skins.find(skin)->value.mesh.path.filename().string();
-    complain(maps, "the mesh " + mesh + " of skin " + quote(skin) +
-                       " has none; export the mesh with texture coordinates (vt lines), or");
+    complain(lookups, "the mesh " + mesh + " of skin " + quote(skin) +
+                          " has none; export the mesh with texture coordinates (vt lines), or");
   }
 
-  void check_strands(const std::string& groom, const GroomParams& params, const std::vector<Map>& maps) {
+  void check_strands(const std::string& groom, const GroomParams& params,
+                     const std::vector<Lookup>& lookups) {
     if (!params.skin.name.empty() && params.attach != Attachment::kNone)
-      check_skin(params.skin.name, maps);
+      check_skin(params.skin.name, lookups);
     else
-      complain(maps, "the strands of groom " + quote(groom) + " follow no skin and have none;");
+      complain(lookups, "the strands of groom " + quote(groom) + " follow no skin and have none;");
   }
 
-  void complain(const std::vector<Map>& maps, const std::string& why) {
-    for (const Map& map : maps) {
-      if (!warned_.emplace(map.position.file, map.position.line, map.position.column, why).second) continue;
-      problems_.add(map.position, "the map " + map.file.filename().string() +
-                                      " is looked up by texture coordinates, but " + why +
-                                      " use a number, noise, or a ramp along x, y or z instead");
+  void complain(const std::vector<Lookup>& lookups, const std::string& why) {
+    for (const auto& [what, at] : lookups) {
+      if (!warned_.emplace(at.file, at.line, at.column, what + why).second) continue;
+      problems_.add(at, what + " is looked up by texture coordinates, but " + why +
+                            " use a number, noise, or a ramp along x, y or z instead");
     }
   }
 

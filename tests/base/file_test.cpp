@@ -103,6 +103,24 @@ TEST(AtomicFile, FollowsALinkToAFileThatIsNotThereYet) {
   EXPECT_EQ(error_of([&] { AtomicFile(folder.path() / "circle"); }).kind(), ErrorKind::kFailed);
 }
 
+TEST(AtomicFile, ALinkIntoAFolderThatIsNotThereMakesNone) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "link";
+  std::filesystem::create_symlink("disk/one", link);
+  try {
+    AtomicFile file(link);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kFailed);
+    EXPECT_NE(std::string(error.what()).find("disk/one, whose folder does not exist"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "disk"));
+  // A folder that is named is made.
+  write_file(folder.path() / "new" / "one", "1");
+  EXPECT_EQ(read_file(folder.path() / "new" / "one"), "1");
+}
+
 TEST(AtomicFile, ReplacesALinkWhereItIsToldTo) {
   const TemporaryFolder folder;
   const auto target = folder.path() / "target", link = folder.path() / "link";

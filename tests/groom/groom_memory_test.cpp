@@ -2,6 +2,7 @@
 // What grooms hold while they are made is what they asked for, or they are refused before.
 #include <atomic>
 #include <limits>
+#include <mutex>
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST_F(GroomMemoryTest, WhatDoesNotFitIsRefusedByNameBeforeItIsMade) {
       ADD_FAILURE() << "placed";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-      EXPECT_TRUE(std::string(error.what()).starts_with("groom 'coat': placing 5000000 strands: needs 1."))
+      EXPECT_TRUE(std::string(error.what()).starts_with("groom 'coat': placing 5000000 strands: needs 6"))
           << error.what();
     }
   });
@@ -137,13 +138,19 @@ class KeepsAccount final : public Progress {
   void begin(std::string_view stage, double total) override {
     stages_.emplace_back(std::string(stage), total);
   }
-  void advance(double amount) override { done_ += amount; }
+  void advance(double amount) override {
+    const std::lock_guard lock(mutex_);
+    done_ += amount;
+  }
   void end() override { ++ended_; }
   bool cancelled() const override { return false; }
 
   std::vector<std::pair<std::string, double>> stages_;
   double done_ = 0;
   int ended_ = 0;
+
+ private:
+  std::mutex mutex_;
 };
 
 TEST_F(GroomMemoryTest, ReadingManyPointsShowsItsProgress) {
@@ -175,6 +182,59 @@ TEST_F(GroomMemoryTest, ReadingManyPointsShowsItsProgress) {
   }
 }
 
+TEST_F(GroomMemoryTest, BindingManyStrandsShowsItsProgress) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "bound.hair";
+  for (const uint32_t count : {1000u, 60'000u}) {
+    StrandArrays arrays;
+    arrays.first_point = {0};
+    for (uint32_t s = 0; s < count; ++s) {
+      const float x = static_cast<float>(s % 100) * 0.01f;
+      arrays.points.insert(arrays.points.end(), {x, 1, 0, 0.1f, x, 2, 0, 0.1f});
+      arrays.first_point.push_back(2 * (s + 1));
+      arrays.ids.push_back(s);
+    }
+    write_strands(path, Strands(std::move(arrays)));
+    GroomParams params;
+    params.strands_file = {path, {}};
+    params.attach = Attachment::kSkin;
+    KeepsAccount progress;
+    Groom::create("bound", params, rest_, textures_, Job{workers_, ledger_, progress});
+    if (count == 1000) {
+      EXPECT_TRUE(progress.stages_.empty());
+    } else {
+      ASSERT_EQ(progress.stages_.size(), 1u);
+      EXPECT_EQ(progress.stages_[0], (std::pair<std::string, double>{"bind strands", count}));
+      EXPECT_EQ(progress.done_, count);
+      EXPECT_EQ(progress.ended_, 1);
+    }
+  }
+}
+
+TEST_F(GroomMemoryTest, LongStrandsAreRefusedWithWhatDoesForAPicture) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "long.hair";
+  constexpr uint32_t kPoints = 20'000;
+  StrandArrays arrays;
+  arrays.first_point = {0, kPoints};
+  arrays.ids = {0};
+  for (uint32_t p = 0; p < kPoints; ++p)
+    arrays.points.insert(arrays.points.end(), {0, static_cast<float>(p), 0, 0.1f});
+  write_strands(path, Strands(std::move(arrays)));
+  GroomParams params;
+  params.strands_file = {path, {}};
+  ledger_.set_limit(16 << 20);
+  try {
+    Groom::create("long", params, nullptr, textures_, job_);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    // Two blocks of 7 KiB a point, and the strand.
+    EXPECT_NE(std::string(error.what()).find("growing strands of 20000 points: needs 278"), std::string::npos)
+        << error.what();
+  }
+}
+
 /// Asks to stop after so many looks.
 class StopsAfterLooks final : public Progress {
  public:
@@ -189,10 +249,10 @@ class StopsAfterLooks final : public Progress {
 };
 
 TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
-  // Placing this many looks some hundred times; each place where it looks is left by the same error.
+  // Placing this many looks some thousand times; each place where it looks is left by the same error.
   const Workers one(1);
   int stopped = 0, looks = 0;
-  for (bool ended = false; !ended; looks += 7) {
+  for (bool ended = false; !ended; looks += 31) {
     StopsAfterLooks progress(looks);
     try {
       FollicleTree::build(*rest_, options(30'000), Job{one, ledger_, progress});

@@ -7,6 +7,7 @@ code of shared libraries among them, can be dropped at any moment and are not co
 """
 import json
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -99,6 +100,15 @@ class Memory(unittest.TestCase):
     def test_one_long_imported_strand(self):
         hair_file(self.folder / "long.hair", 1, 60_000)
         self.render(self.scene("{strands_file: long.hair}"))
+
+    def test_advice_for_one_long_strand_does(self):
+        """What the first refusal says it takes at least is enough."""
+        hair_file(self.folder / "long.hair", 1, 20_000)
+        scene = self.scene("{strands_file: long.hair}")
+        refusal = self.render(scene)
+        self.assertNotEqual(refusal, "")
+        least = int(re.search(r"at least --memory (\d+)M", refusal).group(1))
+        self.assertEqual(self.render(scene, limit=least * MIB), "")
 
     def test_many_imported_strands(self):
         hair_file(self.folder / "many.hair", 100_000, 8)

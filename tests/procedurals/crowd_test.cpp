@@ -64,6 +64,21 @@ TEST(CrowdProgress, IsShownOfManyAnimals) {
   }
 }
 
+TEST(CrowdProgress, IsShownOfFewAnimalsThatArePushedAboutForLong) {
+  const Workers workers(1);
+  RectangleAreaParams narrow;
+  CrowdRules rules;
+  rules.footprints.assign(6000, {V3f(0, 0, 1)});
+  narrow.size = V2f(std::sqrt(6000 * kPi / 0.72f));
+  MemoryLedger ledger;
+  CountsStages progress;
+  place_crowd(GroundArea(narrow), rules, Job{workers, ledger, progress});
+  EXPECT_EQ(progress.begun_, 1);
+  EXPECT_EQ(progress.ended_, 1);
+  EXPECT_GT(progress.done_, 60);  // sweeps, those before it was shown too
+  EXPECT_LE(progress.done_, progress.total_);
+}
+
 class CrowdPlacementTest : public testing::TestWithParam<AreaParams> {
  protected:
   static CrowdRules rules(size_t count, const Footprint& footprint, float spacing, float variation = kPi) {

@@ -70,6 +70,23 @@ TEST_F(MapCheckTest, FindsEveryMapOnAMeshWithoutTextureCoordinates) {
     EXPECT_NE(all.find(part), std::string::npos) << all;
 }
 
+TEST_F(MapCheckTest, FindsRampsAlongTextureCoordinates) {
+  for (const std::string axis : {"u", "v"}) {
+    const std::string ramp = "{ramp: {along: " + axis + ", knots: [[0, 0.5], [1, 1]]}}";
+    const std::string in_product = "{product: [0.5, " + ramp + "]}";
+    const std::string density = refusal("skin: cube, strands: 9, density: " + in_product).text;
+    for (const char* part : {"scene.yaml:4:", "mesh cube.obj", "skin 'cube'", "vt lines"})
+      EXPECT_NE(density.find(part), std::string::npos) << density;
+    EXPECT_NE(density.find("a ramp along " + axis + " is looked up"), std::string::npos) << density;
+    EXPECT_EQ(refusal("skin: cube, strands: 9, operators: [{length: {value: " + ramp + "}}]").lines,
+              Lines{4});
+    EXPECT_EQ(refusal("skin: cube, strands: 9", ramp).lines, Lines{6});
+    EXPECT_EQ(refusal("skin: cube, strands: 9", "0.5", ramp).lines, Lines{7});
+    EXPECT_EQ(refusal("strands_file: a.hair", "0.5", ramp).lines, Lines{7});
+    EXPECT_EQ(refusal("skin: mapped, strands: 9, density: " + ramp, ramp, ramp).lines, Lines{});
+  }
+}
+
 TEST_F(MapCheckTest, AcceptsWhatNeedsNone) {
   const std::string map = "{map: spots.png}";
   EXPECT_EQ(refusal("skin: mapped, strands: 9, density: " + map, map, map).lines, Lines{});

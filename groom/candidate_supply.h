@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "groom/follicle_candidates.h"
+
+namespace pelage {
+
+/// Candidates in their order, a few at a time. What was made once is forgotten: where not all are made at
+/// once, each is made twice, first for the survey. Refers to the source.
+class CandidateSupply {
+ public:
+  /// Candidates come in `parts` of about the same size. The same candidates for any number of parts.
+  CandidateSupply(const FollicleCandidates& source, size_t parts, const Job& job);
+
+  const CandidateSurvey& survey() const { return survey_; }
+  /// How many were returned by next().
+  size_t supplied() const { return supplied_; }
+  bool ended() const { return part_ == parts_; }
+  /// The next ones, with their ranks as numbers.
+  std::vector<FollicleCandidate> next(const Job& job);
+
+ private:
+  const FollicleCandidates& source_;
+  size_t parts_, part_ = 0, supplied_ = 0;
+  std::vector<FollicleCandidate> all_;  // where they are one part, until next() is called
+  CandidateSurvey survey_;
+};
+
+}  // namespace pelage
