@@ -18,6 +18,7 @@ class BallChunks final : public ChunkGrower {
   bool is_skin(uint32_t chunk) const override {
     return std::holds_alternative<SkinMesh>(contents_[chunk].geometry);
   }
+  uint32_t part(uint32_t chunk) const override { return contents_[chunk].part; }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t) const override;
   const std::vector<ChunkContents>& contents() const { return contents_; }

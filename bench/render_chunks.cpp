@@ -129,7 +129,7 @@ void chunks_over_one_scene(benchmark::State& state) {
                           workers);
   const BallRays rays = ball_rays(eager, 160);
 
-  ChunkAccelOptions options;
+  ResidentChunksOptions options;
   options.eager = state.range(2) == 0;
   options.kind = state.range(3) == 0 ? AccelKind::kEmbree : AccelKind::kFur;
   options.opaque = true;

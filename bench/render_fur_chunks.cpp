@@ -36,6 +36,7 @@ class FurballChunks final : public ChunkGrower {
   }
   ChunkContents grow(uint32_t chunk) const override { return {FurContents{chunks_[chunk], {}}, 0}; }
   bool is_skin(uint32_t) const override { return false; }
+  uint32_t part(uint32_t) const override { return 0; }
   ChunkCounts counts(uint32_t chunk) const override {
     ChunkCounts n;
     n.strands = chunks_[chunk].strand_count();
@@ -87,7 +88,7 @@ void lazy_over_eager(benchmark::State& state) {
   NoProgress progress;
   const Workers workers(1);
   const Job job{workers, ledger, progress};
-  ChunkAccelOptions options;
+  ResidentChunksOptions options;
   options.kind = AccelKind::kFur;
   const ChunkAccel lazy(many.bounds(), many, options, job);
   options.eager = true;

@@ -98,8 +98,9 @@ class Residency {
   Residency& operator=(const Residency&) = delete;
 
   /// Calls use(Resident&) and returns what it returns, growing the unit before or waiting for the thread that
-  /// does. `use` visits nothing itself and keeps no reference. What a grower throws, everybody who visits
-  /// that slot gets, now and later. Throws Error (kMemory) when the rest of the budget was taken by others.
+  /// does. `use` visits nothing itself, which is checked, and keeps no reference. What a grower throws,
+  /// everybody who visits that slot gets, now and later. Throws Error (kMemory) when the rest of the budget
+  /// was taken by others.
   template <class Use>
   decltype(auto) visit(uint32_t slot, int thread, Use&& use) {
     Resident& unit = pin(slot, thread);
@@ -155,9 +156,14 @@ class Residency {
   Resident& pin(uint32_t slot, int thread) {
     Slot& s = slots_[slot];
     Resident* unit = s.unit.load(std::memory_order_acquire);
-    if (never_evicts_) return unit ? *unit : pin_slowly(slot, thread);
     std::atomic<Resident*>& hazard = hazards_[static_cast<size_t>(thread)].unit;
-    PELAGE_CHECK(hazard.load(std::memory_order_relaxed) == nullptr);
+    PELAGE_CHECK(hazard.load(std::memory_order_relaxed) == nullptr);  // visits do not nest
+    if (never_evicts_) {
+      // Nobody looks for pins: only so that a visit within this one is noticed without a budget, too.
+      if (!unit) unit = &pin_slowly(slot, thread);
+      hazard.store(unit, std::memory_order_relaxed);
+      return *unit;
+    }
     if (unit) {
       // In the one order of sequentially consistent operations, either the evictor sees this store or we see
       // that the index no longer has the unit.
@@ -171,8 +177,12 @@ class Residency {
     return pin_slowly(slot, thread);
   }
   void unpin(int thread) {
-    if (never_evicts_) return;
-    hazards_[static_cast<size_t>(thread)].unit.store(nullptr, std::memory_order_seq_cst);
+    std::atomic<Resident*>& hazard = hazards_[static_cast<size_t>(thread)].unit;
+    if (never_evicts_) {
+      hazard.store(nullptr, std::memory_order_relaxed);
+      return;
+    }
+    hazard.store(nullptr, std::memory_order_seq_cst);
     if (waiting_for_memory_.load(std::memory_order_seq_cst) > 0) wake();
   }
 

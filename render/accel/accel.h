@@ -8,13 +8,14 @@
 #include "base/vector.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
+#include "render/accel/strand_handle.h"
 
 namespace pelage {
 
 /// The strand that a ray starts from, in terms of the accelerator that met it (Hit::start): near the place
 /// where the ray begins it is not met again.
 struct StrandStart {
-  static constexpr uint32_t kNone = ~0u;
+  static constexpr uint32_t kNone = StrandHandle::kNone;
 
   uint32_t chunk = kNone;      ///< which holds the strand; kNone: the ray starts elsewhere
   uint32_t first_segment = 0;  ///< of the strand in the chunk
@@ -44,9 +45,14 @@ struct Hit {
   uint32_t segment = 0;    ///< of the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
-  StrandStart start = {};  ///< for rays that go on from here
+  StrandStart start = {};     ///< for rays that go on from here
+  uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
+  /// Where the strand is held; none of a skin, and where the accelerator has no chunks.
+  StrandHandle handle() const { return {start.chunk, strand_index}; }
+  /// Of a strand.
+  StrandKey key() const { return {part, strand_id}; }
 };
 
 /// What a hit met, copied out of geometry that may be gone by the time the hit is shaded: the one strand with

@@ -31,8 +31,8 @@ struct NearestSoFar {
   }
 };
 
-/// What a chunk holds while it is resident, ready for rays. Thread safety: const members from any thread,
-/// each inside a FlushDenormals scope.
+/// What a chunk holds while it is resident: ready for rays, and strand by strand. Thread safety: const
+/// members from any thread, each inside a FlushDenormals scope.
 class ChunkGeometry : public Resident {
  public:
   /// Whether the ray meets something here between near and far that stands before `nearest`, which then
@@ -40,6 +40,17 @@ class ChunkGeometry : public Resident {
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
   /// Adds the semi-transparent crossings of a ray; false when something opaque blocks it.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
+
+  /// Strands with a segment at least; 0 of a skin.
+  virtual size_t strand_count() const = 0;
+  virtual StrandKey strand_key(uint32_t index) const = 0;
+  /// Strand `index` becomes the only one of `out`, whose memory is reused: the curve that rays meet, at all
+  /// motion keys, in world space, with its id, its root and its attributes; the same bytes that closest()
+  /// leaves in `met`.
+  virtual void strand(uint32_t index, Strands& out) const = 0;
+  /// Ray::start of a ray that leaves strand `index` at `place`: segment + parameter in it.
+  virtual StrandStart start_on(uint32_t index, float place) const = 0;
+
   /// What is held, this object included.
   virtual size_t bytes() const = 0;
   /// Most that was held while it was made.

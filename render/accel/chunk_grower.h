@@ -37,7 +37,8 @@ struct ChunkCounts {
   size_t growth_bytes = 0;  ///< what growing holds beside the contents, dropped when it is done
 };
 
-/// Makes the contents of chunks. Thread safety: all members may be called from many threads at once.
+/// The chunks of a frame by number: what each holds, how much that is and how to make it, whatever makes it.
+/// Thread safety: all members may be called from many threads at once.
 class ChunkGrower {
  public:
   virtual ~ChunkGrower() = default;
@@ -45,6 +46,8 @@ class ChunkGrower {
   virtual ChunkContents grow(uint32_t chunk) const = 0;
   /// Whether grow() gives a skin, not fur. Counts do not tell: a skin of holes has no vertices.
   virtual bool is_skin(uint32_t chunk) const = 0;
+  /// ChunkContents::part, without growing.
+  virtual uint32_t part(uint32_t chunk) const = 0;
   /// Upper bounds, without growing.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
   /// For messages: what the chunk is a part of, or nothing.

@@ -275,8 +275,8 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
   }
   hit.v = -r.hit.v;  // Embree counts from the other edge
   const uint32_t strand = strands_->locate(r.hit.primID).strand;
-  hit.start = {number_, strands_->first_segment(strand), strands_->strand_segments(strand),
-               static_cast<float>(hit.segment) + hit.u};
+  hit.start = start_on(strand, static_cast<float>(hit.segment) + hit.u);
+  hit.strand_index = strand;
   strands_->copy_strand(strand, met.strand);
   if (options_.shape == CurveShape::kRound || strands_->basis() == CurveBasis::kLinear) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);

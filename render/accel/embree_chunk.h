@@ -33,6 +33,15 @@ class EmbreeChunk final : public ChunkGeometry {
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
 
+  size_t strand_count() const override { return strands_ ? strands_->strand_count() : 0; }
+  StrandKey strand_key(uint32_t index) const override { return {part_, strands_->id(index)}; }
+  /// In the basis and in the order in which the strands were grown: Embree's curves are on no grid.
+  /// bezier_segment() reads every basis.
+  void strand(uint32_t index, Strands& out) const override { strands_->copy_strand(index, out); }
+  StrandStart start_on(uint32_t index, float place) const override {
+    return {number_, strands_->first_segment(index), strands_->strand_segments(index), place};
+  }
+
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }
   /// Embree's share included.

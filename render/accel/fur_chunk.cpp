@@ -2,6 +2,7 @@
 #include "render/accel/fur_chunk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -120,7 +121,6 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
   if (!found) return false;
   const PackedStrands::Place place = strands_.locate(found.number);
-  const uint32_t first = strands_.first_segment(place.strand);
   NearestSoFar candidate;
   Hit& hit = candidate.hit;
   hit.kind = HitKind::kStrand;
@@ -130,11 +130,11 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   hit.segment = place.segment;
   hit.u = found.u;
   hit.v = found.h;
-  hit.start = {number_, first, strands_.strand_segments(place.strand),
-               static_cast<float>(place.segment) + found.u};
+  hit.start = start_on(place.strand, static_cast<float>(place.segment) + found.u);
+  hit.strand_index = place.strand;
   if (!nearest.comes_after(candidate)) return false;
   nearest = candidate;
-  copy_strand(place.strand, met.strand);
+  strand(place.strand, met.strand);
   return true;
 }
 
@@ -149,19 +149,23 @@ CrossingPlace FurChunk::crossing(PackedStrands::Place place, float u) const {
   return {strands_.id(place.strand), part_, place.segment + joint_beside(u)};
 }
 
-void FurChunk::copy_strand(uint32_t strand, Strands& out) const {
-  StrandArrays arrays = strands_.bezier_strand(strand, std::move(out).release());
+void FurChunk::strand(uint32_t index, Strands& out) const {
+  StrandArrays arrays = strands_.bezier_strand(index, std::move(out).release());
   const FurTreeView& tree = tree_.view();
-  const uint32_t first = strands_.first_segment(strand), segments = strands_.strand_segments(strand);
+  const uint32_t first = strands_.first_segment(index), segments = strands_.strand_segments(index);
   const size_t key_floats = size_t(4) * (3 * segments + 1);
+  uint32_t not_drawn = 0;  // of the first segments
   for (uint32_t s = 0; s < segments; ++s) {
     const FurSegmentLookup::Place place = places_.find(tree, first + s);
+    if (!place.block && not_drawn == s) {
+      ++not_drawn;
+      continue;
+    }
     for (int key = 0; key < tree.motion_keys; ++key) {
       // The last point of a segment is the first of the next.
       float* point = &arrays.points[static_cast<size_t>(key) * key_floats + size_t(12) * s];
       if (!place.block) {
-        // Nothing meets a segment that is not drawn; it stays at its beginning.
-        if (s == 0) std::fill_n(point, 4, 0.0f);
+        // It stays at its beginning.
         for (size_t i = 1; i < 4; ++i) std::copy_n(point, 4, point + 4 * i);
         continue;
       }
@@ -173,6 +177,13 @@ void FurChunk::copy_strand(uint32_t strand, Strands& out) const {
         point[3] = segment[i][3] * tree.step;
       }
     }
+  }
+  const std::array<float, 4> nowhere{tree.anchor.x, tree.anchor.y, tree.anchor.z, 0};
+  for (int key = 0; not_drawn > 0 && key < tree.motion_keys; ++key) {
+    float* points = &arrays.points[static_cast<size_t>(key) * key_floats];
+    const float* drawn = not_drawn < segments ? points + size_t(12) * not_drawn : nowhere.data();
+    const size_t count = not_drawn < segments ? size_t(3) * not_drawn : size_t(3) * segments + 1;
+    for (size_t i = 0; i < count; ++i) std::copy_n(drawn, 4, points + 4 * i);
   }
   out = Strands(std::move(arrays));
 }

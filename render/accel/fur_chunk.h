@@ -32,6 +32,16 @@ class FurChunk final : public ChunkGeometry {
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
 
+  size_t strand_count() const override { return strands_.strand_count(); }
+  StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
+  /// Bezier curves on the grid of the coat, strands in ascending order of their ids. Segments whose points
+  /// are not finite are met by no ray: those at the beginning of a strand shrink to the first point of the
+  /// others, and those between others become a way from joint to joint.
+  void strand(uint32_t index, Strands& out) const override;
+  StrandStart start_on(uint32_t index, float place) const override {
+    return {number_, strands_.first_segment(index), strands_.strand_segments(index), place};
+  }
+
   uint32_t part() const { return part_; }
   const FurTree& tree() const { return tree_; }
   const PackedStrands& strands() const { return strands_; }
@@ -54,7 +64,6 @@ class FurChunk final : public ChunkGeometry {
            const FurChunkOptions& options);
   FurStart start_of(const Ray& ray) const;
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
-  void copy_strand(uint32_t strand, Strands& out) const;
 
   uint32_t part_, number_;
   PackedStrands strands_;

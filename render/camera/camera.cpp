@@ -91,7 +91,9 @@ bool Camera::may_see(const Box3f& box) const {
   if (box.isEmpty()) return false;
   const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
   // Corners outside of each half space, over all keys: behind, left, right, below, above. What is beyond one
-  // border at every key is beyond it between them.
+  // border at every key is beyond it between them. From a point a of the lens one sees past a border by
+  // a (1 - depth / focus) to the side; the distance by which a place is beyond a border from everywhere on
+  // the lens is concave, so that a box is beyond it when its corners are.
   size_t outside[5] = {};
   for (const Pose& pose : keys_) {
     for (int corner = 0; corner < 8; ++corner) {
@@ -99,7 +101,9 @@ bool Camera::may_see(const Box3f& box) const {
                    corner & 4 ? box.max.z : box.min.z);
       const V3f local = at - pose.position;
       const float depth = local.dot(pose.forward), x = local.dot(pose.right), y = local.dot(pose.up);
-      const float half_height = depth * pose.tan_half, half_width = half_height * aspect;
+      const float blur = has_lens() ? lens_radius_ * std::abs(1 - depth / focus_distance_) : 0;
+      const float half_height = depth * pose.tan_half + blur;
+      const float half_width = depth * pose.tan_half * aspect + blur;
       outside[0] += depth <= 0;
       outside[1] += x < -half_width;
       outside[2] += x > half_width;

@@ -56,8 +56,8 @@ class Camera {
     return project(frames_ahead == 0 ? frame_ : next_frame_, world);
   }
 
-  /// Whether any of a box may be in the picture while the shutter is open: false only when all of it is
-  /// behind the camera or beyond one border of the picture. Without the blur of the lens.
+  /// Whether any of a box may be in the picture while the shutter is open, seen through any point of the
+  /// lens: false only when all of it is behind the camera or beyond one border of the picture.
   bool may_see(const Box3f& box) const;
 
   /// At the frame itself: for tessellation.

@@ -24,13 +24,14 @@ class FrameChunks final : public ChunkGrower {
 
   ChunkContents grow(uint32_t chunk) const override;
   bool is_skin(uint32_t chunk) const override { return chunk >= leaves_.size(); }
+  uint32_t part(uint32_t chunk) const override {
+    return is_skin(chunk) ? pieces_[chunk - leaves_.size()].skin : parts_[chunk];
+  }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
   /// That of its coat or skin: "walker.under".
   std::string name(uint32_t chunk) const override;
 
-  /// Which coat a leaf is of.
-  uint32_t part(uint32_t leaf) const { return parts_[leaf]; }
   size_t size() const { return leaves_.size() + pieces_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }

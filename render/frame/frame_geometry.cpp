@@ -11,7 +11,7 @@
 namespace pelage {
 
 FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
-                             const ChunkAccelOptions& options, const Job& job)
+                             const ResidentChunksOptions& options, const Job& job)
     : chunks_(std::move(chunks)),
       chunks_charge_(job.ledger, MemoryTag::kChunks, static_cast<int64_t>(chunks_->bytes())),
       stored_(options.file),
@@ -33,7 +33,7 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   statistics.bounds_area += found.area.chunks;
   statistics.part_bounds_area += found.area.parts;
 
-  ChunkAccelOptions options;
+  ResidentChunksOptions options;
   options.kind = scene.render.accel;
   options.chunk.shape = scene.render.curves;
   options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
@@ -68,7 +68,7 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
 }
 
 void FrameGeometry::add_to(Statistics& statistics) const {
-  const ResidencyCounts counts = accel_.counts();
+  const ResidencyCounts counts = chunks().counts();
   statistics.strands_generated += chunks_->strands_grown();
   if (stored_) {
     statistics.chunks_read += stored_->chunks_read();

@@ -20,14 +20,16 @@ class FrameGeometry {
                                                    Statistics& statistics);
 
   const Accel& accel() const { return accel_; }
+  /// The same chunks, for who wants strands and boxes of them.
+  const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Whether all chunks together fit the budget, so that none is ever evicted.
-  bool fits() const { return accel_.fits(); }
+  bool fits() const { return chunks().fits(); }
   /// Adds what was grown, evicted and tested.
   void add_to(Statistics& statistics) const;
 
  private:
   FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
-                const ChunkAccelOptions& options, const Job& job);
+                const ResidentChunksOptions& options, const Job& job);
 
   std::unique_ptr<const FrameChunks> chunks_;
   MemoryCharge chunks_charge_;

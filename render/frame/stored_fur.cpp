@@ -27,7 +27,7 @@ std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkO
 
 /// Grows all fur once, a few chunks at a time, and writes it in order; no more than can be written.
 bool write(const ContentStore& store, const ContentHash& key, const FrameChunks& chunks,
-           const ChunkAccelOptions& options, const Job& job) {
+           const ResidentChunksOptions& options, const Job& job) {
   FurChunkFile::Writer writer(store, key);
   const size_t leaves = chunks.leaves().size();
   job.progress.begin("store fur", static_cast<double>(leaves));
@@ -47,9 +47,8 @@ bool write(const ContentStore& store, const ContentHash& key, const FrameChunks&
     job.workers.for_each(made.size(), 1, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
         const auto chunk = static_cast<uint32_t>(next + i);
-        const StrandScale scale = chunks.scale(chunk);
-        made[i] = std::make_unique<FurChunk>(chunks.grow(chunk), chunk, FurGrid(scale.width, scale.anchor),
-                                             options.fur);
+        made[i] =
+            std::make_unique<FurChunk>(chunks.grow(chunk), chunk, FurGrid(chunks.scale(chunk)), options.fur);
       }
     });
     for (const auto& chunk : made) writer.add(chunk.get());
@@ -64,7 +63,7 @@ bool write(const ContentStore& store, const ContentHash& key, const FrameChunks&
 }  // namespace
 
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
-                                               const ChunkAccelOptions& options, const Job& job) {
+                                               const ResidentChunksOptions& options, const Job& job) {
   const WarningSink warn = [&](const std::string& line) { job.progress.warn(line); };
   const std::optional<ContentHash> key = content_of(chunks, options.fur);
   if (!key || !chunks.opaque()) {

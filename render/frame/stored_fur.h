@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/job.h"
-#include "render/accel/chunk_accel.h"
 #include "render/accel/fur_chunk_file.h"
+#include "render/accel/resident_chunks.h"
 #include "render/frame/frame_chunks.h"
 #include "render/scene/render_params.h"
 
@@ -16,6 +16,6 @@ namespace pelage {
 /// not opaque everywhere, and where the folder cannot be written. Null, too, when cancelled. Throws what
 /// growing throws.
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
-                                               const ChunkAccelOptions& options, const Job& job);
+                                               const ResidentChunksOptions& options, const Job& job);
 
 }  // namespace pelage

@@ -387,6 +387,11 @@ TEST_F(ResidencyDeathTest, AVisitInsideAVisitIsABug) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   make(4, 1, 10);
   EXPECT_DEATH(residency_->visit(0, 0, [&](Resident&) { visit(1); }), "hazard");
+  // Without a budget too, where it would do no harm.
+  residency_.emplace(grower_, 4, 2, MemoryBudget{}, ledger_, MemoryTag::kChunks);
+  EXPECT_DEATH(residency_->visit(0, 0, [&](Resident&) { visit(1); }), "hazard");
+  EXPECT_TRUE(residency_->visit(0, 0, [&](Resident&) { return visit(1, 1); }));
+  EXPECT_TRUE(visit(1));
 }
 
 }  // namespace

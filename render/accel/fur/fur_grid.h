@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/vector.h"
+#include "geom/strand_scale.h"
 
 namespace pelage {
 
@@ -22,6 +23,8 @@ class FurGrid {
   /// has 192 to 384 steps; a width that is no positive number counts as 2^-12.
   /// `anchor`: any finite point near all strands of the groom, the same for all of them.
   explicit FurGrid(float root_width, const V3f& anchor = V3f(0));
+  /// That of a coat.
+  explicit FurGrid(const StrandScale& scale) : FurGrid(scale.width, scale.anchor) {}
 
   float step() const { return step_; }
   const V3f& anchor() const { return anchor_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 
 #include "base/progress.h"
 #include "render/accel/flush_denormals.h"
+#include "render/accel/resident_chunks.h"
 #include "tests/render/accel/chunk_scenes.h"
 
 namespace pelage {
@@ -24,12 +26,54 @@ class WarningCounter final : public Progress {
   std::atomic<int> warnings{0};
 };
 
+/// Whether all that two batches hold is the same.
+inline bool are_equal(const Strands& a, const Strands& b) {
+  const StrandArrays &x = a.arrays(), &y = b.arrays();
+  const auto same_root = [](const RootAddress& r, const RootAddress& s) {
+    return r.face == s.face && r.u == s.u && r.v == s.v;
+  };
+  const auto same_attribute = [](const StrandAttribute& r, const StrandAttribute& s) {
+    return r.name == s.name && r.frequency == s.frequency && r.components == s.components &&
+           r.values == s.values;
+  };
+  return x.basis == y.basis && x.motion_keys == y.motion_keys && x.points == y.points &&
+         x.first_point == y.first_point && x.ids == y.ids && x.root_uv == y.root_uv &&
+         std::equal(x.roots.begin(), x.roots.end(), y.roots.begin(), y.roots.end(), same_root) &&
+         std::equal(x.attributes.begin(), x.attributes.end(), y.attributes.begin(), y.attributes.end(),
+                    same_attribute);
+}
+
 class ChunkAccelTest : public testing::Test {
  protected:
   std::unique_ptr<ChunkAccel> make(const TestChunks& chunks, std::vector<ChunkBounds> bounds,
-                                   const ChunkAccelOptions& options = {}) {
+                                   const ResidentChunksOptions& options = {}) {
     return std::make_unique<ChunkAccel>(std::move(bounds), chunks, options,
                                         Job{workers_, ledger_, progress_});
+  }
+
+  std::unique_ptr<ResidentChunks> hold(const TestChunks& chunks, std::vector<ChunkBounds> bounds,
+                                       const ResidentChunksOptions& options = {}) {
+    return std::make_unique<ResidentChunks>(std::move(bounds), chunks, options,
+                                            Job{workers_, ledger_, progress_});
+  }
+
+  /// That every handle names the same strand in both, down to the last bit.
+  static void expect_same_strands(const ResidentChunks& a, const ResidentChunks& b) {
+    const FlushDenormals flush;
+    Strands in_a, in_b;
+    ASSERT_EQ(a.size(), b.size());
+    for (uint32_t chunk = 0; chunk < a.size(); ++chunk) {
+      const size_t count = strand_count(a, chunk);
+      ASSERT_EQ(count, strand_count(b, chunk));
+      for (uint32_t index = 0; index < count; ++index) {
+        a.copy_strand({chunk, index}, 0, in_a);
+        b.copy_strand({chunk, index}, 0, in_b);
+        ASSERT_TRUE(are_equal(in_a, in_b)) << chunk << " " << index;
+      }
+    }
+  }
+  static size_t strand_count(const ResidentChunks& chunks, uint32_t chunk) {
+    return chunks.visit(chunk, 0, [](const ChunkGeometry& geometry) { return geometry.strand_count(); });
   }
 
   /// That both answer every ray alike, down to the last bit. The accelerators may hold the strands in other
@@ -90,6 +134,8 @@ class ChunkAccelTest : public testing::Test {
   MemoryLedger ledger_;
   WarningCounter progress_;
 };
+
+inline constexpr AccelKind kAccelKinds[] = {AccelKind::kEmbree, AccelKind::kFur};
 
 /// Scenes of every kind of strand.
 inline constexpr int kSceneKinds = 7;

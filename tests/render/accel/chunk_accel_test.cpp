@@ -21,7 +21,7 @@ TEST_P(ChunkAccelScenes, AnswersAsOneSceneOverEverything) {
   expect_same(*oracle, *make(chunks, chunks.bounds(8)), 1, 2500);        // boxes of parts
   expect_same(*oracle, *make(chunks, chunks.bounds(1, 1.4f)), 2, 2500);  // loose ones
   for (int keys : {1, 2}) expect_same(*oracle, *make(chunks, chunks.measured_bounds(keys)), 4, 1500);
-  ChunkAccelOptions eager;
+  ResidentChunksOptions eager;
   eager.eager = true;
   expect_same(*oracle, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500);
 }
@@ -38,7 +38,7 @@ TEST_F(ChunkAccelTest, RoundStrandsAnswerAsOneScene) {
       o.uniform = uniform;
       const TestChunks chunks = random_chunks(3, o);
       const auto oracle = chunks.oracle(CurveShape::kRound, ledger_);
-      ChunkAccelOptions options;
+      ResidentChunksOptions options;
       options.chunk.shape = CurveShape::kRound;
       expect_same(*oracle, *make(chunks, chunks.bounds(8), options), 5, 3000);
       expect_same(*oracle, *make(chunks, chunks.measured_bounds(2), options), 6, 3000);
@@ -72,7 +72,7 @@ TEST_F(ChunkAccelTest, SkinsWithoutTrianglesAreSkins) {
         TestChunks chunks;
         chunks.add_skin(SkinMesh{}, 0);
         if (!alone) chunks.add_fur(ladder(2), 0);
-        ChunkAccelOptions options;
+        ResidentChunksOptions options;
         options.kind = kind;
         options.eager = eager;
         // As those of a skin: around the control points, whatever is visible.
@@ -115,9 +115,9 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
     const auto accel = make(chunks, chunks.bounds(8));
     fixed = ledger_.budgeted();
     expect_same(*oracle, *accel, 1, 2000);
-    working_set = accel->counts().working_set_bytes;
-    EXPECT_EQ(accel->counts().overruns, 0);
-    EXPECT_EQ(accel->counts().evictions, 0);
+    working_set = accel->chunks().counts().working_set_bytes;
+    EXPECT_EQ(accel->chunks().counts().overruns, 0);
+    EXPECT_EQ(accel->chunks().counts().evictions, 0);
     for (uint32_t c = 0; c < chunks.contents.size(); ++c) {
       largest = std::max(largest,
                          EmbreeChunk::bytes_bound(chunks.counts(c)) + part_bounds_scratch(chunks.counts(c)));
@@ -125,7 +125,7 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
   }
   for (int threads : {1, 4}) {
     for (int percent : {50, 25, 10, 5}) {
-      ChunkAccelOptions options;
+      ResidentChunksOptions options;
       options.threads = threads;
       options.memory_limit = static_cast<uint64_t>(
           fixed + 16384 + std::max(working_set * percent / 100, threads * static_cast<int64_t>(largest)));
@@ -134,7 +134,7 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
                options);
       Workers(threads).for_each(
           4, 1, [&](WorkRange range) { expect_same(*oracle, *accel, 100 + range.begin, 20, range.worker); });
-      const ResidencyCounts counts = accel->counts();
+      const ResidencyCounts counts = accel->chunks().counts();
       EXPECT_EQ(counts.overruns, 0);
       EXPECT_GT(counts.evictions, 0);
       EXPECT_GT(counts.touched, 10);
@@ -156,7 +156,7 @@ TEST_F(ChunkAccelTest, ErrorsOfTheGrowerReachWhoTraces) {
   const auto fresh = make(chunks, chunks.bounds(4));
   EXPECT_THROW(fresh->transmittance(along_z(3), thread), std::runtime_error);
   EXPECT_FALSE(accel->closest(along_z(-3), thread));
-  ChunkAccelOptions eager;
+  ResidentChunksOptions eager;
   eager.eager = true;
   EXPECT_THROW(make(chunks, chunks.bounds(4), eager), std::runtime_error);
 }
@@ -164,7 +164,7 @@ TEST_F(ChunkAccelTest, ErrorsOfTheGrowerReachWhoTraces) {
 TEST_F(ChunkAccelTest, TooSmallBudgetsAreRefused) {
   const TestChunks chunks = random_chunks(1, {});
   for (bool eager : {false, true}) {
-    ChunkAccelOptions options;
+    ResidentChunksOptions options;
     options.eager = eager;
     options.memory_limit = 100000;
     try {
@@ -185,7 +185,7 @@ TEST_F(ChunkAccelTest, ChunksThatNoRayReachesAreNotGrown) {
   away.origin = {20, 0, 0};
   away.direction = {1, 0, 0};
   EXPECT_FALSE(accel->closest(away, thread));
-  EXPECT_EQ(accel->counts().expansions, 0);
+  EXPECT_EQ(accel->chunks().counts().expansions, 0);
   EXPECT_GT(thread.counts.box_tests, 0);
   EXPECT_EQ(thread.counts.chunk_visits, 0);
 
@@ -197,7 +197,7 @@ TEST_F(ChunkAccelTest, ChunksThatNoRayReachesAreNotGrown) {
   const int64_t visits = thread.counts.chunk_visits;
   EXPECT_GT(visits, 0);
   EXPECT_FALSE(loose->closest(beside, thread));
-  EXPECT_EQ(loose->counts().false_expansions, loose->counts().expansions);
+  EXPECT_EQ(loose->chunks().counts().false_expansions, loose->chunks().counts().expansions);
 }
 
 TEST_F(ChunkAccelTest, RaysThatAreNotFiniteMeetNothing) {
@@ -254,15 +254,15 @@ TEST_F(ChunkAccelTest, RaysThatMeetNoFineBoxLetNothingGrow) {
     const auto fine = make(chunks, measured), without = make(chunks, coarse);
     EXPECT_FALSE(fine->closest(ray, thread));
     EXPECT_EQ(fine->transmittance(ray, thread), 1.0f);
-    EXPECT_EQ(fine->counts().expansions, 0);
+    EXPECT_EQ(fine->chunks().counts().expansions, 0);
     EXPECT_FALSE(without->closest(ray, thread));
-    EXPECT_EQ(without->counts().expansions, 1);
+    EXPECT_EQ(without->chunks().counts().expansions, 1);
   }
   before.far = 0.6f;
   const auto fine = make(chunks, measured);
   EXPECT_TRUE(fine->closest(before, thread));
   EXPECT_EQ(fine->transmittance(before, thread), 0.0f);
-  EXPECT_EQ(fine->counts().expansions, 1);
+  EXPECT_EQ(fine->chunks().counts().expansions, 1);
 }
 
 }  // namespace

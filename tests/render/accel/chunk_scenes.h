@@ -28,6 +28,7 @@ class TestChunks final : public ChunkGrower {
   bool is_skin(uint32_t chunk) const override {
     return std::holds_alternative<SkinMesh>(contents[chunk].geometry);
   }
+  uint32_t part(uint32_t chunk) const override { return contents[chunk].part; }
   ChunkCounts counts(uint32_t chunk) const override {
     ChunkCounts n;
     if (const auto* fur = std::get_if<FurContents>(&contents[chunk].geometry)) {

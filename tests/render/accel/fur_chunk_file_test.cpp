@@ -23,8 +23,8 @@ class FurChunkFileTest : public ChunkAccelTest {
  protected:
   FurChunkFileTest() : store_(folder_.path()) {}
 
-  static ChunkAccelOptions fur_options() {
-    ChunkAccelOptions options;
+  static ResidentChunksOptions fur_options() {
+    ResidentChunksOptions options;
     options.kind = AccelKind::kFur;
     return options;
   }
@@ -36,7 +36,7 @@ class FurChunkFileTest : public ChunkAccelTest {
         const StrandScale scale = chunks.scale(c);
         FurChunkOptions options;
         options.tree.build.rotation = FurRotation::kAlways;
-        chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale.width, scale.anchor), options);
+        chunk = std::make_unique<FurChunk>(chunks.grow(c), c, FurGrid(scale), options);
       }
       writer.add(chunk.get());
     }
@@ -66,16 +66,17 @@ class FurChunkFileScenes : public FurChunkFileTest, public testing::WithParamInt
 TEST_P(FurChunkFileScenes, answer_as_chunks_that_are_grown) {
   const TestChunks chunks = random_chunks(7, scene_of_kind(GetParam()));
   write(chunks);
-  ChunkAccelOptions options = fur_options();
+  ResidentChunksOptions options = fur_options();
   const auto grown = make(chunks, chunks.bounds(8), options);
   options.file = open(chunks.contents.size());
   ASSERT_TRUE(options.file);
   const auto read = make(chunks, chunks.bounds(8), options);
   expect_same(*grown, *read, 1, 1500);
   EXPECT_GT(options.file->chunks_read(), 0);
-  EXPECT_EQ(read->counts().overruns, 0);
+  EXPECT_EQ(read->chunks().counts().overruns, 0);
   const auto boxed = make(chunks, chunks.measured_bounds(1), options);
   expect_same(*grown, *boxed, 2, 1000);
+  expect_same_strands(grown->chunks(), read->chunks());
   EXPECT_EQ(warnings_, 0);
 }
 
@@ -87,7 +88,7 @@ TEST_F(FurChunkFileTest, is_read_again_under_a_budget) {
   o.strands = 40;
   const TestChunks chunks = random_chunks(17, o);
   write(chunks);
-  ChunkAccelOptions options = fur_options();
+  ResidentChunksOptions options = fur_options();
   const auto grown = make(chunks, chunks.bounds(8), options);
   options.file = open(chunks.contents.size());
   expect_same(*grown, *make(chunks, chunks.bounds(8), options), 5, 300);  // these rays make it grow no more
@@ -105,9 +106,9 @@ TEST_F(FurChunkFileTest, is_read_again_under_a_budget) {
   options.memory_limit = static_cast<uint64_t>(before + fixed + 16384 + 3 * static_cast<int64_t>(largest));
   const auto read = make(chunks, chunks.bounds(8), options);
   expect_same(*grown, *read, 5, 300);
-  EXPECT_GT(read->counts().evictions, 0);
+  EXPECT_GT(read->chunks().counts().evictions, 0);
   EXPECT_GT(options.file->chunks_read(), static_cast<int64_t>(chunks.contents.size()) / 2);
-  EXPECT_EQ(read->counts().overruns, 0);
+  EXPECT_EQ(read->chunks().counts().overruns, 0);
 }
 
 TEST_F(FurChunkFileTest, notices_damage) {
@@ -163,7 +164,7 @@ TEST_F(FurChunkFileTest, chunks_that_are_damaged_are_grown) {
   const std::filesystem::path place = path();
   std::string bytes = read_file(place);
   for (size_t at = 2000; at + 20000 < bytes.size(); at += 20000) bytes[at] ^= 1;
-  ChunkAccelOptions options = fur_options();
+  ResidentChunksOptions options = fur_options();
   const auto grown = make(chunks, chunks.bounds(8), options);
   const auto boxes = [&] { return chunks.measured_bounds(1); };
   size_t largest = 0;
@@ -188,8 +189,8 @@ TEST_F(FurChunkFileTest, chunks_that_are_damaged_are_grown) {
     EXPECT_GT(options.file->chunks_read(), 3);
     EXPECT_EQ(progress_.warnings, limited ? 2 : 1);
     EXPECT_FALSE(std::filesystem::exists(place));
-    EXPECT_EQ(mixed->counts().overruns, 0);
-    EXPECT_EQ(mixed->counts().evictions > 0, limited);
+    EXPECT_EQ(mixed->chunks().counts().overruns, 0);
+    EXPECT_EQ(mixed->chunks().counts().evictions > 0, limited);
     options.memory_limit = 0;
   }
 }

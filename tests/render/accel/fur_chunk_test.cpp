@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/accel/fur_chunk.h"
 
+#include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -42,8 +43,8 @@ TestChunks as_one(const TestChunks& chunks) {
   return one;
 }
 
-ChunkAccelOptions fur_options() {
-  ChunkAccelOptions options;
+ResidentChunksOptions fur_options() {
+  ResidentChunksOptions options;
   options.kind = AccelKind::kFur;
   return options;
 }
@@ -53,7 +54,7 @@ class FurChunkScenes : public ChunkAccelTest, public testing::WithParamInterface
 TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   const TestChunks chunks = random_chunks(7, scene_of_kind(GetParam()));
   const TestChunks merged = as_one(chunks);
-  ChunkAccelOptions eager = fur_options();
+  ResidentChunksOptions eager = fur_options();
   eager.eager = true;
   const auto whole = make(merged, std::vector<ChunkBounds>(merged.contents.size()), eager);
   const uint64_t more = soak_scale();
@@ -61,7 +62,7 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2, 2500 * more);  // loose ones
   for (int keys : {1, 2})
     expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500 * more);
-  ChunkAccelOptions turned = fur_options();
+  ResidentChunksOptions turned = fur_options();
   turned.fur.tree.build.rotation = FurRotation::kAlways;
   expect_same(*whole, *make(chunks, chunks.bounds(8), turned), 5, 2500 * more);
   turned.eager = true;
@@ -82,7 +83,7 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
   o.strands = 40;
   o.translucent = true;
   const TestChunks chunks = random_chunks(17, o);
-  ChunkAccelOptions four = fur_options();
+  ResidentChunksOptions four = fur_options();
   four.threads = 4;
   const auto whole = make(chunks, chunks.bounds(8), four);
   int64_t working_set = 0, fixed = 0;
@@ -92,8 +93,8 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
     const auto accel = make(chunks, chunks.bounds(8), fur_options());
     fixed = ledger_.budgeted() - before;
     expect_same(*whole, *accel, 1, 2000);
-    working_set = accel->counts().working_set_bytes;
-    EXPECT_EQ(accel->counts().overruns, 0);
+    working_set = accel->chunks().counts().working_set_bytes;
+    EXPECT_EQ(accel->chunks().counts().overruns, 0);
     for (uint32_t c = 0; c < chunks.contents.size(); ++c) {
       const ChunkCounts n = chunks.counts(c);
       largest = std::max(largest,
@@ -103,7 +104,7 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
   }
   for (int threads : {1, 4}) {
     for (int percent : {50, 10}) {
-      ChunkAccelOptions options = fur_options();
+      ResidentChunksOptions options = fur_options();
       options.threads = threads;
       options.memory_limit = static_cast<uint64_t>(
           ledger_.budgeted() + fixed + 16384 +
@@ -111,8 +112,8 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
       const auto accel = make(chunks, chunks.measured_bounds(percent == 10 ? 2 : 1), options);
       Workers(threads).for_each(
           4, 1, [&](WorkRange range) { expect_same(*whole, *accel, 100 + range.begin, 20, range.worker); });
-      EXPECT_EQ(accel->counts().overruns, 0);
-      EXPECT_GT(accel->counts().evictions, 0);
+      EXPECT_EQ(accel->chunks().counts().overruns, 0);
+      EXPECT_GT(accel->chunks().counts().evictions, 0);
     }
   }
 }
@@ -184,6 +185,32 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
       ++hits;
     }
     EXPECT_GT(hits, 50);
+  }
+}
+
+// No ray meets segments whose points are not finite, and nothing that draws strands draws them elsewhere.
+TEST_F(FurChunkTest, StrandsBeginWhereTheyAreDrawn) {
+  const auto chunk_of = [](StrandArrays arrays) {
+    TestChunks chunks;
+    chunks.add_fur(Strands(std::move(arrays)), 0);
+    return FurChunk(chunks.grow(0), 0, FurGrid(0.1f, V3f(1, 2, 3)), {});
+  };
+  const StrandArrays sound = ladder(1).release();  // of seven segments
+  const FurChunk whole = chunk_of(sound);
+  Strands expected, strand;
+  whole.strand(0, expected);
+  for (const size_t broken : {size_t(1), size_t(2), size_t(8)}) {
+    StrandArrays arrays = sound;
+    for (size_t i = 0; i < broken; ++i) arrays.points[4 * i] = std::numeric_limits<float>::quiet_NaN();
+    chunk_of(std::move(arrays)).strand(0, strand);
+    ASSERT_EQ(strand.point_count(), expected.point_count());
+    const size_t lost = std::min<size_t>(3 * (broken + 1), 21);  // in one segment more than points
+    for (size_t p = 0; p < strand.point_count(); ++p) {
+      const bool drawn = broken < 8 && p >= lost;
+      const V3f at = broken == 8 ? V3f(1, 2, 3) : expected.point(drawn ? p : lost);
+      EXPECT_EQ(strand.point(p), at) << broken << " " << p;
+    }
+    EXPECT_EQ(strand.radius(5) == 0, broken == 8);
   }
 }
 

@@ -147,6 +147,40 @@ TEST(Camera, SeesBoxesThatMeetThePicture) {
   EXPECT_FALSE(camera.may_see(Box3f()));
 }
 
+// What any ray passes, it may see; what no ray of a lens this wide comes to, it does not.
+TEST(Camera, SeesThroughAllOfTheLens) {
+  CameraParams params;
+  params.position = V3f(0, 0, 10);
+  params.fov = 90;
+  LensParams lens;
+  lens.focal_length = 4;
+  lens.f_stop = 1;  // a radius of 2
+  lens.focus_distance = 10;
+  params.lens = lens;
+  const Camera camera(params, 1, 200, 100);
+  const auto point = [](const V3f& at) { return Box3f(at, at); };
+  int beyond = 0;
+  params.lens.reset();
+  const Camera pinhole(params, 1, 200, 100);
+  for (uint64_t i = 0; i < 20000; ++i) {
+    const auto number = [&](uint64_t k) { return unit_float(hash64(i, k, random_use("lens test"))); };
+    // Often at a border of the picture, through the edge of the lens.
+    const float x = i % 3 == 0 ? 200 * number(0) : i % 3 == 1 ? 0.0f : 200.0f;
+    const CameraRay ray = camera.ray(x, 100 * number(1), {i % 2 == 0 ? 0.999f : number(2), number(3)}, 0);
+    const V3f at = ray.origin + 40 * number(4) * ray.direction;
+    const V3f inward = 1e-4f * (V3f(0, 0, at.z) - at);  // rounding
+    EXPECT_TRUE(camera.may_see(point(at + inward))) << i;
+    beyond += !pinhole.may_see(point(at + inward));
+  }
+  EXPECT_GT(beyond, 1000);
+  EXPECT_FALSE(camera.may_see(point(V3f(20.1f, 0, 0))));  // in focus
+  EXPECT_TRUE(camera.may_see(point(V3f(10.9f, 0, 5))));   // half as far: blurred by half the radius
+  EXPECT_FALSE(camera.may_see(point(V3f(11.1f, 0, 5))));
+  EXPECT_TRUE(camera.may_see(point(V3f(41.9f, 0, -10))));  // twice as far: by all of it
+  EXPECT_FALSE(camera.may_see(point(V3f(42.1f, 0, -10))));
+  EXPECT_FALSE(camera.may_see(point(V3f(0, 0, 11))));
+}
+
 TEST(Camera, SeesWhatItPassesWhileTheShutterIsOpen) {
   CameraParams params;
   params.position = Keyed<V3f>({{1.0, V3f(0, 0, 10)}, {2.0, V3f(100, 0, 10)}});

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/accel/chunk_boxes.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/accel/fur/fur_grid.h"
+
+namespace pelage {
+namespace {
+
+/// No strand in a box is wider than the box.
+float widest_radius(const ChunkBounds& bounds) {
+  const Box3f box = bounds.whole();
+  const V3f size = box.isEmpty() ? V3f(0) : box.size();
+  return 0.5f * std::min({size.x, size.y, size.z});
+}
+
+}  // namespace
+
+ChunkBoxes::ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower, bool fur_trees)
+    : given_(std::move(given)),
+      known_(given_.size()),
+      learned_(given_.size()),
+      whole_(given_.size()),
+      tree_parts_(given_.size()) {
+  bytes_bound_ =
+      given_.size() * (sizeof(known_[0]) + sizeof(learned_[0]) + sizeof(whole_[0]) + sizeof(tree_parts_[0]));
+  for (uint32_t chunk = 0; chunk < given_.size(); ++chunk) {
+    const ChunkCounts counts = grower.counts(chunk);
+    ChunkBounds& bounds = given_[chunk];
+    KnownBounds& known = known_[chunk];
+    known.in_fur_tree = fur_trees && !grower.is_skin(chunk);
+    if (known.in_fur_tree) {
+      known.margin = FurGrid(grower.scale(chunk)).margin(widest_radius(bounds));
+      widen(bounds, known.margin);
+      bounds = std::move(bounds).in_one_part();
+    }
+    known.fine = std::move(bounds.fine);
+    // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
+    known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds.keys == 1);
+    bytes_bound_ += known.fine.bytes();
+    if (known.learns)
+      bytes_bound_ += PartBoxes::bytes_bound(learned_parts(counts.segments + counts.triangles) + 3,
+                                             counts.motion_keys > 1);
+  }
+}
+
+ChunkBoxes::~ChunkBoxes() {
+  for (auto& boxes : learned_) delete boxes.load(std::memory_order_relaxed);
+}
+
+void ChunkBoxes::build_tree(const Workers& workers) {
+  for (size_t chunk = 0; chunk < given_.size(); ++chunk) {
+    tree_parts_[chunk] = static_cast<uint32_t>(given_[chunk].part_count());
+    whole_[chunk] = given_[chunk].whole();
+  }
+  tree_ = std::make_unique<const ChunkTree>(given_, workers);
+  given_ = {};
+}
+
+void ChunkBoxes::build_tree_of_learned(const Workers& workers) {
+  for (uint32_t chunk = 0; chunk < given_.size(); ++chunk) {
+    given_[chunk] = learned(chunk)->bounds();
+    if (in_fur_tree(chunk)) given_[chunk] = std::move(given_[chunk]).in_one_part();
+  }
+  build_tree(workers);
+}
+
+void ChunkBoxes::learn(uint32_t chunk, const ChunkBounds& measured) {
+  learned_[chunk].store(std::make_unique<const PartBoxes>(measured).release(), std::memory_order_release);
+}
+
+size_t ChunkBoxes::learned_parts(size_t primitives) {
+  return std::clamp<size_t>(primitives / kPrimitivesPerPart, 1, kMaxParts);
+}
+
+}  // namespace pelage
