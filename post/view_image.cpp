@@ -36,7 +36,7 @@ ViewImage::ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channel
   const int64_t most = FlowField::kLargestSide;
   if (width > most || height > most) {
     throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0},
-                fmt::format("its pixels span {} x {}; at most {} a side are supported", width, height, most));
+                fmt::format("its pixels span {} x {}; the limit is {} per side", width, height, most));
   }
 }
 
