@@ -171,8 +171,8 @@ const Schema<PushOutParams>& PushOutParams::schema() {
     skin: patch
     strands: 20000
     operators:
-      - comb: {direction: [1, 0, 0], lift: 0.2}
-      - bend: {direction: [0, -1, 0], angle: 60}
+      - comb: {direction: [1, 0, 0], lift: 0.1}
+      - bend: {direction: [0, -1, 0], angle: 120}
       - push_out: {offset: 0.02})");
     s.set_picture("Left: strands bent into the skin. Right: the same strands pushed out of it.");
     s.key("offset", &PushOutParams::offset,
