@@ -115,9 +115,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("DIR");
   measure->add_option("--frames", texts.frames, "Frame to measure (default: the scene's first)")
       ->type_name("FRAME");
-  measure
-      ->add_option("--repeat", options.repeat,
-                   "Runs per variant; the report uses the run of median time (default: 3)")
+  measure->add_option("--repeat", options.repeat, "Runs per variant; the median one counts (default: 3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
@@ -146,7 +144,7 @@ void add_trace(CLI::App& app, Options& options, Texts& texts) {
       "trace", "Run one variant of 'measure accel': trace rays through the fur of a scene and time them");
   trace->group("");  // run by measure
   add_scene_flags(*trace, options, texts);
-  trace->add_option("--variant", options.trace_variant, "prepare, or the structure to trace")
+  trace->add_option("--variant", options.trace_variant, "prepare, or a structure to trace")
       ->type_name("NAME");
   trace->add_option("--share", options.trace_share, "Memory of paged fur as a fraction of its tree's size")
       ->check(CLI::PositiveNumber)
