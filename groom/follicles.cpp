@@ -80,7 +80,7 @@ void place(const LimitSurface& rest, const FollicleDensity& density, uint64_t se
     if (round > 0) {
       more = {};
       more = reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(wanted * sizeof(FollicleCandidate)),
-                     "more places for strands");
+                     "choosing positions for strands");
     }
     const FollicleCandidates source(rest, density, seed, wanted, job);
     std::vector<FollicleCandidate> candidates = source.make(job);
@@ -141,7 +141,7 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   // Of a coat that says how many strands it has, room is asked for before anything is looked at.
   const auto require = [&](size_t count) {
     return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
-                   fmt::format("{}: placing {} {}", options.owner, count, options.noun));
+                   fmt::format("placing {} {} of {}", count, options.noun, options.owner));
   };
   if (options.count > 0 && options.count <= kMaxFollicles) require(static_cast<size_t>(options.count));
   const FollicleDensity density{options.density, options.coverage};
@@ -149,8 +149,8 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const double asked =
       options.count > 0 ? static_cast<double>(options.count) : std::round(options.per_area * measure.mass);
   if (!(asked <= static_cast<double>(kMaxFollicles))) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: {:.3g} {} on one skin; at most {} are possible",
-                                               options.owner, asked, options.noun, kMaxFollicles));
+    throw Error(ErrorKind::kInput, fmt::format("{}: {:.3g} {} on one skin; the limit is {}", options.owner,
+                                               asked, options.noun, kMaxFollicles));
   }
   const auto count = static_cast<size_t>(asked);
   if (count == 0 || !(measure.mass > 0)) return {};

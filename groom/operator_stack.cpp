@@ -20,10 +20,10 @@ uint64_t hash_name(std::string_view name) {
 void check_bounded(const Operator& op, const SourcePosition& position) {
   const StrandReach after = op.reach_after({});
   if (std::isfinite(after.length) && std::isfinite(after.distance) && std::isfinite(after.radius)) return;
-  throw Error(
-      ErrorKind::kInput, position,
-      "a number of '" + std::string(op.name()) +
-          "' has no largest value, because it reads an attribute that has none: only random and clump have");
+  throw Error(ErrorKind::kInput, position,
+              "a number of '" + std::string(op.name()) +
+                  "' has no upper limit, because it reads an attribute without one; only `random` and "
+                  "`clump` have limits");
 }
 
 /// The frame at a point already evaluated; only where it is ill defined is the surface asked again.

@@ -65,7 +65,7 @@ TEST_F(GroomMemoryTest, WhatDoesNotFitIsRefusedByNameBeforeItIsMade) {
       ADD_FAILURE() << "placed";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-      EXPECT_TRUE(std::string(error.what()).starts_with("groom 'coat': placing 5000000 strands: needs 1."))
+      EXPECT_TRUE(std::string(error.what()).starts_with("placing 5000000 strands of groom 'coat' needs 1."))
           << error.what();
     }
   });
