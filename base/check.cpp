@@ -7,7 +7,7 @@
 namespace pelage {
 
 void check_failed(const char* condition, const char* file, int line) {
-  std::fprintf(stderr, "pelage: bug: %s:%d: this must hold: %s\n", file, line, condition);
+  std::fprintf(stderr, "pelage: internal error: %s:%d: check failed: %s\n", file, line, condition);
   std::abort();
 }
 

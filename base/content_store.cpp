@@ -69,20 +69,20 @@ std::optional<File> ContentStore::open_as(const std::string& kind, const Content
   try {
     OpenFile file(path, OpenFile::Links::kRefuse);
     if (!trusts(file.owner())) {
-      warn(fmt::format("{}: made by another user; made again (see {} for folders that are shared)",
+      warn(fmt::format("{}: another user wrote this file; it is made again ({} names folders to share)",
                        path.string(), kSharedCachesVariable));
       return {};
     }
     mark_used(file);
     File stored(std::move(file));
     if (stored.kind() != kind || stored.key() != key) {
-      warn(path.string() + ": holds something else than its name says; made again");
+      warn(path.string() + ": the content does not match the file name; it is made again");
       return {};
     }
     return stored;
   } catch (const Error& e) {
     // Removed by another process between the question and the opening: as good as never there.
-    if (std::filesystem::exists(path, error)) warn(std::string(e.what()) + "; made again");
+    if (std::filesystem::exists(path, error)) warn(std::string(e.what()) + "; it is made again");
     return {};
   }
 }
@@ -146,7 +146,7 @@ bool ContentStore::Writer::commit(const WarningSink& warn) {
   put(std::as_bytes(std::span(&trailer, 1)));
   attempt([&] { file_->commit(); });
   file_.reset();
-  if (!failure_.empty()) warn(failure_ + "; going on without storing it");
+  if (!failure_.empty()) warn(failure_ + "; the result is not stored");
   return failure_.empty();
 }
 

@@ -44,7 +44,7 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
   if (!S_ISREG(info.st_mode)) fail_read(path, "it is not a regular file");
   if (static_cast<size_t>(info.st_size) > limit) {
     fail_read(path,
-              std::to_string(info.st_size) + " bytes, at most " + std::to_string(limit) + " are accepted");
+              std::to_string(info.st_size) + " bytes; the limit is " + std::to_string(limit) + " bytes");
   }
   std::string contents(static_cast<size_t>(info.st_size), '\0');
   size_t done = 0;
@@ -87,7 +87,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
 
 AtomicFile::AtomicFile(std::filesystem::path path, Links links) : named_(std::move(path)) {
   path_ = links == Links::kFollow ? target_of_links(named_) : named_;
-  if (path_.filename().empty()) fail_write(named_, "it names no file");
+  if (path_.filename().empty()) fail_write(named_, "the path names no file");
   struct stat old {};
   const bool replaces = ::lstat(path_.c_str(), &old) == 0;
   if (replaces && !S_ISREG(old.st_mode) && !S_ISLNK(old.st_mode))

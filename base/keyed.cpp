@@ -13,8 +13,8 @@ bool read_key_frames(const Value& value, std::vector<std::pair<double, const Val
   const size_t before = problems.list().size();
   for (const Value::Entry& entry : value.entries()) {
     if (entry.key == "keys") continue;
-    problems.add(entry.key_position, "unknown key " + quote(entry.key) +
-                                         " in a value that changes over time" + suggest(entry.key, kNames));
+    problems.add(entry.key_position,
+                 "unknown key " + quote(entry.key) + " in a value with keys" + suggest(entry.key, kNames));
   }
   const Value* keys = value.find("keys");
   if (keys == nullptr) {
@@ -24,7 +24,7 @@ bool read_key_frames(const Value& value, std::vector<std::pair<double, const Val
   }
   if (!keys->is_map() || keys->entries().empty()) {
     problems.add(keys->position(),
-                 "expected frames and their values, {1: a, 48: b}, got " + keys->describe());
+                 "expected a map from frames to values, {1: a, 48: b}, got " + keys->describe());
     return false;
   }
   for (const Value::Entry& entry : keys->entries()) {

@@ -33,7 +33,7 @@ void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view wh
   if (ledger.limit() == 0 || needed <= ledger.limit()) return;
   throw Error(
       ErrorKind::kMemory,
-      fmt::format("{}: needs {}, but render.memory is {} and {}; it takes at least --memory {}M", what,
+      fmt::format("{} needs {}, but render.memory is {} and {}; give at least --memory {}M", what,
                   memory_text(bytes), memory_text(ledger.limit()), in_use_text(ledger), (needed >> 20) + 1));
 }
 

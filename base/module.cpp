@@ -52,7 +52,7 @@ Module::Module(const std::string& name) {
   // Programs that link an installed Pelage carry its folder of modules in their run path.
   const std::string file = "lib" + name + ".so";
   handle_ = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle_) throw Error(ErrorKind::kFailed, "module " + name + " not found; looked for" + looked);
+  if (!handle_) throw Error(ErrorKind::kFailed, "module " + name + " not found; searched in" + looked);
   path_ = file;
 }
 
@@ -62,7 +62,7 @@ Module::~Module() {
 
 void* Module::symbol(const char* name) const {
   void* address = ::dlsym(handle_, name);
-  if (!address) throw Error(ErrorKind::kFailed, path_.string() + ": has no function " + name);
+  if (!address) throw Error(ErrorKind::kFailed, path_.string() + " lacks the function " + name);
   return address;
 }
 

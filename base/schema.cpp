@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/schema.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/nearest_name.h"
@@ -26,9 +27,28 @@ std::vector<std::string> SchemaInfo::key_names() const {
   return names;
 }
 
+bool KeyInfo::has_old_name(std::string_view old_name) const {
+  return std::find(options.old_names.begin(), options.old_names.end(), old_name) != options.old_names.end();
+}
+
+const KeyInfo* SchemaInfo::find(std::string_view name) const {
+  const auto key = std::find_if(keys_.begin(), keys_.end(), [&](const KeyInfo& k) { return k.name == name; });
+  return key == keys_.end() ? nullptr : &*key;
+}
+
+const KeyInfo* SchemaInfo::find_renamed(std::string_view old_name) const {
+  const auto key =
+      std::find_if(keys_.begin(), keys_.end(), [&](const KeyInfo& k) { return k.has_old_name(old_name); });
+  return key == keys_.end() ? nullptr : &*key;
+}
+
 namespace detail {
 
 void report_unknown_key(const Value::Entry& entry, const SchemaInfo& schema, Problems& problems) {
+  if (const KeyInfo* renamed = schema.find_renamed(entry.key)) {
+    problems.add(entry.key_position, quote(entry.key) + " is now called " + quote(renamed->name));
+    return;
+  }
   const std::vector<std::string> names = schema.key_names();
   problems.add(entry.key_position,
                "unknown key " + quote(entry.key) + " in " + schema.name() + suggest(entry.key, names));

@@ -48,9 +48,13 @@ struct KeyOptions {
   bool above_min = false;  ///< min itself is refused
   std::string default_text =
       {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
+  std::vector<std::string> old_names = {};  ///< published names that this key had before
 };
 
 class SchemaInfo;
+
+/// Receives a block of a document and the table that reads it.
+using BlockVisitor = std::function<void(Value&, const SchemaInfo&)>;
 
 /// One row of a table, for the manual.
 struct KeyInfo {
@@ -59,6 +63,10 @@ struct KeyInfo {
   std::string default_text;
   KeyOptions options;
   std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that may stand here
+  /// Visits the blocks directly under a value of this key. A malformed value has none.
+  std::function<void(Value&, const BlockVisitor&)> visit_blocks;
+
+  bool has_old_name(std::string_view old_name) const;
 };
 
 /// One parameter as it stands: "levels[0].amount", "{map: fur/amount.png, channel: r}", and the files whose
@@ -87,10 +95,22 @@ class SchemaInfo {
   const std::string& help() const { return help_; }
   const std::vector<KeyInfo>& keys() const { return keys_; }
   std::vector<std::string> key_names() const;
+  /// The key of this name, or nullptr; the key that had this name before, or nullptr.
+  const KeyInfo* find(std::string_view name) const;
+  const KeyInfo* find_renamed(std::string_view old_name) const;
+
+  /// Part of a scene file, from its root, that uses this block. The manual prints it; a test parses it.
+  const std::string& example() const { return example_; }
+  void set_example(std::string yaml) { example_ = std::move(yaml); }
+  /// Caption of the picture in the manual, or "" when the section has none.
+  const std::string& picture() const { return picture_; }
+  void set_picture(std::string caption) { picture_ = std::move(caption); }
 
  protected:
   std::string name_;
   std::string help_;
+  std::string example_;
+  std::string picture_;
   std::vector<KeyInfo> keys_;
 };
 
@@ -103,6 +123,8 @@ class SchemaInfo {
 /// and optionally
 ///   // Tables of nested blocks.
 ///   static std::vector<const SchemaInfo*> blocks();
+///   // Visits those blocks in a value that may be malformed.
+///   static void visit_blocks(Value&, const BlockVisitor&);
 ///   // Adds the files whose contents belong to the value.
 ///   static void add_files(const T&, std::vector<std::filesystem::path>&);
 ///   // Adds the images that the value looks up by texture coordinates.
@@ -120,6 +142,11 @@ std::vector<const SchemaInfo*> blocks_of() {
   } else {
     return {};
   }
+}
+template <class T>
+void visit_blocks(Value& value, const BlockVisitor& visit) {
+  if constexpr (requires { ValueReader<T>::visit_blocks(value, visit); })
+    ValueReader<T>::visit_blocks(value, visit);
 }
 template <class T>
 void describe_value(const T& value, const std::string& key, std::vector<ParameterText>& out) {
@@ -151,7 +178,8 @@ class Schema : public SchemaInfo {
   Schema& key(std::string name, T P::*member, KeyOptions options) {
     std::string shown = options.default_text;
     if (shown.empty() && !options.required) shown = ValueReader<T>::print(P{}.*member);
-    keys_.push_back({name, ValueReader<T>::type_name(), std::move(shown), options, detail::blocks_of<T>()});
+    keys_.push_back({name, ValueReader<T>::type_name(), std::move(shown), options, detail::blocks_of<T>(),
+                     detail::visit_blocks<T>});
     readers_.push_back([member, options](const Value& value, P& out, Problems& problems) {
       return ValueReader<T>::read(value, options, out.*member, problems);
     });
@@ -212,6 +240,7 @@ struct ValueReader<P, std::void_t<decltype(P::schema())>> {
     for (ParameterText& text : P::schema().describe(params, key + ".")) out.push_back(std::move(text));
   }
   static std::vector<const SchemaInfo*> blocks() { return {&P::schema()}; }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) { visit(value, P::schema()); }
 };
 
 }  // namespace pelage

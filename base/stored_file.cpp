@@ -27,13 +27,13 @@ StoredFile::StoredFile(const OpenFile& file) : file_(file) {
     return std::all_of(gap.begin(), gap.end(), [](std::byte b) { return b == std::byte{0}; });
   };
   for (const format::Section& section : layout.sections) {
-    if (!padded_to(section.offset)) refuse_stored_file(path, "there is something between its sections");
+    if (!padded_to(section.offset)) refuse_stored_file(path, "unknown bytes between its sections");
     end = section.offset + section.bytes;
     sections_.push_back(bytes.subspan(section.offset, section.bytes));
     if (content_hash(sections_.back()) != ContentHash{section.hash_low, section.hash_high})
-      refuse_stored_file(path, "its bytes have changed");
+      refuse_stored_file(path, "its content does not match its checksum");
   }
-  if (!padded_to(layout.table_offset)) refuse_stored_file(path, "there is something between its sections");
+  if (!padded_to(layout.table_offset)) refuse_stored_file(path, "unknown bytes between its sections");
 }
 
 bool is_stored_file(const std::filesystem::path& path) {

@@ -34,7 +34,7 @@ void StoredSections::read_at(uint64_t offset, std::span<std::byte> out) const {
         ::pread(file_.descriptor(), out.data() + done, out.size() - done, static_cast<off_t>(offset + done));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail(path(), std::strerror(errno));
-    if (n == 0) fail(path(), "it has become shorter");
+    if (n == 0) fail(path(), "the file became shorter");
     done += static_cast<size_t>(n);
   }
 }
@@ -47,7 +47,7 @@ void StoredSections::read(size_t i, std::span<std::byte> out) const {
   ::posix_fadvise(file_.descriptor(), static_cast<off_t>(begin),
                   static_cast<off_t>(section.offset + section.bytes - begin), POSIX_FADV_DONTNEED);
   if (content_hash(out) != ContentHash{section.hash_low, section.hash_high})
-    refuse_stored_file(path(), "its bytes have changed");
+    refuse_stored_file(path(), "its content does not match its checksum");
 }
 
 void StoredSections::prefetch(size_t i) const {

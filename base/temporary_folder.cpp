@@ -17,7 +17,8 @@ std::filesystem::path system_folder() {
   std::error_code failure;
   std::filesystem::path folder = std::filesystem::temp_directory_path(failure);
   if (failure)
-    throw Error(ErrorKind::kFailed, "there is no folder for temporary files (TMPDIR): " + failure.message());
+    throw Error(ErrorKind::kFailed,
+                "the folder for temporary files does not exist (set TMPDIR): " + failure.message());
   return folder;
 }
 

@@ -191,6 +191,9 @@ struct ValueReader<std::optional<T>> {
     }
   }
   static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) {
+    if (!value.is_null()) detail::visit_blocks<T>(value, visit);
+  }
 };
 
 template <class T>
@@ -220,6 +223,9 @@ struct ValueReader<std::vector<T>> {
       detail::describe_value(v[i], key + "[" + std::to_string(i) + "]", out);
   }
   static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) {
+    for (Value& item : value.items()) detail::visit_blocks<T>(item, visit);
+  }
 };
 
 template <class T>
@@ -241,6 +247,9 @@ struct ValueReader<Named<T>> {
   static std::string type_name() { return "map of names to " + ValueReader<T>::type_name(); }
   static std::string print(const Named<T>&) { return "{}"; }
   static std::vector<const SchemaInfo*> blocks() { return detail::blocks_of<T>(); }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) {
+    for (Value::Entry& entry : value.entries()) detail::visit_blocks<T>(entry.value, visit);
+  }
 };
 
 /// A block of one of several kinds, told apart by a key: each P has, beside its schema,
@@ -265,6 +274,10 @@ struct ValueReader<std::variant<Ps...>> {
   }
   static std::string print(const Variant&) { return "{}"; }
   static std::vector<const SchemaInfo*> blocks() { return {&Ps::schema()...}; }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) {
+    const Value* type = value.find(std::variant_alternative_t<0, Variant>::kTypeKey);
+    if (type) ((type->text() == Ps::kTypeName ? visit(value, Ps::schema()) : void(0)), ...);
+  }
 
  private:
   template <class P>

@@ -54,7 +54,7 @@ void Residency::refuse_small_budget() const {
   if (min <= static_cast<int64_t>(budget_.limit)) return;
   throw Error(
       ErrorKind::kMemory,
-      fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; {}M would do",
+      fmt::format("render.memory ({}) is too small: {}, and the largest chunk{} needs {}; give at least {}M",
                   memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
                   of_text(grower_.name(which)), memory_text(static_cast<int64_t>(largest)), (min >> 20) + 1));
 }
@@ -266,9 +266,10 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
 }
 
 void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
-  const char* remedy = never_evicts_ ? "; with bounds other than none not everything is held at once" : "";
+  const char* remedy =
+      never_evicts_ ? "; bounds: none keeps all chunks in memory, any other value does not" : "";
   throw Error(ErrorKind::kMemory,
-              fmt::format("render.memory ({}) is used up: {}, and a chunk{} of {} is needed{}",
+              fmt::format("render.memory ({}) is full: {}, and a chunk{} needs {}{}",
                           memory_text(static_cast<int64_t>(budget_.limit)), in_use_text(ledger_),
                           of_text(grower_.name(slot)), memory_text(needed), remedy));
 }

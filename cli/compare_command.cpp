@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
+#include "cli/read_scene.h"
 #include "cli/report_error.h"
 #include "cli/run.h"
 #include "lab/compare/compare_models.h"
@@ -27,7 +28,7 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
       if (!part.grooms.items.empty()) return;
     }
   }
-  throw Error(ErrorKind::kInput, input + ": no character of this scene has fur to compare models on");
+  throw Error(ErrorKind::kInput, input + ": the scene has no character with fur");
 }
 
 // NAME.svg with words, and NAME.png, the pixels alone.
@@ -40,7 +41,7 @@ void write_sheet(std::filesystem::path name, const Picture& sheet) {
 
 int run_compare(const Options& options) {
   Run run(options);
-  const SceneDescription scene = load_scene(options.input, options.overrides);
+  const SceneDescription scene = read_scene(options, run.display());
   check_fur(scene, options.input);
   check_stats(options, scene.files);
   const std::filesystem::path folder = options.output.empty()
@@ -63,7 +64,7 @@ int run_compare(const Options& options) {
     for (auto& fact : machine_facts()) report.facts.push_back(std::move(fact));
     report.facts.emplace_back("Load average",
                               fmt::format("{:.1f} before, {:.1f} after", load_before, load_average()));
-    if (interrupted) report.abstract = "Interrupted: only a part was done. " + report.abstract;
+    if (interrupted) report.abstract = "Interrupted: the comparison is incomplete. " + report.abstract;
     report.runs = fibres_json(comparison.fibres);
     write_sheet(folder / "contact_sheet", contact_sheet(comparison.frames));
     if (!comparison.fibres.empty())

@@ -31,8 +31,8 @@ bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run) {
     if (run.display().cancelled()) return false;
     const double seconds = run.seconds() - began;
     run.statistics().stages_s["bound"] += seconds;
-    std::cout << fmt::format("boxes of frame {}: {} chunks{}, {} of them remembered, {:.2f} s\n", frame,
-                             remembering.size(), reduced ? " in reduced detail" : "", counts.remembered,
+    std::cout << fmt::format("frame {}: boxes of {} chunks{}, {} read from the cache, {:.2f} s\n", frame,
+                             remembering.size(), reduced ? " at reduced detail" : "", counts.remembered,
                              seconds);
   }
   return true;

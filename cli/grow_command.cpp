@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/grow_boxes.h"
 #include "cli/output_files.h"
+#include "cli/read_scene.h"
 #include "cli/run.h"
 #include "geom/io/strand_file.h"
 #include "geom/strand_merge.h"
@@ -46,8 +47,8 @@ Growth grow(const FurPart& part, bool keep, Run& run) {
   if (keep) {
     int64_t bytes = 0;
     for (const auto& leaf : leaves) bytes += 2 * bytes_of(leaf->counts());
-    growth.charge =
-        reserve(run.ledger(), MemoryTag::kChunks, bytes, part.name + ": its strands, to be written");
+    growth.charge = reserve(run.ledger(), MemoryTag::kChunks, bytes,
+                            "growing the strands of " + part.name + " for the output file");
   }
   growth.leaves.resize(leaves.size());
   std::atomic<size_t> strands = 0, points = 0, bytes = 0;
@@ -115,7 +116,7 @@ void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   for (const Strands& strands : grown) {
     if (strands.basis() != grown.front().basis()) {
       throw Error(ErrorKind::kArguments,
-                  "the grooms have curves of different bases: choose one with --groom");
+                  "the grooms use different curve bases; choose one groom with --groom");
     }
   }
   write_strands(path, merge(grown));
@@ -130,7 +131,7 @@ void require_kept(const Assets& assets, const Options& options) {
     if (groom->cache_report() && !groom->cache_report()->stored)
       lost += (lost.empty() ? "'" : ", '") + name + "'";
   }
-  if (!lost.empty()) throw Error(ErrorKind::kFailed, "the cache could not be written: of groom " + lost);
+  if (!lost.empty()) throw Error(ErrorKind::kFailed, "cannot write the cache of groom " + lost);
 }
 
 std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rfind('.') + 1); }
@@ -139,7 +140,7 @@ std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rf
 
 int run_grow(const Options& options) {
   Run run(options);
-  SceneDescription scene = load_scene(options.input, options.overrides);
+  SceneDescription scene = read_scene(options, run.display());
   // What other programs are given must not depend on the picture's size or the camera.
   if (!options.output.empty() && !options.lod) scene.render.lod.enabled = false;
   if (!options.groom.empty() && !scene.grooms.find(options.groom)) {

@@ -14,14 +14,14 @@ std::string describe_column(const FrozenLeaf& leaf, StrandCodes::Column kind) {
   const CodeColumn& column = leaf.column(kind);
   switch (column.form) {
     case CodeColumn::Form::kAbsent:
-      return "not kept";
+      return "not stored";
     case CodeColumn::Form::kOne:
-      return "the same for all strands";
+      return "one value for all strands";
     case CodeColumn::Form::kByte:
     case CodeColumn::Form::kShort:
-      return fmt::format("one of {} each", column.entry_count());
+      return fmt::format("one {} per strand", column.entry_count());
     case CodeColumn::Form::kRaw:
-      return "of each strand";
+      return "one per strand";
   }
   return "";
 }
@@ -29,17 +29,14 @@ std::string describe_column(const FrozenLeaf& leaf, StrandCodes::Column kind) {
 // The first section is about all leaves; each of the others is one.
 std::string describe_offsets(const StoredFile& file) {
   static constexpr std::pair<StrandCodes::Column, const char*> kColumns[] = {
-      {StrandCodes::kWidthScale, "widths"},
-      {StrandCodes::kWidthProfile, "profile of widths"},
-      {StrandCodes::kColorScale, "brightness"},
-      {StrandCodes::kColorHue, "hue"},
-      {StrandCodes::kColorProfile, "profile of colours"},
-      {StrandCodes::kClump, "clumps"}};
+      {StrandCodes::kWidthScale, "widths"},           {StrandCodes::kWidthProfile, "width profile"},
+      {StrandCodes::kColorScale, "brightness"},       {StrandCodes::kColorHue, "hue"},
+      {StrandCodes::kColorProfile, "colour profile"}, {StrandCodes::kClump, "clumps"}};
   size_t strands = 0, points = 0, bytes = 0, plain = 0;
   std::string first_leaf;
   for (size_t i = 1; i < file.section_count(); ++i) {
     const std::optional<FrozenLeaf> leaf = FrozenLeaf::read(file.section(i));
-    if (!leaf) return "  its leaves cannot be read\n";
+    if (!leaf) return "  cannot read its chunks\n";
     strands += leaf->strand_count();
     bytes += leaf->bytes();
     for (const FrozenLeaf::Block& block : leaf->blocks()) {
@@ -51,12 +48,14 @@ std::string describe_offsets(const StoredFile& file) {
       first_leaf += fmt::format("    {}: {}\n", name, describe_column(*leaf, kind));
   }
   std::string text =
-      fmt::format("  {} strands, {} points, in {} leaves\n", strands, points, file.section_count() - 1);
+      fmt::format("  {} strands, {} points, in {} chunks\n", strands, points, file.section_count() - 1);
   if (strands)
     text +=
         fmt::format("  {:.1f} bytes per strand\n", static_cast<double>(bytes) / static_cast<double>(strands));
-  if (!first_leaf.empty()) text += "  in the first leaf:\n" + first_leaf;
-  if (plain) text += fmt::format("  {} strands in floats, for being long and thin or beside such\n", plain);
+  if (!first_leaf.empty()) text += "  in the first chunk:\n" + first_leaf;
+  if (plain)
+    text += fmt::format("  {} strands stored as floats, because they or their neighbours are long and thin\n",
+                        plain);
   return text;
 }
 

@@ -5,6 +5,8 @@
 
 #include "cli/commands.h"
 #include "cli/info.h"
+#include "cli/progress_display.h"
+#include "cli/read_scene.h"
 #include "geom/io/obj_file.h"
 
 namespace pelage {
@@ -20,8 +22,11 @@ std::string lower_extension(const std::filesystem::path& path) {
 std::string describe_file(const Options& options) {
   const std::filesystem::path path = options.input;
   const std::string kind = lower_extension(path);
-  if (kind == ".yaml" || kind == ".yml") return describe_scene(load_scene(path, options.overrides));
-  if (!options.overrides.empty()) throw Error(ErrorKind::kArguments, "--set is for scenes only");
+  if (kind == ".yaml" || kind == ".yml") {
+    ProgressDisplay display(options.progress, [] { return false; });
+    return describe_scene(read_scene(options, display));
+  }
+  if (!options.overrides.empty()) throw Error(ErrorKind::kArguments, "--set works on scene files only");
   if (kind == ".hair" || kind == ".tfx") {
     return describe_strands(read_strands(path, {options.basis, options.default_width}));
   }
@@ -29,7 +34,7 @@ std::string describe_file(const Options& options) {
   if (kind == ".exr") return describe_exr(read_exr(path));
   if (kind == ".cache" || is_stored_file(path)) return describe_cache(StoredFile(path));
   throw Error(ErrorKind::kInput, {options.input, 0, 0},
-              "what this is cannot be told from its name; expected .yaml, .hair, .tfx, .obj, .exr or .cache");
+              "unsupported file type; expected .yaml, .hair, .tfx, .obj, .exr or .cache");
 }
 
 }  // namespace

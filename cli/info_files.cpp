@@ -85,7 +85,7 @@ std::string describe_strands(const StrandFile& file) {
   if (strands.strand_count() > 0) {
     text += fmt::format("  points per strand: {} to {}\n", fewest, max);
     text += fmt::format("  widths: {} to {}\n", shown(thinnest), shown(thickest));
-    text += fmt::format("  bounds of the points: {}\n", shown_box(box));
+    text += fmt::format("  bounds of the control points: {}\n", shown_box(box));
   }
   for (const StrandAttribute& attribute : strands.attributes()) {
     text += fmt::format("  attribute {}: {} x {} numbers\n", printable(attribute.name),
@@ -102,7 +102,7 @@ std::string describe_mesh(const ControlMesh& mesh) {
                                  mesh.positions.size(), mesh.uv.size());
   std::map<uint32_t, size_t> sizes;
   for (const uint32_t size : mesh.face_sizes) ++sizes[size];
-  for (const auto& [size, count] : sizes) text += fmt::format("  {} faces of {} corners\n", count, size);
+  for (const auto& [size, count] : sizes) text += fmt::format("  {} faces with {} corners\n", count, size);
   text += fmt::format("  bounds: {}\n", shown_box(box));
   text += fmt::format("  creases: {}, corners: {}, holes: {}\n", mesh.creases.size(), mesh.corners.size(),
                       mesh.holes.size());

@@ -21,9 +21,9 @@ std::string describe(const SkinParams& skin) {
 }
 
 std::string strands_of(const GroomParams& groom) {
-  if (!groom.strands_file.empty()) return "strands of " + groom.strands_file.path.string();
+  if (!groom.strands_file.empty()) return "strands from " + groom.strands_file.path.string();
   const std::string count = groom.strands ? fmt::format("{} strands", *groom.strands) : "strands by density";
-  return fmt::format("{} of {} points on {}", count, groom.points, groom.skin.name);
+  return fmt::format("{} with {} points on {}", count, groom.points, groom.skin.name);
 }
 
 std::string describe(const GroomParams& groom) {

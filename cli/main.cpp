@@ -50,7 +50,7 @@ int run_command_line(int argc, char** argv) {
     std::fputs(pelage::error_text(error).c_str(), stderr);
     return pelage::exit_code(error.kind());
   } catch (const std::bad_alloc&) {
-    std::fputs("pelage: error: the machine has no memory left\n", stderr);
+    std::fputs("pelage: error: out of memory\n", stderr);
     return pelage::exit_code(pelage::ErrorKind::kMemory);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "pelage: error: %s\n", error.what());

@@ -8,6 +8,7 @@
 #include "base/counted.h"
 #include "cli/commands.h"
 #include "cli/progress_display.h"
+#include "cli/read_scene.h"
 #include "cli/report_error.h"
 #include "cli/signals.h"
 #include "lab/measure/experiments.h"
@@ -82,7 +83,7 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
 int run_measure(const Options& options) {
   const SignalGuard signals;
   ProgressDisplay display(options.progress, &SignalGuard::interrupted);
-  const SceneDescription scene = load_scene(options.input, options.overrides);
+  const SceneDescription scene = read_scene(options, display);
   const MeasureSetup setup = setup_of(options, scene);
   claim_report_folder(setup.folder);
 
@@ -102,10 +103,10 @@ int run_measure(const Options& options) {
                   {"Command", shell_text(command)},
                   {"Repeats", std::to_string(options.repeat)}};
   report.facts.insert(report.facts.end(), facts.begin(), facts.end());
-  report.facts.emplace_back("Load average", fmt::format("{:.1f} before, {:.1f} after (that of each run is in "
-                                                        "report.json)",
-                                                        load_before, load_average()));
-  if (interrupted) report.abstract = "Interrupted: only some variants were run. " + report.abstract;
+  report.facts.emplace_back("Load average",
+                            fmt::format("{:.1f} before, {:.1f} after (report.json has the load of each run)",
+                                        load_before, load_average()));
+  if (interrupted) report.abstract = "Interrupted: only some variants ran. " + report.abstract;
   report.runs = runs_json(measured.outcomes);
 
   write_report(setup.folder, report);

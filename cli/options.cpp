@@ -33,29 +33,29 @@ constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
 void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("SCENE", options.input, "Scene file")->required();
   // Not greedy: `--set a=1 scene.yaml` must leave the scene alone.
-  command.add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
+  command.add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
 }
 
-constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (render.memory)";
+constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";
 
 void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
-  command.add_option("--threads", options.threads, "Threads to use (default: all available)")
+  command.add_option("--threads", options.threads, "Number of threads (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
   command.add_option("--memory", texts.memory, memory_help)->type_name("BYTES");
-  CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "No progress");
-  command.add_option("--progress", texts.progress, "How to show progress: bar, plain or json")
+  CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "Show no progress");
+  command.add_option("--progress", texts.progress, "Progress display: bar, plain or json")
       ->type_name("STYLE")
       ->excludes(quiet);
 }
 
 void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help = kMemoryHelp) {
-  command.add_option("--stats", texts.stats, "Write the numbers of this run as JSON")->type_name("FILE.json");
+  command.add_option("--stats", texts.stats, "Write statistics of this run as JSON")->type_name("FILE.json");
   command
       .add_option("--sample-memory", options.sample_memory_s,
-                  "Sample memory every so many seconds, for the timeline in --stats")
+                  "Interval in seconds between memory samples, for the timeline in --stats")
       ->check(CLI::Range(0.001, 3600.0))
       ->type_name("SECONDS");
   add_parallel_flags(command, options, texts, memory_help);
@@ -66,7 +66,7 @@ void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
       .add_option("--basis", texts.basis,
                   "Curve basis of a strand file: " + ValueReader<CurveBasis>::type_name())
       ->type_name("BASIS");
-  command.add_option("--default-width", options.default_width, "Strand width where the file has none")
+  command.add_option("--default-width", options.default_width, "Strand width if the file has none")
       ->check(CLI::PositiveNumber)
       ->type_name("WIDTH");
 }
@@ -76,7 +76,7 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
   add_scene_flags(*render, options, texts);
   render
       ->add_option("-o,--output", options.output,
-                   "File to write (default: the scene's name); %04d is the frame")
+                   "Output file (default: the scene's name); %04d is the frame number")
       ->type_name("FILE.%04d.exr");
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_run_flags(*render, options, texts);
@@ -84,56 +84,55 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
 
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
-      "grow", "Grow what caches of a scene lack, offsets and boxes, or write strand files");
+      "grow", "Fill the caches of a scene, offsets and bounding boxes, or write strand files");
   add_scene_flags(*grow, options, texts);
   CLI::Option* file =
       grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
           ->type_name("FILE");
   grow->add_flag("--lod", options.lod,
-                 "Write only the strands that the picture needs at its level of detail (render.lod)")
+                 "Write only the strands that remain at the picture's level of detail (render.lod)")
       ->needs(file);
   grow->add_option("--groom", options.groom, "Grow only this groom")->type_name("NAME");
   grow->add_flag("--explain", options.explain,
-                 "Say of each operator of a cache whether it was stale, and why");
-  grow->add_flag(
-      "--prune", options.prune,
-      "Remove what no groom of the scene needs, and nothing has used for an hour, from the folders of "
-      "their caches");
-  grow->add_option("--frames", texts.frames, "Frames whose boxes to grow; strands grow on the first")
+                 "For each operator in a cache, say whether it was stale and why");
+  grow->add_flag("--prune", options.prune,
+                 "Delete cache files that no groom of the scene needs and nothing used for an hour");
+  grow->add_option("--frames", texts.frames,
+                   "Frames to compute bounding boxes for; strands grow at the first frame")
       ->type_name("FRAMES");
   add_run_flags(*grow, options, texts);
 }
 
 void add_measure(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* measure = app.add_subcommand(
-      "measure", "Run the program once per variant of an experiment and report: JSON, CSV, HTML");
+      "measure", "Run one experiment, one process per variant, and write a report: JSON, CSV, HTML");
   measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, lod, residency or samplers")
       ->required();
   add_scene_flags(*measure, options, texts);
   measure
       ->add_option("-o,--output", options.output,
-                   "Folder for the report and all runs (default: the scene's name and the experiment's)")
+                   "Report folder (default: the scene's and the experiment's name)")
       ->type_name("DIR");
   measure->add_option("--frames", texts.frames, "Frame to measure (default: the scene's first)")
       ->type_name("FRAME");
-  measure->add_option("--repeat", options.repeat, "Runs of each variant; that of the median time counts (3)")
+  measure->add_option("--repeat", options.repeat, "Runs per variant; the median one counts (default: 3)")
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
-  measure->add_option("--time-limit", options.time_limit_s, "Seconds after which a run is ended (600)")
+  measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
-  measure->add_option("--rays", options.rays, "accel: rays of each kind, at most (131072)")
+  measure->add_option("--rays", options.rays, "accel: maximum number of rays of each kind (default: 131072)")
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N");
   measure
       ->add_option("--characters", options.characters,
-                   "lod: how many of a crowd keep every hair, runs from which all in full are extrapolated "
-                   "(10,20,40)")
+                   "lod: full-detail characters in each run; all of the crowd is extrapolated from these "
+                   "runs (default: 10,20,40)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N,N");
-  measure->add_option("--parts", options.parts, "lod: only these of crowd, detail, wedge and dolly")
+  measure->add_option("--parts", options.parts, "lod: run only these parts of crowd, detail, wedge and dolly")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");
@@ -142,36 +141,37 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
 
 void add_trace(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* trace = app.add_subcommand(
-      "trace", "One variant of 'measure accel': trace rays through the fur of a scene and time them");
+      "trace", "Run one variant of 'measure accel': trace rays through the fur of a scene and time them");
   trace->group("");  // run by measure
   add_scene_flags(*trace, options, texts);
-  trace->add_option("--variant", options.trace_variant, "prepare, or what to trace with")->type_name("NAME");
-  trace->add_option("--share", options.trace_share, "Memory of paged fur over the size of its tree")
+  trace->add_option("--variant", options.trace_variant, "prepare, or a structure to trace")
+      ->type_name("NAME");
+  trace->add_option("--share", options.trace_share, "Memory of paged fur as a fraction of its tree's size")
       ->check(CLI::PositiveNumber)
       ->type_name("SHARE");
-  trace->add_option("--kinds", options.trace_kinds, "Rays to trace: camera,gather,sorted,shadow,deep")
+  trace->add_option("--kinds", options.trace_kinds, "Ray kinds to trace: camera,gather,sorted,shadow,deep")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("KINDS");
-  trace->add_option("--rays", options.rays, "Rays of each kind that 'prepare' makes, at most")
+  trace->add_option("--rays", options.rays, "Maximum number of rays of each kind that 'prepare' makes")
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N");
-  trace->add_option("-o,--output", options.output, "Folder that 'prepare' fills and the others read")
+  trace->add_option("-o,--output", options.output, "Folder that 'prepare' writes and the other variants read")
       ->required()
       ->type_name("DIR");
-  trace->add_option("--frames", texts.frames, "Frame to pose the scene at")->type_name("FRAME");
+  trace->add_option("--frames", texts.frames, "Frame at which to pose the scene")->type_name("FRAME");
   add_run_flags(*trace, options, texts);
 }
 
 void add_compare(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* compare = app.add_subcommand(
-      "compare", "Render a scene under every fibre model and report: contact sheet, cost, noise, energy");
+      "compare", "Render a scene with every fibre model and report: contact sheet, cost, noise, energy");
   add_scene_flags(*compare, options, texts);
   compare
       ->add_option("-o,--output", options.output,
                    "Folder for the report and its pictures (default: the scene's name and _compare)")
       ->type_name("DIR");
-  compare->add_option("--models", options.models, "Only these models, such as chiang,yan")
+  compare->add_option("--models", options.models, "Compare only these models, such as chiang,yan")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("MODELS");
@@ -181,36 +181,37 @@ void add_compare(CLI::App& app, Options& options, Texts& texts) {
 }
 
 void add_info(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* info = app.add_subcommand("info", "Say what is in a scene, strand file, mesh, EXR or cache file");
+  CLI::App* info = app.add_subcommand("info", "Describe a scene, strand file, mesh, EXR or cache file");
   info->add_option("FILE", options.input, "A .yaml, .hair, .tfx, .obj, .exr or .cache file")->required();
-  info->add_option("--set", texts.set, "Override a scene value, a.b.c=value; repeatable")
+  info->add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
   add_strand_flags(*info, options, texts);
 }
 
 void add_convert(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* convert = app.add_subcommand("convert", "Convert strand files to each other (.hair, .tfx)");
+  CLI::App* convert = app.add_subcommand("convert", "Convert between strand formats (.hair, .tfx)");
   convert->add_option("IN", options.input, "Strand file to read")->required();
   convert->add_option("OUT", options.output, "Strand file to write")->required();
   add_strand_flags(*convert, options, texts);
 }
 
 void add_post(CLI::App& app, Options& options, Texts& texts) {
-  constexpr const char* kPostMemory = "Memory that pixels and work buffers may take (default: 4G)";
+  constexpr const char* kPostMemory = "Memory limit for pixels and work buffers (default: 4G)";
   CLI::App* motion_blur =
-      app.add_subcommand("motionblur", "Blur finished pictures by their motion vectors (any EXR)");
+      app.add_subcommand("motionblur", "Blur a rendered picture along its motion vectors (any EXR)");
   add_motion_blur_flags(*motion_blur, options, texts.post);
   add_run_flags(*motion_blur, options, texts, kPostMemory);
 
-  CLI::App* stereo = app.add_subcommand("stereo", "Make the other eye's picture from one eye's (any EXR)");
+  CLI::App* stereo =
+      app.add_subcommand("stereo", "Make the picture of the second eye from that of the first (any EXR)");
   add_stereo_flags(*stereo, options, texts.post);
   add_run_flags(*stereo, options, texts, kPostMemory);
 }
 
 void add_manual(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
-  manual->add_option("SECTION", texts.section, "Only this section, such as camera, curl or map field");
+  manual->add_option("SECTION", texts.section, "Print only this section, such as camera, curl or map field");
   manual->add_flag("--markdown", options.markdown, "Write Markdown");
 }
 
@@ -246,7 +247,7 @@ void check_command(const std::vector<std::string>& arguments) {
   for (const auto& [name, command] : command_names()) {
     if (command != Command::kTrace) names.push_back(name);  // not for people
   }
-  fail("there is no command " + quote(arguments[0]) + suggest(arguments[0], names));
+  fail("unknown command " + quote(arguments[0]) + suggest(arguments[0], names));
 }
 
 std::vector<std::string> flag_names(const CLI::App& app) {
@@ -264,14 +265,14 @@ std::string command_name(const CLI::App& app) {
 
 [[noreturn]] void fail_extras(const CLI::App& app) {
   for (const std::string& extra : app.remaining(true)) {
-    if (!extra.starts_with("-")) fail("did not expect the argument " + quote(extra));
+    if (!extra.starts_with("-")) fail("unexpected argument " + quote(extra));
     const std::string flag = extra.substr(0, extra.find('='));
     const std::vector<std::string> names = flag_names(app);
     const std::string near = did_you_mean(flag, names);
-    fail("there is no flag " + quote(flag) +
+    fail("unknown option " + quote(flag) +
          (near.empty() ? "; see '" + command_name(app) + " --help'" : near));
   }
-  fail("the arguments were not understood; see 'pelage --help'");
+  fail("cannot parse the arguments; see 'pelage --help'");
 }
 
 // An empty name, as of a shell variable that is not set, would otherwise mean the default.
@@ -311,16 +312,16 @@ Experiment parse_experiment(const std::string& text) {
   std::vector<std::string> names;
   for (const auto& [name, experiment] : built) names.push_back(name);
   if (std::find(promised.begin(), promised.end(), text) != promised.end())
-    fail("the experiment " + quote(text) +
-         " is not built yet; there are accel, bounds, growth, lod, residency and samplers");
-  fail("there is no experiment " + quote(text) + suggest(text, names));
+    fail("experiment " + quote(text) +
+         " does not exist yet; choose one of accel, bounds, growth, lod, residency and samplers");
+  fail("unknown experiment " + quote(text) + suggest(text, names));
 }
 
 void check_models(const std::vector<std::string>& models) {
   const std::vector<std::string>& known = fibre_model_names();
   for (const std::string& model : models) {
     if (std::find(known.begin(), known.end(), model) == known.end())
-      fail("--models: there is no fibre model " + quote(model) + suggest(model, known));
+      fail("--models: unknown fibre model " + quote(model) + suggest(model, known));
   }
 }
 
@@ -328,7 +329,7 @@ void check_parts(const std::vector<std::string>& parts) {
   const std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
   for (const std::string& part : parts) {
     if (std::find(known.begin(), known.end(), part) == known.end())
-      fail("--parts: there is no part " + quote(part) + suggest(part, known));
+      fail("--parts: unknown part " + quote(part) + suggest(part, known));
   }
 }
 
@@ -363,9 +364,9 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments, 
   Options options;
   Texts texts;
   CLI::App app("Pelage grows fur on demand and renders it.", "pelage");
-  app.set_version_flag("--version", "pelage " + std::string(version()), "Print the version and leave");
+  app.set_version_flag("--version", "pelage " + std::string(version()), "Print the version and exit");
   app.require_subcommand(1);
-  app.footer("'pelage COMMAND --help' explains a command, 'pelage manual' the scene file.");
+  app.footer("'pelage COMMAND --help' explains a command; 'pelage manual' explains the scene file.");
   add_commands(app, options, texts);
 
   check_command(arguments);

@@ -11,7 +11,7 @@ void check_replaces_none(const std::string& flag, const std::filesystem::path& o
                          const std::vector<std::filesystem::path>& kept) {
   for (const std::filesystem::path& file : kept) {
     if (same_file(output, file)) {
-      throw Error(ErrorKind::kArguments, flag + " " + output.string() + ": this would replace " +
+      throw Error(ErrorKind::kArguments, flag + " " + output.string() + ": would overwrite " +
                                              (file == output ? "a file that" : file.string() + ", which") +
                                              " this run reads or writes itself; choose another name");
     }

@@ -15,24 +15,27 @@ namespace pelage {
 namespace {
 
 void add_file_flags(CLI::App& command, Options& options, PostTexts& texts, int usual_scale) {
-  command.add_option("IN", options.input, "EXR to read; %04d is the frame")->required()->type_name("IN.exr");
-  command.add_option("-o,--output", options.output, "EXR to write; %04d is the frame")
+  command.add_option("IN", options.input, "EXR file to read; %04d is the frame number")
+      ->required()
+      ->type_name("IN.exr");
+  command.add_option("-o,--output", options.output, "EXR file to write; %04d is the frame number")
       ->required()
       ->type_name("OUT.exr");
   command.add_option("--frames", options.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   command
-      .add_option(
-          "--scale", texts.scale,
-          "Samples per pixel and side in the work buffer (default: " + std::to_string(usual_scale) + ")")
+      .add_option("--scale", texts.scale,
+                  "Samples per pixel along each axis of the work buffer (default: " +
+                      std::to_string(usual_scale) + ")")
       ->check(CLI::Range(1, 8))
       ->type_name("1-8");
-  command.add_option("--depth-layer", texts.depth_layer, "Layer, part or channel of the depth (default: Z)")
-      ->type_name("NAME");
-  command.add_option("--data-layer", texts.data, "A layer that must not be averaged; repeatable")
-      ->allow_extra_args(false)
+  command
+      .add_option("--depth-layer", texts.depth_layer, "Layer, part or channel that holds depth (default: Z)")
       ->type_name("NAME");
   command
-      .add_option("--color-layer", texts.colors, "A layer that is averaged whatever it is called; repeatable")
+      .add_option("--data-layer", texts.data, "Layer to resample without averaging, such as IDs; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  command.add_option("--color-layer", texts.colors, "Layer to average regardless of its name; repeatable")
       ->allow_extra_args(false)
       ->type_name("NAME");
 }
@@ -42,13 +45,12 @@ void add_vector_flags(CLI::App& command, PostTexts& texts, const char* layer, co
   command.add_option("--" + what + "-layer", texts.motion_layer, help)->type_name("NAME");
   command
       .add_option("--" + what + "-units", texts.units,
-                  "pixels (default) or ndc: fractions of the display window")
+                  "Unit of the vectors: pixels (default) or ndc, fractions of the display window")
       ->type_name("UNITS");
   command
-      .add_option("--" + what + "-y", texts.up, "Where positive v points: down (default) or up, as in Nuke")
+      .add_option("--" + what + "-y", texts.up, "Direction of positive v: down (default) or up, as in Nuke")
       ->type_name("down|up");
-  command
-      .add_option("--" + what + "-scale", texts.vector_scale, "What to multiply the vectors by (default: 1)")
+  command.add_option("--" + what + "-scale", texts.vector_scale, "Factor on the vectors (default: 1)")
       ->type_name("FACTOR");
 }
 
@@ -86,23 +88,22 @@ void interpret_file(const PostTexts& texts, const std::string& vectors, PostFile
 void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts) {
   add_file_flags(command, options, texts, options.motion_blur.file.scale);
   ShutterParams& shutter = options.motion_blur.shutter;
-  command.add_option("--shutter", shutter.length, "Frames that the shutter is open (default: 0.5)")
+  command.add_option("--shutter", shutter.length, "Shutter interval in frames (default: 0.5)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("FRAMES");
   command
       .add_option("--shutter-centre", shutter.centre,
-                  "Its middle, in frames from the rendered instant (default: 0)")
+                  "Middle of the shutter interval, in frames from the rendered instant (default: 0)")
       ->check(CLI::Range(-1000.0, 1000.0))
       ->type_name("FRAMES");
-  command
-      .add_option("--steps", shutter.steps, "Instants to look at (default: one per pixel of motion, 8 to 64)")
+  command.add_option("--steps", shutter.steps, "Time steps (default: one per pixel of motion, 8 to 64)")
       ->check(CLI::Range(1, 4096))
       ->type_name("N");
   add_fill_flag(command, options.motion_blur.file,
-                "Pixels up to which a gap between two surfaces is closed (default: 4)");
+                "Close gaps between two surfaces up to this many pixels (default: 4)");
   add_vector_flags(
       command, texts, "motion",
-      "Layer or part of the vectors, or two channels as in mv.R,mv.G (default: forward, motion ...)");
+      "Layer or part that holds the vectors, or two channels as in mv.R,mv.G (default: forward, motion ...)");
 }
 
 void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
@@ -110,28 +111,27 @@ void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
   StereoFileParams& stereo = options.stereo;
   command
       .add_option("--eye-separation", stereo.eye_separation,
-                  "Scene units (default: 6.5 cm, where the file says what a unit is)")
+                  "Distance between the eyes in scene units (default: 6.5 cm, if the file gives its units)")
       ->type_name("D");
-  command
-      .add_option("--convergence", texts.convergence,
-                  "Distance that is at the same place in both pictures (default: infinite)")
+  command.add_option("--convergence", texts.convergence, "Distance of zero parallax (default: infinite)")
       ->type_name("Z");
   command
       .add_option("--focal-pixels", stereo.focal_pixels,
-                  "Focal length in pixels, instead of the file's camera")
+                  "Focal length in pixels; overrides the file's camera")
       ->check(CLI::PositiveNumber)
       ->type_name("PIXELS");
-  command.add_option("--fov", stereo.fov_deg, "Vertical field of view, instead of the file's camera")
+  command.add_option("--fov", stereo.fov_deg, "Vertical field of view; overrides the file's camera")
       ->check(CLI::Range(0.01, 170.0))
       ->type_name("DEGREES");
   command.add_option("--eye", texts.eye, "Eye to make: right (default) or left")->type_name("right|left");
   command.add_option("--view", stereo.view, "View of the file to start from (default: left)")
       ->type_name("NAME");
-  command.add_option("--filter", texts.filter, "lanczos (default), which keeps sharpness, or box")
+  command.add_option("--filter", texts.filter, "Filter: lanczos (default), which keeps sharpness, or box")
       ->type_name("FILTER");
-  add_fill_flag(command, stereo.file, "Longest gap to fill, in pixels; 0 fills none (default: all)");
+  add_fill_flag(command, stereo.file,
+                "Maximum width of a gap to fill, in pixels; 0 fills none (default: all)");
   add_vector_flags(command, texts, "parallax",
-                   "Layer that says where pixels are in the other eye, instead of a camera");
+                   "Layer that holds the parallax in pixels; no camera is needed then");
 }
 
 void interpret_post(const PostTexts& texts, Options& options) {

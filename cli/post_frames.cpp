@@ -18,14 +18,14 @@ void check_names(const Options& options, const FrameList& frames) {
   }
   if (options.frames.empty()) {
     if (has_frame_pattern(options.input)) {
-      throw Error(ErrorKind::kArguments, options.input + ": say which frames with --frames");
+      throw Error(ErrorKind::kArguments, options.input + ": give the frames with --frames");
     }
     return;
   }
   check_output_pattern(options.output, frames);
   if (frames.frames.size() > 1 && !has_frame_pattern(options.input)) {
     throw Error(ErrorKind::kArguments,
-                options.input + ": several frames need a place for their number, as in %04d");
+                options.input + ": the file name of several frames needs a frame number, as in %04d");
   }
 }
 

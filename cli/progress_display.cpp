@@ -173,7 +173,7 @@ void ProgressDisplay::draw_line(Stage& stage, bool last, double now_s) {
   const std::optional<double> left_s = stage.left.estimate();
   const std::string tail = last     ? fmt::format("{:.1f} s", elapsed_s)
                            : left_s ? duration_text(*left_s) + " left"
-                                    : duration_text(elapsed_s) + " so far";
+                                    : duration_text(elapsed_s) + " elapsed";
   const bool stopped = last && percent < 100 && (percent == 0 || cancelled());
   const std::string state = percent > 0 || !stopped ? fmt::format("{} %", percent) : "";
   const std::string_view how = !stopped ? "" : state.empty() ? "stopped" : "stopped at ";

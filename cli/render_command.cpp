@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/output_files.h"
 #include "cli/progress_display.h"
+#include "cli/read_scene.h"
 #include "cli/run.h"
 #include "world/world.h"
 
@@ -79,7 +80,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   trim_heap();  // the chunks of the frame are gone
   const std::string place = place_of(result, path);
   if (place != path)
-    run.display().warn(path + ": kept as it was, since some pixels of the new picture have no sample yet");
+    run.display().warn(path + ": kept, because some pixels of the new picture have no sample yet");
   run.stage("write", [&] { write_frame(place, world, result, seconds, run.job()); });
   const std::string clamped =
       scene.render.clamp_indirect > 0
@@ -95,7 +96,7 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
 
 int run_render(const Options& options) {
   Run run(options);
-  const SceneDescription scene = load_scene(options.input, options.overrides);
+  const SceneDescription scene = read_scene(options, run.display());
   const std::string output = output_name(options, scene.frames);
   if (std::filesystem::path(output).extension() != ".exr") {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");

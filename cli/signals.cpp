@@ -30,7 +30,7 @@ void on_signal(int signal) {
   int none = 0;
   if (g_signal.compare_exchange_strong(none, signal)) {
     g_heard_ms.store(now_ms());
-    constexpr std::string_view kNote = "\npelage: stopping; once more ends at once\n";
+    constexpr std::string_view kNote = "\npelage: stopping after this pass; press Ctrl-C again to quit now\n";
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kNote.data(), kNote.size());
     return;
   }

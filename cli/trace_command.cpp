@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "cli/commands.h"
+#include "cli/read_scene.h"
 #include "cli/run.h"
 #include "lab/rays/lab_tracer.h"
 #include "world/compose.h"
@@ -44,7 +45,7 @@ int run_trace(const Options& options) {
   const ContentStore store(options.output);
   LabResult result;
   if (variant.kind == LabVariant::Kind::kPrepare) {
-    const SceneDescription scene = load_scene(options.input, options.overrides);
+    const SceneDescription scene = read_scene(options, run.display());
     const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
     const World world = compose(scene, *assets, scene.frames.frames.front(), run.job());
     result = prepare_lab(world.scene, store, static_cast<size_t>(options.rays), run.job());

@@ -53,7 +53,7 @@ class CageChecker {
     for (uint32_t size : mesh_.face_sizes) corners += size;
     if (corners != mesh_.face_vertices.size() ||
         (!mesh_.face_uv.empty() && mesh_.face_uv.size() != mesh_.face_vertices.size())) {
-      return complain(fmt::format("the faces of the cage have {} corners, {} are given", corners,
+      return complain(fmt::format("the faces of the cage have {} corners, but {} are given", corners,
                                   mesh_.face_vertices.size()));
     }
     std::vector<uint32_t> valence(mesh_.positions.size());
@@ -67,7 +67,7 @@ class CageChecker {
     check_weights(valence);
     for (size_t v = 0; v < valence.size(); ++v) {
       if (valence[v] > SurfaceTopology::kMaxValence) {
-        complain(fmt::format("{} faces meet at vertex {}, at most {} may", valence[v], v + 1,
+        complain(fmt::format("{} faces meet at vertex {}; the limit is {}", valence[v], v + 1,
                              SurfaceTopology::kMaxValence));
       }
     }
@@ -86,10 +86,10 @@ class CageChecker {
       for (uint64_t n : *counts) squares += n > kFew ? n * n : 0;
     }
     if (squares > kMaxSquares) {
-      complain(fmt::format(
-          "too many vertices of many faces and faces of many corners: their squares add up to {}, at "
-          "most {} may",
-          squares, kMaxSquares));
+      complain(
+          fmt::format("too many vertices with many faces and faces with many corners: the sum of their "
+                      "squares is {}, the limit is {}",
+                      squares, kMaxSquares));
     }
   }
 
@@ -102,10 +102,11 @@ class CageChecker {
     constexpr size_t kMax = SurfaceTopology::kMaxValence;
     if (vertices.size() < 3 || vertices.size() > kMax)
       return complain(
-          fmt::format("face {} has {} corners, 3 to {} are possible", face + 1, vertices.size(), kMax));
+          fmt::format("face {} has {} corners; 3 to {} are supported", face + 1, vertices.size(), kMax));
     const uint32_t last = *std::max_element(vertices.begin(), vertices.end());
     if (last >= valence.size()) {
-      return complain(fmt::format("face {} uses vertex {} of {}", face + 1, last + 1, valence.size()));
+      return complain(
+          fmt::format("face {} uses vertex {}, but the cage has {}", face + 1, last + 1, valence.size()));
     }
     if (distinct_corners(vertices) < 3)
       complain(fmt::format("face {} has fewer than 3 different vertices", face + 1));
@@ -117,11 +118,10 @@ class CageChecker {
     const std::string count = polygons_ == 1
                                   ? "1 face has"
                                   : fmt::format("{} of {} faces have", polygons_, mesh_.face_sizes.size());
-    problems_.add(
-        {source_, first_polygon_line(source_), 0},
-        fmt::format("the loop scheme takes triangles only, face {} has {} corners; {} more than 3: cut "
-                    "them into triangles, or take scheme: catmull-clark",
-                    first_polygon_ + 1, first_corners_, count));
+    problems_.add({source_, first_polygon_line(source_), 0},
+                  fmt::format("the loop scheme needs triangles, but face {} has {} corners; {} more than 3: "
+                              "triangulate them or use scheme: catmull-clark",
+                              first_polygon_ + 1, first_corners_, count));
   }
 
   static uint64_t edge_key(uint32_t a, uint32_t b) { return uint64_t(std::min(a, b)) << 32 | std::max(a, b); }
@@ -129,10 +129,11 @@ class CageChecker {
   void check_tags() {
     for (const ControlMesh::Corner& c : mesh_.corners) {
       if (c.vertex >= mesh_.positions.size())
-        complain(fmt::format("corner at vertex {}: no such vertex", c.vertex + 1));
+        complain(fmt::format("corner at vertex {}: this vertex does not exist", c.vertex + 1));
     }
     for (uint32_t hole : mesh_.holes) {
-      if (hole >= mesh_.face_sizes.size()) complain(fmt::format("hole {}: no such face", hole + 1));
+      if (hole >= mesh_.face_sizes.size())
+        complain(fmt::format("hole {}: this face does not exist", hole + 1));
     }
     if (mesh_.creases.empty()) return;
     std::vector<uint64_t> edges;
@@ -147,7 +148,7 @@ class CageChecker {
     std::sort(edges.begin(), edges.end());
     for (const ControlMesh::Crease& c : mesh_.creases) {
       if (!std::binary_search(edges.begin(), edges.end(), edge_key(c.a, c.b))) {
-        complain(fmt::format("a crease joins vertices {} and {}, which no face does", c.a + 1, c.b + 1));
+        complain(fmt::format("the crease from vertex {} to {} is not an edge of any face", c.a + 1, c.b + 1));
       }
     }
   }

@@ -37,15 +37,16 @@ bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job&
   const auto stay = [&](const std::string& why) {
     job.progress.warn(to_string(params.strands_file.position) + ": the strands of " +
                       params.strands_file.path.filename().string() + " " + why +
-                      "; they stay where the file puts them and do not follow the skin (attach: skin makes "
-                      "them follow it, attach: none omits this warning)");
+                      "; they keep their positions from the file and do not follow the skin (attach: skin "
+                      "makes them follow it; attach: none silences this warning)");
     std::fill(roots.begin(), roots.end(), RootAddress{});
     return false;
   };
   if (binding.empty()) {
-    if (params.attach == Attachment::kAuto) return stay("have no skin to follow: all its faces are holes");
+    if (params.attach == Attachment::kAuto)
+      return stay("have no skin to follow, because all its faces are holes");
     throw Error(ErrorKind::kInput, params.strands_file.position,
-                "attach: skin needs a skin to follow: every face of this one is a hole");
+                "attach: skin needs a skin with at least one face that is not a hole");
   }
   const auto place = [&](size_t i) { return rest.evaluate(roots[i].face, roots[i].u, roots[i].v).position; };
   std::vector<float> gaps(positions.size());

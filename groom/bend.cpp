@@ -18,19 +18,30 @@ constexpr float kRadians = std::numbers::pi_v<float> / 180;
 
 const Schema<BendParams>& BendParams::schema() {
   static const Schema<BendParams> table = [] {
-    Schema<BendParams> s(
-        "bend",
-        "Bends strands towards a direction, more and more from root to tip, never beyond it. "
-        "Lengths stay.");
+    Schema<BendParams> s("bend",
+                         "Bends strands toward a direction. The bend grows from root to tip and stops at the "
+                         "direction. Lengths are kept.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - bend: {direction: [1, 0, 0], angle: 90})");
+    s.set_picture("Left: straight strands. Right: bent to the right by 90 degrees at the tip.");
     s.key("direction", &BendParams::direction,
-          {.help = "Where to, in the rest space of the skin: a vector or a map of vectors"});
-    s.key("angle", &BendParams::angle, {.unit = "degrees", .help = "Turn of the tip", .min = 0, .max = 180});
-    s.key("start", &BendParams::start,
-          {.help = "Where along the strand bending begins", .min = 0, .max = 0.999});
+          {.help = "Target direction in the rest space of the skin: a vector or a map of vectors"});
+    s.key("angle", &BendParams::angle,
+          {.unit = "degrees", .help = "Rotation at the tip", .min = 0, .max = 180});
+    s.key(
+        "start", &BendParams::start,
+        {.help = "Where along the strand the bend begins: 0 is the root, 1 the tip", .min = 0, .max = 0.999});
     s.key("profile", &BendParams::profile,
-          {.help = "Power by which the turn grows: 1 an arc, above 1 mostly the tip", .min = 0.1, .max = 10});
+          {.help = "Exponent of the bend from root to tip: 1 bends evenly like an arc, larger values bend "
+                   "mostly the tip",
+           .min = 0.1,
+           .max = 10});
     s.key("variation", &BendParams::variation,
-          {.help = "Part of the angle that the least bent strand lacks", .min = 0, .max = 1});
+          {.help = "Random reduction of the angle: 0.4 gives 60 to 100 % of it", .min = 0, .max = 1});
     return s;
   }();
   return table;

@@ -34,8 +34,8 @@ bool is_contents(const std::string& key) {
 }
 
 std::string change_of(const std::string& key, const std::string* before, const std::string& now) {
-  if (key == "program") return "another version of the program, its libraries or the processor";
-  if (key == "mesh") return "the rest skin has changed";
+  if (key == "program") return "the version of the program, its libraries or the processor changed";
+  if (key == "mesh") return "the rest skin changed";
   if (now == "missing") return key.substr(key.find(' ') + 1 + 3) + " is missing";
   if (is_contents(key)) return key + " changed";
   return before ? fmt::format("{}: {} -> {}", key, shown(*before), shown(now))
@@ -69,9 +69,9 @@ std::string_view cut(std::string_view& text, char at) {
 std::string GroomCacheReport::summary() const {
   if (fresh) return "fresh";
   for (const Stage& stage : stages) {
-    if (!stage.fresh) return fmt::format("stale from {} on ({})", stage.name, stage.reason);
+    if (!stage.fresh) return fmt::format("stale from {} ({})", stage.name, stage.reason);
   }
-  return "stale (its file was missing or damaged)";
+  return "stale (file missing or damaged)";
 }
 
 GroomManifest::GroomManifest(const GroomIdentity& identity, size_t count)
@@ -160,7 +160,7 @@ std::vector<GroomCacheReport::Stage> explain(const GroomManifest& now,
     std::string reason;
     if (fresh && (!old || old->hash != stage.hash)) {
       fresh = false;
-      reason = !old ? "new" : old->name != stage.name ? "in place of " + old->name : changes(*old, stage);
+      reason = !old ? "new" : old->name != stage.name ? "replaces " + old->name : changes(*old, stage);
     } else if (!fresh) {
       // Its own changes too: more than one may have been edited.
       const bool same = old && old->name == stage.name && old->inputs == stage.inputs;

@@ -22,12 +22,23 @@ constexpr float kStretch = 0.25f;
 
 const Schema<ClumpLevelParams>& ClumpLevelParams::schema() {
   static const Schema<ClumpLevelParams> table = [] {
-    Schema<ClumpLevelParams> s("clump level", "A finer level of clumps inside the others.");
+    Schema<ClumpLevelParams> s("clump level", "Finer clumps inside the coarser ones.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - clump:
+          spacing: 0.6
+          amount: 0.7
+          levels: [{spacing: 0.2, amount: 0.8}])");
     s.key("spacing", &ClumpLevelParams::spacing,
           {.unit = "scene units", .help = "Mean distance between clumps", .min = 0, .above_min = true});
-    s.key(
-        "amount", &ClumpLevelParams::amount,
-        {.help = "How much of the way to the centre strand; may vary along the strand", .min = 0, .max = 1});
+    s.key("amount", &ClumpLevelParams::amount,
+          {.help = "How far strands move toward the centre strand of their clump: 0 not at all, 1 fully. It "
+                   "may vary along the strand",
+           .min = 0,
+           .max = 1});
     return s;
   }();
   return table;
@@ -35,27 +46,35 @@ const Schema<ClumpLevelParams>& ClumpLevelParams::schema() {
 
 const Schema<ClumpParams>& ClumpParams::schema() {
   static const Schema<ClumpParams> table = [] {
-    Schema<ClumpParams> s(
-        "clump",
-        "Draws strands together into clumps, each along a strand of its own that the operators "
-        "before this one shape. Strands do not grow longer.");
+    Schema<ClumpParams> s("clump",
+                          "Pulls strands together into clumps. Each clump follows a centre strand, which the "
+                          "preceding operators shape. Strands never become longer.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - clump: {spacing: 0.4, amount: 0.9})");
+    s.set_picture("Left: no clumps. Right: clumps with `spacing: 0.4` and `amount: 0.9`.");
     s.key("spacing", &ClumpParams::spacing,
           {.unit = "scene units", .help = "Mean distance between clumps", .min = 0, .above_min = true});
+    s.key("amount", &ClumpParams::amount,
+          {.help = "How far strands move toward the centre strand of their clump: 0 not at all, 1 fully. It "
+                   "may vary along the strand",
+           .min = 0,
+           .max = 1});
+    s.key("root", &ClumpParams::root, {.help = "Factor on `amount` at the root", .min = 0, .max = 1});
+    s.key("tip", &ClumpParams::tip, {.help = "Factor on `amount` at the tip", .min = 0, .max = 1});
+    s.key("profile", &ClumpParams::profile,
+          {.help = "Exponent of the change from `root` to `tip`: values below 1 close clumps near the root, "
+                   "values above 1 near the tip",
+           .min = 0.1,
+           .max = 10});
     s.key(
-        "amount", &ClumpParams::amount,
-        {.help = "How much of the way to the centre strand; may vary along the strand", .min = 0, .max = 1});
-    s.key("root", &ClumpParams::root, {.help = "Factor on the amount at the root", .min = 0, .max = 1});
-    s.key("tip", &ClumpParams::tip, {.help = "Factor on the amount at the tip", .min = 0, .max = 1});
-    s.key(
-        "profile", &ClumpParams::profile,
-        {.help = "Power by which the factor goes from root to tip: below 1 clumps close early, above 1 late",
-         .min = 0.1,
-         .max = 10});
-    s.key("variation", &ClumpParams::variation,
-          {.help = "Part of the amount that the loosest clump lacks", .min = 0, .max = 1});
-    s.key("strays", &ClumpParams::strays,
-          {.help = "Part of the strands that join no clump", .min = 0, .max = 1});
-    s.key("levels", &ClumpParams::levels, {.help = "Finer clumps inside the clumps, coarse ones first"});
+        "variation", &ClumpParams::variation,
+        {.help = "Random reduction of `amount` per clump: 0.4 gives 60 to 100 % of it", .min = 0, .max = 1});
+    s.key("strays", &ClumpParams::strays, {.help = "Fraction of strands left unclumped", .min = 0, .max = 1});
+    s.key("levels", &ClumpParams::levels, {.help = "Finer clumps inside the clumps, from coarse to fine"});
     return s;
   }();
   return table;
@@ -63,7 +82,7 @@ const Schema<ClumpParams>& ClumpParams::schema() {
 
 void Clump::prepare(const PrepareContext& context) {
   if (!context.rest)
-    throw Error(ErrorKind::kInput, context.position, "clump needs strands that grow on a skin");
+    throw Error(ErrorKind::kInput, context.position, "the operator clump needs strands that grow on a skin");
   seed_ = context.seed;
   levels_.clear();
   const auto add = [&](float spacing, const Field& amount) {

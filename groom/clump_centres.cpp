@@ -22,10 +22,9 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
   const double area = measure_surface(*context.rest, {}, job).area;
   const double wanted = area / (static_cast<double>(spacing) * spacing);
   if (!(wanted <= kMaxCentres)) {
-    throw Error(
-        ErrorKind::kInput, context.position,
-        fmt::format("a clump spacing of {} makes {:.3g} clumps on this skin; at most {:.3g} are possible",
-                    spacing, wanted, kMaxCentres));
+    throw Error(ErrorKind::kInput, context.position,
+                fmt::format("a clump spacing of {} makes {:.3g} clumps on this skin; the limit is {:.3g}",
+                            spacing, wanted, kMaxCentres));
   }
   FollicleOptions options;
   options.count = std::max<int64_t>(1, static_cast<int64_t>(wanted));
@@ -39,7 +38,7 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
   require_room(
       job.ledger,
       std::max(follicle_temporary_bytes(options.count), follicle_bytes(options.count) + kept(options.count)),
-      fmt::format("{}: {} {}", context.owner, options.count, options.noun));
+      fmt::format("placing {} {} of {}", options.count, options.noun, context.owner));
   const FollicleTree centres = FollicleTree::build(*context.rest, options, job);
 
   const size_t count = centres.size();

@@ -12,13 +12,22 @@ namespace pelage {
 
 const Schema<ColorParams>& ColorParams::schema() {
   static const Schema<ColorParams> table = [] {
-    Schema<ColorParams> s("color",
-                          "Colours strands: the attribute that materials read as {attribute: color}.");
-    s.key("value", &ColorParams::value,
-          {.help = "Colour along the strand; may read the colour that operators before have given, as "
-                   "{attribute: color}"});
+    Schema<ColorParams> s(
+        "color", "Sets the colour of strands: the attribute that materials read as `{attribute: color}`.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - color:
+          variation: 0.3
+          value: {ramp: {along: strand, knots: [[0, [0.03, 0.02, 0.02]], [1, [0.9, 0.25, 0.05]]]}})");
+    s.set_picture("Left: one colour. Right: dark roots, red tips and random darkening.");
+    s.key(
+        "value", &ColorParams::value,
+        {.help = "Colour along the strand. `{attribute: color}` is the colour that preceding operators set"});
     s.key("variation", &ColorParams::variation,
-          {.help = "Part of its brightness that the darkest strand lacks", .min = 0, .max = 1});
+          {.help = "Random darkening: 0.4 gives 60 to 100 % of the brightness", .min = 0, .max = 1});
     return s;
   }();
   return table;

@@ -31,18 +31,27 @@ V3f combed_direction(const V3f& direction, const V3f& normal, float lift) {
 
 const Schema<CombParams>& CombParams::schema() {
   static const Schema<CombParams> table = [] {
-    Schema<CombParams> s("comb", "Lays strands over in a direction along the skin. Lengths stay.");
-    s.key(
-        "direction", &CombParams::direction,
-        {.help =
-             "Where to, in the rest space of the skin: a vector or a map of vectors; its part along the skin "
-             "counts, not its length"});
+    Schema<CombParams> s("comb", "Combs strands in a direction along the skin. Lengths are kept.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - comb: {direction: [1, 0, 0], lift: 0.3})");
+    s.set_picture("Left: straight strands. Right: combed to the right with `lift: 0.3`.");
+    s.key("direction", &CombParams::direction,
+          {.help = "Target direction in the rest space of the skin: a vector or a map of vectors. Only its "
+                   "direction along the skin counts, not its length"});
     s.key("lift", &CombParams::lift,
-          {.help = "How far strands stand up: 0 lies on the skin, 1 stands on it", .min = 0, .max = 1});
-    s.key("amount", &CombParams::amount,
-          {.help = "How much of the way from where a strand points now", .min = 0, .max = 1});
+          {.help = "How steeply strands rise: 0 lies on the skin, 1 stands upright", .min = 0, .max = 1});
+    s.key(
+        "amount", &CombParams::amount,
+        {.help = "How far strands turn from their present direction to the combed one: 0 not at all, 1 fully",
+         .min = 0,
+         .max = 1});
     s.key("curve", &CombParams::curve,
-          {.help = "Part of a strand, from the root, over which it turns; 0 turns it as a whole",
+          {.help = "Length over which a strand turns, from the root, as a fraction of the strand; 0 turns "
+                   "the whole strand at the root",
            .min = 0,
            .max = 1});
     return s;

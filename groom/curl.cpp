@@ -26,19 +26,28 @@ float spline_gain(float turns_per_segment) {
 
 const Schema<CurlParams>& CurlParams::schema() {
   static const Schema<CurlParams> table = [] {
-    Schema<CurlParams> s(
-        "curl",
-        "Winds each strand into a helix about itself. The root stays; lengths grow by the winding. "
-        "A turn takes at least 3 points, better 5.");
+    Schema<CurlParams> s("curl",
+                         "Winds each strand into a helix. The root stays in place and the strand becomes "
+                         "longer. Use at least 3 points per turn, better 5.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - curl: {radius: 0.06, turns: 3})");
+    s.set_picture("Left: straight strands. Right: helices of 3 turns.");
     s.key("radius", &CurlParams::radius, {.unit = "scene units", .help = "Radius of the helix", .min = 0});
     s.key("turns", &CurlParams::turns,
-          {.help = "Turns from root to tip; negative: the other way round", .min = -1000, .max = 1000});
-    s.key("random", &CurlParams::random,
-          {.help = "How much strands differ in where their helix begins: 0 all alike, 1 anywhere",
+          {.help = "Turns from root to tip; negative values wind the other way", .min = -1000, .max = 1000});
+    s.key("angle_variation", &CurlParams::random,
+          {.help = "Random variation of the angle at which the helix starts: 0 gives all strands the same "
+                   "angle, 1 any angle",
            .min = 0,
-           .max = 1});
+           .max = 1,
+           .old_names = {"random"}});
     s.key("start", &CurlParams::start,
-          {.help = "Part of the strand, from the root, over which the radius grows to its full size",
+          {.help = "Length over which the radius grows to its full size, from the root, as a fraction of the "
+                   "strand",
            .min = 0,
            .max = 1});
     return s;

@@ -156,8 +156,8 @@ FollicleCandidates::FollicleCandidates(const LimitSurface& rest, const FollicleD
     cumulative += static_cast<double>(wanted) * faces_[f].area * limit / mass;
     if (!(cumulative < 0x1p32)) {
       throw Error(ErrorKind::kInput,
-                  "its density is too uneven: more than four thousand million places would "
-                  "have to be tried; ask for fewer strands or a denser coat elsewhere");
+                  "the density is too uneven: more than 4 billion candidate positions would be needed; use "
+                  "fewer strands or a more even density");
     }
     first_[f + 1] = static_cast<uint64_t>(cumulative);
   }

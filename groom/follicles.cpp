@@ -93,7 +93,7 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, si
                       progressive_order_bytes(source.wanted(), count, held);
   const MemoryCharge charge =
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(more),
-              fmt::format("{}: placing {} {} on so narrow a skin", options.owner, count, options.noun));
+              fmt::format("placing {} {} of {} on a narrow skin", count, options.noun, options.owner));
   CandidateSupply supply(source, whole.parts, job);
   return progressive_order(supply, count, mass, whole, job);
 }
@@ -108,8 +108,9 @@ void place(const LimitSurface& rest, const FollicleDensity& density, const Folli
     if (round > 0) {
       const size_t bytes = progressive_order_bytes(wanted, count, HeldCandidates::of(wanted, count));
       more = {};
-      more = reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes),
-                     fmt::format("{}: placing {} {} of uneven density", options.owner, count, options.noun));
+      more =
+          reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes),
+                  fmt::format("placing {} {} of uneven density for {}", count, options.noun, options.owner));
     }
     const FollicleCandidates source(rest, density, options.seed, wanted, job);
     const auto order = choose(source, count, mass, round == 7, options, job);
@@ -167,7 +168,7 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   // Of a coat that says how many strands it has, room is asked for before anything is looked at.
   const auto require = [&](size_t count) {
     return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
-                   fmt::format("{}: placing {} {}", options.owner, count, options.noun));
+                   fmt::format("placing {} {} of {}", count, options.noun, options.owner));
   };
   if (options.count > 0 && options.count <= kMaxFollicles) require(static_cast<size_t>(options.count));
   const FollicleDensity density{options.density, options.coverage};
@@ -175,8 +176,8 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const double asked =
       options.count > 0 ? static_cast<double>(options.count) : std::round(options.per_area * measure.mass);
   if (!(asked <= static_cast<double>(kMaxFollicles))) {
-    throw Error(ErrorKind::kInput, fmt::format("{}: {:.3g} {} on one skin; at most {} are possible",
-                                               options.owner, asked, options.noun, kMaxFollicles));
+    throw Error(ErrorKind::kInput, fmt::format("{}: {:.3g} {} on one skin; the limit is {}", options.owner,
+                                               asked, options.noun, kMaxFollicles));
   }
   const auto count = static_cast<size_t>(asked);
   if (count == 0 || !(measure.mass > 0)) return {};

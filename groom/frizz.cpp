@@ -37,14 +37,21 @@ struct LatticeNoise {
 
 const Schema<FrizzParams>& FrizzParams::schema() {
   static const Schema<FrizzParams> table = [] {
-    Schema<FrizzParams> s(
-        "frizz",
-        "Makes each strand wander sideways in its own way. The root stays; the amplitude is "
-        "reached half way along. Lengths grow by the wandering.");
+    Schema<FrizzParams> s("frizz",
+                          "Displaces each strand sideways by its own random waves. The root stays in place; "
+                          "the amplitude is full from half the length on. Strands become longer.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - frizz: {amplitude: 0.12, frequency: 4})");
+    s.set_picture("Left: straight strands. Right: `amplitude: 0.12`.");
     s.key("amplitude", &FrizzParams::amplitude,
-          {.unit = "scene units", .help = "How far a point moves at most", .min = 0});
+          {.unit = "scene units", .help = "Maximum displacement of a point", .min = 0});
     s.key("frequency", &FrizzParams::frequency,
-          {.help = "Changes of direction from root to tip; more than half the number of points are lost",
+          {.help = "Changes of direction from root to tip. Keep it below half the number of control points; "
+                   "higher frequencies are lost",
            .min = 0,
            .max = 1000});
     return s;

@@ -40,7 +40,7 @@ std::optional<FrozenCoat> FrozenCoat::open(const ContentStore& store, const Cont
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FrozenCoat> {
     warn(store.file(kKind, key).string() +
-         ": damaged cache file: its leaves are not those of the groom; made again");
+         ": damaged cache file: its strands do not match the groom; it is made again");
     return {};
   };
   const auto leaves = source.follicles().leaves();

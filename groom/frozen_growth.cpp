@@ -108,7 +108,7 @@ void FrozenGrowth::charge_grown(size_t done, Result& result) const {
   result.charge = {};
   const double share = static_cast<double>(done) / static_cast<double>(result.leaves.size());
   require_room(job.ledger, static_cast<int64_t>(static_cast<double>(bytes) / share),
-               owner + ": growing what its cache keeps");
+               "growing strands for the cache of " + owner);
   result.charge = MemoryCharge(job.ledger, MemoryTag::kOperatorCache, bytes);
 }
 

@@ -62,11 +62,11 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
   if (params.strands_file.empty()) {
     if (!has_skin) refuse("needs a skin to grow on, or a strands_file");
     if (!params.strands && !params.density)
-      refuse("needs strands (how many) or density (how many per square unit)");
+      refuse("needs `strands` (how many) or `density` (how many per square unit)");
   } else if (params.attach == Attachment::kSkin && !has_skin) {
-    refuse("follows no skin: attach: skin needs a skin beside the strands_file");
+    refuse("has no skin: `attach: skin` needs a skin beside the strands_file");
   } else if (params.strands || params.density) {
-    refuse("has its strands from a file: neither strands nor density may be given");
+    refuse("takes its strands from a file; `strands` and `density` must not be given");
   }
   if (const std::optional<Problem> problem = check_freeze(params))
     throw Error(ErrorKind::kInput, problem->position, problem->message);
@@ -93,7 +93,7 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
   const int64_t block = StrandBatch::bytes(points, colored);
   if (ledger.limit() == 0 || ledger.budgeted() + block <= ledger.limit()) return;
   require_room(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
-               fmt::format("{}: growing strands of {} points", owner, points));
+               fmt::format("growing strands with {} points for {}", points, owner));
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
   if (stack.needs_closest_point() && !impl->source.rest) {
-    throw Error(ErrorKind::kInput, "groom '" + name + "' keeps clear of a skin but grows on none");
+    throw Error(ErrorKind::kInput, "groom '" + name + "' pushes strands out of a skin but grows on none");
   }
 
   // Two coats of one skin must not grow from the same places because neither was given a seed.

@@ -73,7 +73,7 @@ void Groom::Impl::prepare_rest(const std::string& name, const Job& job) {
                       !stack->attributes_only(frozen_end, std::max(frozen_end, stack->first_live()));
   if (needs_rest_frames || use == RestUse::kNone) return;
   require_room(job.ledger, static_cast<int64_t>(source.follicles().size() * sizeof(V3f)),
-               "groom '" + name + "': the places of its strands at rest");
+               "placing the strands of groom '" + name + "' at rest");
   rest_positions.resize(source.follicles().size());
   job.for_each(rest_positions.size(), 4096, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end; ++f) {

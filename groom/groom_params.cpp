@@ -15,38 +15,44 @@ std::optional<Problem> check_freeze(const GroomParams& params) {
   for (const OperatorList::Item& item : items) names.push_back(item.name);
   const auto last = std::find(names.rbegin(), names.rend(), freeze.name);
   if (last == names.rend()) {
-    return Problem{freeze.position, "no operator of this groom is called " + quote(freeze.name) +
+    return Problem{freeze.position, "this groom has no operator called " + quote(freeze.name) +
                                         (names.empty() ? "; it has none" : suggest(freeze.name, names))};
   }
   const auto end = items.begin() + (names.rend() - last);
   const auto live =
       std::find_if(items.begin(), end, [](const auto& item) { return !item.prototype->reads_rest_only(); });
   if (live == end) return {};
-  return Problem{freeze.position,
-                 quote(live->name) + " works on posed strands and cannot be frozen" +
-                     (live + 1 == end ? "" : ", and it stands before " + quote(freeze.name))};
+  return Problem{freeze.position, quote(live->name) + " runs on posed strands and cannot be frozen" +
+                                      (live + 1 == end ? "" : ", and it comes before " + quote(freeze.name))};
 }
 
 const Schema<GroomCacheParams>& GroomCacheParams::schema() {
   static const Schema<GroomCacheParams> table = [] {
-    Schema<GroomCacheParams> s("groom cache",
-                               "Where what the frozen operators do is kept between runs. Of each groom the "
-                               "folder keeps the last eight "
-                               "states and those used within a day; what nothing has used for thirty days "
-                               "goes when something is stored. "
-                               "`pelage grow SCENE --prune` removes all that the scene does not need. "
-                               "Programs whose growth is built from "
-                               "the same sources share a folder.");
+    Schema<GroomCacheParams> s(
+        "groom cache",
+        "Stores the result of the frozen operators between runs. For each groom the folder keeps the last "
+        "eight states and all states used within a day; a state that is unused for thirty days is deleted "
+        "when something new is stored. `pelage grow SCENE --prune` deletes everything that the scene does "
+        "not need. Programs built from the same growth sources share a folder.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: rat
+    strands: 400000
+    operators:
+      - length: {value: 1.2}
+      - clump: {spacing: 0.4}
+      - frizz: {amplitude: 0.02}
+      - width: {root: 0.008, tip: 0.001}
+    cache: {directory: cache, freeze: frizz}   # width runs in every frame)");
     s.key("directory", &GroomCacheParams::directory,
-          {.help = "Folder; files in it are named by what they were made from, and may be removed at any "
-                   "time, but not written over while a run reads them. Files of other users count as absent, "
-                   "except in folders that the environment variable PELAGE_SHARED_CACHES names",
-           .default_text = "cache, in the current folder"});
-    s.key(
-        "freeze", &GroomCacheParams::freeze,
-        {.help = "Last operator that is frozen: it and those before it run once, and their result is kept in "
-                 "16 bits; of several with this name, the last",
-         .required = true});
+          {.help = "Cache folder. The name of a file is made from its inputs. You may delete files at any "
+                   "time, but must not overwrite them while a run reads them. Pelage ignores files of other "
+                   "users, except in folders that the environment variable PELAGE_SHARED_CACHES names",
+           .default_text = "`cache` in the current folder"});
+    s.key("freeze", &GroomCacheParams::freeze,
+          {.help = "Last frozen operator. It and the operators before it run once, and the result is stored "
+                   "with 16 bits per number. If several operators have this name, the last one counts",
+           .required = true});
     return s;
   }();
   return table;
@@ -54,52 +60,65 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
 
 const Schema<GroomParams>& GroomParams::schema() {
   static const Schema<GroomParams> table = [] {
-    Schema<GroomParams> s("groom", "A coat: where strands grow on a skin and the operators that shape them.");
+    Schema<GroomParams> s("groom",
+                          "A coat: where strands grow on a skin, and the operators that shape them.");
+    s.set_example(R"(grooms:
+  under:
+    skin: rat
+    role: under
+    strands: 400000
+    density: {map: maps/density.png, channel: r}
+    points: 8
+    operators:
+      - length: {value: 1.2, variation: 0.3}
+      - comb: {direction: [0, -0.3, -1], lift: 0.35}
+      - width: {root: 0.008, tip: 0.001}
+  whiskers: {strands_file: whiskers.hair, skin: rat, role: whisker})");
     s.key("skin", &GroomParams::skin,
-          {.help = "Skin that it grows on", .default_text = "none: strands_file alone"});
+          {.help = "Skin on which the coat grows", .default_text = "none, if strands_file is given"});
     s.key("strands_file", &GroomParams::strands_file,
-          {.help = "Strands made elsewhere (.hair, .tfx), in the rest space of the skin. On a skin "
-                   "each follows the nearest point of it and keeps its distance, see attach",
+          {.help = "Strand file (.hair, .tfx) in the rest space of the skin. If the groom has a skin, each "
+                   "strand follows the nearest point of it and keeps its distance; see `attach`",
            .default_text = "none"});
-    s.key(
-        "attach", &GroomParams::attach,
-        {.help = "Whether the strands of strands_file follow the skin. skin: they do. none: they stay where "
-                 "the file puts them and move with the character alone, as without a skin. auto: they "
-                 "follow the skin, unless half of them begin farther from it than a tenth of its "
-                 "diagonal; then as none, with a warning"});
+    s.key("attach", &GroomParams::attach,
+          {.help = "Whether the strands of strands_file follow the skin. `skin`: they follow it. `none`: "
+                   "they keep their positions from the file and move only with the character. `auto`: they "
+                   "follow the skin, unless half of the roots are farther from it than a tenth of its "
+                   "diagonal; then Pelage warns and uses `none`"});
     s.key("basis", &GroomParams::basis,
-          {.help = "What the points of strands_file mean", .default_text = "what the file says"});
+          {.help = "How control points of strands_file define curves",
+           .default_text = "the basis in the file"});
     s.key("default_width", &GroomParams::default_width,
           {.unit = "scene units",
-           .help = "Diameter where strands_file has none",
+           .help = "Strand diameter if strands_file has none",
            .min = 0,
            .above_min = true,
            .default_text = "none"});
-    s.key("role", &GroomParams::role, {.help = "Each role has a budget of its own when detail is reduced"});
+    s.key("role", &GroomParams::role, {.help = "Each role has its own level-of-detail budget, see lod"});
     s.key("strands", &GroomParams::strands,
-          {.help = "How many strands", .min = 1, .max = 5e8, .default_text = "what the density says"});
+          {.help = "Number of strands", .min = 1, .max = 5e8, .default_text = "from density"});
     s.key("density", &GroomParams::density,
           {.unit = "1 / square unit",
-           .help = "Strands per area of the rest skin; beside `strands` only its proportions count",
+           .help = "Strands per unit area of the rest skin. If `strands` is given, the density only "
+                   "distributes them",
            .min = 0,
            .default_text = "even"});
-    s.key("points", &GroomParams::points, {.help = "Control points of a strand", .min = 2, .max = 1024});
-    s.key("seed", &GroomParams::seed, {.help = "Changes all random numbers of the groom"});
+    s.key("points", &GroomParams::points, {.help = "Control points per strand", .min = 2, .max = 1024});
+    s.key("seed", &GroomParams::seed, {.help = "Seed of all random numbers of the groom"});
     s.key("operators", &GroomParams::operators,
-          {.help =
-               "What shapes the strands, in this order; every strand begins straight, one scene unit long"});
+          {.help = "Operators that shape the strands, in order. Every strand starts straight and one scene "
+                   "unit long"});
     s.key(
         "leaf_strands", &GroomParams::leaf_strands,
-        {.help =
-             "Most strands that are grown together; changes no pixel. By default 500 with "
-             "render.bvh.file; else 8000 or 2000, 500, 125 (of long strands 31 or 7), so few that 400 chunks "
-             "of "
-             "80 bytes a control point (of a file 32, and 8 where all fur fits) fit render.memory; 8000 for "
-             "coats with a cache",
+        {.help = "Maximum number of strands that grow together; changes no pixel. By default Pelage takes "
+                 "500 with render.bvh.file, 8000 for coats with a cache, and otherwise the largest of 8000, "
+                 "2000, 500 and 125 (for long strands also 31 and 7) at which 400 chunks fit render.memory, "
+                 "counting 80 bytes per control point (32 for strands from a file, 8 if all fur fits)",
          .min = 1,
          .max = 1e6,
-         .default_text = "8000 or fewer"});
-    s.key("cache", &GroomParams::cache, {.help = "Keeps what frozen operators do", .default_text = "none"});
+         .default_text = "8000 or less"});
+    s.key("cache", &GroomParams::cache,
+          {.help = "Stores the result of frozen operators between runs", .default_text = "none"});
     return s;
   }();
   return table;

@@ -43,7 +43,7 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   const auto file_bytes = std::filesystem::file_size(source.file.path, missing);
   const MemoryCharge making =
       reserve(job.ledger, MemoryTag::kGrooms, missing ? 0 : kOfFile * static_cast<int64_t>(file_bytes),
-              context.owner + ": the guides of " + source.file.path.string());
+              "reading the guides of " + source.file.path.string() + " for " + context.owner);
   const StrandFile file = read_named_strands(source.file, {source.basis, 1.0f});
   const size_t count = file.strands.strand_count();
   if (count == 0)
@@ -51,7 +51,7 @@ GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : poi
   const SkinBinding binding(*context.rest, source.file.path, job);
   if (binding.empty())
     throw Error(ErrorKind::kInput, source.file.position,
-                "guides need a skin to stand on: every face of this one is a hole");
+                "guides need a skin with at least one face that is not a hole");
   for (size_t g = 0; g < count; ++g) {
     if (g % 256 == 0) job.check_stop();
     const std::vector<V3f> points = resample_strand(file.strands, g, points_);

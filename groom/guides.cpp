@@ -49,29 +49,42 @@ Weights find_weights(const RootGrid& grid, const V3f& position, const V3f& norma
 
 const Schema<GuidesParams>& GuidesParams::schema() {
   static const Schema<GuidesParams> table = [] {
-    Schema<GuidesParams> s("guides", "Gives strands the shape of nearby guide strands, which a file holds.");
+    Schema<GuidesParams> s("guides", "Shapes strands like the nearby guide strands of a file.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - guides: {file: guides.hair, neighbours: 4})");
+    s.set_picture("Left: straight strands. Right: strands shaped by the guides of a file.");
     s.key("file", &GuidesParams::file,
-          {.help = "Guides (.hair, .tfx) in the rest space of the skin", .required = true});
+          {.help = "Guide file (.hair, .tfx) in the rest space of the skin", .required = true});
     s.key("basis", &GuidesParams::basis,
-          {.help = "What the points of the file mean", .default_text = "what the file says"});
+          {.help = "How control points of the file define curves", .default_text = "the basis in the file"});
     s.key("scale", &GuidesParams::scale,
-          {.help = "Applied to the file's points first", .min = 0, .above_min = true});
-    s.key("translate", &GuidesParams::translate, {.unit = "scene units", .help = "Added after scaling"});
+          {.help = "Factor on the file's positions", .min = 0, .above_min = true});
+    s.key("translate", &GuidesParams::translate,
+          {.unit = "scene units", .help = "Offset of the file's positions, added after `scale`"});
     s.key("neighbours", &GuidesParams::neighbours,
-          {.help = "How many guides shape a strand", .min = 1, .max = kMaxNeighbours});
+          {.help = "Number of guides that shape a strand", .min = 1, .max = kMaxNeighbours});
     s.key("radius", &GuidesParams::radius,
           {.unit = "scene units",
-           .help = "Furthest guide that shapes a strand",
+           .help = "Maximum distance from a guide to a strand that it shapes",
            .min = 0,
            .above_min = true,
            .default_text = "4 times the median distance between guides"});
-    s.key("spread", &GuidesParams::spread,
-          {.unit = "scene units",
-           .help = "Strands grow no further than this from a guide, the denser the more guides are near",
-           .min = 0,
-           .above_min = true,
-           .default_text = "guides do not change where strands grow"});
-    s.key("amount", &GuidesParams::amount, {.help = "How much of the guides' shape", .min = 0, .max = 1});
+    s.key(
+        "growth_radius", &GuidesParams::spread,
+        {.unit = "scene units",
+         .help =
+             "Strands grow only within this distance of a guide, and more densely where more guides are near",
+         .min = 0,
+         .above_min = true,
+         .default_text = "guides do not limit where strands grow",
+         .old_names = {"spread"}});
+    s.key(
+        "amount", &GuidesParams::amount,
+        {.help = "How far strands take the shape of the guides: 0 not at all, 1 fully", .min = 0, .max = 1});
     return s;
   }();
   return table;
@@ -79,7 +92,7 @@ const Schema<GuidesParams>& GuidesParams::schema() {
 
 void Guides::prepare(const PrepareContext& context) {
   if (!context.rest)
-    throw Error(ErrorKind::kInput, context.position, "guides need strands that grow on a skin");
+    throw Error(ErrorKind::kInput, context.position, "the operator guides needs strands that grow on a skin");
   params_.amount = params_.amount.with_textures(context.textures);
   guides_ = std::make_shared<const GuideSet>(
       GuideFile{params_.file, params_.basis, params_.scale, params_.translate}, context);

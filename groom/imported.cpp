@@ -28,8 +28,8 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   const size_t claimed = reader_.strands_in_file();
   const MemoryCharge making =
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * (kMaking + kKept)),
-              fmt::format("{}: the roots of the {} strands of {}", owner, claimed,
-                          params.strands_file.path.string()));
+              fmt::format("reading the roots of {} strands of {} for {}", claimed,
+                          params.strands_file.path.string(), owner));
   // The file is read twice, a point in some 0.1 us each time.
   constexpr size_t kMinForProgress = 2'000'000;
   const ProgressStage stage(job.progress, "read strands", 2 * static_cast<double>(claimed),

@@ -12,17 +12,22 @@ namespace pelage {
 
 const Schema<LengthParams>& LengthParams::schema() {
   static const Schema<LengthParams> table = [] {
-    Schema<LengthParams> s("length", "Scales each strand about its root until it is as long as asked.");
+    Schema<LengthParams> s("length", "Scales each strand about its root to the given length.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length: {value: 0.8, variation: 0.8})");
+    s.set_picture("Left: strands of length 0.8. Right: with `variation: 0.8`.");
     s.key("value", &LengthParams::value,
           {.unit = "scene units",
-           .help = "Length of a strand",
+           .help = "Length of the strand",
            .min = 0,
-           .default_text = "the length it has (1 before any operator)"});
+           .default_text = "the present length (1 before any operator)"});
     s.key("scale", &LengthParams::scale, {.help = "Factor on the length", .min = 0});
     s.key("variation", &LengthParams::variation,
-          {.help = "Part of its length that the shortest strand lacks; the others lie evenly between",
-           .min = 0,
-           .max = 1});
+          {.help = "Random shortening: 0.4 gives 60 to 100 % of the length", .min = 0, .max = 1});
     return s;
   }();
   return table;

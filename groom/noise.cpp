@@ -11,17 +11,27 @@ namespace pelage {
 
 const Schema<NoiseParams>& NoiseParams::schema() {
   static const Schema<NoiseParams> table = [] {
-    Schema<NoiseParams> s(
-        "noise",
-        "Pushes neighbouring strands about together, by smooth noise over the rest skin. The root "
-        "stays; lengths change by the pushing.");
+    Schema<NoiseParams> s("noise",
+                          "Displaces neighbouring strands together, by smooth noise over the rest skin. The "
+                          "root stays in place; lengths change.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - noise: {amplitude: 0.5, frequency: 1})");
+    s.set_picture("Left: straight strands. Right: neighbouring strands move together, `amplitude: 0.5`.");
     s.key("amplitude", &NoiseParams::amplitude,
-          {.unit = "scene units", .help = "How far a tip moves at most", .min = 0});
+          {.unit = "scene units", .help = "Maximum displacement of the tip", .min = 0});
     s.key("frequency", &NoiseParams::frequency,
-          {.unit = "1 / scene unit", .help = "Ups and downs per unit of the skin", .min = 0});
-    s.key("along", &NoiseParams::along, {.help = "Ups and downs from root to tip", .min = 0});
+          {.unit = "1 / scene unit", .help = "Noise frequency over the skin", .min = 0});
+    s.key("frequency_along", &NoiseParams::along,
+          {.help = "Noise frequency along the strand, from root to tip", .min = 0, .old_names = {"along"}});
     s.key("profile", &NoiseParams::profile,
-          {.help = "Power by which the push grows from root to tip", .min = 0.1, .max = 10});
+          {.help = "Exponent of the displacement from root to tip: 1 grows evenly, larger values move mostly "
+                   "the tip",
+           .min = 0.1,
+           .max = 10});
     return s;
   }();
   return table;

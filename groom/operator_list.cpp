@@ -53,8 +53,7 @@ const std::vector<OperatorKind>& kinds() {
 
 bool read_item(const Value& value, OperatorList::Item& item, Problems& problems) {
   if (!value.is_map() || value.entries().size() != 1) {
-    problems.add(value.position(),
-                 "expected one operator as a map of its name to its keys, got " + value.describe());
+    problems.add(value.position(), "expected one operator, a name with its keys, got " + value.describe());
     return false;
   }
   const Value::Entry& entry = value.entries().front();
@@ -101,6 +100,16 @@ std::vector<const SchemaInfo*> ValueReader<OperatorList>::blocks() {
   std::vector<const SchemaInfo*> result;
   for (const OperatorKind& kind : kinds()) result.push_back(&kind.schema());
   return result;
+}
+
+void ValueReader<OperatorList>::visit_blocks(Value& value, const BlockVisitor& visit) {
+  for (Value& item : value.items()) {
+    for (Value::Entry& entry : item.entries()) {
+      for (const OperatorKind& kind : kinds()) {
+        if (kind.name == entry.key) visit(entry.value, kind.schema());
+      }
+    }
+  }
 }
 
 }  // namespace pelage

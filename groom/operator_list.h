@@ -31,6 +31,7 @@ struct ValueReader<OperatorList> {
   static std::string type_name() { return "list of operators"; }
   static std::string print(const OperatorList&) { return "[]"; }
   static std::vector<const SchemaInfo*> blocks();
+  static void visit_blocks(Value& value, const BlockVisitor& visit);
 };
 
 }  // namespace pelage

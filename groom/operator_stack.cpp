@@ -45,8 +45,8 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
   }
   throw Error(ErrorKind::kInput, position,
               "a number of '" + name +
-                  "' has no largest value, because it reads an attribute that has none: only random and "
-                  "clump have");
+                  "' has no upper limit, because it reads an attribute without one; only `random` and "
+                  "`clump` have limits");
 }
 
 /// The frame at a point already evaluated; only where it is ill defined is the surface asked again.

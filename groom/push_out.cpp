@@ -165,13 +165,22 @@ class PushedStrand {
 
 const Schema<PushOutParams>& PushOutParams::schema() {
   static const Schema<PushOutParams> table = [] {
-    Schema<PushOutParams> s("push_out", "Moves strands out of the posed skin. Runs in every pose.");
+    Schema<PushOutParams> s("push_out", "Pushes strands out of the posed skin. Runs in every pose.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - comb: {direction: [1, 0, 0], lift: 0.1}
+      - bend: {direction: [0, -1, 0], angle: 120}
+      - push_out: {offset: 0.02})");
+    s.set_picture("Left: strands bent into the skin. Right: the same strands pushed out of it.");
     s.key("offset", &PushOutParams::offset,
           {.unit = "scene units",
-           .help = "Distance that strands keep from the skin, away from their roots",
+           .help = "Minimum distance between strands and skin, away from the roots",
            .min = 0});
     s.key("iterations", &PushOutParams::iterations,
-          {.help = "Rounds in which each point looks for its way out", .min = 1, .max = 64});
+          {.help = "Maximum number of passes", .min = 1, .max = 64});
     return s;
   }();
   return table;

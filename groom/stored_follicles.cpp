@@ -97,7 +97,7 @@ std::optional<FollicleTree> stored_follicles(const ContentStore& store, const Co
   if (!file) return {};
   const auto refuse = [&]() -> std::optional<FollicleTree> {
     warn(store.file(kKind, key).string() +
-         ": damaged cache file: its follicles are none of this skin; made again");
+         ": damaged cache file: its follicles do not match this skin; it is made again");
     return {};
   };
   if (file->section_count() != 4) return refuse();

@@ -14,16 +14,22 @@ namespace pelage {
 const Schema<WidthParams>& WidthParams::schema() {
   static const Schema<WidthParams> table = [] {
     Schema<WidthParams> s("width", "Sets the thickness of strands from root to tip.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - width: {root: 0.06, tip: 0.004, profile: 2})");
+    s.set_picture("Left: thin strands. Right: thick roots and thin tips.");
     s.key("root", &WidthParams::root, {.unit = "scene units", .help = "Diameter at the root", .min = 0});
     s.key("tip", &WidthParams::tip, {.unit = "scene units", .help = "Diameter at the tip", .min = 0});
     s.key("profile", &WidthParams::profile,
-          {.help =
-               "Power by which the root's width goes over into the tip's: 1 a cone, above 1 keeps the root's "
-               "width longer",
+          {.help = "Exponent of the taper from root to tip: 1 is a cone, larger values keep the root's width "
+                   "longer",
            .min = 0.1,
            .max = 10});
     s.key("variation", &WidthParams::variation,
-          {.help = "Part of its width that the thinnest strand lacks", .min = 0, .max = 1});
+          {.help = "Random thinning: 0.4 gives 60 to 100 % of the width", .min = 0, .max = 1});
     return s;
   }();
   return table;

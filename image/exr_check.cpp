@@ -88,12 +88,12 @@ class HeaderWalk {
   }
 
   [[noreturn]] void fail_length(const std::string& attribute) const {
-    fail("attribute " + quote(attribute) + " is not as long as it claims");
+    fail("attribute " + quote(attribute) + " is shorter than it claims");
   }
 
   void bytes(void* to, int64_t count) {
     stream_.read(static_cast<char*>(to), count);
-    if (stream_.gcount() != count) fail("ends within its header");
+    if (stream_.gcount() != count) fail("ends inside its header");
   }
   uint32_t number() {
     unsigned char b[4];
@@ -104,7 +104,7 @@ class HeaderWalk {
   std::string name() {
     std::string text;
     for (char c = 0; bytes(&c, 1), c != '\0'; text += c) {
-      if (text.size() >= longest_name_) fail("has a name in its header that does not end");
+      if (text.size() >= longest_name_) fail("has an unterminated name in its header");
     }
     return text;
   }
@@ -120,7 +120,7 @@ class HeaderWalk {
       const int64_t begin = stream_.tellg();
       if (length < 0 || length > size_ - begin) {
         fail("attribute " + quote(attribute) + " claims " + std::to_string(length) +
-             " bytes, more than there are");
+             " bytes, more than the file has");
       }
       for (const TypeBytes& known : kTypeBytes) {
         if (type == known.type && length != known.bytes) fail_length(attribute);

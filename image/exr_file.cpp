@@ -96,7 +96,7 @@ void check_names(const std::vector<ExrChannelInfo>& channels) {
     const char* why = name.empty()                           ? "has no name"
                       : name.size() > kLongestExrName        ? "has a name of more than 255 bytes"
                       : name.find('\0') != std::string::npos ? "has a zero byte in its name"
-                      : !names.insert(name).second           ? "is there twice"
+                      : !names.insert(name).second           ? "occurs twice"
                                                              : nullptr;
     if (why) throw std::runtime_error("channel '" + std::string(name.c_str()) + "' " + why);
   }

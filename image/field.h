@@ -96,6 +96,7 @@ struct ValueReader<Field> {
     for (const AssetPath& map : field.maps()) maps.push_back({map.path, map.position});
   }
   static std::vector<const SchemaInfo*> blocks();
+  static void visit_blocks(Value& value, const BlockVisitor& visit);
 };
 
 /// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives

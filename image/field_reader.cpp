@@ -52,7 +52,14 @@ namespace {
 const Schema<RampForm>& RampForm::schema() {
   static const Schema<RampForm> table = [] {
     Schema<RampForm> s("ramp field", "A value that changes along a strand or over the skin.");
-    s.key("ramp", &RampForm::ramp, {.help = "Where and what", .required = true});
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length: {value: {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}})");
+    s.set_picture("Left: constant length. Right: length that grows along x.");
+    s.key("ramp", &RampForm::ramp, {.help = "Axis and knots", .required = true});
     return s;
   }();
   return table;
@@ -60,8 +67,15 @@ const Schema<RampForm>& RampForm::schema() {
 
 const Schema<NoiseForm>& NoiseForm::schema() {
   static const Schema<NoiseForm> table = [] {
-    Schema<NoiseForm> s("noise field", "A value that wanders smoothly over the skin.");
-    s.key("noise", &NoiseForm::noise, {.help = "How fast and how far", .required = true});
+    Schema<NoiseForm> s("noise field", "A value that varies smoothly and randomly over the skin.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length: {value: {noise: {frequency: 1, amplitude: 1.2, offset: 0.5}}})");
+    s.set_picture("Left: constant length. Right: length from noise over the skin.");
+    s.key("noise", &NoiseForm::noise, {.help = "Frequency and amplitude", .required = true});
     return s;
   }();
   return table;
@@ -69,7 +83,17 @@ const Schema<NoiseForm>& NoiseForm::schema() {
 
 const Schema<AttributeForm>& AttributeForm::schema() {
   static const Schema<AttributeForm> table = [] {
-    Schema<AttributeForm> s("attribute field", "A value that strands carry.");
+    Schema<AttributeForm> s("attribute field",
+                            "The value of a strand attribute, such as `color`, `random` (one random number "
+                            "per strand) or `clump` (one per clump).");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - clump: {spacing: 0.5, amount: 0.8}
+      - color: {value: {attribute: clump}}   # one grey per clump)");
+    s.set_picture("Left: one colour. Right: colour from the attribute `clump`, one grey per clump.");
     s.key("attribute", &AttributeForm::attribute, {.help = "Name of the attribute", .required = true});
     return s;
   }();
@@ -79,7 +103,18 @@ const Schema<AttributeForm>& AttributeForm::schema() {
 const Schema<ProductForm>& ProductForm::schema() {
   static const Schema<ProductForm> table = [] {
     Schema<ProductForm> s("product field", "The product of several fields.");
-    s.key("product", &ProductForm::product, {.help = "The factors", .required = true});
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length:
+          value:
+            product:
+              - {ramp: {along: x, knots: [[-1.5, 0.15], [1.5, 1]]}}
+              - {noise: {frequency: 1.2, amplitude: 1.6, offset: 0.6}})");
+    s.set_picture("Left: a ramp along x. Right: the same ramp multiplied by noise.");
+    s.key("product", &ProductForm::product, {.help = "Fields to multiply", .required = true});
     return s;
   }();
   return table;
@@ -202,14 +237,21 @@ bool read_form(const Value& value, const KeyOptions& options, Field& out, Proble
 
 const Schema<MapForm>& MapForm::schema() {
   static const Schema<MapForm> table = [] {
-    Schema<MapForm> s("map field", "A value read from an image by the texture coordinates of the root.");
+    Schema<MapForm> s("map field",
+                      "A value from an image, looked up by the texture coordinates of the root.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length: {value: {map: length.png, channel: r, range: [0.1, 1]}})");
+    s.set_picture("Left: constant length. Right: length from an image, short where it is dark.");
     s.key("map", &MapForm::map, {.help = "Image file of any common format", .required = true});
-    s.key("channel", &MapForm::channel,
-          {.help = "One channel, taken as data; without it the map is a colour"});
-    s.key("range", &MapForm::range, {.help = "What stored 0 and 1 stand for"});
+    s.key("channel", &MapForm::channel, {.help = "Channel to read as data. Without it the map is a colour"});
+    s.key("range", &MapForm::range, {.help = "Values that stored 0 and 1 map to"});
     s.key("space", &MapForm::space,
-          {.help = "How stored values become linear; auto: integer formats are sRGB, unless a channel is "
-                   "given, and floating-point formats linear"});
+          {.help = "Colour space of stored values. `auto`: integer formats are sRGB, unless a channel is "
+                   "given; floating-point formats are linear"});
     return s;
   }();
   return table;
@@ -217,15 +259,20 @@ const Schema<MapForm>& MapForm::schema() {
 
 const Schema<Ramp>& Ramp::schema() {
   static const Schema<Ramp> table = [] {
-    Schema<Ramp> s("ramp of a field", "Piecewise linear between knots, constant outside them.");
-    s.key(
-        "along", &Ramp::along,
-        {.help = "strand: 0 at the root, 1 at the tip; x, y, z: the root in the skin's rest space; u, v: its "
-                 "texture coordinates"});
+    Schema<Ramp> s("ramp of a field", "A piecewise linear curve through knots, constant outside them.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - color:
+          value: {ramp: {along: strand, knots: [[0, [0.08, 0.05, 0.03]], [1, [0.9, 0.6, 0.3]]]}})");
+    s.key("along", &Ramp::along,
+          {.help = "Axis of the curve. `strand`: 0 at the root, 1 at the tip; `x`, `y`, `z`: position of the "
+                   "root in the skin's rest space; `u`, `v`: texture coordinates of the root"});
     s.key("knots", &Ramp::knots,
-          {.help =
-               "[position, value] in rising order, values being numbers or colours; two at one position make "
-               "a step",
+          {.help = "Knots [position, value] by increasing position. A value is a number or a colour. Two "
+                   "knots at one position make a step",
            .required = true});
     return s;
   }();
@@ -235,12 +282,18 @@ const Schema<Ramp>& Ramp::schema() {
 const Schema<Noise>& Noise::schema() {
   static const Schema<Noise> table = [] {
     Schema<Noise> s("noise of a field",
-                    "offset + amplitude * gradient noise in [-1, 1] of the root's rest position.");
+                    "offset + amplitude * gradient noise in [-1, 1] at the rest position of the root.");
+    s.set_example(R"(grooms:
+  coat:
+    skin: patch
+    strands: 20000
+    operators:
+      - length: {value: {noise: {frequency: 1, amplitude: 1.2, offset: 0.5, seed: 7}}})");
     s.key("frequency", &Noise::frequency,
-          {.unit = "per scene unit", .help = "Cells of the noise per unit", .min = 0});
-    s.key("amplitude", &Noise::amplitude, {.help = "Farthest from the offset"});
-    s.key("offset", &Noise::offset, {.help = "Value in the middle"});
-    s.key("seed", &Noise::seed, {.help = "Another noise for another number", .min = 0});
+          {.unit = "per scene unit", .help = "Noise cells per scene unit", .min = 0});
+    s.key("amplitude", &Noise::amplitude, {.help = "Maximum deviation from the offset"});
+    s.key("offset", &Noise::offset, {.help = "Mean value"});
+    s.key("seed", &Noise::seed, {.help = "Seed of the noise", .min = 0});
     return s;
   }();
   return table;
@@ -279,6 +332,13 @@ bool ValueReader<Field>::read(const Value& value, const KeyOptions& options, Fie
 std::vector<const SchemaInfo*> ValueReader<Field>::blocks() {
   return {&MapForm::schema(), &RampForm::schema(), &NoiseForm::schema(), &AttributeForm::schema(),
           &ProductForm::schema()};
+}
+
+void ValueReader<Field>::visit_blocks(Value& value, const BlockVisitor& visit) {
+  const std::vector<const SchemaInfo*> tables = blocks();
+  for (size_t i = 0; i < tables.size(); ++i) {
+    if (value.find(kForms[i].key)) visit(value, *tables[i]);
+  }
 }
 
 }  // namespace pelage

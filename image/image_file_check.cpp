@@ -25,7 +25,7 @@ void check_image_file(const AssetPath& asset) {
   if (stream.gcount() == 0) fail_image(asset, stream.bad() || !stream.eof() ? "cannot be read" : "is empty");
   if (beginning.starts_with("version https://git-lfs"))
     fail_image(asset, "is a git-lfs pointer, not the image itself");
-  if (is_cut_short(stream)) fail_image(asset, "is cut short");
+  if (is_cut_short(stream)) fail_image(asset, "is truncated");
   if (beginning.starts_with("v/1\x01")) {
     try {
       check_exr_headers(asset.path);

@@ -44,7 +44,7 @@ ImageReader::ImageReader() : module_("pelage_image_reader") {
   decltype(&pelage_image_reader_version) version = nullptr;
   find(version, "pelage_image_reader_version");
   if (version() != PELAGE_IMAGE_READER_VERSION) {
-    throw Error(ErrorKind::kFailed, "module pelage_image_reader is of another version of Pelage");
+    throw Error(ErrorKind::kFailed, "module pelage_image_reader belongs to another version of Pelage");
   }
   find(read_, "pelage_read_image");
 }
@@ -73,7 +73,7 @@ class TileCache::Store final : public TexelStore {
   void read(int x, int y, int width, int height, std::byte* to) const override {
     if (cache_->read_(image_, x, y, width, height, to) != 0) {
       throw Error(ErrorKind::kFailed,
-                  name_ + ": its temporary file of tiles cannot be read back (TMPDIR names its folder)");
+                  name_ + ": its temporary tile file cannot be read back (TMPDIR names the folder)");
     }
   }
 
@@ -91,7 +91,7 @@ TileCache::TileCache(const ImageReader& reader, int64_t bytes) {
   reader.find(add_, "pelage_tile_cache_add");
   reader.find(read_, "pelage_tile_cache_read");
   cache_ = create(bytes);
-  if (!cache_) throw Error(ErrorKind::kFailed, "cannot make a cache of texture tiles");
+  if (!cache_) throw Error(ErrorKind::kFailed, "cannot create a cache of texture tiles");
 }
 
 // The module stays loaded (it is linked with nodelete), so that stores may outlive the reader.
@@ -103,7 +103,7 @@ std::unique_ptr<TexelStore> TileCache::store(std::string name, const TexelLayout
   const PelageTiles border{tiles->descriptor(), layout.width, layout.height, kTileSide,
                            static_cast<int>(layout.texel_bytes())};
   PelageTileImage* image = add_(cache_, &border);
-  if (!image) throw Error(ErrorKind::kFailed, name + ": cannot be put into the cache of texture tiles");
+  if (!image) throw Error(ErrorKind::kFailed, name + ": cannot be added to the cache of texture tiles");
   return std::make_unique<Store>(shared_from_this(), std::move(name), layout, std::move(ranges),
                                  std::move(tiles), image);
 }

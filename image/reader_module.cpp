@@ -59,11 +59,11 @@ class Source {
   PelageImageInfo info() const {
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
-      throw std::runtime_error("is not a picture");
+      throw std::runtime_error("is not an image");
     }
     if (spec.width > kLargestSide || spec.height > kLargestSide) {
       throw std::runtime_error("claims to have " + std::to_string(spec.width) + " x " +
-                               std::to_string(spec.height) + " pixels, at most 65536 a side are accepted");
+                               std::to_string(spec.height) + " pixels; the limit is 65536 per side");
     }
     PelageImageInfo info{};
     info.width = spec.width;

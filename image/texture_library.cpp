@@ -105,7 +105,7 @@ class TextureLibrary::TextureSink final : public ImageSink {
     const int64_t limit = ledger.limit();
     const bool in_share = limit == 0 || library_.in_memory_ + bytes <= limit / kInMemoryShare;
     const std::string size =
-        fmt::format("{}: {} x {} texels", asset_.path.string(), layout.width, layout.height);
+        fmt::format("the map {} ({} x {} texels)", asset_.path.string(), layout.width, layout.height);
     if (in_share && has_room(ledger, bytes + working)) {
       stored_.charge = reserve(library_.ledger_, MemoryTag::kTextures, bytes, size);
       texels_.reserve(std::min(layout.bytes(), kReservedAtOnce));
@@ -114,7 +114,7 @@ class TextureLibrary::TextureSink final : public ImageSink {
       tiles_ = std::make_unique<TileFile>(layout);
       working += static_cast<int64_t>(TileFile::buffer_bytes(layout));
     }
-    working_ = reserve(library_.ledger_, MemoryTag::kTextures, working, size + ", to read them");
+    working_ = reserve(library_.ledger_, MemoryTag::kTextures, working, "reading " + size);
     is_shown_ = library_.progress_ && bytes >= kLargeImage;
     if (is_shown_) {
       library_.progress_->begin("read " + asset_.path.filename().string(), layout.height);
@@ -127,7 +127,7 @@ class TextureLibrary::TextureSink final : public ImageSink {
     const auto width = static_cast<size_t>(layout.width);
     const size_t texels = static_cast<size_t>(count) * width;
     if (const size_t pixel = scan(rows, texels, layout, ranges_); pixel < texels) {
-      fail_image(asset_, fmt::format("holds a value that is not finite at pixel {}, {}", pixel % width,
+      fail_image(asset_, fmt::format("contains a non-finite value at pixel {}, {}", pixel % width,
                                      static_cast<size_t>(rows_) + pixel / width));
     }
     if (tiles_) {
@@ -144,7 +144,7 @@ class TextureLibrary::TextureSink final : public ImageSink {
   }
 
   Stored finish() {
-    if (rows_ != header_.layout.height) fail_image(asset_, "is cut short");
+    if (rows_ != header_.layout.height) fail_image(asset_, "is truncated");
     stored_.is_integer = header_.is_integer;
     if (tiles_) {
       stored_.texels = cache_->store(asset_.path.string(), header_.layout, ranges_, std::move(tiles_));
@@ -210,7 +210,7 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
     std::ifstream stream(asset.path, std::ios::binary);
     const MemoryCharge whole =
         reserve(ledger_, MemoryTag::kTextures, interlaced_bytes(stream),
-                asset.path.string() + ": is progressive or interlaced, and decoded as a whole");
+                asset.path.string() + ": is progressive or interlaced, so it is decoded as a whole");
     const std::string damage = reader().read(asset.path, intake);
     if (!damage.empty()) fail_image(asset, damage);
     return stored_.emplace(path, intake.finish()).first->second;

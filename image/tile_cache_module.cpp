@@ -59,7 +59,7 @@ class TileInput final : public OIIO::ImageInput {
       const ssize_t got = ::pread(descriptor_, to, static_cast<size_t>(left), at);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
-        errorfmt("cannot be read: {}", got < 0 ? std::strerror(errno) : "is cut short");
+        errorfmt("cannot be read: {}", got < 0 ? std::strerror(errno) : "is truncated");
         return false;
       }
       left -= got;

@@ -21,7 +21,8 @@ std::filesystem::path folder() {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::temp_directory_path(error);
   if (error) {
-    throw Error(ErrorKind::kFailed, "there is no folder for temporary files (TMPDIR): " + error.message());
+    throw Error(ErrorKind::kFailed,
+                "the folder for temporary files does not exist (set TMPDIR): " + error.message());
   }
   return path;
 }

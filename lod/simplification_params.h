@@ -24,40 +24,45 @@ void add_simplification_keys(Schema<P>& s) {
     s.key(name, static_cast<T P::*>(member), std::move(options));
   };
   key("quality", &Base::quality,
-      {.help = "Strands are kept as in a picture of this many times the resolution: 2 keeps about twice as "
-               "many",
+      {.help =
+           "Keeps the strands that a picture of this many times the resolution needs: 2 keeps about twice "
+           "as many strands",
        .min = 0.01,
        .max = 100});
-  key("size", &Base::size, {.help = "Strands that look thinner than a pixel are thinned out"});
-  key("motion_blur", &Base::motion_blur, {.help = "More so where they move across the picture"});
-  key("depth_of_field", &Base::depth_of_field, {.help = "More so where they are out of focus"});
-  key("turned_away", &Base::back_facing,
-      {.help =
-           "And where the skin is turned away from the camera, down to a fifth: there they are seen past the "
-           "edge of the animal at most, and in shadows"});
+  key("size", &Base::size, {.help = "Thins out strands that are narrower than a pixel"});
+  key("motion_blur", &Base::motion_blur, {.help = "Thins out strands further where motion blurs them"});
+  key("depth_of_field", &Base::depth_of_field,
+      {.help = "Thins out strands further where they are out of focus"});
+  key("backfacing", &Base::back_facing,
+      {.help = "Thins out strands further, down to a fifth, where the skin faces away from the camera. Such "
+               "strands are visible only past the silhouette and in shadows",
+       .old_names = {"turned_away"}});
   key("width_gain", &Base::width_gain,
-      {.help = "Those that stay become wider, so that the coat covers as much as before; false only to "
-               "measure what that is worth"});
+      {.help = "Widens the remaining strands so that the coat keeps its coverage. Set it to false only to "
+               "measure its effect"});
   key("contrast", &Base::contrast,
-      {.help = "Colours that vary from strand to strand (`variation` of the operator color) vary less among "
-               "fewer strands, so that the coat does not become more speckled"});
+      {.help = "Reduces the colour variation between strands (`variation` of the operator color) where fewer "
+               "strands remain, so that the coat does not become more speckled"});
   key("fewer_points", &Base::fewer_points,
-      {.help = "Strands get fewer control points where that moves them by less than a tenth of a pixel"});
+      {.help = "Removes control points of a strand where this moves it by less than a tenth of a pixel"});
   key("guard", &Base::guard,
-      {.help = "How many strands of grooms of the role guard are kept, relative to what their size asks for; "
-               "below "
-               "1 they are thinned out sooner, but no wider than a pixel",
+      {.help = "Factor on the number of strands that grooms of role guard keep. Below 1 they are thinned out "
+               "sooner, but never become wider than a pixel",
        .min = 0.01,
        .max = 1000});
-  key("under", &Base::under, {.help = "The same for the role under", .min = 0.01, .max = 1000});
-  key("whisker", &Base::whisker, {.help = "The same for the role whisker", .min = 0.01, .max = 1000});
+  key("under", &Base::under, {.help = "The same factor for role under", .min = 0.01, .max = 1000});
+  key("whisker", &Base::whisker, {.help = "The same factor for role whisker", .min = 0.01, .max = 1000});
   key("blur_strength", &Base::blur_strength,
-      {.help = "1 thins blurred coats until as many strands contribute to a pixel as without blur, 0 not at "
-               "all",
+      {.help =
+           "How strongly blur thins out a coat. 1: as many strands contribute to a pixel as without blur; "
+           "0: blur removes no strands",
        .min = 0,
        .max = 1});
-  key("least_share", &Base::min_share,
-      {.help = "Part of the strands that is always kept", .min = 1e-4, .max = 1});
+  key("min_fraction", &Base::min_share,
+      {.help = "Minimum fraction of the strands that is always kept",
+       .min = 1e-4,
+       .max = 1,
+       .old_names = {"least_share"}});
 }
 
 }  // namespace pelage

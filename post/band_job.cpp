@@ -21,7 +21,7 @@ constexpr int64_t kMebibyte = int64_t{1} << 20;
 [[noreturn]] void fail_memory(const std::filesystem::path& path, const char* needs, int64_t needed,
                               int64_t budget) {
   throw Error(ErrorKind::kMemory, {path.string(), 0, 0},
-              fmt::format("needs {} {} MiB of memory, the budget is {:.6g} MiB", needs,
+              fmt::format("needs {} {} MiB of memory, but the budget is {:.6g} MiB", needs,
                           needed / kMebibyte + 1, static_cast<double>(budget) / kMebibyte));
 }
 
@@ -50,7 +50,7 @@ void report_vectors(const VectorSurvey& survey, const ViewImage& image, const Ve
                     const std::string& flag, const std::string& where, PostReport& report) {
   if (survey.not_finite() > 0) {
     report.notes.push_back(
-        fmt::format("{} vectors{} are not finite and count as none", survey.not_finite(), where));
+        fmt::format("{} vectors{} are not finite and are treated as zero", survey.not_finite(), where));
   }
   const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
   const bool is_ours = part.attributes.contains("pelage:version");

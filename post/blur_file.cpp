@@ -40,10 +40,10 @@ void check_sharp(const ExrPart& part, PostReport& report) {
   const auto found = part.attributes.find("pelage:shutter");
   const V2f* shutter = found == part.attributes.end() ? nullptr : std::get_if<V2f>(&found->second);
   if (part.attributes.contains("pelage:motionBlur")) {
-    report.warnings.push_back("the picture is blurred already: it was written by pelage motionblur");
+    report.warnings.push_back("the picture is already blurred: pelage motionblur wrote it");
   } else if (shutter && shutter->y > shutter->x) {
     report.warnings.push_back(
-        fmt::format("the picture is blurred already: it was rendered with the shutter open from {:.3g} to "
+        fmt::format("the picture is already blurred: it was rendered with the shutter open from {:.3g} to "
                     "{:.3g} frames; render it with camera.shutter: [0, 0]",
                     static_cast<double>(shutter->x), static_cast<double>(shutter->y)));
   }
@@ -59,7 +59,7 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
   const bool without_depth = params.file.layers.depth == "none";
   if (!layers.depth() && !without_depth) {
     fail_missing(image, layer_label("depth", params.file.layers.depth) + of_view(view),
-                 "name a layer with --depth-layer, or 'none' to go without");
+                 "name a layer with --depth-layer, or 'none' to blur without depth");
   }
   check_field_memory(image, held, params.file.memory);
   std::vector<uint8_t> edges;

@@ -58,8 +58,8 @@ void check(const pelage_post_image* image, const pelage_post_options& options) {
   require(image->channel_count == 0 || image->channels != nullptr, "image: channels are missing");
   for (size_t i = 0; i < image->channel_count; ++i) {
     const pelage_post_channel& c = image->channels[i];
-    require(c.source.words && c.target, "a channel has no source or no target");
-    require(c.role >= PELAGE_POST_COLOR && c.role <= PELAGE_POST_DEPTH, "a channel has no known role");
+    require(c.source.words && c.target, "a channel lacks a source or a target");
+    require(c.role >= PELAGE_POST_COLOR && c.role <= PELAGE_POST_DEPTH, "a channel has an unknown role");
   }
 }
 

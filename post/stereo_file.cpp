@@ -55,8 +55,7 @@ StereoCamera pick_camera(const ViewImage& image, const StereoFileParams& params)
     camera.focal_pixels = *focal;
   } else {
     refuse(image.reader(),
-           "says nothing about its camera (worldToCamera, worldToNDC); give --fov, --focal-pixels or "
-           "--parallax-layer");
+           "contains no camera (worldToCamera, worldToNDC); give --fov, --focal-pixels or --parallax-layer");
   }
   if (params.eye_separation) {
     camera.eye_separation = *params.eye_separation;
@@ -64,7 +63,7 @@ StereoCamera pick_camera(const ViewImage& image, const StereoFileParams& params)
     const auto unit = part.attributes.find("pelage:metersPerUnit");
     const float* metres = unit == part.attributes.end() ? nullptr : std::get_if<float>(&unit->second);
     if (!metres || !(*metres > 0))
-      refuse(image.reader(), "does not say how long a unit is; give --eye-separation");
+      refuse(image.reader(), "does not give the length of a unit; give --eye-separation");
     camera.eye_separation = kEyeSeparationMetres / *metres;
   }
   if (params.to_left) camera.eye_separation = -camera.eye_separation;
@@ -123,7 +122,7 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
     header.attributes["pelage:stereo"] =
         camera.focal_pixels > 0 ? fmt::format("focal length {} pixels, eye separation {}, convergence {}",
                                               camera.focal_pixels, camera.eye_separation, camera.convergence)
-                                : "parallax of a layer";
+                                : "parallax from a layer";
     job.parts.push_back(std::move(out));
   }
 }
@@ -230,7 +229,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
     stereo.missing = bands.extra_plane(1);
     stereo_rows(stereo, layers, strip_rows, job.workers, job.progress);
   };
-  job.progress.begin("other eye", height);
+  job.progress.begin("second eye", height);
   bands.run(output, job, report);
   job.progress.end();
   return report;

@@ -31,16 +31,16 @@ void VectorSurvey::add(float u, float v, Flow pixels) {
 std::string VectorSurvey::long_vector_warning(const VectorParams& params, const std::string& flag) const {
   if (2 * too_long_ <= moving_) {
     return fmt::format(
-        "{} of {} vectors are longer than {:.0f} pixels, beyond the picture: they look damaged", too_long_,
-        moving_, static_cast<double>(limit_));
+        "{} of {} vectors are longer than {:.0f} pixels, the size of the picture; they look damaged",
+        too_long_, moving_, static_cast<double>(limit_));
   }
   const std::string found = fmt::format("most vectors are longer than {:.0f} pixels (the longest: {:.4g}): ",
                                         static_cast<double>(limit_), static_cast<double>(longest_));
-  if (params.is_ndc) return found + "they look like pixels; leave out " + flag + "-units ndc";
+  if (params.is_ndc) return found + "they look like pixels; omit " + flag + "-units ndc";
   if (longest_ <= std::abs(params.scale) * limit_) return found + "check " + flag + "-scale";
   if (longest_ <= kFramesPerSecond * limit_) {
     return found +
-           fmt::format("they look like pixels per second; at {:.0f} frames a second use {}-scale {:.4f}",
+           fmt::format("they look like pixels per second; at {:.0f} frames per second use {}-scale {:.4f}",
                        static_cast<double>(kFramesPerSecond), flag,
                        static_cast<double>(params.scale / kFramesPerSecond));
   }

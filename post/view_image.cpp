@@ -36,7 +36,7 @@ ViewImage::ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channel
   const int64_t max = FlowField::kLargestSide;
   if (width > max || height > max) {
     throw Error(ErrorKind::kInput, {reader.path().string(), 0, 0},
-                fmt::format("its pixels span {} x {}; at most {} a side are supported", width, height, max));
+                fmt::format("its pixels span {} x {}; the limit is {} per side", width, height, max));
   }
 }
 

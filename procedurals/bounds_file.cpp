@@ -83,7 +83,8 @@ std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span,
   if (!file) return {};
   std::vector<ChunkBounds> bounds = unpack(*file, record.count, keys);
   if (bounds.empty()) {
-    warn(record.store->file(kKind, key).string() + ": these boxes cannot be right; they are measured again");
+    warn(record.store->file(kKind, key).string() +
+         ": the stored boxes cannot be right; they are measured again");
   }
   return bounds;
 }

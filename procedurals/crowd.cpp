@@ -71,7 +71,7 @@ std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePositio
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles) {
   const MemoryCharge making =
       reserve(job.ledger, MemoryTag::kSkins, crowd_temporary_bytes(params, footprints, obstacles.size()),
-              fmt::format("crowd '{}': placing {} animals", name, params.count));
+              fmt::format("placing {} animals of crowd '{}'", params.count, name));
   constexpr float to_radians = std::numbers::pi_v<float> / 180;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed),
                                content_hash(std::as_bytes(std::span(name.data(), name.size()))).low);

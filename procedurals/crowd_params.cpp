@@ -12,11 +12,20 @@ constexpr double kMaxVariation = 0.95;
 
 const Schema<CrowdHeadingParams>& CrowdHeadingParams::schema() {
   static const Schema<CrowdHeadingParams> table = [] {
-    Schema<CrowdHeadingParams> s("heading", "Which way the animals of a crowd look.");
+    Schema<CrowdHeadingParams> s("heading", "The direction in which the animals of a crowd look.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, radius: 80}
+    heading: {value: 90, variation: 20})");
     s.key("value", &CrowdHeadingParams::value,
-          {.unit = "degrees", .help = "About y: 0 is the way the character looks by itself"});
+          {.unit = "degrees", .help = "Rotation about y; 0 keeps the direction of the character"});
     s.key("variation", &CrowdHeadingParams::variation,
-          {.unit = "degrees", .help = "Farthest to either side; 180 is any way", .min = 0, .max = 180});
+          {.unit = "degrees",
+           .help = "Maximum random rotation to either side; 180 gives any direction",
+           .min = 0,
+           .max = 180});
     return s;
   }();
   return table;
@@ -24,10 +33,19 @@ const Schema<CrowdHeadingParams>& CrowdHeadingParams::schema() {
 
 const Schema<CrowdPhaseParams>& CrowdPhaseParams::schema() {
   static const Schema<CrowdPhaseParams> table = [] {
-    Schema<CrowdPhaseParams> s("phase", "What is added to the frame to choose each animal's pose.");
-    s.key("value", &CrowdPhaseParams::value, {.unit = "frames", .help = "Of all; may be a fraction"});
+    Schema<CrowdPhaseParams> s("phase", "Frames added to the current frame to choose each animal's pose.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, radius: 80}
+    phase: {variation: 6}   # half of a cycle of 12 frames)");
+    s.key("value", &CrowdPhaseParams::value,
+          {.unit = "frames", .help = "Offset of all animals; may be fractional"});
     s.key("variation", &CrowdPhaseParams::variation,
-          {.unit = "frames", .help = "Farthest to either side; half of a cycle is any pose of it", .min = 0});
+          {.unit = "frames",
+           .help = "Maximum random offset to either side; half a cycle gives any pose of the cycle",
+           .min = 0});
     return s;
   }();
   return table;
@@ -35,12 +53,22 @@ const Schema<CrowdPhaseParams>& CrowdPhaseParams::schema() {
 
 const Schema<CrowdScaleParams>& CrowdScaleParams::schema() {
   static const Schema<CrowdScaleParams> table = [] {
-    Schema<CrowdScaleParams> s("crowd scale", "How large the animals of a crowd are.");
-    s.key("value", &CrowdScaleParams::value, {.help = "Of all", .min = 0, .above_min = true});
+    Schema<CrowdScaleParams> s("crowd scale", "The size of the animals of a crowd.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, radius: 80}
+    scale: {variation: 0.1, axes: [0.05, 0.05, 0.05]})");
+    s.key("value", &CrowdScaleParams::value, {.help = "Scale of all animals", .min = 0, .above_min = true});
     s.key("variation", &CrowdScaleParams::variation,
-          {.help = "Most that one is larger or smaller, as a share", .min = 0, .max = kMaxVariation});
+          {.help = "Maximum random change of the scale: 0.2 gives 80 to 120 %",
+           .min = 0,
+           .max = kMaxVariation});
     s.key("axes", &CrowdScaleParams::axes,
-          {.help = "The same for width, height and length by themselves", .min = 0, .max = kMaxVariation});
+          {.help = "Maximum random changes of width, height and length, independently",
+           .min = 0,
+           .max = kMaxVariation});
     return s;
   }();
   return table;
@@ -48,11 +76,19 @@ const Schema<CrowdScaleParams>& CrowdScaleParams::schema() {
 
 const Schema<CrowdLengthParams>& CrowdLengthParams::schema() {
   static const Schema<CrowdLengthParams> table = [] {
-    Schema<CrowdLengthParams> s("hair length", "How long the hair of the animals of a crowd is.");
+    Schema<CrowdLengthParams> s("hair length", "The hair length of the animals of a crowd.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, radius: 80}
+    length: {variation: 0.2})");
     s.key("value", &CrowdLengthParams::value,
-          {.help = "Times what the groom makes", .min = 0, .above_min = true});
+          {.help = "Factor on the hair length of all animals", .min = 0, .above_min = true});
     s.key("variation", &CrowdLengthParams::variation,
-          {.help = "Most that one's is longer or shorter, as a share", .min = 0, .max = kMaxVariation});
+          {.help = "Maximum random change of the hair length: 0.2 gives 80 to 120 %",
+           .min = 0,
+           .max = kMaxVariation});
     return s;
   }();
   return table;
@@ -60,12 +96,18 @@ const Schema<CrowdLengthParams>& CrowdLengthParams::schema() {
 
 const Schema<CrowdColorParams>& CrowdColorParams::schema() {
   static const Schema<CrowdColorParams> table = [] {
-    Schema<CrowdColorParams> s("crowd color", "What the colours of hair and skins are multiplied by.");
-    s.key("value", &CrowdColorParams::value, {.help = "For all", .min = 0});
+    Schema<CrowdColorParams> s("crowd color", "Factors on the colours of hair and skins in a crowd.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, radius: 80}
+    color: {variation: 0.25, hue: 0.05})");
+    s.key("value", &CrowdColorParams::value, {.help = "Factor for all animals", .min = 0});
     s.key("variation", &CrowdColorParams::variation,
-          {.help = "Most that one is lighter or darker, as a share", .min = 0, .max = 1});
+          {.help = "Maximum random change of brightness: 0.2 gives 80 to 120 %", .min = 0, .max = 1});
     s.key("hue", &CrowdColorParams::hue,
-          {.help = "The same for red, green and blue by themselves", .min = 0, .max = 1});
+          {.help = "Maximum random changes of red, green and blue, independently", .min = 0, .max = 1});
     return s;
   }();
   return table;
@@ -75,26 +117,39 @@ const Schema<CrowdParams>& CrowdParams::schema() {
   static const Schema<CrowdParams> table = [] {
     Schema<CrowdParams> s(
         "crowd",
-        "Many animals from a few characters, each with a pose, size, hair length and colour of its own, "
-        "spread evenly over an area and pushed apart where they stand too close; crowds keep clear of those "
-        "that stand above them in the scene. Every number is a function of seed and name, not of the frame. "
-        "A character that a crowd is made of is not drawn by itself unless it says `drawn: true`.");
+        "Many animals from a few characters. Each has its own pose, size, hair length and colour. Pelage "
+        "spreads them evenly over an area and pushes animals apart that are too close; a crowd also keeps "
+        "clear of the crowds above it in the scene. Every random number depends on the seed and the name, "
+        "not on the frame. A character in `of` does not appear by itself, unless it has `drawn: true`.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: rectangle, size: [200, 120]}
+    spacing: 2
+    heading: {value: 0, variation: 40}
+    scale: {variation: 0.1})");
     s.key("of", &CrowdParams::of,
-          {.help = "Names of characters; each animal is one of them, by chance", .required = true});
+          {.help = "Names of characters; each animal is a random one of them", .required = true});
     s.key("count", &CrowdParams::count,
-          {.help = "How many animals; more than fit are an error", .required = true, .min = 1, .max = 1e6});
-    s.key("seed", &CrowdParams::seed, {.help = "Of all random numbers of the crowd"});
-    s.key("area", &CrowdParams::area, {.help = "Where their origins may be", .required = true});
+          {.help = "Number of animals. If they do not fit into the area, Pelage stops with an error",
+           .required = true,
+           .min = 1,
+           .max = 1e6});
+    s.key("seed", &CrowdParams::seed, {.help = "Seed of all random numbers of the crowd"});
+    s.key("area", &CrowdParams::area,
+          {.help = "Area that holds the origins of the animals", .required = true});
     s.key("spacing", &CrowdParams::spacing,
           {.unit = "scene units",
-           .help = "Least distance between two footprints; between origins where characters have none",
+           .help = "Minimum distance between footprints, or between origins if characters have no footprint",
            .min = 0});
-    s.key("heading", &CrowdParams::heading, {.help = "Which way they look", .default_text = "any way"});
+    s.key("heading", &CrowdParams::heading,
+          {.help = "Direction in which the animals look", .default_text = "any direction"});
     s.key("phase", &CrowdParams::phase,
-          {.help = "Which pose they show", .default_text = "that of the frame"});
-    s.key("scale", &CrowdParams::scale, {.help = "How large they are", .default_text = "1"});
-    s.key("length", &CrowdParams::length, {.help = "How long their hair is", .default_text = "1"});
-    s.key("color", &CrowdParams::color, {.help = "How they differ in colour", .default_text = "1"});
+          {.help = "Pose of each animal", .default_text = "the pose of the frame"});
+    s.key("scale", &CrowdParams::scale, {.help = "Size of the animals", .default_text = "1"});
+    s.key("length", &CrowdParams::length, {.help = "Hair length of the animals", .default_text = "1"});
+    s.key("color", &CrowdParams::color, {.help = "Colour of the animals", .default_text = "1"});
     return s;
   }();
   return table;

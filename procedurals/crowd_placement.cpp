@@ -288,7 +288,7 @@ void require_space(const GroundArea& area, const CrowdRules& rules) {
   const double max = kDensest * room / (std::numbers::pi * disc * disc);
   if (static_cast<double>(rules.footprints.size()) <= max + 1) return;
   throw Error(ErrorKind::kInput,
-              fmt::format("{} do not fit into its area: there is room for less than {:.0f} at this spacing",
+              fmt::format("{} do not fit into its area: at this spacing it holds fewer than {:.0f}",
                           rules.footprints.size(), max + 1));
 }
 
@@ -342,8 +342,8 @@ std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& ru
   }
   if (contacts > 0) {
     throw Error(ErrorKind::kInput,
-                fmt::format("{} do not fit into its area: pushed about for long, {} pairs are still closer "
-                            "than {}; make the area larger, or count, spacing or footprint smaller",
+                fmt::format("{} do not fit into its area: after the maximum number of steps, {} pairs are "
+                            "still closer than {}; enlarge the area, or reduce count, spacing or footprint",
                             count, contacts, rules.spacing));
   }
   std::vector<CrowdPlace> places;

@@ -10,11 +10,17 @@ namespace pelage {
 
 const Schema<RectangleAreaParams>& RectangleAreaParams::schema() {
   static const Schema<RectangleAreaParams> table = [] {
-    Schema<RectangleAreaParams> s("rectangle area", "Level ground between four corners.");
-    s.key("center", &RectangleAreaParams::center, {.unit = "scene units", .help = "Middle; y is the ground"});
+    Schema<RectangleAreaParams> s("rectangle area", "A level rectangle of ground.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: rectangle, size: [200, 120], rotate: 30})");
+    s.key("center", &RectangleAreaParams::center,
+          {.unit = "scene units", .help = "Centre; y is the height of the ground"});
     s.key("size", &RectangleAreaParams::size,
-          {.unit = "scene units", .help = "Along x and z", .min = 0, .above_min = true});
-    s.key("rotate", &RectangleAreaParams::rotate, {.unit = "degrees", .help = "About y"});
+          {.unit = "scene units", .help = "Size along x and z", .min = 0, .above_min = true});
+    s.key("rotate", &RectangleAreaParams::rotate, {.unit = "degrees", .help = "Rotation about y"});
     return s;
   }();
   return table;
@@ -22,10 +28,16 @@ const Schema<RectangleAreaParams>& RectangleAreaParams::schema() {
 
 const Schema<DiscAreaParams>& DiscAreaParams::schema() {
   static const Schema<DiscAreaParams> table = [] {
-    Schema<DiscAreaParams> s("disc area", "Level ground around a point.");
-    s.key("center", &DiscAreaParams::center, {.unit = "scene units", .help = "Middle; y is the ground"});
+    Schema<DiscAreaParams> s("disc area", "A level disc of ground.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: disc, center: [0, 0, -40], radius: 80})");
+    s.key("center", &DiscAreaParams::center,
+          {.unit = "scene units", .help = "Centre; y is the height of the ground"});
     s.key("radius", &DiscAreaParams::radius,
-          {.unit = "scene units", .help = "Of the disc", .min = 0, .above_min = true});
+          {.unit = "scene units", .help = "Radius of the disc", .min = 0, .above_min = true});
     return s;
   }();
   return table;
@@ -33,10 +45,15 @@ const Schema<DiscAreaParams>& DiscAreaParams::schema() {
 
 const Schema<PolygonAreaParams>& PolygonAreaParams::schema() {
   static const Schema<PolygonAreaParams> table = [] {
-    Schema<PolygonAreaParams> s("polygon area", "Level ground inside a border that does not cross itself.");
+    Schema<PolygonAreaParams> s("polygon area", "Level ground inside a polygon that does not cross itself.");
+    s.set_example(R"(crowds:
+  herd:
+    of: [rat]
+    count: 200
+    area: {type: polygon, points: [[-80, 0], [80, 0], [0, 120]]})");
     s.key("points", &PolygonAreaParams::points,
-          {.unit = "scene units", .help = "Corners [x, z] around it, at least three", .required = true});
-    s.key("height", &PolygonAreaParams::height, {.unit = "scene units", .help = "y of the ground"});
+          {.unit = "scene units", .help = "Corners [x, z] in order, at least three", .required = true});
+    s.key("height", &PolygonAreaParams::height, {.unit = "scene units", .help = "Height (y) of the ground"});
     return s;
   }();
   return table;

@@ -121,7 +121,7 @@ void MeasuredBounds::write(const BoundsGroup& group) {
       if (warned_) return;
       warned_ = true;
     }
-    warn_(line + "; no more is said of boxes that are not kept");
+    warn_(line + "; later boxes that cannot be stored cause no further warning");
   });
 }
 

@@ -39,7 +39,8 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& s
   const Stopwatch clock;
   const FilmLayers layers = film_layers(scene);
   job.ledger.set_limit(scene.render.memory.bytes);
-  require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers), "the film");
+  require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers),
+               "the frame buffer");
   FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
   const auto geometry = FrameGeometry::make(scene, job, statistics);
   result.partial = geometry == nullptr;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <system_error>
-#include <unordered_map>
 
 #include "base/file.h"
 #include "scene/overrides.h"
+#include "scene/renamed_keys.h"
 #include "scene/yaml_reader.h"
 
 namespace pelage {
@@ -14,37 +14,10 @@ namespace {
 
 constexpr const char* kIncludeKey = "include";
 
-void merge_into(Value& base, Value over);
-
-// Entries of `over` win; what only `base` has stays, in its place.
-void merge_maps(Value& base, Value& over) {
-  std::unordered_map<std::string, size_t> places;
-  for (size_t i = 0; i < base.entries().size(); ++i) places.emplace(base.entries()[i].key, i);
-  for (Value::Entry& entry : over.entries()) {
-    const auto place = places.find(entry.key);
-    if (place == places.end()) {
-      base.entries().push_back(std::move(entry));
-    } else {
-      Value::Entry& old = base.entries()[place->second];
-      old.key_position = entry.key_position;
-      merge_into(old.value, std::move(entry.value));
-    }
-  }
-  base.set_position(over.position());
-}
-
-void merge_into(Value& base, Value over) {
-  if (base.is_map() && over.is_map()) {
-    merge_maps(base, over);
-  } else {
-    base = std::move(over);
-  }
-}
-
 // Reads a file and what it includes, keeping track of what is being read (cycles) and has been read (limits).
 class Loader {
  public:
-  explicit Loader(Problems& problems) : problems_(problems) {}
+  Loader(Problems& problems, RenamedKeys* renamed) : problems_(problems), renamed_(renamed) {}
 
   Value load(const std::filesystem::path& path, const SourcePosition& named_at) {
     if (limits_.files <= 0) {
@@ -78,9 +51,12 @@ class Loader {
 
   Value parse(std::string text, const std::string& name) {
     std::optional<Value> root = read_yaml(std::move(text), name, {}, limits_, problems_);
-    if (root && root->is_map()) return with_includes(std::move(*root));
+    if (root && root->is_map()) {
+      if (renamed_) rename_old_keys(*root, BothNames::kRefuse, *renamed_, problems_);
+      return with_includes(std::move(*root));
+    }
     if (root && !root->is_null()) {
-      problems_.add(root->position(), "expected a scene, a block of keys, got " + root->describe());
+      problems_.add(root->position(), "expected a scene, which is a block of keys, got " + root->describe());
     }
     has_holes_ |= !root || !root->is_null();
     return Value::map({name, 1, 1}, {});
@@ -88,6 +64,7 @@ class Loader {
 
   void apply(const Override& override, Value& document) {
     apply_override(override, document, limits_, problems_);
+    if (renamed_) rename_old_keys(document, BothNames::kOldNameWins, *renamed_, problems_);
   }
 
   /// Whether some file could not be read, so that what seems to be missing may stand there.
@@ -122,6 +99,7 @@ class Loader {
   }
 
   Problems& problems_;
+  RenamedKeys* renamed_;
   DocumentLimits limits_;
   bool has_holes_ = false;
   std::vector<std::filesystem::path> reading_;
@@ -138,8 +116,8 @@ Override parse_override(const std::string& text) {
 }
 
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
-                                   Problems& problems) {
-  Loader loader(problems);
+                                   Problems& problems, RenamedKeys* renamed) {
+  Loader loader(problems, renamed);
   Value document = loader.load(path, {});
   if (loader.has_holes()) return std::nullopt;
   for (const Override& override : overrides) loader.apply(override, document);
@@ -155,7 +133,7 @@ Value load_document(const std::filesystem::path& path, const std::vector<Overrid
 
 Value parse_document(const std::string& text, const std::string& name) {
   Problems problems;
-  Loader loader(problems);
+  Loader loader(problems, nullptr);
   Value document = loader.parse(text, name);
   problems.throw_if_any();
   return document;

@@ -30,11 +30,19 @@ Override parse_override(const std::string& text);
 /// (kInput).
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
+/// The keys that had other names before. A document may use the old name; the loader puts the new one in its
+/// place, before the files are merged, so that the including file and the overrides win under either name. A
+/// file that gives a key under both names is a problem.
+struct RenamedKeys {
+  const SchemaInfo& root;              ///< table of the whole document
+  std::vector<Problem> warnings = {};  ///< one for every old name, with its place and the new name
+};
+
 /// The same for callers that go on to check the values and report all mistakes together: problems are added,
 /// not thrown, unless the scene file itself cannot be opened. Nothing is returned when some file could not be
 /// read or is not YAML: what such a document lacks means nothing.
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
-                                   Problems& problems);
+                                   Problems& problems, RenamedKeys* renamed = nullptr);
 
 /// The same from memory; `name` stands for the file in positions, includes are relative to the current
 /// folder.

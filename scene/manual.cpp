@@ -79,6 +79,29 @@ std::string wrap(const std::string& text, const std::string& indent) {
   return line.empty() ? result : result + indent + line + "\n";
 }
 
+// Every line of `text` behind `indent`.
+std::string indented(const std::string& text, const std::string& indent) {
+  std::string result;
+  for (size_t start = 0, end = 0; start < text.size(); start = end + 1) {
+    end = std::min(text.find('\n', start), text.size());
+    result += indent + text.substr(start, end - start) + "\n";
+  }
+  return result;
+}
+
+// "Formerly `a`." for a key that had another name.
+std::string former_names(const KeyInfo& key) {
+  std::string text;
+  for (const std::string& name : key.options.old_names)
+    text += (text.empty() ? "" : ", ") + ("`" + name + "`");
+  return text.empty() ? text : "Formerly " + text + ".";
+}
+
+std::string with_stop(std::string help) {
+  if (!help.empty() && help.back() != '.') help += '.';
+  return help;
+}
+
 std::string plain_section(const SchemaInfo& table) {
   size_t width = 0;
   for (const KeyInfo& key : table.keys()) width = std::max(width, key.name.size());
@@ -90,11 +113,14 @@ std::string plain_section(const SchemaInfo& table) {
     if (!shown.empty()) facts.push_back(key.options.required ? shown : "default " + shown);
     std::string entry = wrap(join(facts, ", "), indent);
     entry.replace(2, key.name.size(), key.name);
-    text += entry + wrap(key.options.help, indent);
+    const std::string former = former_names(key);
+    text += entry + wrap(former.empty() ? key.options.help : join({with_stop(key.options.help), former}, " "),
+                         indent);
     std::vector<std::string> sections;
     for (const SchemaInfo* block : key.blocks) sections.push_back(block->name());
     if (!sections.empty()) text += wrap("see " + join(sections, ", "), indent);
   }
+  if (!table.example().empty()) text += "\n  Example:\n" + indented(table.example(), "    ");
   return text;
 }
 
@@ -113,8 +139,17 @@ std::string anchor(std::string name) {
   return "#" + name;
 }
 
+// Where tools/manual_pictures puts the picture of a section.
+std::string picture_file(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return "images/manual/" + name + ".png";
+}
+
 std::string markdown_section(const SchemaInfo& table) {
   std::string text = "## " + table.name() + "\n\n" + table.help() + "\n\n";
+  if (!table.picture().empty())
+    text += "![" + table.picture() + "](" + picture_file(table.name()) + ")\n\n" + table.picture() + "\n\n";
+  if (!table.example().empty()) text += "```yaml\n" + table.example() + "\n```\n\n";
   if (table.keys().empty()) return text;
   text += "| key | type | default | range | unit | |\n|---|---|---|---|---|---|\n";
   for (const KeyInfo& key : table.keys()) {
@@ -123,11 +158,10 @@ std::string markdown_section(const SchemaInfo& table) {
       sections.push_back("[" + block->name() + "](" + anchor(block->name()) + ")");
     }
     const std::string see = sections.empty() ? "" : "See " + join(sections, ", ") + ".";
-    std::string help = key.options.help;
-    if (!help.empty() && help.back() != '.') help += '.';
     text += "| `" + key.name + "` | " + escape_cell(key.type) + " | " + escape_cell(default_of(key)) + " | " +
             escape_cell(range_text(key.options)) + " | " + escape_cell(key.options.unit) + " | " +
-            join({escape_cell(help), see}, " ") + " |\n";
+
+            join({escape_cell(with_stop(key.options.help)), former_names(key), see}, " ") + " |\n";
   }
   return text + "\n";
 }

@@ -38,7 +38,7 @@ Value* find_item(Value& list, const std::string& name, const SourcePosition& whe
   if (const auto [rest, error] = std::from_chars(name.data(), end, index);
       error == std::errc() && rest == end) {
     if (index < items.size()) return &items[index];
-    problems.add(where, "there is no item " + name + " in a list of " + std::to_string(items.size()) +
+    problems.add(where, "no item " + name + " in a list of " + std::to_string(items.size()) +
                             (items.empty() ? "" : " (the first is 0)"));
     return nullptr;
   }
@@ -53,9 +53,9 @@ Value* find_item(Value& list, const std::string& name, const SourcePosition& whe
   }
   if (found.size() == 1) return &items[found[0]].entries()[0].value;
   if (found.empty()) {
-    problems.add(where, "there is no item " + quote(name) + " in the list" + suggest(name, names));
+    problems.add(where, "no item " + quote(name) + " in the list" + suggest(name, names));
   } else {
-    std::string message = quote(name) + " means several items of the list; use an index:";
+    std::string message = quote(name) + " is the name of several items of the list; use an index:";
     for (const size_t i : found) message += " " + std::to_string(i);
     problems.add(where, std::move(message));
   }
@@ -76,13 +76,13 @@ Value* find_entry(Value& block, const std::string& name, bool leads_on, const So
                   Problems& problems) {
   if (block.is_null()) block = Value::map(where, {});
   if (!block.is_map()) {
-    problems.add(where, quote(name) + " is sought in " + block.describe() + ", which is no block");
+    problems.add(where, quote(name) + " is looked up in " + block.describe() + ", which is not a block");
     return nullptr;
   }
   if (Value* value = block.find(name)) return value;
   if (const std::string near = leads_on ? near_block(block, name) : ""; !near.empty()) {
-    problems.add(where, "there is no " + quote(name) + near + " (what is new must be given whole, as " +
-                            name + "={...})");
+    problems.add(where, "no block " + quote(name) + near + " (to add a new block, give it whole, as " + name +
+                            "={...})");
     return nullptr;
   }
   block.entries().push_back({name, where, Value()});

@@ -72,9 +72,9 @@ bool SourceText::check(Problems& problems) {
     const size_t length = sequence_length(rest);
     if (text_[i] == '[' || text_[i] == '{') ++brackets;
     if (text_[i] == ']' || text_[i] == '}') brackets = std::max(brackets - 1, 0);
-    const char* mistake = length == 0                  ? "this is not UTF-8 text"
-                          : is_forbidden_control(rest) ? "control characters may not stand in a scene"
-                          : brackets > kMaxBrackets    ? "too many brackets are open"
+    const char* mistake = length == 0                  ? "the file is not UTF-8 text"
+                          : is_forbidden_control(rest) ? "a scene must not contain control characters"
+                          : brackets > kMaxBrackets    ? "too many open brackets"
                                                        : nullptr;
     if (mistake) {
       problems.add(position_of_byte(i), mistake);

@@ -38,16 +38,17 @@ class ValueBuilder final : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (documents_++ == 0) return;
-    problems_.add(at(mark), "nothing may follow the end of the document");
+    problems_.add(at(mark), "text after the end of the document");
     throw Stop{};
   }
   void OnDocumentEnd() override {}
 
   void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
-    problems_.add(at(mark), "anchors are refused (" + quote("&" + name) + "); share values by 'include:'");
+    problems_.add(at(mark),
+                  "anchors are not supported (" + quote("&" + name) + "); share values with 'include:'");
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
-    problems_.add(at(mark), "aliases are refused; share values by 'include:'");
+    problems_.add(at(mark), "aliases are not supported; share values with 'include:'");
     Value nothing;
     nothing.set_position(at(mark));
     place(std::move(nothing));
@@ -92,7 +93,7 @@ class ValueBuilder final : public YAML::EventHandler {
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    problems_.add(at(mark), "tags are refused (" + quote(tag) + ")");
+    problems_.add(at(mark), "tags are not supported (" + quote(tag) + ")");
   }
 
   // yaml-cpp takes the end of the file for a closing quote.
@@ -109,7 +110,7 @@ class ValueBuilder final : public YAML::EventHandler {
         ++i;
       }
     }
-    problems_.add(at(mark), "the quoted text does not end");
+    problems_.add(at(mark), "unterminated quoted text");
     throw Stop{};
   }
 
@@ -144,7 +145,7 @@ class ValueBuilder final : public YAML::EventHandler {
 
   void place(Value value) {
     if (limits_.values == 0) {
-      problems_.add(value.position(), "the scene holds too many values");
+      problems_.add(value.position(), "the scene contains too many values");
       throw Stop{};
     }
     --limits_.values;
@@ -169,7 +170,7 @@ class ValueBuilder final : public YAML::EventHandler {
     if (!key.is_scalar() || key.text().empty()) {
       problems_.add(key.position(), "expected a key, got " + key.describe());
     } else if (key.text() == "<<" && !key.quoted()) {
-      problems_.add(key.position(), "merge keys are refused; share values by 'include:'");
+      problems_.add(key.position(), "merge keys are not supported; share values with 'include:'");
     } else if (const auto [first, is_new] = map.lines.try_emplace(key.text(), key.position().line); !is_new) {
       std::string message = "duplicate key " + quote(key.text());
       if (!fixed_) message += ", first on line " + std::to_string(first->second);
@@ -195,27 +196,25 @@ std::string explain(const std::string& message) {
     const char* ours;
   };
   const Wording kWordings[] = {
-      {YAML::ErrorMsg::MAP_VALUE, "a ':' where no value may stand; check the indentation and quotes"},
-      {YAML::ErrorMsg::MAP_KEY, "a key where none may stand; check the indentation"},
-      {YAML::ErrorMsg::BLOCK_ENTRY, "a '-' where no list item may stand; check the indentation"},
-      {YAML::ErrorMsg::END_OF_MAP,
-       "the block ends in the middle; check the indentation and the ':' of each key"},
-      {YAML::ErrorMsg::END_OF_SEQ,
-       "the list ends in the middle; check the indentation and the '-' of each item"},
+      {YAML::ErrorMsg::MAP_VALUE, "unexpected ':'; check the indentation and quotes"},
+      {YAML::ErrorMsg::MAP_KEY, "unexpected key; check the indentation"},
+      {YAML::ErrorMsg::BLOCK_ENTRY, "unexpected '-'; check the indentation"},
+      {YAML::ErrorMsg::END_OF_MAP, "the block is incomplete; check the indentation and the ':' of each key"},
+      {YAML::ErrorMsg::END_OF_SEQ, "the list is incomplete; check the indentation and the '-' of each item"},
       {YAML::ErrorMsg::END_OF_MAP_FLOW, "expected ',' or '}'"},
       {YAML::ErrorMsg::END_OF_SEQ_FLOW, "expected ',' or ']'"},
-      {YAML::ErrorMsg::FLOW_END, "a closing bracket that nothing opened"},
-      {YAML::ErrorMsg::EOF_IN_SCALAR, "the quoted text does not end"},
-      {YAML::ErrorMsg::DOC_IN_SCALAR, "the quoted text does not end"},
-      {YAML::ErrorMsg::TAB_IN_INDENTATION, "a tab in the indentation; use spaces"},
-      {YAML::ErrorMsg::UNKNOWN_TOKEN, "a character that no value may begin with; put the text in quotes"},
+      {YAML::ErrorMsg::FLOW_END, "closing bracket without an opening one"},
+      {YAML::ErrorMsg::EOF_IN_SCALAR, "unterminated quoted text"},
+      {YAML::ErrorMsg::DOC_IN_SCALAR, "unterminated quoted text"},
+      {YAML::ErrorMsg::TAB_IN_INDENTATION, "tab in the indentation; use spaces"},
+      {YAML::ErrorMsg::UNKNOWN_TOKEN, "a value cannot begin with this character; put the text in quotes"},
       {YAML::ErrorMsg::BAD_FILE, "values are nested too deep"},
   };
   for (const Wording& wording : kWordings) {
     if (message == wording.theirs) return "malformed YAML: " + std::string(wording.ours);
   }
   if (message.starts_with(YAML::ErrorMsg::UNKNOWN_ANCHOR))
-    return "aliases are refused; share values by 'include:'";
+    return "aliases are not supported; share values with 'include:'";
   std::string line = quote(message);
   return "malformed YAML: " + line.substr(1, line.size() - 2);
 }

@@ -31,7 +31,7 @@ std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopolo
 void require_file(const std::filesystem::path& file, const SourcePosition& named_at) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw Error(ErrorKind::kInput, named_at, "there is no file " + file.string());
+    throw Error(ErrorKind::kInput, named_at, "no such file " + file.string());
   }
 }
 
@@ -72,7 +72,7 @@ void require_room_for_strands(const SceneDescription& scene, const Job& job) {
   for (const auto& [name, position, params] : scene.grooms.items) {
     if (!params.strands || params.cache) continue;
     require_room(job.ledger, kept + follicle_temporary_bytes(*params.strands),
-                 fmt::format("groom '{}': placing {} strands", name, *params.strands));
+                 fmt::format("placing {} strands of groom '{}'", *params.strands, name));
     kept += follicle_bytes(*params.strands);
   }
 }
@@ -92,7 +92,7 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
   try {
     auto groom = Groom::create(name, params, rest, textures, job);
     if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
-      job.progress.warn(fmt::format("{}: groom '{}': nothing grows, because all faces of skin '{}' are holes",
+      job.progress.warn(fmt::format("{}: groom '{}' grows nothing, because all faces of skin '{}' are holes",
                                     to_string(position), name, params.skin.name));
     }
     return groom;

@@ -107,7 +107,7 @@ FrameList parse_frames(const std::string& text) {
       list.frames.push_back(static_cast<int>(frame));
     }
   } while (take(rest, ','));
-  if (!rest.empty()) fail(text, "did not expect " + quote(rest));
+  if (!rest.empty()) fail(text, "unexpected " + quote(rest));
   return list;
 }
 

@@ -73,8 +73,9 @@ void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
     problems.add(groom.position, "groom " + quote(groom.name) +
                                      " needs `strands` (how many) or `density` (how many per square unit)");
   } else if (counted && from_file) {
-    problems.add(groom.position, "groom " + quote(groom.name) +
-                                     " has its strands from a file: `strands` and `density` mean nothing");
+    problems.add(groom.position,
+                 "groom " + quote(groom.name) +
+                     " takes its strands from a file; `strands` and `density` must not be given");
   }
 }
 
@@ -84,10 +85,10 @@ void check_layer_name(const std::string& what, const std::string& name, const So
   constexpr size_t kLongestName = kLongestExrName - 15;  // which is enough for ".secondary.R"
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (name.size() > kLongestName) {
-    problems.add(position, fmt::format("the name of {} {} has {} bytes, at most {} are accepted", what,
-                                       quote(name), name.size(), kLongestName));
+    problems.add(position, fmt::format("the name of {} {} has {} bytes; the limit is {}", what, quote(name),
+                                       name.size(), kLongestName));
   } else if (std::any_of(name.begin(), name.end(), is_control)) {
-    problems.add(position, "the name of " + what + " " + quote(name) + " has a control character in it");
+    problems.add(position, "the name of " + what + " " + quote(name) + " contains a control character");
   }
 }
 
@@ -96,7 +97,7 @@ void check_crowd(const SceneDescription& scene, const Named<CrowdParams>::Item& 
   const auto refuse = [&](const std::string& why) {
     problems.add(item.position, "crowd " + quote(item.name) + why);
   };
-  if (crowd.of.empty()) refuse(" is made of no character");
+  if (crowd.of.empty()) refuse(" names no character");
   for (const NameReference& name : crowd.of) check_name(name, "character", scene.characters, problems);
   const auto* polygon = std::get_if<PolygonAreaParams>(&crowd.area);
   if (polygon && polygon->points.size() < 3) refuse(": its area needs at least three points");
@@ -167,7 +168,8 @@ std::vector<std::filesystem::path> files_of(const Value& document, const std::fi
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
   Problems problems;
   SceneDescription scene;
-  if (const std::optional<Value> document = load_document(path, overrides, problems)) {
+  RenamedKeys renamed{SceneDescription::schema()};
+  if (const std::optional<Value> document = load_document(path, overrides, problems, &renamed)) {
     const ContentHash hash = document_hash(*document);
     scene.files = files_of(*document, path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
@@ -181,6 +183,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
   const std::vector<std::filesystem::path> assets = asset_files(scene);
   scene.files.insert(scene.files.end(), assets.begin(), assets.end());
+  scene.warnings = std::move(renamed.warnings);
   choose_leaf_sizes(scene);
   return scene;
 }

@@ -15,7 +15,8 @@ bool ValueReader<FormatVersion>::read(const Value& value, const KeyOptions&, For
 
 const Schema<UnitsParams>& UnitsParams::schema() {
   static const Schema<UnitsParams> table = [] {
-    Schema<UnitsParams> s("units", "What a scene unit and a frame are.");
+    Schema<UnitsParams> s("units", "Length of a scene unit and of a frame.");
+    s.set_example(R"(units: {meters_per_unit: 0.01, fps: 24}   # one scene unit is a centimetre)");
     s.key("meters_per_unit", &UnitsParams::meters_per_unit,
           {.unit = "m", .help = "Length of one scene unit", .min = 0, .above_min = true});
     s.key("fps", &UnitsParams::fps,
@@ -27,17 +28,23 @@ const Schema<UnitsParams>& UnitsParams::schema() {
 
 const Schema<PosesParams>& PosesParams::schema() {
   static const Schema<PosesParams> table = [] {
-    Schema<PosesParams> s("poses",
-                          "Posed copies of a cage, one file per frame, blended linearly between frames.");
+    Schema<PosesParams> s(
+        "poses", "Posed copies of a cage, one file per pose. Pelage interpolates linearly between poses.");
+    s.set_example(R"(skins:
+  rat:
+    mesh: rat.obj
+    poses: {files: "poses/walk.%04d.obj", first: 1, count: 12, cycle: true})");
     s.key("files", &PosesParams::files,
-          {.help = "OBJ files with the vertices of the mesh; %04d, ####, $F4 or <F4> is the number",
+          {.help = "OBJ files with the vertices of the cage in each pose; %04d, ####, $F4 or <F4> is the "
+                   "pose number",
            .required = true});
-    s.key("first", &PosesParams::first, {.help = "Number of the first file, and the frame that shows it"});
-    s.key("count", &PosesParams::count,
-          {.help = "How many files there are", .required = true, .min = 1, .max = 1e6});
+    s.key("first", &PosesParams::first,
+          {.help = "Number of the first file, and the frame at which it applies"});
+    s.key("count", &PosesParams::count, {.help = "Number of files", .required = true, .min = 1, .max = 1e6});
     s.key("frames_per_pose", &PosesParams::frames_per_pose,
-          {.unit = "frames", .help = "From one pose to the next", .min = 0, .above_min = true});
-    s.key("cycle", &PosesParams::cycle, {.help = "Begin again after the last pose, instead of holding it"});
+          {.unit = "frames", .help = "Frames from one pose to the next", .min = 0, .above_min = true});
+    s.key("cycle", &PosesParams::cycle,
+          {.help = "Repeat from the first pose after the last; otherwise hold the first and last pose"});
     return s;
   }();
   return table;
@@ -45,18 +52,22 @@ const Schema<PosesParams>& PosesParams::schema() {
 
 const Schema<SkinParams>& SkinParams::schema() {
   static const Schema<SkinParams> table = [] {
-    Schema<SkinParams> s("skin", "A subdivision surface, or a mesh as it is, that fur grows on.");
+    Schema<SkinParams> s("skin",
+                         "A surface on which fur grows: a subdivision surface, or a mesh used as it is.");
+    s.set_example(R"(skins:
+  rat: {mesh: rat.obj, scheme: catmull-clark}
+  scan: {mesh: scan.obj, scheme: none})");
     s.key("mesh", &SkinParams::mesh, {.help = "OBJ file of the control cage at rest", .required = true});
     s.key("scheme", &SkinParams::scheme,
-          {.help = "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as "
-                   "scans: it cuts "
-                   "them into triangles and interpolates normals between the vertices, for hair and for "
-                   "shading. It "
-                   "takes about 250 bytes a triangle; `catmull-clark` takes 4,500 to 14,000"});
+          {.help =
+               "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as scans: it "
+               "splits them into triangles and interpolates normals between vertices, for strands and for "
+               "shading. It takes about 250 bytes per triangle; `catmull-clark` takes 4,500 to 14,000"});
     s.key("boundary", &SkinParams::boundary,
-          {.help = "Whether corners of the boundary stay sharp, or are rounded like its edges"});
+          {.help = "Whether boundary corners stay sharp (`edge-and-corner`) or are rounded like boundary "
+                   "edges (`edge-only`)"});
     s.key("poses", &SkinParams::poses,
-          {.help = "Posed cages; without them the skin rests", .default_text = "at rest"});
+          {.help = "Posed cages; without them the skin stays at rest", .default_text = "at rest"});
     return s;
   }();
   return table;
@@ -64,13 +75,17 @@ const Schema<SkinParams>& SkinParams::schema() {
 
 const Schema<PartParams>& PartParams::schema() {
   static const Schema<PartParams> table = [] {
-    Schema<PartParams> s("part", "One skin of a character and what grows on it.");
+    Schema<PartParams> s("part", "One skin of a character, its material and its grooms.");
+    s.set_example(R"(characters:
+  rat:
+    parts:
+      - {skin: rat, material: hide, grooms: {under: fur, whiskers: fur}})");
     s.key("skin", &PartParams::skin, {.help = "Name of a skin", .required = true});
     s.key("material", &PartParams::material, {.help = "Name of the material of the skin", .required = true});
     s.key("grooms", &PartParams::grooms,
-          {.help = "Grooms on this skin, each with its material: {under: fur}"});
+          {.help = "Grooms on this skin with their materials: {groom: material}"});
     s.key("poses", &PartParams::poses,
-          {.help = "What this character does with the skin", .default_text = "the poses of the skin"});
+          {.help = "Poses of the skin for this character", .default_text = "the poses of the skin"});
     return s;
   }();
   return table;
@@ -78,10 +93,15 @@ const Schema<PartParams>& PartParams::schema() {
 
 const Schema<TransformParams>& TransformParams::schema() {
   static const Schema<TransformParams> table = [] {
-    Schema<TransformParams> s("transform", "Where a character stands: scaled, then rotated, then moved.");
-    s.key("translate", &TransformParams::translate, {.unit = "scene units", .help = "Movement"});
+    Schema<TransformParams> s("transform",
+                              "Placement of a character: scale first, then rotation, then translation.");
+    s.set_example(R"(characters:
+  rat:
+    parts: [{skin: rat, material: hide}]
+    transform: {translate: [0, 0, 5], rotate: [0, 90, 0], scale: 1.2})");
+    s.key("translate", &TransformParams::translate, {.unit = "scene units", .help = "Translation"});
     s.key("rotate", &TransformParams::rotate,
-          {.unit = "degrees", .help = "Rotation about x, y, z, in this order"});
+          {.unit = "degrees", .help = "Rotation about x, then y, then z"});
     s.key("scale", &TransformParams::scale, {.help = "Uniform scale", .min = 0, .above_min = true});
     return s;
   }();
@@ -91,18 +111,25 @@ const Schema<TransformParams>& TransformParams::schema() {
 const Schema<CharacterParams>& CharacterParams::schema() {
   static const Schema<CharacterParams> table = [] {
     Schema<CharacterParams> s("character", "An animal: skins with their grooms, posed and placed.");
-    s.key("parts", &CharacterParams::parts, {.help = "What it is made of", .required = true});
-    s.key("transform", &CharacterParams::transform,
-          {.help = "Where it stands", .default_text = "at the origin"});
+    s.set_example(R"(characters:
+  rat:
+    parts:
+      - {skin: rat, material: hide, grooms: {under: fur, whiskers: fur}}
+      - {skin: eyes, material: eye}
+    transform: {translate: [0, 0, 5]})");
+    s.key("parts", &CharacterParams::parts,
+          {.help = "Skins, materials and grooms that make up the character", .required = true});
+    s.key("transform", &CharacterParams::transform, {.help = "Placement", .default_text = "at the origin"});
     s.key("frame_offset", &CharacterParams::frame_offset,
-          {.unit = "frames", .help = "Added to the frame to choose the pose; may be a fraction"});
+          {.unit = "frames",
+           .help = "Frames added to the current frame to choose the pose; may be fractional"});
     s.key("footprint", &CharacterParams::footprint,
           {.unit = "scene units",
-           .help = "Ground that it covers in a crowd: discs [x, z, radius] about its origin",
+           .help = "Ground that the character covers in a crowd: discs [x, z, radius] about its origin",
            .default_text = "its origin"});
     s.key("drawn", &CharacterParams::drawn,
-          {.help = "Whether it stands in the picture by itself",
-           .default_text = "unless a crowd is made of it"});
+          {.help = "Whether the character appears by itself",
+           .default_text = "true, or false if a crowd uses it"});
     return s;
   }();
   return table;
@@ -112,28 +139,36 @@ const Schema<SceneDescription>& SceneDescription::schema() {
   static const Schema<SceneDescription> table = [] {
     Schema<SceneDescription> s(
         "scene",
-        "A scene is a YAML file: right-handed, y up, the camera looks along -z of its own space. Relative "
-        "paths are relative to the file that names them. `include: base.yaml`, or a list of files, reads "
-        "other scene files first; maps are merged and the including file wins. A number or vector marked "
-        "\"or keys\" may be `{keys: {1: a, 48: b}}`, linear between frames. A field is a number, a colour or "
-        "one of the blocks that end in \"field\". `--set a.b.c=value` on the command line overrides any "
-        "value; an item of a list is addressed by its index from 0 or by its only key.");
+        "A scene is a YAML file. Coordinates are right-handed with y up; the camera looks along -z of its "
+        "own space. Relative paths start at the folder of the file that contains them. `include: base.yaml`, "
+        "or a list of files, reads other scene files first; maps are merged, and the including file "
+        "overrides the included ones. A number or vector marked \"or keys\" may be `{keys: {1: a, 48: b}}`, "
+        "which interpolates linearly between frames. A field is a number, a colour or one of the blocks "
+        "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value; the name "
+        "of a list item is its index from 0, or its only key. A key marked \"formerly\" also accepts its old "
+        "name, with a warning; giving both names in one file is an error.");
+    s.set_example(R"(pelage: 1
+include: [animals.yaml, lights.yaml]
+frames: 1-48
+camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0], fov: 24})");
     s.key("pelage", &SceneDescription::pelage, {.help = "Version of the scene format", .required = true});
     s.key("units", &SceneDescription::units,
-          {.help = "What a scene unit and a frame are", .default_text = "cm, 24 fps"});
+          {.help = "Length of a scene unit and of a frame", .default_text = "cm, 24 fps"});
     s.key("frames", &SceneDescription::frames, {.help = "Frames to render: 1, 1-48, 1-48x2 or 1,5,9-12"});
     s.key("camera", &SceneDescription::camera,
-          {.help = "Where it is seen from", .default_text = "that of the section"});
-    s.key("image", &SceneDescription::image, {.help = "The picture", .default_text = "that of the section"});
-    s.key("skins", &SceneDescription::skins, {.help = "Surfaces, by name"});
+          {.help = "Position, direction and shutter of the camera", .default_text = "see camera"});
+    s.key("image", &SceneDescription::image,
+          {.help = "Size and layers of the picture", .default_text = "see image"});
+    s.key("skins", &SceneDescription::skins, {.help = "Surfaces on which fur grows, by name"});
     s.key("grooms", &SceneDescription::grooms, {.help = "Coats, by name"});
-    s.key("materials", &SceneDescription::materials, {.help = "What skins and strands look like, by name"});
+    s.key("materials", &SceneDescription::materials, {.help = "Materials of skins and strands, by name"});
     s.key("characters", &SceneDescription::characters, {.help = "Animals, by name"});
-    s.key("crowds", &SceneDescription::crowds, {.help = "Many animals from a few characters, by name"});
+    s.key("crowds", &SceneDescription::crowds,
+          {.help = "Groups of many animals made from a few characters, by name"});
     s.key("lights", &SceneDescription::lights,
-          {.help = "Lights, by name; each has layers of its own in the picture"});
+          {.help = "Lights, by name; each adds its own layers to the picture"});
     s.key("render", &SceneDescription::render,
-          {.help = "How it is computed", .default_text = "that of the section"});
+          {.help = "Rendering method, quality and limits", .default_text = "see render"});
     return s;
   }();
   return table;

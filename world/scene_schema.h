@@ -103,6 +103,7 @@ struct SceneDescription {
   std::string hash;  ///< of the document with its overrides, not of the files it names
   /// That the document was read from: the scene, what it includes; and what these name, see asset_files().
   std::vector<std::filesystem::path> files;
+  std::vector<Problem> warnings;  ///< old names of keys in the document, each with the new one
   static const Schema<SceneDescription>& schema();
 };
 

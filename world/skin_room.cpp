@@ -24,24 +24,24 @@ MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, 
   std::error_code unknown;
   const auto bytes = static_cast<int64_t>(std::filesystem::file_size(params.mesh.path, unknown));
   return reserve(job.ledger, MemoryTag::kSkins, unknown ? 0 : kOfFile * bytes,
-                 fmt::format("skin '{}': reading {}", name, params.mesh.path.filename().string()));
+                 fmt::format("reading {} for skin '{}'", params.mesh.path.filename().string(), name));
 }
 
 MemoryCharge reserve_skin(const std::string& name, const SkinParams& params, const ControlMesh& cage,
                           const Job& job) {
   const int64_t bytes = needed(cage, params.scheme);
-  std::string what = fmt::format("skin '{}': the {} faces of {}", name, cage.face_count(),
+  std::string what = fmt::format("skin '{}' with the {} faces of {}", name, cage.face_count(),
                                  params.mesh.path.filename().string());
   if (params.scheme == SubdivisionScheme::kNone) return reserve(job.ledger, MemoryTag::kSkins, bytes, what);
   const std::string scheme = ValueReader<SubdivisionScheme>::print(params.scheme);
   const std::string flat = memory_text(needed(cage, SubdivisionScheme::kNone));
   if (cage.face_count() > SurfaceTopology::kDenseFaces) {
     job.progress.warn(
-        fmt::format("{}: {}: subdividing them (scheme: {}) takes up to {}; scheme: none takes polygons as "
-                    "they are, and {}",
+        fmt::format("{}: {}: subdivision (scheme: {}) takes up to {}; scheme: none uses the polygons as they "
+                    "are and takes {}",
                     to_string(params.mesh.position), what, scheme, memory_text(bytes), flat));
   }
-  what += fmt::format(", subdivided (scheme: {}; scheme: none takes {})", scheme, flat);
+  what += fmt::format(", subdivided (scheme: {}; scheme: none takes {}),", scheme, flat);
   return reserve(job.ledger, MemoryTag::kSkins, bytes, what);
 }
 

@@ -39,7 +39,8 @@ MemoryCharge reserve_film(const SceneDescription& scene, const Job& job) {
   const FilmLayers layers = frame_layers(scene.image, scene.render, lights, materials);
   return reserve(job.ledger, MemoryTag::kFilm,
                  Film::bytes_needed(scene.image.width, scene.image.height, layers),
-                 fmt::format("the film of {} x {} pixels", scene.image.width, scene.image.height));
+                 fmt::format("the frame buffer alone ({} x {} pixels, before any fur)", scene.image.width,
+                             scene.image.height));
 }
 
 }  // namespace pelage

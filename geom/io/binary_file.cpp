@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-static_assert(std::endian::native == std::endian::little, "strand files are read as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "a strand file is mapped into memory as it is");
 
 BinaryFile::BinaryFile(const std::filesystem::path& path) : path_(path) {
   std::error_code error;

@@ -40,7 +40,7 @@ Header read_header(const BinaryFile& file) {
   file.read_bytes(0, &header, sizeof header);
   if (std::memcmp(header.signature, "HAIR", 4) != 0)
     file.fail("is not a .hair file: it does not begin with HAIR");
-  if (header.arrays & ~uint32_t(kAllArrays)) file.fail("claims arrays that the .hair format does not have");
+  if (header.arrays & ~uint32_t(kAllArrays)) file.fail("claims arrays that the .hair format does not define");
   if (!(header.arrays & kPoints)) file.fail("holds no points");
   if (header.strand_count == 0) file.fail("holds no strands");
   return header;
@@ -171,7 +171,7 @@ void write_hair(const std::filesystem::path& path, const Strands& strands) {
   const int64_t common = common_segments(strands);
   for (size_t s = 0; common < 0 && s < strands.strand_count(); ++s) {
     if (strands.strand_points(s) - 1 > kMaxSegments) {
-      fail_to_write(path, "the .hair format holds at most 65536 points a strand, strand " +
+      fail_to_write(path, "the .hair format holds at most 65536 points per strand, strand " +
                               std::to_string(s) + " has " + std::to_string(strands.strand_points(s)));
     }
   }

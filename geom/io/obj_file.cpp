@@ -102,7 +102,7 @@ bool ObjReader::resolve(int64_t index, size_t count, const char* what, uint32_t&
     return false;
   }
   if (index < -static_cast<int64_t>(count) || index > kMaxElements) {
-    scanner_.report(fmt::format("{} {} does not exist: {} so far", what, index, count));
+    scanner_.report(fmt::format("{} {} does not exist: only {} precede it", what, index, count));
     return false;
   }
   result = static_cast<uint32_t>(index < 0 ? static_cast<int64_t>(count) + index : index - 1);
@@ -141,7 +141,7 @@ void ObjReader::check_face(size_t first) {
   const auto uv = mesh_.face_uv.begin() + static_cast<std::ptrdiff_t>(first);
   const auto without = std::count(uv, mesh_.face_uv.end(), kNoUv);
   if (without != 0 && without != static_cast<std::ptrdiff_t>(size)) {
-    scanner_.report("either all corners of a face have texture coordinates or none");
+    scanner_.report("either all corners of a face have texture coordinates or none of them");
   }
 }
 
@@ -209,13 +209,13 @@ void ObjReader::read_tag() {
   std::string_view name, sizes;
   const int line = scanner_.line();
   if (!scanner_.next_token(name) || !scanner_.next_token(sizes)) {
-    scanner_.report("a tag needs a name and its counts, as in: t crease 2/1/0 4 5 3.5");
+    scanner_.report("a tag needs a name and counts, as in: t crease 2/1/0 4 5 3.5");
     return;
   }
   int64_t counts[3] = {0, 0, 0};
   for (int i = 0; i < 3; ++i) {
     const size_t slash = std::min(sizes.find('/'), sizes.size());
-    if (!scanner_.parse_integer(sizes.substr(0, slash), "counts of a tag as in 2/1/0", counts[i])) return;
+    if (!scanner_.parse_integer(sizes.substr(0, slash), "tag counts, as in 2/1/0", counts[i])) return;
     sizes.remove_prefix(std::min(slash + 1, sizes.size()));
   }
   const auto refer = [&](std::vector<Reference>& references, int64_t index) {
@@ -225,7 +225,7 @@ void ObjReader::read_tag() {
   };
   if (name == "crease") {
     const std::vector<int64_t> chain = read_tag_integers(counts[0]);
-    if (chain.size() < 2) return scanner_.report("a crease joins 2 vertices or more");
+    if (chain.size() < 2) return scanner_.report("a crease needs 2 vertices or more");
     const std::vector<float> sharpness = read_tag_sharpness(counts[1], chain.size() - 1);
     for (size_t i = 0; i < sharpness.size(); ++i) {
       const uint32_t a = refer(vertex_references_, chain[i]);
@@ -233,7 +233,7 @@ void ObjReader::read_tag() {
     }
   } else if (name == "corner") {
     const std::vector<int64_t> vertices = read_tag_integers(counts[0]);
-    if (vertices.empty()) return scanner_.report("a corner tag names a vertex or more");
+    if (vertices.empty()) return scanner_.report("a corner tag needs at least one vertex");
     const std::vector<float> sharpness = read_tag_sharpness(counts[1], vertices.size());
     for (size_t i = 0; i < sharpness.size(); ++i) {
       mesh_.corners.push_back({refer(vertex_references_, vertices[i]), sharpness[i]});
@@ -273,13 +273,13 @@ void ObjReader::check_references() {
   for (const Reference& r : vertex_references_) {
     if (r.index >= mesh_.positions.size()) {
       scanner_.report_line(
-          r.line, fmt::format("a tag counts vertices from 0 to {}", int64_t(mesh_.positions.size()) - 1));
+          r.line, fmt::format("tag vertices are numbered from 0 to {}", int64_t(mesh_.positions.size()) - 1));
     }
   }
   for (const Reference& r : face_references_) {
     if (r.index >= mesh_.face_sizes.size()) {
       scanner_.report_line(
-          r.line, fmt::format("a tag counts faces from 0 to {}", int64_t(mesh_.face_sizes.size()) - 1));
+          r.line, fmt::format("tag faces are numbered from 0 to {}", int64_t(mesh_.face_sizes.size()) - 1));
     }
   }
 }
@@ -319,7 +319,7 @@ std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t ex
     if (keyword == "v") positions.push_back(read_position(scanner));
   }
   if (positions.size() != expected) {
-    scanner.report_line(0, fmt::format("has {} vertices, its cage has {}", positions.size(), expected));
+    scanner.report_line(0, fmt::format("has {} vertices, but its cage has {}", positions.size(), expected));
   }
   scanner.throw_if_any();
   return positions;

@@ -84,7 +84,7 @@ void StrandReader::for_each_strands(const Job& job,
 }
 
 void StrandReader::fail_changed() const {
-  throw Error(ErrorKind::kFailed, {raw_->file.path().string(), 0, 0}, "was changed while it was in use");
+  throw Error(ErrorKind::kFailed, {raw_->file.path().string(), 0, 0}, "changed while it was in use");
 }
 
 /// Keeps where usable strands are and how long, as soon as it is not the same for all.

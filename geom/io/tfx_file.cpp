@@ -39,14 +39,15 @@ Header read_header(const BinaryFile& file) {
               std::to_string(header.points_per_strand) + " points, more than it can hold");
   }
   if (header.points_per_strand < 2) {
-    file.fail("claims " + std::to_string(header.points_per_strand) + " points a strand, expected at least 2");
+    file.fail("claims " + std::to_string(header.points_per_strand) +
+              " points per strand, expected at least 2");
   }
   return header;
 }
 
 void check_array(const BinaryFile& file, uint64_t offset, uint64_t count, int components, const char* what) {
   if (offset == 0) return;
-  if (offset < sizeof(Header)) file.fail("its " + std::string(what) + " would lie within its header");
+  if (offset < sizeof(Header)) file.fail("its " + std::string(what) + " would overlap its header");
   file.require(offset, count, 4 * static_cast<uint64_t>(components), what);
 }
 
@@ -145,7 +146,7 @@ void write_tfx(const std::filesystem::path& path, const Strands& strands) {
   const uint32_t per_strand = strands.strand_points(0);
   for (size_t s = 1; s < strands.strand_count(); ++s) {
     if (strands.strand_points(s) == per_strand) continue;
-    fail_to_write(path, "the .tfx format needs strands of equally many points, strand 0 has " +
+    fail_to_write(path, "the .tfx format needs the same number of points in every strand; strand 0 has " +
                             std::to_string(per_strand) + ", strand " + std::to_string(s) + " has " +
                             std::to_string(strands.strand_points(s)));
   }

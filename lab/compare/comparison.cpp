@@ -57,9 +57,9 @@ Table frame_table(const std::vector<ComparedFrame>& frames) {
 Table energy_table(const Comparison& comparison) {
   Table table;
   table.caption =
-      "Energy. A fibre that absorbs nothing gives back 1 of what it gets, and a white coat vanishes in a "
-      "white furnace. Distances are total variations from the traced light: 0 is the same distribution, 1 "
-      "has nothing in common.";
+      "Energy. A fibre that absorbs nothing scatters all the light it receives (energy 1), and a white coat "
+      "is invisible in a white furnace. Distances are total variations from the traced light: 0 means the "
+      "same distribution, 1 means no overlap.";
   table.columns = {{"model", "model"},
                    {"white_across", "white fibre, light across it", Quantity::kRatio},
                    {"white_slanted", "light at 57 degrees", Quantity::kRatio},
@@ -137,11 +137,11 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
   report.data = frame_table(comparison.frames);
 
   Picture sheet = contact_sheet(comparison.frames);
-  sheet.caption = "Every model in every light: contact_sheet.svg, and without words contact_sheet.png.";
+  sheet.caption = "Every model under every light: contact_sheet.svg, and contact_sheet.png without labels.";
   Table frames = report.data;
   frames.caption =
-      "Cost, noise and brightness. Noise at equal time is what is left after as many CPU seconds as the "
-      "median model took in that light.";
+      "Cost, noise and brightness. Noise at equal time is the noise after as many CPU seconds as the median "
+      "model took under that light.";
   report.sections.push_back({"Pictures", {sheet}});
   report.sections.push_back(
       {"Cost, noise, brightness",
@@ -154,32 +154,30 @@ Report comparison_report(const Comparison& comparison, const SceneDescription& s
     Picture fibres = single_fibre_sheet(comparison.fibres);
     fibres.caption = fmt::format(
         "One fibre, lit from {:.0f} degrees off its normal plane, evenly over its width. Left: where the "
-        "model sends the light, by sin(theta_i) upward and azimuth; colours run over four decades. Middle: "
-        "light traced by brute force through the same fibre (absorption {:.1f} per radius), blurred as much "
-        "as the model is rough. Right: both around the fibre, as roots of the energy; the light comes from "
-        "the right. Cuticle tilts are left out. Opaque models stand beside a clear fibre of the same energy.",
+        "model scatters light, with sin(theta_i) upward and azimuth to the right; colours cover four "
+        "decades. Middle: light traced by brute force through the same fibre (absorption {:.1f} per radius), "
+        "blurred by the roughness of the model. Right: both around the fibre, as square roots of the energy; "
+        "the light comes from the right. Cuticle tilts are left out. Opaque models are compared with a clear "
+        "fibre of the same energy.",
         SingleFibre::kInclination * 180 / 3.14159265, SingleFibre::kAbsorption);
     report.sections.push_back({"Single fibres", {energy_table(comparison), fibres}});
   }
   report.sections.push_back(
       {"Method",
        {Paragraph{fmt::format(
-            "The scene's lights are replaced by one lamp from the front, the side or "
-            "behind, as far from what the "
-            "camera looks at as the camera is, 16 degrees wide, and a fill of a fiftieth of a white wall. "
-            "Every material for strands is "
-            "replaced by each model in turn with its default parameters, and keeps its "
-            "colour and opacity; where it is "
-            "of that model already it stays as it is. {} samples per pixel, {} bounces.",
+            "One lamp and a fill replace the lights of the scene. The lamp shines from the front, the side "
+            "or behind. It is as far from the camera's target as the camera is, and 16 degrees wide; the "
+            "fill has a fiftieth of the radiance of a white wall. Each model in turn replaces every strand "
+            "material, with its default parameters and the colour and opacity of that material; a material "
+            "that is already of this model stays unchanged. {} samples per pixel, {} bounces.",
             scene.render.samples, scene.render.bounces)},
-        Paragraph{
-            "Each picture is rendered in two halves with seeds of their own: a quarter of their squared "
-            "difference is the variance of their mean, and relMSE the mean over fur of that variance over "
-            "the squared radiance + 0.01 of the squared mean radiance. Times include growing the fur, which "
-            "is the same for all models; times of tables are not included."},
-        Paragraph{
-            "In the furnace everything is white and the sky is 1 everywhere, with a thousand bounces: what "
-            "deviates from 1 is lost or made by the model, but for noise of a few thousandths."}}});
+        Paragraph{"Each picture is rendered in two halves with different seeds. A quarter of their squared "
+                  "difference is the variance of their mean; relMSE is the mean over fur of this variance "
+                  "divided by (squared radiance + 0.01 of the squared mean radiance). Times include growing "
+                  "the fur, which all models share, but not making tables."},
+        Paragraph{"In the furnace everything is white and the sky is 1 everywhere, with a thousand bounces. "
+                  "A deviation from 1 is energy that the model loses or adds, apart from noise of a few "
+                  "thousandths."}}});
   return report;
 }
 

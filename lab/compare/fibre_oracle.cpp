@@ -88,7 +88,7 @@ void complete(FibreOracle& oracle, MedullaParams& p) {
   oracle.longitudinal = {m, m, 1.5f * m};
   oracle.azimuthal = {n, std::sqrt(2.0f) * n, std::sqrt(3.0f) * n};
 }
-void not_a_fibre() { PELAGE_CHECK(!"a material of skins"); }
+void not_a_fibre() { PELAGE_CHECK(!"a material for skins"); }
 void complete(FibreOracle&, LambertParams&) { not_a_fibre(); }
 void complete(FibreOracle&, GlossyParams&) { not_a_fibre(); }
 

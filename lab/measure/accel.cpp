@@ -19,24 +19,23 @@ constexpr const char* kInCore = "fur-64";  // what paging is compared with
 constexpr const char* kYardstick = "embree-compact";
 
 constexpr const char* kMethod =
-    "The fur of the frame, without skins, is grown once; the same rays go through it in every variant, each "
-    "in a process of its own, on {}. Camera rays go through points of the picture, tile after tile; gather "
-    "rays from where these meet fur, in all directions; sorted ones are the same by octant of direction and "
-    "along a space-filling curve; shadow rays go from there to lights; deep ones, for which anything in the "
-    "way is enough, start at places spread evenly over all strands. A ray that starts on a strand does not "
-    "meet that strand near its start; with Embree, which knows no such rule for one strand, it begins two "
-    "widths from there. Each kind is traced once untimed; then the faster of two passes counts, or one with "
-    "pages. Every variant runs {}, in rounds; the run of median time counts.";
+    "The fur of the frame, without skins, is grown once. The same rays then go through it in every variant, "
+    "each in its own process, on {}. Camera rays start at points of the picture, tile by tile. Gather rays "
+    "start where camera rays meet fur and go in all directions; sorted rays are the same rays, ordered by "
+    "octant of direction and along a space-filling curve. Shadow rays go from there to lights. Deep rays "
+    "start at places spread evenly over all strands and ask only whether anything blocks them. A ray that "
+    "starts on a strand ignores that strand near its start; Embree has no such rule for one strand, so there "
+    "the ray starts two widths away. Each kind is traced once untimed; then the faster of two passes counts, "
+    "or one pass if the fur is paged. Every variant runs {}, in rounds; the run of median time counts.";
 
 constexpr const char* kPaging =
-    "Paged fur is the quantised tree cut into pages of 128 KiB, in a file. Pages are read when a ray needs "
-    "them, by explicit reads that leave nothing in the system's cache, and dropped when memory asks for it. "
-    "A budget of p % of its size is for everything: the table, the tree over the pages' boxes, rays that "
-    "wait and the pages themselves; 100 % holds all pages beside the others. Alone: a ray waits for each "
-    "page. "
-    "Together: up to 16,384 rays, but not more than a quarter of the budget holds at 64 bytes each, wait in "
-    "the queues of the pages that they need next; a page is read for all its rays at once, while others go "
-    "through the one before.";
+    "Paged fur is the quantised tree cut into pages of 128 KiB, in a file. A page is read when a ray needs "
+    "it, by explicit reads that bypass the system's cache, and is dropped when memory runs short. The budget "
+    "is p % of the size of the tree. It covers everything: the table, the tree over the boxes of pages, "
+    "waiting rays and the pages themselves; 100 % holds all pages as well. Alone: a ray waits for each page. "
+    "Together: up to 16,384 rays, limited to a quarter of the budget at 64 bytes per ray, wait in the queues "
+    "of the pages that they need next; a page is read once for all its rays, while others traverse the "
+    "previous page.";
 
 struct Kind {
   const char *id, *title;
@@ -180,20 +179,20 @@ std::string abstract_of(const std::vector<Outcome>& outcomes, double segments) {
   if (!fur || !embree || !fur->succeeded() || !embree->succeeded()) return "";
   std::string text = fmt::format(
       "{:.0f} segments. The quantised fur tree takes {:.1f} bytes per segment, Embree compact {:.1f}. In CPU "
-      "time, camera rays are {} times, gather rays {} times and deep occlusion rays {} times as fast as with "
-      "it{}.",
+      "time the fur tree traces camera rays {} times, gather rays {} times and deep occlusion rays {} times "
+      "as fast as Embree compact{}.",
       segments, fur->number("bytes") / segments, embree->number("bytes") / segments,
       spread_text(cpu_speed(*embree, *fur, "camera")), spread_text(cpu_speed(*embree, *fur, "gather")),
       spread_text(cpu_speed(*embree, *fur, "deep")),
-      fur->runs.size() > 1 ? "; in brackets, the least and most of any two runs" : "");
+      fur->runs.size() > 1 ? "; brackets give the minimum and maximum over any two runs" : "");
   if (const Outcome* paged = find(outcomes, "paged-25"); paged && paged->succeeded()) {
     const bool together = of_kind(*paged, "sorted_together", "cpu_s") < of_kind(*paged, "sorted", "cpu_s");
     const RatioSpread camera = ratio_of(*paged, *fur, "kinds.camera.cpu_s");
     const double sorted =
         of_kind(*paged, together ? "sorted_together" : "sorted", "cpu_s") / of_kind(*fur, "sorted", "cpu_s");
     text += fmt::format(
-        " Paged at a quarter of its size, camera rays take {} times and sorted gather rays {:.2f} times the "
-        "CPU time that they take with all of it in memory.",
+        " With memory for a quarter of its size, camera rays take {} times and sorted gather rays {:.2f} "
+        "times the CPU time that they take with all of it in memory.",
         spread_text(camera), sorted);
   }
   return text;
@@ -222,7 +221,7 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given,
     outcomes = runner.run_in_rounds(variants(work));
 
   Report& report = measured.report;
-  report.title = "What fur is traced with";
+  report.title = "Structures traced";
   report.abstract = abstract_of(outcomes, segments);
   report.data = table_of(outcomes, segments);
   const Table& data = report.data;
@@ -244,13 +243,13 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given,
         column_plot(in_core(data), whole, {"cpu_rays_camera", "cpu_rays_gather", "cpu_rays_deep"},
                     "rays per CPU second", "Rays per CPU second."),
         in_core(select(data, keys({"variant"}, "cpu_spread_"),
-                       "Speed over that of Embree compact by CPU time: of the typical runs and, in brackets, "
-                       "the least and most of any two runs.")),
+                       "Speed relative to Embree compact by CPU time: for the median runs and, in brackets, "
+                       "the minimum and maximum over any two runs.")),
         in_core(select(data, keys({"variant"}, "over_embree_"),
-                       "The same by wall time, which other work on the machine falsifies.")),
+                       "The same by wall time, which other work on the machine distorts.")),
         in_core(select(data, keys(keys({"variant"}, "boxes_"), "segments_"),
                        "Tests of boxes and of segments per ray; Embree does not count them.")),
-        in_core(select(data, keys({"variant"}, "hits_"), "Rays that meet something."))}});
+        in_core(select(data, keys({"variant"}, "hits_"), "Rays that hit something."))}});
   const auto paged = [&](const std::vector<std::string>& columns, const char* caption) {
     return rows_of(select(data, columns, caption), outcomes, "paged");
   };
@@ -258,11 +257,11 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given,
       {"Larger than memory",
        {Paragraph{kPaging},
         paged({"variant", "status", "bytes", "limit_bytes", "resident_bytes", "peak_rss_bytes"},
-              "Budgets, and the most that was resident: by the ledger, and of the whole process."),
+              "Budgets, and the maximum resident memory: by the ledger, and of the whole process."),
         paged(keys(keys({"variant"}, "over_core_"), "together_over_core_"),
-              "Speed over that of the same tree in memory."),
+              "Speed relative to the same tree in memory."),
         paged(keys(keys({"variant"}, "faults_"), "faults_together_"), "Pages read in one pass."),
-        paged(keys({"variant"}, "answers_"), "Answers, bit by bit, against the tree in memory.")}});
+        paged(keys({"variant"}, "answers_"), "Hits compared bit by bit with those of the tree in memory.")}});
   for (Outcome& outcome : outcomes) measured.outcomes.push_back(std::move(outcome));
   return measured;
 }

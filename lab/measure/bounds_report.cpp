@@ -16,27 +16,26 @@ namespace pelage {
 namespace {
 
 constexpr const char* kStrategies =
-    "none grows everything up front; rays are tested against boxes measured on what was grown. user scales "
-    "the conservative box about its centre by a factor. conservative bounds by skin patch, strand lengths "
-    "and each operator's reach. exact grows each chunk once in a first pass and keeps the boxes of its "
-    "parts, which hold the whole frame interval; exact-shutter holds what the shutter sees; linear has boxes "
-    "that move linearly over the shutter.";
+    "`none` grows everything before rendering; rays are tested against boxes measured on the grown strands. "
+    "`user` scales the conservative box about its centre by a factor. `conservative` bounds strands by skin "
+    "patch, strand length and the reach of each operator. `exact` grows each chunk once in a first pass and "
+    "keeps the boxes of its parts for the whole frame interval; `exact-shutter` keeps boxes only for the "
+    "open shutter; `linear` keeps boxes that move linearly over the shutter.";
 constexpr const char* kTerms =
-    "An expansion is the growth of a chunk for use (the first pass is not one: it is the stage bound), a "
-    "re-expansion one after an eviction, a false expansion that of a chunk which was the answer to no ray: "
-    "what a ray met in it, if anything, lay behind something nearer. Box areas are sums of surface areas "
-    "over all leaves of all coats: of the box around each leaf, and of the boxes of its parts, which rays "
-    "are tested against; boxes that move count with the mean of shutter open and close. Box tests and chunk "
-    "visits are per ray of any kind, tests of boxes that a chunk learned when it was grown included: how "
-    "many "
-    "those are depends a little on which thread comes first. The boxes that none measures are not summed up.";
+    "An expansion is the growth of a chunk for use; the first pass does not count, its time is the stage "
+    "`bound`. A re-expansion is a growth after an eviction. A false expansion is the growth of a chunk that "
+    "holds the hit of no ray: whatever a ray met in it was hidden by something nearer. Box areas are sums of "
+    "surface areas over all leaves of all coats: of the box around each leaf, and of the boxes of its parts, "
+    "which rays are tested against; a moving box counts with the mean of shutter open and close. Box tests "
+    "and chunk visits are per ray of any kind. They include tests of the boxes that a chunk gets when it "
+    "grows; their number depends slightly on which thread comes first. `none` has no box areas to sum.";
 constexpr const char* kCold =
-    "Caches: variants marked cold begin every run with an empty cache folder, compute the offsets of the "
-    "operators and the boxes of their strategy and store both; the variant of the same name without the mark "
-    "reads them. none, user and conservative need no stored boxes and read the offsets that exact, cold "
-    "left.";
+    "Caches: each run of a variant marked cold starts with an empty cache folder, computes the operator "
+    "offsets and the boxes of its strategy, and stores both; the variant of the same name without the mark "
+    "reads them. `none`, `user` and `conservative` need no stored boxes and read the offsets that `exact, "
+    "cold` stored.";
 constexpr const char* kUncached =
-    "The scene has no operator cache: every run grows its hair by its operators and computes its boxes.";
+    "The scene has no operator cache: every run grows its strands with all operators and computes its boxes.";
 
 const Outcome* find(const std::vector<Outcome>& outcomes, const std::string& id) {
   const auto found =
@@ -55,16 +54,15 @@ std::string time_text(const Outcome& a, const Outcome& b, const std::string& pat
   const bool known = a.runs.size() > 1 && b.runs.size() > 1;
   const bool apart = !known || a.min(path) > b.max(path) || a.max(path) < b.min(path);
   return fmt::format("{} times the {}{}", spread_text(ratio_of(a, b, path)), name,
-                     apart ? "" : " (less than what runs of the same strategy differ by)");
+                     apart ? "" : " (less than the difference between runs of one strategy)");
 }
 
 // Says where the scene leaves bounds nothing to save.
 std::string touched_text(const Outcome& exact, const Outcome& conservative) {
   const auto all = [](const Outcome& o) { return o.number("chunks_touched") >= 0.95 * o.number("chunks"); };
   if (!all(exact) || !all(conservative)) return "";
-  return "Some ray needs nearly every chunk whatever its box, as is usual where light comes from all around "
-         "and everything is in the frame: what bounds can save here is not growth, only box tests and "
-         "visits. ";
+  return "Rays need nearly every chunk, whatever its box. This is usual if light comes from all around and "
+         "everything is in the frame. Tighter bounds then save no growth, only box tests and visits. ";
 }
 
 // Other work on the machine slows runs down, and not all of them alike.
@@ -76,8 +74,8 @@ std::string load_text(const std::vector<Outcome>& outcomes) {
   // A run that follows another finds that one's threads in the mean of the last minute.
   if (max <= 1.5 * available_processors()) return "";
   return fmt::format(
-      " The machine was busy with other things (a load of {:.0f} on {} processors): counts and memory are "
-      "what they are, times are not to be trusted.",
+      " The machine was busy with other work (a load of {:.0f} on {} processors): counts and memory are "
+      "reliable, times are not.",
       max, available_processors());
 }
 
@@ -85,7 +83,7 @@ std::string load_text(const std::vector<Outcome>& outcomes) {
 std::string findings(const std::vector<Outcome>& outcomes) {
   const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
                                    [](const Outcome& o) { return o.number("chunk_visits") > 0; });
-  if (!counted) return "No ray met a chunk in any run: they say nothing of what the strategies differ in.";
+  if (!counted) return "No ray visited a chunk in any run, so the runs do not compare the strategies.";
   const Outcome *exact = find(outcomes, kExactId), *conservative = find(outcomes, kConservativeId),
                 *none = find(outcomes, kNoneId), *shutter = find(outcomes, kExactShutterId);
   std::string text;
@@ -112,7 +110,7 @@ std::string findings(const std::vector<Outcome>& outcomes) {
   }
   const bool once =
       std::all_of(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.runs.size() < 2; });
-  if (once) text += " Each ran once: by how much times vary is not known.";
+  if (once) text += " Each variant ran once, so the variation of times is unknown.";
   return text + load_text(outcomes);
 }
 
@@ -153,20 +151,21 @@ Section time_section(const Table& data, const std::vector<Outcome>& outcomes) {
               {"variant", "status", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s",
                "cpu_most_s", "first_pixel_s", "peak_rss_bytes", "lost_pixels", "lost_pixels_share",
                "largest_difference"},
-              "Cost of each strategy, and what it does to the picture."),
-       stage_plot(data, outcomes,
-                  "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),
+              "Cost of each strategy, and its effect on the picture."),
+       stage_plot(
+           data, outcomes,
+           "Wall time by stage of the run of median wall time. Whiskers: minimum and maximum of all runs."),
        select(data, stages, "Wall time by stage.")}};
 }
 
 Section work_section(const Table& data, const std::vector<Outcome>& outcomes) {
   BarPlot area = column_plot(data, outcomes, {"relative_bounds_area"}, "box area relative to exact",
-                             "Sum of the areas of the boxes of all leaves, relative to exact.");
+                             "Sum of the areas of the boxes of all leaves, relative to `exact`.");
   BarPlot tests = column_plot(data, outcomes, {"box_tests_per_ray"}, "box tests per ray",
-                              "Tests of rays against boxes above what chunks hold.");
-  BarPlot in_vain = column_plot(data, outcomes, {"false_expansions"}, "chunks", "Chunks grown in vain.");
+                              "Tests of rays against boxes of chunks and above.");
+  BarPlot in_vain = column_plot(data, outcomes, {"false_expansions"}, "chunks", "Chunks grown for nothing.");
   BarPlot visits = column_plot(data, outcomes, {"chunk_visits_per_ray"}, "chunk visits per ray",
-                               "Chunks that a ray was traced through.");
+                               "Chunks that a ray traverses.");
   area.half = tests.half = visits.half = in_vain.half = true;
   return {"Work",
           {select(data,
@@ -196,9 +195,8 @@ Section memory_section(const Table& data, const std::vector<Outcome>& outcomes, 
   const std::vector<Outcome> few = plotted(outcomes);
   Section section{"Memory",
                   {select(data, memory,
-                          "Peak of the process, bytes of all chunks touched (skins too, which bytes per "
-                          "strand include), and the "
-                          "peak of each tag of the ledger."),
+                          "Peak of the process, bytes of all distinct chunks touched (skins included, also "
+                          "in bytes per strand), and the peak of each tag of the ledger."),
                    resident_plot(few, "Resident memory over time (anonymous and file-backed).")}};
   for (LinePlot& plot : tag_plots(few)) section.blocks.push_back(std::move(plot));
   section.blocks.push_back(Paragraph{ledger_text(results.outcomes)});
@@ -212,8 +210,8 @@ Section switch_section(const Table& data, const BoundsResults& results) {
       {"variant", "wall_s", "wall_least_s", "wall_most_s", "cpu_s", "cpu_least_s", "cpu_most_s",
        "working_set_bytes", "bytes_per_strand", "memory_chunks_bytes", "memory_skins_bytes", "peak_rss_bytes",
        "relative_bounds_area", "box_tests_per_ray", "lost_pixels", "largest_difference"},
-      "What each saving is worth: everything on (exact), then with one of them switched off or "
-      "on. All rows read warm caches.");
+      "What each saving is worth: all savings on (exact), then one of them switched off or on. All rows read "
+      "warm caches.");
   for (Column& column : table.columns) {
     if (column.key == "lost_pixels") column.title = "pixels that differ";
   }
@@ -223,23 +221,22 @@ Section switch_section(const Table& data, const BoundsResults& results) {
     if (id == kExactId || id == kExactShutterId || i >= results.strategies) rows.push_back(table.rows[i]);
   }
   table.rows = std::move(rows);
-  return {"Small tricks, each with its switch",
-          {Paragraph{"render.compact_attributes keeps every attribute of a chunk in the most compact class "
-                     "(constant, uniform, varying, vertex) and with three digits: a pixel of few samples may "
-                     "differ where "
-                     "a random decision, such as to end a path, hangs on the last one, its mean does not; "
-                     "render.shared_topology keeps one refiner and one set of patch tables for all "
-                     "characters of one topology; render.bounds: exact-shutter bounds what the shutter sees "
-                     "instead of the whole frame interval."},
+  return {"Optional savings",
+          {Paragraph{"render.compact_attributes stores every attribute of a chunk in the most compact class "
+                     "(constant, uniform, varying, vertex) with three digits. In a picture of few samples a "
+                     "pixel may differ where the last digit decides a random choice, such as the end of a "
+                     "path; its mean does not. render.shared_topology keeps one refiner and one set of patch "
+                     "tables for all characters of one topology. render.bounds: exact-shutter bounds strands "
+                     "over the open shutter instead of the whole frame interval."},
            std::move(table)}};
 }
 
 Section picture_section(const BoundsResults& results) {
   Section section{"Pictures", {}};
-  section.blocks.push_back(Paragraph{
-      "A lost pixel is one of which any channel of any layer has other bits than in the picture of "
-      "none, where everything is grown up front and no box can hide anything. Only user, whose boxes "
-      "are guesses, may lose any."});
+  section.blocks.push_back(
+      Paragraph{"A pixel is lost if any channel of any layer differs in any bit from the picture of `none`, "
+                "which grows everything before rendering, so that no box can hide anything. Only `user`, "
+                "whose boxes are guesses, may lose pixels."});
   if (results.picture) {
     section.blocks.push_back(*results.picture);
     std::get<Picture>(section.blocks.back()).half = true;
@@ -247,7 +244,7 @@ Section picture_section(const BoundsResults& results) {
   for (size_t i = 0; i < results.outcomes.size(); ++i) {
     if (!results.differences[i] || results.differences[i]->differing == 0) continue;
     Picture mask = results.differences[i]->mask;
-    mask.caption = fmt::format("{}: white where a pixel differs from none ({} of {}).",
+    mask.caption = fmt::format("{}: white where a pixel differs from `none` ({} of {}).",
                                results.outcomes[i].variant.title, results.differences[i]->differing,
                                results.differences[i]->pixels);
     mask.half = true;
@@ -271,15 +268,13 @@ Report bounds_report(const BoundsResults& results) {
   report.abstract = findings(strategies);
   report.sections.push_back(
       {"Method",
-       {Paragraph{fmt::format(
-            "Every variant renders the same frame, every hair of it, in a process of its own, {}, in rounds "
-            "over all "
-            "variants; numbers are those of the run of median wall time, least and most are the spread. {}",
-            counted(results.repeat, "time"), results.cached ? kCold : kUncached)},
+       {Paragraph{fmt::format("Every variant renders the same frame with all its strands, in its own "
+                              "process, {}, in rounds over all variants. Numbers are from the run of median "
+                              "wall time; minimum and maximum show the spread. {}",
+                              counted(results.repeat, "time"), results.cached ? kCold : kUncached)},
         Paragraph{kStrategies}, Paragraph{kTerms},
-        Paragraph{
-            "Memory over time is sampled every 10 ms; the kernel keeps the peak of the resident set (peak "
-            "RSS), file-backed pages included."}}});
+        Paragraph{"Memory over time is sampled every 10 ms; the kernel reports the peak of the resident set "
+                  "(peak RSS), including file-backed pages."}}});
   report.sections.push_back(time_section(data, strategies));
   report.sections.push_back(work_section(data, strategies));
   report.sections.push_back(memory_section(data, strategies, report.data, results));

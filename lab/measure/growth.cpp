@@ -13,22 +13,23 @@ namespace pelage {
 namespace {
 
 constexpr const char* kMethod =
-    "Each groom is grown on its own by pelage grow: uncached, by its operators; cold, with an empty cache "
-    "that the run fills; and warm, from the cache so filled. Caches of all other grooms are switched off; "
-    "grooms without a cache in the scene have only their uncached run. Every variant runs {} in processes of "
-    "its own; the run of median wall time is reported. Uncached runs grow the coat once, warm ones on every "
-    "character that wears it and write a strand file; times of growth are for one coat, without writing. "
-    "Filling the cache is the time by which opening it takes longer cold than warm, follicles included; "
-    "after so many growths from the cache it is earned back. Files are read from the page cache. Growth "
-    "reads offsets and follicles; layers, one per operator, are kept so that editing one recomputes only it "
-    "and what follows.";
+    "`pelage grow` grows each groom on its own: uncached, with all operators; cold, with an empty cache that "
+    "the run fills; and warm, from the filled cache. The caches of all other grooms are off; a groom without "
+    "a cache in the scene has only an uncached run. Every variant runs {}, each run in its own process; the "
+    "report shows the run of median wall time. Uncached runs grow the coat once. Warm runs grow it on every "
+    "character that wears it and write a strand file. Growth times are for one coat, without writing. The "
+    "time to fill the cache is the extra time that opening it takes cold rather than warm, follicles "
+    "included; break-even is the number of growths after which the cache has saved this time. Files are read "
+    "from the page cache. Growth reads offsets and follicles. The cache also keeps one layer per operator, "
+    "so that editing one operator recomputes only this operator and those after it.";
 
 constexpr const char* kEdits =
-    "Each run finds the cache as an edit of the operator leaves it: offsets and layers from it on are not "
-    "there, those before it are. It goes on from the last layer, runs this operator and all that follow, and "
-    "stores what they make; the time is that of all this. Read from the last row up, the times are the "
-    "cumulative cost of the stack; the difference of two rows is what one operator costs, storing its layer "
-    "included. Follicles stay. The last operator leaves no layer, but the offsets.";
+    "Each run finds the cache as an edit of the operator leaves it: offsets and layers from this operator on "
+    "are missing, earlier layers are present. The run starts from the last layer, runs this operator and all "
+    "that follow, and stores their results; the time covers all of this. Read from the last row up, the "
+    "times are the cumulative cost of the stack; the difference of two rows is the cost of one operator, "
+    "storing its layer included. Follicles are kept. The last operator leaves the offsets instead of a "
+    "layer.";
 
 // Three ways to grow one groom: its operators, its operators and a new cache, its cache.
 struct GroomVariants {

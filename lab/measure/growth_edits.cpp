@@ -65,7 +65,8 @@ Table edit_table(const std::string& groom, const GroomParams& params, const std:
                  const std::vector<GrowthEdit>& edits, const std::vector<Outcome>& outcomes,
                  const Outcome& cold) {
   Table table{
-      fmt::format("{}: what growing it again after an edit of one operator costs, and its layer.", groom),
+      fmt::format("{}: cost of growing again after an edit of one operator, and the layer of this operator.",
+                  groom),
       {{"operator", "operator edited"},
        {"recomputed", "operators run", Quantity::kCount},
        {"edit_s", "time of the cache", Quantity::kSeconds},

@@ -191,11 +191,10 @@ std::optional<Picture> sheet_of(const LodSweep& sweep) {
 Table dolly_table(const LodSweep& sweep) {
   Table table;
   table.caption = fmt::format(
-      "What changes in the picture of a camera that stands still while that of the detail moves away by "
-      "{:.3g} "
-      "%, from parts of its distance: differences of the luminance, over its mean: the largest of a pixel, "
-      "the largest of the mean over {} x {} pixels, and the root of the mean square. Noise is what two seeds "
-      "differ by.",
+      "Change of the picture when the camera of the level of detail moves away by {:.3g} % from fractions of "
+      "its distance, while the rendering camera stays. Differences of luminance relative to its mean: the "
+      "maximum of a pixel, the maximum of the mean over {} x {} pixels, and the root mean square. Noise is "
+      "the difference between two seeds.",
       100 * (kDollyStep - 1), kChangeBlock, kChangeBlock);
   table.columns = {{"from", "from", Quantity::kRatio},
                    {"hairs_before", "hairs", Quantity::kRatio},
@@ -219,16 +218,13 @@ Table dolly_table(const LodSweep& sweep) {
 void add_detail(const LodSweep& sweep, Report& report) {
   report.sections.push_back(
       {"Method",
-       {Paragraph{
-           "Every way to see the scene is rendered twice with full detail and twice with reduced detail, all "
-           "four with seeds of their own: x, y and a, b. relMSE is the mean over pixels with alpha of "
-           "(x - a)(y - b) / (t^2 + 0.01 m^2), t the mean of a and b over 9 x 9 pixels and m that over all: "
-           "what "
-           "is wrong in both pictures, without noise. Bias is that of the mean luminance over these pixels. "
-           "Shares are "
-           "of what full detail takes from the same place. Naive thinning leaves out the same hairs and "
-           "lets the others be as thin as they are. Other hairs: the same coats, of another seed, in "
-           "full."}}});
+       {Paragraph{"Every view of the scene is rendered twice with full detail and twice with reduced detail, "
+                  "all four with different seeds: x, y and a, b. relMSE is the mean over pixels with alpha "
+                  "of (x - a)(y - b) / (t^2 + 0.01 m^2), where t is the mean of a and b over 9 x 9 pixels "
+                  "and m its mean over all pixels: the error common to both pictures, without noise. Bias is "
+                  "the error of the mean luminance over these pixels. Fractions are relative to full detail "
+                  "from the same place. Naive thinning removes the same strands and does not widen the "
+                  "others. Other hairs: the same coats with another seed, at full detail."}}});
   Table details = select(report.data,
                          {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "hairs", "hairs_share",
                           "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},

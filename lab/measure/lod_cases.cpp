@@ -31,7 +31,7 @@ Settings ideas(bool motion, bool focus, bool back_facing, bool contrast, bool po
   const auto word = [](bool on) { return std::string(on ? "true" : "false"); };
   return {{"render.lod.motion_blur", word(motion)},
           {"render.lod.depth_of_field", word(focus)},
-          {"render.lod.turned_away", word(back_facing)},
+          {"render.lod.backfacing", word(back_facing)},
           {"render.lod.contrast", word(contrast)},
           {"render.lod.fewer_points", word(points)}};
 }
@@ -67,7 +67,7 @@ std::vector<LodSetting> lod_ideas() {
           {"size", "size", ideas(false, false, false, false, false)},
           {"motion", "+ motion", ideas(true, false, false, false, false)},
           {"focus", "+ focus", ideas(true, true, false, false, false)},
-          {"turned", "+ turned away", ideas(true, true, true, false, false)},
+          {"turned", "+ backfacing", ideas(true, true, true, false, false)},
           {"contrast", "+ contrast", ideas(true, true, true, true, false)},
           {"naive", "naive: no width gain", naive}};
 }

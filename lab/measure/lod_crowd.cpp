@@ -50,10 +50,10 @@ LodCrowd::LodCrowd(const SceneDescription& scene, const MeasureSetup& setup, std
 
 Variant LodCrowd::variant(int full_detail) const {
   Variant variant{fmt::format("crowd-{}", full_detail),
-                  full_detail > 0 ? fmt::format("{} in full", full_detail) : "reduced detail", "render",
-                  arguments_};
+                  full_detail > 0 ? fmt::format("{} at full detail", full_detail) : "reduced detail",
+                  "render", arguments_};
   set(variant, "render.lod.enabled", "true");
-  set(variant, "render.lod.in_full", std::to_string(full_detail));
+  set(variant, "render.lod.full_detail_characters", std::to_string(full_detail));
   // Without a limit nothing is grown twice.
   const bool limited = std::any_of(setup_.arguments.begin(), setup_.arguments.end(),
                                    [](const std::string& a) { return a.starts_with(kMemory); });
@@ -89,7 +89,7 @@ void LodCrowd::run(const std::function<const Outcome*(const Variant&)>& run) {
   if (all_ > kMaxWhole || !known()) return;
   Variant whole = variant(0);
   whole.id = "crowd-all";
-  whole.title = "all in full";
+  whole.title = "all at full detail";
   set(whole, "render.lod.enabled", "false");
   if (const Outcome* outcome = run(whole)) whole_.push_back(*outcome);
 }
@@ -120,21 +120,21 @@ std::string LodCrowd::abstract() const {
                : fmt::format("{:.1f} %", part);
   };
   return fmt::format(
-      "Of {:.0f} characters, reduced detail grows {} fewer hairs, in {} less working set and {} less CPU "
-      "time "
-      "than full detail, which {}.",
+      "For {:.0f} characters, reduced detail grows {} fewer strands, with {} less working set and {} less "
+      "CPU time than full detail, which {}.",
       all_, saved("strands_generated"), saved("working_set_bytes"), saved("cpu_s"),
-      whole_.empty() ? fmt::format("is extrapolated from up to {:.0f} of them in full", full_detail_.back())
-                     : "was measured");
+      whole_.empty()
+          ? fmt::format("is extrapolated from at most {:.0f} of them at full detail", full_detail_.back())
+          : "was measured");
 }
 
 Section LodCrowd::section() const {
   const std::vector<Line> all = lines();
   Table table;
   table.caption = fmt::format(
-      "Full detail of {:.0f} characters, from some of them. Saved: by reduced detail, of the "
-      "extrapolation{}.",
-      all_, whole_.empty() ? "" : "; of what was measured");
+      "Full detail of {:.0f} characters, extrapolated from some of them. Saved: by reduced detail, relative "
+      "to the extrapolation{}.",
+      all_, whole_.empty() ? "" : "; relative to the measurement");
   table.columns = {{"variant", "characters", Quantity::kRatio}};
   for (const Line& line : all) table.columns.push_back(line.column);
   std::vector<std::vector<double>> measured;
@@ -156,24 +156,25 @@ Section LodCrowd::section() const {
   for (size_t p = 0; p < points_.size(); ++p)
     add(points_[p].variant.title, [&](size_t i) -> Cell { return measured[p][i]; });
   add("residual of the line", [&](size_t i) -> Cell { return all[i].fit.residual; });
-  add("all in full, extrapolated", [&](size_t i) -> Cell { return extrapolated(i); });
+  add("all at full detail, extrapolated", [&](size_t i) -> Cell { return extrapolated(i); });
   add("its standard error", [&](size_t i) -> Cell { return all[i].fit.error_at(all_); });
   add("saved", [&](size_t i) { return percent(1 - measured.front()[i] / extrapolated(i)); });
   if (!whole_.empty()) {
-    add("all in full, measured", [&](size_t i) -> Cell { return measured.back()[i]; });
+    add("all at full detail, measured", [&](size_t i) -> Cell { return measured.back()[i]; });
     add("error of the extrapolation",
         [&](size_t i) { return percent(extrapolated(i) / measured.back()[i] - 1); });
     add("saved", [&](size_t i) { return percent(1 - measured.front()[i] / measured.back()[i]); });
   }
-  return {"Crowd",
-          {Paragraph{"Some characters keep every hair, evenly chosen in the order of their distance from the "
-                     "camera; the others stand around them in reduced detail, so that they hide of them what "
-                     "they hide in full detail. A line is laid through these runs and that in which none "
-                     "keeps every hair, and followed to all characters. Operator caches are warm, boxes are "
-                     "measured anew in every run, and there is no memory limit: under one, full detail would "
-                     "also grow much of its hair again and again. The residual is the standard deviation of "
-                     "runs about the line; the standard error follows from it alone. Stages are wall time."},
-           std::move(table)}};
+  return {
+      "Crowd",
+      {Paragraph{"Some characters keep every strand, chosen evenly by their distance from the camera. The "
+                 "others are around them at reduced detail, so that they hide as much of them as at full "
+                 "detail. A straight line is fitted to these runs and the run without full-detail "
+                 "characters, and extrapolated to all characters. Operator caches are warm, boxes are "
+                 "measured anew in every run, and memory is unlimited: under a limit, full detail would also "
+                 "grow many strands repeatedly. The residual is the standard deviation of the runs from the "
+                 "line; the standard error follows from the residual alone. Stages are wall time."},
+       std::move(table)}};
 }
 
 void LodCrowd::add_rows(Table& data) const {
@@ -190,8 +191,8 @@ void LodCrowd::add_rows(Table& data) const {
     }
     data.rows.push_back(std::move(row));
   };
-  add("all in full, extrapolated", [&](const LineFit& fit) { return fit.at(all_); });
-  add("standard error of that", [&](const LineFit& fit) { return fit.error_at(all_); });
+  add("all at full detail, extrapolated", [&](const LineFit& fit) { return fit.at(all_); });
+  add("standard error of the extrapolation", [&](const LineFit& fit) { return fit.error_at(all_); });
 }
 
 }  // namespace pelage

@@ -75,7 +75,7 @@ std::optional<Picture> detail_picture(const std::filesystem::path& file) {
     const ExrChannel* alpha = image.find("A");
     if (!layer || !alpha) return {};
     Picture picture;
-    picture.caption = "The part of the strands that was left out: blue none, green four fifths, red 99 %.";
+    picture.caption = "Fraction of strands removed: blue none, green four fifths, red 99 %.";
     picture.width = image.width;
     picture.height = image.height;
     for (size_t p = 0; p < layer->pixels.size(); ++p) {

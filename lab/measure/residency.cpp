@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -41,13 +40,14 @@ std::vector<std::string> same_chunks(const SceneDescription& scene) {
   return arguments;
 }
 
-// What a refusal says would do: "...; 120M would do".
+// The budget that a refusal recommends: "...; give at least 120M", "...; give at least --memory 120M".
 double min_bytes(const Outcome& refused) {
   const std::string text = refused.error();
-  const size_t end = text.find("M would do");
-  if (end == std::string::npos) return NAN;
-  size_t begin = end;
-  while (begin > 0 && std::isdigit(static_cast<unsigned char>(text[begin - 1]))) --begin;
+  const std::string advice = "give at least ";
+  const size_t start = text.find(advice);
+  if (start == std::string::npos) return NAN;
+  const size_t begin = std::min(text.find_first_of("0123456789", start), text.size());
+  const size_t end = std::min(text.find_first_not_of("0123456789", begin), text.size());
   return begin < end ? std::stod(text.substr(begin, end - begin)) * (1 << 20) : NAN;
 }
 
@@ -151,21 +151,19 @@ LinePlot budget_plot(const Table& table, const std::vector<std::string>& keys, c
 }
 
 Section method(const MeasureSetup& setup) {
-  return {
-      "Method",
-      {Paragraph{fmt::format(
-           "The frame is rendered once to warm caches, then without a limit. A budget of p % stands for "
-           "render.memory = F + p % of C, where C is the peak of the ledger's tag chunks in the unlimited "
-           "run and F the sum of the peaks of film, skins and caches there; F is an upper bound of what "
-           "these need at one time. Every budget is run {}; numbers are those of the run of median wall "
-           "time. Budgets go down until one is refused (exit code 4), which is a result; the row least, if "
-           "any, is what the refusal says would do. A run that takes longer than {:g} s is ended: a "
-           "time-out.",
-           counted(setup.repeat, "time"), setup.time_limit_s)},
-       Paragraph{
-           "Re-expansions are growths after an eviction. Waiting is the sum over threads of the time spent "
-           "for memory or for a chunk that another thread grows. Pixels are identical when every bit of "
-           "every channel is that of the unlimited run."}}};
+  return {"Method",
+          {Paragraph{fmt::format(
+               "The frame is rendered once to warm caches, then without a limit. A budget of p % means "
+               "render.memory = F + p % of C. C is the peak of the ledger's tag `chunks` in the unlimited "
+               "run; F is the sum of the peaks of film, skins and caches in that run, an upper bound of what "
+               "they need at one time. Every budget runs {}; numbers are from the run of median wall time. "
+               "Budgets decrease until one is refused (exit code 4), which is a result; the row `least`, if "
+               "present, is the budget that the refusal recommends. A run that takes longer than {:g} s is "
+               "stopped: a time-out.",
+               counted(setup.repeat, "time"), setup.time_limit_s)},
+           Paragraph{"Re-expansions are growths after an eviction. Waiting is the sum over threads of the "
+                     "time spent waiting for memory or for a chunk that another thread grows. Pixels are "
+                     "identical when every bit of every channel equals the unlimited run."}}};
 }
 
 }  // namespace
@@ -202,8 +200,8 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
   }
   if (tightest) {
     report.abstract = fmt::format(
-        "The smallest budget that was rendered in is {:.1f} MiB; it took {} times the CPU time and {} times "
-        "the wall time that it takes without a limit.",
+        "The smallest budget that rendered is {:.1f} MiB; it took {} times the CPU time and {} times the "
+        "wall time of the unlimited run.",
         smallest / (1 << 20), spread_text(ratio_of(*tightest, outcomes[1], "cpu_s")),
         spread_text(ratio_of(*tightest, outcomes[1], "wall_s")));
   }
@@ -221,15 +219,16 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
                "cpu_least_s", "cpu_most_s", "residency_wait_s", "expansions", "reexpansions", "evictions",
                "peak_rss_bytes", "pixels"},
               "Cost of each budget."),
-       stage_plot(shown, compared,
-                  "Wall time by stage of the run of median wall time. Whiskers: least and most of all runs."),
+       stage_plot(
+           shown, compared,
+           "Wall time by stage of the run of median wall time. Whiskers: minimum and maximum of all runs."),
        budget_plot(shown, {"wall_s"}, "wall time", "Wall time against the budget."),
        budget_plot(shown, {"expansions", "reexpansions"}, "chunks", "Chunks grown against the budget."),
        budget_plot(shown, {"peak_rss_bytes", "memory_chunks_bytes", "budget_bytes"}, "memory",
                    "Peaks of the resident set and of the chunks against the budget."),
        budget_plot(shown, {"residency_wait_s"}, "thread time", "Time spent waiting, all threads together.")}};
   Table refusals =
-      select(shown, {"variant", "budget_bytes", "status", "message"}, "What other budgets were told.");
+      select(shown, {"variant", "budget_bytes", "status", "message"}, "Messages for the other budgets.");
   std::erase_if(refusals.rows, [](const auto& row) { return std::get<Text>(row.back()).text.empty(); });
   if (!refusals.rows.empty()) time.blocks.push_back(std::move(refusals));
   report.sections.push_back(std::move(time));

@@ -143,16 +143,16 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
   report.sections.push_back(
       {"Method",
        {Paragraph{fmt::format(
-           "Two pictures of {} samples and independent seeds are the truth. Plain pictures have the same "
-           "number of samples in every pixel; the noise that they state is the noise budget of the adaptive "
-           "ones, whose pixels get {} at most. All pictures have seeds of their own. relMSE is the mean over "
-           "pixels with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two truths, t is "
-           "their mean and m the mean of t. Fewer samples: those that plain sampling needs for the same "
-           "relMSE over those that were taken, in all and on pixels with alpha alone. Bias is that of the "
-           "mean luminance over these pixels. A rule that knew the variance of every pixel beforehand, and "
-           "spent nothing elsewhere, would take {:.2f} times fewer samples on pixels with alpha, {:.2f} "
-           "times fewer in all: counts in proportion to the root of the variance are the best that "
-           "there are.",
+           "Two pictures with {} samples and independent seeds are the reference. Plain pictures have the "
+           "same number of samples in every pixel; their noise is the noise budget of the adaptive pictures, "
+           "whose pixels get at most {}. All pictures have different seeds. relMSE is the mean over pixels "
+           "with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two references, t is "
+           "their mean and m the mean of t. Fewer samples: the samples that plain sampling needs for the "
+           "same relMSE, divided by the samples taken, over all pixels and over pixels with alpha. Bias is "
+           "the error of the mean luminance over these pixels. A rule that knew the variance of every pixel "
+           "beforehand and took no sample elsewhere would need {:.2f} times fewer samples on pixels with "
+           "alpha, {:.2f} times fewer in all: the best counts are proportional to the square root of the "
+           "variance.",
            kReferenceFactor * scene.render.samples, scene.render.samples, sweep.best.surface,
            sweep.best.all)}}});
   report.sections.push_back({"Samples",

@@ -50,7 +50,7 @@ class Gatherer {
     if (strands.basis() != arrays_.basis || strands.motion_keys() != arrays_.motion_keys) {
       throw Error(
           ErrorKind::kArguments,
-          "the grooms have curves of different bases or motion keys: rays can be measured on one kind");
+          "the grooms have different curve bases or motion keys; rays can be measured on one kind only");
     }
     for (size_t key = 0; key < points_.size(); ++key) {
       const auto& own = strands.points(static_cast<int>(key));
@@ -58,7 +58,8 @@ class Gatherer {
     }
     for (size_t s = 0; s < strands.strand_count(); ++s) {
       const uint64_t end = uint64_t(arrays_.first_point.back()) + strands.strand_points(s);
-      if (end > UINT32_MAX) throw Error(ErrorKind::kArguments, "this is too much fur to be measured at once");
+      if (end > UINT32_MAX)
+        throw Error(ErrorKind::kArguments, "the scene has too much fur to measure at once");
       arrays_.first_point.push_back(static_cast<uint32_t>(end));
       arrays_.ids.push_back(arrays_.ids.size());
     }
@@ -116,8 +117,7 @@ LabFur grow_lab_fur(const RenderScene& scene, const Job& job) {
       strands = {};
     }
   }
-  if (gatherer.empty())
-    throw Error(ErrorKind::kArguments, "there is no fur in this scene to trace rays through");
+  if (gatherer.empty()) throw Error(ErrorKind::kArguments, "the scene has no fur to trace rays through");
   // One tree has one grid: wide enough that most strands fit narrow leaves.
   const auto percentile = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
   std::nth_element(widths.begin(), percentile, widths.end());
@@ -142,7 +142,7 @@ LabFur load_lab_fur(const ContentStore& store) {
   const auto file =
       store.open(kKind, kLabKey, [](const std::string& line) { throw Error(ErrorKind::kFailed, line); });
   if (!file || file->section_count() != 3 || file->section(0).size() != sizeof(Head))
-    throw Error(ErrorKind::kFailed, store.folder().string() + ": there is no fur that was prepared here");
+    throw Error(ErrorKind::kFailed, store.folder().string() + ": no prepared fur found here");
   Head head;
   std::memcpy(&head, file->section(0).data(), sizeof(head));
   StrandArrays arrays;

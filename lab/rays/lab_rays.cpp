@@ -144,7 +144,7 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
     // Where the ray met the ribbon, not on its axis.
     hits.back().position = ray.origin + hit.distance * ray.direction;
   }
-  if (hits.empty()) throw Error(ErrorKind::kArguments, "the camera sees no fur to send rays from");
+  if (hits.empty()) throw Error(ErrorKind::kArguments, "the camera sees no fur, so no rays can start there");
 
   LabRays gather{"gather", false, {}, {}, {}}, shadow{"shadow", true, {}, {}, {}},
       deep{"deep", true, {}, {}, {}};
@@ -198,7 +198,7 @@ void store_lab_rays(const ContentStore& store, const std::vector<LabRays>& sets)
 std::vector<LabRays> load_lab_rays(const ContentStore& store) {
   const auto file =
       store.open(kKind, kLabKey, [](const std::string& line) { throw Error(ErrorKind::kFailed, line); });
-  if (!file) throw Error(ErrorKind::kFailed, store.folder().string() + ": there are no rays prepared here");
+  if (!file) throw Error(ErrorKind::kFailed, store.folder().string() + ": no prepared rays found here");
   std::vector<LabRays> sets;
   for (size_t section = 0; section + 1 < file->section_count(); section += 2) {
     const auto name = file->section(section), rays = file->section(section + 1);

@@ -200,7 +200,7 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
                       const Workers& workers) {
   auto file = FurPageFile::open(store, kLabKey,
                                 [](const std::string& line) { throw Error(ErrorKind::kFailed, line); });
-  if (!file) throw Error(ErrorKind::kFailed, store.folder().string() + ": there are no pages prepared here");
+  if (!file) throw Error(ErrorKind::kFailed, store.folder().string() + ": no prepared pages found here");
   LabResult result;
   result.bytes = static_cast<double>(file->table().total_page_bytes());
   const PagedFurOptions options = paged_options(*file, share, workers);
@@ -244,7 +244,7 @@ const std::vector<std::string>& LabVariant::names() {
 LabVariant::Kind LabVariant::parse(const std::string& name) {
   const auto found = std::find(names().begin(), names().end(), name);
   if (found == names().end())
-    throw Error(ErrorKind::kArguments, "there is no variant '" + name + "'" + did_you_mean(name, names()));
+    throw Error(ErrorKind::kArguments, "unknown variant '" + name + "'" + did_you_mean(name, names()));
   return static_cast<Kind>(found - names().begin());
 }
 
@@ -259,7 +259,7 @@ std::vector<LabRays> rays_of(const ContentStore& store, const std::vector<std::s
   for (const std::string& kind : kinds) {
     const auto found = std::find(names.begin(), names.end(), kind);
     if (found == names.end())
-      throw Error(ErrorKind::kArguments, "there are no rays '" + kind + "'" + did_you_mean(kind, names));
+      throw Error(ErrorKind::kArguments, "unknown ray kind '" + kind + "'" + did_you_mean(kind, names));
     chosen.push_back(std::move(sets[static_cast<size_t>(found - names.begin())]));
   }
   return chosen;

@@ -82,9 +82,8 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   add("wall_least_s", "least", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.min("wall_s"); });
   add("wall_most_s", "most", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("wall_s"); });
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
-  add("cpu_least_s", "least CPU", Quantity::kSeconds,
-      [](const Outcome& o) -> Cell { return o.min("cpu_s"); });
-  add("cpu_most_s", "most CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("cpu_s"); });
+  add("cpu_least_s", "min CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.min("cpu_s"); });
+  add("cpu_most_s", "max CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("cpu_s"); });
   number("first_pixel_s", "first pixel", Quantity::kSeconds, "first_pixel_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
   number("peak_anonymous_bytes", "peak anonymous", Quantity::kBytes, "peak_anonymous_bytes");
@@ -172,7 +171,7 @@ Table ledger_table(const Table& table) {
   return select(table,
                 {"variant", "peak_rss_bytes", "peak_anonymous_bytes", "baseline_anonymous_bytes",
                  "explained_bytes", "unexplained_bytes", "unexplained_share"},
-                "Ledger against kernel, when the anonymous resident pages were at their highest.");
+                "Ledger against kernel, at the peak of anonymous resident pages.");
 }
 
 std::string ledger_text(const std::vector<Outcome>& outcomes) {
@@ -185,11 +184,11 @@ std::string ledger_text(const std::vector<Outcome>& outcomes) {
     bytes = outcome.number("unexplained_bytes");
     at = &outcome;
   }
-  if (!at) return "No run told how much of its memory the ledger explains.";
+  if (!at) return "No run reported how much of its memory the ledger explains.";
   return fmt::format(
-      "Ledger against kernel: when the anonymous resident pages were at their highest, the ledger's tags and "
-      "the baseline (what the process holds once its command line is read) explained them to within {:.1f} % "
-      "of what they had grown by ({}, {:+.1f} MiB) in the worst case; 10 % is what Pelage promises.",
+      "Ledger against kernel: at the peak of anonymous resident pages, the ledger's tags and the baseline "
+      "(the memory of the process once its command line is read) explained the growth of these pages to "
+      "within {:.1f} % in the worst case ({}, {:+.1f} MiB); Pelage promises 10 %.",
       100 * worst, at->variant.title, bytes / (1 << 20));
 }
 

@@ -71,7 +71,7 @@ ProcessEnd wait_for(pid_t child, const std::function<bool()>& cancelled, double 
       return end;
     }
     if (gone < 0 && errno != EINTR)
-      throw Error(ErrorKind::kFailed, std::string("lost a process: ") + std::strerror(errno));
+      throw Error(ErrorKind::kFailed, std::string("cannot wait for a process: ") + std::strerror(errno));
     const Clock::time_point now = Clock::now();
     if (end.interrupted || end.timed_out) {
       if (now - told > kKillDelay) ::kill(-child, SIGKILL);
@@ -94,7 +94,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
     throw Error(ErrorKind::kFailed, log.string() + ": cannot be written: " + std::strerror(errno));
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
-    throw Error(ErrorKind::kFailed, std::string("no pipe: ") + std::strerror(errno));
+    throw Error(ErrorKind::kFailed, std::string("cannot create a pipe: ") + std::strerror(errno));
   Descriptor failure_in(ends[0]), failure_out(ends[1]);
 
   std::vector<char*> arguments;
@@ -102,7 +102,8 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
-  if (child < 0) throw Error(ErrorKind::kFailed, std::string("no process: ") + std::strerror(errno));
+  if (child < 0)
+    throw Error(ErrorKind::kFailed, std::string("cannot create a process: ") + std::strerror(errno));
   if (child == 0) exec_child(arguments.data(), log_file.number(), failure_out.number(), parent);
   ::setpgid(child, child);  // whichever of the two comes first
 

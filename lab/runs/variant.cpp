@@ -153,7 +153,7 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
       run.command, log, [&] { return progress_.cancelled(); }, setup_.time_limit_s);
   run.statistics = RunStatistics::read(statistics);
   if (run.end.timed_out) {
-    run.error = fmt::format("ended after {:g} s", setup_.time_limit_s);
+    run.error = fmt::format("stopped after {:g} s", setup_.time_limit_s);
   } else if (!run.end.succeeded()) {
     run.error = error_lines(log);
   }

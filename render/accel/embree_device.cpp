@@ -33,8 +33,8 @@ EmbreeDevice::EmbreeDevice(const char* configuration, uint64_t memory_limit, Mem
     : ledger_(ledger), memory_limit_(memory_limit) {
   device_ = rtcNewDevice(configuration);
   if (!device_) {
-    throw Error(ErrorKind::kFailed, fmt::format("Embree does not start (error {})",
-                                                static_cast<int>(rtcGetDeviceError(nullptr))));
+    throw Error(ErrorKind::kFailed,
+                fmt::format("cannot start Embree (error {})", static_cast<int>(rtcGetDeviceError(nullptr))));
   }
   rtcSetDeviceErrorFunction(device_, on_error, this);
   rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);

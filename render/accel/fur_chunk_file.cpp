@@ -89,7 +89,7 @@ bool is_in_proportion(size_t segments, size_t leaf_bytes, int motion_keys) {
 }
 
 [[noreturn]] void refuse(const StoredSections& file) {
-  throw Error(ErrorKind::kInput, {file.path().string(), 0, 0}, "these chunks of fur cannot be right");
+  throw Error(ErrorKind::kInput, {file.path().string(), 0, 0}, "damaged fur chunks");
 }
 
 }  // namespace
@@ -136,7 +136,7 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
   std::optional<StoredSections> file = store.open_sections(kKind, entry_key(key), warn);
   if (!file) return nullptr;
   if (file->section_count() != kSections * chunk_count) {
-    warn(file->path().string() + ": these chunks of fur cannot be right; made again");
+    warn(file->path().string() + ": damaged fur chunks; they are made again");
     return nullptr;
   }
   return std::make_unique<const FurChunkFile>(std::move(*file));
@@ -164,8 +164,8 @@ std::unique_ptr<FurChunk> FurChunkFile::read(uint32_t chunk, const WarningSink& 
     if (is_damaged_.exchange(true)) return nullptr;
     std::error_code why;
     std::filesystem::remove(file_.path(), why);
-    warn(std::string(error.what()) + "; grown instead" +
-         (why ? "; the file cannot be removed: " + why.message() : ", and made again by the next run"));
+    warn(std::string(error.what()) + "; the chunk is grown instead" +
+         (why ? "; the file cannot be deleted: " + why.message() : ", and the next run makes it again"));
     return nullptr;
   }
   chunks_read_.fetch_add(1, std::memory_order_relaxed);

@@ -18,10 +18,11 @@ Camera::Pose Camera::make_pose(const CameraParams& params, double frame) {
   const V3f right = view.cross(params.up.at(frame));
   if (view.length() == 0) {
     throw Error(ErrorKind::kInput,
-                fmt::format("camera: position and look_at are one point at frame {}", frame));
+                fmt::format("camera: position and look_at are the same point at frame {}", frame));
   }
   if (right.length() <= 1e-6f * view.length() * params.up.at(frame).length()) {
-    throw Error(ErrorKind::kInput, fmt::format("camera: looks along its up vector at frame {}", frame));
+    throw Error(ErrorKind::kInput,
+                fmt::format("camera: the view direction is parallel to the up vector at frame {}", frame));
   }
   pose.forward = view.normalized();
   pose.right = right.normalized();

@@ -6,18 +6,25 @@ namespace pelage {
 
 const Schema<LensParams>& LensParams::schema() {
   static const Schema<LensParams> table = [] {
-    Schema<LensParams> s("lens",
-                         "A thin lens: what is out of focus blurs. Without it the camera is a pinhole.");
+    Schema<LensParams> s(
+        "lens", "A thin lens, which blurs what is out of focus. Without a lens the camera is a pinhole.");
+    s.set_example(R"(camera:
+  position: [0, 12, 60]
+  look_at: [0, 9, 0]
+  lens: {f_stop: 4, focal_length: 5, focus_distance: 55})");
     s.key("f_stop", &LensParams::f_stop,
-          {.help = "Aperture number: focal length / diameter of the opening", .min = 0, .above_min = true});
+          {.help = "F-number: focal length divided by the diameter of the aperture",
+           .min = 0,
+           .above_min = true});
     s.key("focal_length", &LensParams::focal_length,
           {.unit = "scene units",
-           .help = "Sets, with f_stop, the size of the opening (not the field of view)",
+           .help = "Focal length. With f_stop it sets the diameter of the aperture; it does not change the "
+                   "field of view",
            .min = 0,
            .above_min = true});
     s.key("focus_distance", &LensParams::focus_distance,
           {.unit = "scene units",
-           .help = "Distance along the view axis that is sharp",
+           .help = "Distance of the focal plane along the view axis",
            .min = 0,
            .above_min = true});
     return s;
@@ -27,22 +34,26 @@ const Schema<LensParams>& LensParams::schema() {
 
 const Schema<CameraParams>& CameraParams::schema() {
   static const Schema<CameraParams> table = [] {
-    Schema<CameraParams> s("camera",
-                           "Where the picture is taken from, and for how long the shutter is open.");
-    s.key("position", &CameraParams::position, {.unit = "scene units", .help = "Where the camera stands"});
+    Schema<CameraParams> s("camera", "Position, direction and shutter of the camera.");
+    s.set_example(R"(camera:
+  position: [0, 12, 60]
+  look_at: [0, 9, 0]
+  fov: 24
+  shutter: [-0.25, 0.25]   # a 180-degree shutter)");
+    s.key("position", &CameraParams::position, {.unit = "scene units", .help = "Position of the camera"});
     s.key("look_at", &CameraParams::look_at,
-          {.unit = "scene units", .help = "The point in the middle of the image"});
-    s.key("up", &CameraParams::up, {.help = "Direction that is up in the image"});
+          {.unit = "scene units", .help = "Target of the camera, at the centre of the image"});
+    s.key("up", &CameraParams::up, {.help = "Up vector"});
     s.key("fov", &CameraParams::fov,
           {.unit = "degrees", .help = "Vertical field of view", .min = 0.01, .max = 170});
     s.key("shutter", &CameraParams::shutter,
           {.unit = "frames",
-           .help = "When the shutter opens and closes, relative to the frame; equal: no motion blur"});
+           .help = "Shutter open and close, relative to the frame; equal values give no motion blur"});
     s.key("motion_keys", &CameraParams::motion_keys,
-          {.help = "Times at which moving things are posed while the shutter is open; linear between them",
+          {.help = "Number of poses over the shutter interval; motion is linear between them",
            .min = 2,
            .max = 64});
-    s.key("lens", &CameraParams::lens, {.help = "Depth of field"});
+    s.key("lens", &CameraParams::lens, {.help = "Depth of field; a pinhole without it"});
     return s;
   }();
   return table;

@@ -82,7 +82,7 @@ std::shared_ptr<const MedullaTables> MedullaTables::make(const YanOptics& o, con
   auto tables = std::make_shared<MedullaTables>();
   tables->nodes_.resize(static_cast<size_t>(kInclinations) * kOffsets);
   const TracedFibre fibre{o.eta, o.layers, o.kappa, o.sigma_ms, o.g};
-  const ProgressStage stage(job.progress, "tables of a medulla", static_cast<double>(tables->nodes_.size()));
+  const ProgressStage stage(job.progress, "medulla tables", static_cast<double>(tables->nodes_.size()));
   job.for_each(tables->nodes_.size(), 1, [&](const WorkRange& range) {
     for (size_t i = range.begin; i < range.end; ++i) {
       const auto inclination = static_cast<float>(i / kOffsets), offset = static_cast<float>(i % kOffsets);
@@ -111,7 +111,7 @@ std::shared_ptr<const MedullaTables> MedullaTables::find_or_make(const YanOptics
     const std::optional<StoredFile> file = store.open(kKind, key, tell);
     if (!file) return nullptr;
     if (file->section_count() != 1 || file->section(0).size() != bytes) {
-      tell(store.file(kKind, key).string() + ": not tables of a medulla; made again");
+      tell(store.file(kKind, key).string() + ": not medulla tables; they are made again");
       return nullptr;
     }
     auto tables = std::make_shared<MedullaTables>();

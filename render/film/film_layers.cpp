@@ -5,26 +5,26 @@ namespace pelage {
 
 const Schema<ImageParams>& ImageParams::schema() {
   static const Schema<ImageParams> table = [] {
-    Schema<ImageParams> s("image", "Size and contents of the picture.");
+    Schema<ImageParams> s("image", "Size and layers of the picture.");
+    s.set_example(R"(image: {width: 1920, height: 1080, filter: blackman-harris})");
     s.key("width", &ImageParams::width, {.unit = "pixels", .help = "Width", .min = 1, .max = 65536});
     s.key("height", &ImageParams::height, {.unit = "pixels", .help = "Height", .min = 1, .max = 65536});
     s.key("filter", &ImageParams::filter,
-          {.help = "How a pixel weighs what falls around it: box is one pixel wide, blackman-harris three"});
-    s.key(
-        "filter_samples", &ImageParams::filter_samples,
-        {.help = "`drawn`: the filter draws where each sample of a pixel lies, and pixels are independent of "
-                 "each other. `splatted`: samples lie evenly, and each counts for all pixels around it; "
-                 "with blackman-harris half the variance for the same samples, but neighbouring pixels share "
-                 "their noise. Not with `adaptive`"});
+          {.help = "Pixel filter: `box` is one pixel wide, `blackman-harris` three"});
+    s.key("filter_samples", &ImageParams::filter_samples,
+          {.help =
+               "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent of "
+               "each other. `splatted`: samples are spread evenly, and each one counts for all pixels near "
+               "it. With `blackman-harris` this halves the variance of the same samples, but neighbouring "
+               "pixels share their noise. Not available with `adaptive`"});
     s.key("light_layers", &ImageParams::light_layers,
-          {.help = "One layer per light and lobe, light.lobe.R; their sum is the picture"});
-    s.key(
-        "noise_layers", &ImageParams::noise_layers,
-        {.help = "Layers `samples`, how many a pixel got, and `noise`, the standard error of its luminance; "
-                 "adaptive sampling has them always"});
+          {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
+    s.key("noise_layers", &ImageParams::noise_layers,
+          {.help = "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of "
+                   "the luminance). Adaptive sampling always adds them"});
     s.key("lod_layer", &ImageParams::lod_layer,
-          {.help = "Layer `lod`: the part of the strands that `render.lod` left out where the front-most one "
-                   "stands, 0 on skins; `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});
+          {.help = "Adds the layer `lod`: the fraction of strands that render.lod removed at the front-most "
+                   "surface, 0 on skins. `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});
     return s;
   }();
   return table;

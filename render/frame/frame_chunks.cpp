@@ -37,7 +37,7 @@ size_t growth_bytes(const StrandCounts& n) {
 
 const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part) {
   const FibreParams* fibre = fibre_params(scene.materials[part.material]);
-  if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not one for fibres");
+  if (!fibre) throw Error(ErrorKind::kInput, part.name + ": its material is not for strands");
   return *fibre;
 }
 
@@ -62,7 +62,7 @@ void FrameChunks::divide_skins(const Job& job) {
   const size_t largest = making[max];
   const uint64_t limit = scene_.render.memory.bytes;
   require_room(job.ledger, static_cast<int64_t>(largest),
-               scene_.skins[max].name + ": its skin, posed to be divided");
+               "tessellating the skin of " + scene_.skins[max].name);
   const size_t concurrency = std::min(static_cast<size_t>(job.workers.thread_count()), making.size());
   const bool fit = limit == 0 || job.ledger.budgeted() + static_cast<int64_t>(concurrency * largest) <=
                                      static_cast<int64_t>(limit);
@@ -196,7 +196,7 @@ FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   if (leaves_.empty()) return plan;
   const auto one = static_cast<int64_t>(plan.block + strands);
   require_room(job.ledger, std::max(one, static_cast<int64_t>(largest)),
-               scene_.fur[parts_[which]].name + ": growing the largest of its parts");
+               "growing the largest chunk of " + scene_.fur[parts_[which]].name);
   plan.concurrency = job.workers.thread_count();
   if (job.ledger.limit() > 0) {
     plan.concurrency = static_cast<int>(std::clamp<int64_t>(

@@ -46,8 +46,8 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const bool stores = !scene.render.bvh.file.empty() && may_store;
   if (!scene.render.bvh.file.empty() && !may_store) {
     job.progress.warn(
-        "render.bvh.file: only trees of accel: fur, curves: flat are kept, and none with bounds: none; "
-        "going on without");
+        "render.bvh.file: nothing is stored, because it needs accel: fur, curves: flat, and bounds other "
+        "than none");
   }
   if (stores) {
     options.file = stored_fur(scene.render, *chunks, options, job);

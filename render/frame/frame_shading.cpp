@@ -116,7 +116,7 @@ FrameShading::FrameShading(const RenderScene& scene)
   }
   for (const SkinPart& part : scene.skins) {
     if (!skins_.at(part.material))
-      throw Error(ErrorKind::kInput, part.name + ": its material is not one for skins");
+      throw Error(ErrorKind::kInput, part.name + ": its material is not for skins");
   }
 }
 

@@ -68,8 +68,8 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
   const std::optional<ContentHash> key = content_of(chunks, options.fur);
   if (!key || !chunks.opaque()) {
     warn(std::string("render.bvh.file: ") +
-         (key ? "fur that is not opaque is not kept" : "there is no fur that could be kept") +
-         "; going on without");
+         (key ? "fur that is not opaque cannot be stored" : "the frame has no fur to store") +
+         "; rendering without a store");
     return nullptr;
   }
   const ContentStore store(params.bvh.file.path);

@@ -79,7 +79,7 @@ std::vector<const StrandAttribute*> find_attributes(const Field& field, const St
     }
     if (attribute->components > 4 || found.size() == kMaxFieldAttributes) {
       throw Error(ErrorKind::kInput, place_of(field, name),
-                  part + ": its material reads too many attributes, or one of more than 4 components");
+                  part + ": its material reads too many attributes, or one with more than 4 components");
     }
     found.push_back(attribute);
   }

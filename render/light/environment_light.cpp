@@ -26,10 +26,10 @@ EnvironmentLight::EnvironmentLight(std::string name, std::shared_ptr<const Textu
     : name_(std::move(name)),
       radiance_(factor),
       to_world_(to_world),
-      charge_(reserve(ledger, MemoryTag::kTextures,
-                      static_cast<int64_t>(EnvironmentMap::bytes_for(texture->width(), texture->height())),
-                      fmt::format("light '{}': the distribution of its {} x {} texels", name_,
-                                  texture->width(), texture->height()))),
+      charge_(reserve(
+          ledger, MemoryTag::kTextures,
+          static_cast<int64_t>(EnvironmentMap::bytes_for(texture->width(), texture->height())),
+          fmt::format("sampling light '{}' ({} x {} texels)", name_, texture->width(), texture->height()))),
       map_(std::make_unique<EnvironmentMap>(std::move(texture), factor, check_stop)),
       importance_(static_cast<float>(map_->power())),
       visible_(visible) {}

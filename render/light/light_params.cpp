@@ -5,28 +5,37 @@ namespace pelage {
 
 namespace {
 
-const KeyOptions kRadiance{.unit = "W/(sr m2), or any unit that the whole scene shares",
-                           .help = "Radiance that the light emits, a colour or one number",
+const KeyOptions kRadiance{.unit = "W/(sr m2), or any unit used throughout the scene",
+                           .help = "Emitted radiance: a colour or one number",
                            .min = 0};
 const KeyOptions kIntensity{.help = "Factor on the radiance", .min = 0};
-const KeyOptions kVisible{.help = "Whether the camera sees the light itself; fur and skin always do"};
+const KeyOptions kVisible{.help = "Whether the camera sees the light directly; fur and skin always do"};
 
 }  // namespace
 
 const Schema<RectangleLightParams>& RectangleLightParams::schema() {
   static const Schema<RectangleLightParams> table = [] {
-    Schema<RectangleLightParams> s("rectangle", "A rectangle that shines to one side, or to both.");
+    Schema<RectangleLightParams> s("rectangle", "A rectangular light with one or two emitting sides.");
+    s.set_example(R"(lights:
+  key:
+    type: rectangle
+    position: [-4, 6, 5]
+    look_at: [0, 0.5, 0]
+    size: [4, 4]
+    radiance: [1, 0.93, 0.84]
+    intensity: 10)");
     s.key("position", &RectangleLightParams::position,
           {.unit = "scene units", .help = "Centre of the rectangle"});
     s.key("look_at", &RectangleLightParams::look_at,
-          {.unit = "scene units", .help = "The side that shines faces this point"});
+          {.unit = "scene units", .help = "Point that the emitting side faces"});
     s.key("up", &RectangleLightParams::up,
-          {.help = "Direction that the height leans to; any that is not along the line of sight"});
+          {.help = "Up vector: direction of the rectangle's height. It must not be parallel to the viewing "
+                   "direction from `position` to `look_at`"});
     s.key("size", &RectangleLightParams::size,
           {.unit = "scene units", .help = "Width and height", .min = 0, .above_min = true});
     s.key("radiance", &RectangleLightParams::radiance, kRadiance);
     s.key("intensity", &RectangleLightParams::intensity, kIntensity);
-    s.key("two_sided", &RectangleLightParams::two_sided, {.help = "Shine to both sides"});
+    s.key("two_sided", &RectangleLightParams::two_sided, {.help = "Emit to both sides"});
     s.key("visible", &RectangleLightParams::visible, kVisible);
     return s;
   }();
@@ -35,11 +44,13 @@ const Schema<RectangleLightParams>& RectangleLightParams::schema() {
 
 const Schema<SphereLightParams>& SphereLightParams::schema() {
   static const Schema<SphereLightParams> table = [] {
-    Schema<SphereLightParams> s("sphere", "A sphere that shines to all sides.");
+    Schema<SphereLightParams> s("sphere", "A spherical light that emits in all directions.");
+    s.set_example(R"(lights:
+  lamp: {type: sphere, position: [0, 8, 4], radius: 0.5, intensity: 200})");
     s.key("position", &SphereLightParams::position, {.unit = "scene units", .help = "Centre of the sphere"});
     s.key("radius", &SphereLightParams::radius,
           {.unit = "scene units",
-           .help = "Radius; small ones cast sharp shadows",
+           .help = "Radius; smaller spheres cast sharper shadows",
            .min = 0,
            .above_min = true});
     s.key("radiance", &SphereLightParams::radiance, kRadiance);
@@ -52,18 +63,20 @@ const Schema<SphereLightParams>& SphereLightParams::schema() {
 
 const Schema<EnvironmentLightParams>& EnvironmentLightParams::schema() {
   static const Schema<EnvironmentLightParams> table = [] {
-    Schema<EnvironmentLightParams> s(
-        "environment",
-        "Light from infinitely far away: a lat-long image (HDRI) sampled at its full "
-        "resolution, or the same radiance from everywhere.");
+    Schema<EnvironmentLightParams> s("environment",
+                                     "Light from infinitely far away: a lat-long image (HDRI), sampled at "
+                                     "its full resolution, or constant radiance.");
+    s.set_example(R"(lights:
+  sky: {type: environment, file: studio.hdr, rotate: [0, 90, 0]})");
     s.key("file", &EnvironmentLightParams::file,
-          {.help = "Lat-long image, +y up, its centre column along -z; without one the light is constant",
+          {.help =
+               "Lat-long image, +y up, with its centre column along -z. Without a file the light is constant",
            .default_text = "none"});
     s.key("radiance", &EnvironmentLightParams::radiance,
-          {.help = "Factor on the image, or the radiance itself when there is none", .min = 0});
+          {.help = "Factor on the image, or the constant radiance without a file", .min = 0});
     s.key("intensity", &EnvironmentLightParams::intensity, kIntensity);
     s.key("rotate", &EnvironmentLightParams::rotate,
-          {.unit = "degrees", .help = "Turns the image about x, then y, then z"});
+          {.unit = "degrees", .help = "Rotation of the image about x, then y, then z"});
     s.key("visible", &EnvironmentLightParams::visible, kVisible);
     return s;
   }();

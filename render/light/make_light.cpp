@@ -24,7 +24,7 @@ struct LightMaker {
     const V3f forward = p.look_at.at(frame) - shape.center;
     if (!(forward.length() > 0)) {
       throw Error(ErrorKind::kInput,
-                  fmt::format("lights.{}: look_at is the position itself at frame {}", name, frame));
+                  fmt::format("lights.{}: position and look_at are the same point at frame {}", name, frame));
     }
     const V3f normal = forward.normalized();
     shape.x = p.up.cross(normal);

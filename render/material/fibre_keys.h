@@ -8,28 +8,26 @@
 namespace pelage {
 
 inline constexpr const char* kColorHelp =
-    "Colour of much such fur together, turned into absorption; unused where a preset, absorption or melanin "
-    "is given";
+    "Colour of a dense coat, converted to absorption. Unused if preset, absorption or melanin is given";
 
 template <class P>
 void add_color_keys(Schema<P>& s, const char* help) {
   s.key("color", static_cast<Field P::*>(&P::color), {.help = help, .min = 0, .max = 1});
   s.key("opacity", static_cast<Field P::*>(&P::opacity),
-        {.help = "How much of what lies behind a strand it hides", .min = 0, .max = 1});
+        {.help = "Opacity of a strand: 1 hides everything behind it, 0 nothing", .min = 0, .max = 1});
 }
 
 template <class P>
 void add_absorption_keys(Schema<P>& s) {
   using Amount = std::optional<float> P::*;
-  s.key(
-      "preset", static_cast<HairPreset P::*>(&P::preset),
-      {.help =
-           "Pigments to start from; absorption, eumelanin and pheomelanin below take their place. What the "
-           "pigments absorb is measured [dEon11, after Donner and Jensen 2006]; the amounts are a guide for "
-           "people (blond, brown, black) and guesses for red hair and all animals"});
+  s.key("preset", static_cast<HairPreset P::*>(&P::preset),
+        {.help = "Pigment concentrations to start from; absorption, eumelanin and pheomelanin replace them. "
+                 "The absorption of the pigments is measured [dEon11, after Donner and Jensen 2006]. The "
+                 "concentrations are guide values for people (blond, brown, black), and guesses for red hair "
+                 "and all animals"});
   s.key("absorption", static_cast<std::optional<Rgb> P::*>(&P::absorption),
         {.unit = "per radius of the fibre",
-         .help = "Absorption coefficient; that of the pigments is added",
+         .help = "Absorption coefficient; the absorption of the pigments is added to it",
          .min = 0,
          .max = 1000});
   s.key("eumelanin", static_cast<Amount>(&P::eumelanin),
@@ -47,8 +45,8 @@ void add_eta_key(Schema<P>& s) {
 
 inline KeyOptions field_key() {
   return {.help =
-              "near: what a ray meets depends on where across the fibre it does; far: all places across "
-              "count alike"};
+              "`near`: shading depends on where across the fibre a ray hits it; `far`: shading averages over "
+              "the width of the fibre"};
 }
 template <class P>
 void add_field_key(Schema<P>& s) {

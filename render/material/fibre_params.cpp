@@ -10,11 +10,13 @@ const Schema<LambertCylinderParams>& LambertCylinderParams::schema() {
   static const Schema<LambertCylinderParams> table = [] {
     using P = LambertCylinderParams;
     Schema<P> s("lambert-cylinder",
-                "Fur as opaque tubes that reflect evenly: nothing goes through. The baseline that the other "
-                "models are compared with.");
-    add_color_keys(s, "Colour of much such fur together, turned into albedo; unused where that is given");
+                "Fur as opaque diffuse cylinders that transmit no light. The baseline for comparing the "
+                "other models.");
+    s.set_example(R"(materials:
+  fur: {model: lambert-cylinder, color: [0.5, 0.3, 0.15]})");
+    add_color_keys(s, "Colour of a dense coat, converted to albedo. Unused if albedo is given");
     s.key("albedo", &P::albedo,
-          {.help = "Fraction of the light that a fibre reflects, by channel", .min = 0, .max = 1});
+          {.help = "Fraction of the light that a fibre reflects, per channel", .min = 0, .max = 1});
     add_field_key(s);
     return s;
   }();
@@ -25,17 +27,22 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
   static const Schema<KajiyaKayParams> table = [] {
     using P = KajiyaKayParams;
     Schema<P> s("kajiya-kay",
-                "Fur by Kajiya and Kay (1989): a diffuse term and one highlight about the strand, here "
-                "normalised. Albedos that sum to more than 1 are scaled down.");
+                "Fur by Kajiya and Kay (1989), normalised: a diffuse term and one highlight about the "
+                "strand. Albedos that sum to more than 1 are scaled down.");
+    s.set_example(R"(materials:
+  fur: {model: kajiya-kay, color: [0.5, 0.3, 0.15], exponent: 60})");
     add_color_keys(
-        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the diffuse term");
-    s.key("diffuse", &P::diffuse,
-          {.help = "Albedo of the diffuse term, times color; without it, found from color",
-           .min = 0,
-           .max = 1});
+        s,
+        "Colour of a dense coat, converted to albedo. If diffuse is given, the colour of the diffuse term");
+    s.key(
+        "diffuse", &P::diffuse,
+        {.help = "Albedo of the diffuse term, multiplied by color. Without it, the albedo follows from color",
+         .min = 0,
+         .max = 1});
     s.key("specular", &P::specular,
-          {.help = "Albedo of the highlight, not coloured by the fibre", .min = 0, .max = 1});
-    s.key("exponent", &P::exponent, {.help = "Of the highlight: larger is sharper", .min = 1, .max = 1000});
+          {.help = "Albedo of the highlight, independent of color", .min = 0, .max = 1});
+    s.key("exponent", &P::exponent,
+          {.help = "Exponent of the highlight; larger values are sharper", .min = 1, .max = 1000});
     return s;
   }();
   return table;
@@ -44,31 +51,35 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
 const Schema<MarschnerParams>& MarschnerParams::schema() {
   static const Schema<MarschnerParams> table = [] {
     using P = MarschnerParams;
-    Schema<P> s(
-        "marschner",
-        "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. As published it gives back "
-        "nearly twice what it gets, and a coat of pale fur then gives back without end; see variant.");
+    Schema<P> s("marschner",
+                "Hair by Marschner et al. (2003), far field: lobes R, TT and TRT. The published model "
+                "returns nearly twice the light it receives, so that multiple scattering in light-coloured "
+                "fur diverges; see `variant`.");
+    s.set_example(R"(materials:
+  fur: {model: marschner, eumelanin: 1.3})");
     add_color_keys(s, kColorHelp);
     add_absorption_keys(s);
     add_eta_key(s);
-    s.key(
-        "alpha", &P::alpha,
-        {.unit = "degrees",
-         .help = "Shift of the R lobe, negative toward the root; TT is shifted by -1/2 and TRT by -3/2 of it",
-         .min = -20,
-         .max = 20});
+    s.key("alpha", &P::alpha,
+          {.unit = "degrees",
+           .help = "Shift of the R lobe; negative values shift it toward the root. TT is shifted by -1/2 and "
+                   "TRT by -3/2 of it",
+           .min = -20,
+           .max = 20});
     s.key("beta", &P::beta,
           {.unit = "degrees",
-           .help = "Width of the R lobe in theta_h; TT has half and TRT twice that",
+           .help = "Width of the R lobe in theta_h; TT has half and TRT twice this width",
            .min = 0.5,
            .max = 45});
-    s.key("azimuthal_width", &P::azimuthal_width,
-          {.unit = "degrees",
-           .help = "Blur of all lobes around the fibre, in place of the paper's special case for caustics",
-           .min = 0.5,
-           .max = 60});
+    s.key(
+        "azimuthal_width", &P::azimuthal_width,
+        {.unit = "degrees",
+         .help = "Blur of all lobes around the fibre. It replaces the special case for caustics in the paper",
+         .min = 0.5,
+         .max = 60});
     s.key("variant", &P::variant,
-          {.help = "The lobes as published, or half as high, about what their energy calls for"});
+          {.help = "`published`: the lobes as published; `halved`: half as high, which about restores energy "
+                   "conservation"});
     return s;
   }();
   return table;
@@ -78,18 +89,21 @@ const Schema<DeonParams>& DeonParams::schema() {
   static const Schema<DeonParams> table = [] {
     using P = DeonParams;
     Schema<P> s("deon",
-                "Hair by d'Eon et al. (2011): lobes R, TT, TRT and all longer ways, energy-conserving.");
+                "Hair by d'Eon et al. (2011): lobes R, TT, TRT and all longer paths. Conserves energy.");
+    s.set_example(R"(materials:
+  fur: {model: deon, preset: human-blond})");
     add_color_keys(s, kColorHelp);
     add_absorption_keys(s);
     add_eta_key(s);
     s.key("alpha", &P::alpha,
           {.unit = "degrees",
-           .help = "As in marschner: the R lobe has its peak at theta_i = -theta_o + 2 alpha",
+           .help =
+               "Shift of the lobes, as in marschner: the R lobe has its peak at theta_i = -theta_o + 2 alpha",
            .min = -20,
            .max = 20});
     s.key("beta", &P::beta,
           {.unit = "degrees",
-           .help = "Width of the R lobe in theta_i; TT has half and TRT twice that",
+           .help = "Width of the R lobe in theta_i; TT has half and TRT twice this width",
            .min = 0.1,
            .max = 60});
     s.key("azimuthal_width", &P::azimuthal_width,
@@ -104,20 +118,21 @@ const Schema<ChiangParams>& ChiangParams::schema() {
   static const Schema<ChiangParams> table = [] {
     using P = ChiangParams;
     Schema<P> s("chiang",
-                "Hair and fur by Chiang et al. (2016): the lobes of d'Eon seen from near, with perceptually "
-                "even roughness.");
+                "Hair and fur by Chiang et al. (2016): the lobes of deon in the near field, with "
+                "perceptually uniform roughness.");
+    s.set_example(R"(materials:
+  fur: {model: chiang, color: [0.5, 0.3, 0.15], beta_m: 0.25, beta_n: 0.3})");
     add_color_keys(s, kColorHelp);
     add_absorption_keys(s);
     add_eta_key(s);
     s.key("beta_m", &P::beta_m, {.help = "Roughness along the fibre", .min = 0.02, .max = 1});
     s.key("beta_n", &P::beta_n, {.help = "Roughness around the fibre", .min = 0.02, .max = 1});
-    s.key(
-        "alpha", &P::alpha,
-        {.unit = "degrees",
-         .help = "Tilt of the cuticle's scales: moves the primary highlight to the tip and the secondary to "
-                 "the root",
-         .min = -10,
-         .max = 10});
+    s.key("alpha", &P::alpha,
+          {.unit = "degrees",
+           .help = "Tilt of the cuticle scales: moves the primary highlight toward the tip and the secondary "
+                   "toward the root",
+           .min = -10,
+           .max = 10});
     add_field_key(s);
     return s;
   }();

@@ -15,10 +15,11 @@ constexpr double kWidest =
 
 const Schema<LambertParams>& LambertParams::schema() {
   static const Schema<LambertParams> table = [] {
-    Schema<LambertParams> s("lambert",
-                            "A surface that reflects evenly in all directions: skin, eyes, ground.");
+    Schema<LambertParams> s("lambert", "A diffuse surface: skin, eyes, ground.");
+    s.set_example(R"(materials:
+  hide: {model: lambert, color: [0.5, 0.35, 0.3]})");
     s.key("color", &LambertParams::color,
-          {.help = "Fraction of the light that is reflected, by channel", .min = 0, .max = 1});
+          {.help = "Fraction of the light that is reflected, per channel", .min = 0, .max = 1});
     return s;
   }();
   return table;
@@ -26,11 +27,13 @@ const Schema<LambertParams>& LambertParams::schema() {
 
 const Schema<GlossyParams>& GlossyParams::schema() {
   static const Schema<GlossyParams> table = [] {
-    Schema<GlossyParams> s("glossy", "A surface under a clear coat: eyes, noses.");
+    Schema<GlossyParams> s("glossy", "A diffuse surface under a clear coat: eyes, noses.");
+    s.set_example(R"(materials:
+  eye: {model: glossy, color: 0.02, roughness: 0.05})");
     s.key("color", &GlossyParams::color,
-          {.help = "Fraction of the light that the base reflects, by channel", .min = 0, .max = 1});
+          {.help = "Fraction of the light that the base reflects, per channel", .min = 0, .max = 1});
     s.key("roughness", &GlossyParams::roughness,
-          {.help = "Of the coat: 0 is a mirror, 1 is matt", .min = 0, .max = 1});
+          {.help = "Roughness of the coat: 0 is a mirror, 1 is matt", .min = 0, .max = 1});
     s.key("ior", &GlossyParams::ior, {.help = "Index of refraction of the coat", .min = 1, .max = 3});
     return s;
   }();
@@ -40,24 +43,27 @@ const Schema<GlossyParams>& GlossyParams::schema() {
 const Schema<ConeShellParams>& ConeShellParams::schema() {
   static const Schema<ConeShellParams> table = [] {
     using P = ConeShellParams;
-    Schema<P> s(
-        "cone-shell",
-        "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two highlights, "
-        "each a shell between two cones about the strand. Albedos that sum to more than 1 are scaled down.");
+    Schema<P> s("cone-shell",
+                "Fur by the cone-shell model of 'Rendering Fur in Life of Pi': a diffuse lobe and two "
+                "highlights. Each highlight is a shell between two cones about the strand. Albedos that sum "
+                "to more than 1 are scaled down.");
+    s.set_example(R"(materials:
+  fur: {model: cone-shell, color: {attribute: color}})");
     add_color_keys(
-        s, "Colour of much such fur together, turned into albedo; with diffuse, that of the fibre's lobes");
+        s,
+        "Colour of a dense coat, converted to albedo. If diffuse is given, the colour of the fibre's lobes");
     s.key("diffuse", &P::diffuse,
-          {.help = "Albedo of the diffuse lobe, times color; without it, found from color so that a white "
-                   "fibre absorbs nothing",
+          {.help = "Albedo of the diffuse lobe, multiplied by color. Without it, the albedo follows from "
+                   "color, so that a white fibre absorbs nothing",
            .min = 0,
            .max = 1});
-    s.key("balance", &P::balance,
-          {.help =
-               "Where the diffuse lobe scatters: 1 back to the viewer's side, 0 evenly, -1 through the fibre",
-           .min = -1,
-           .max = 1});
+    s.key(
+        "balance", &P::balance,
+        {.help = "Direction of diffuse scattering: 1 back to the viewer's side, 0 even, -1 through the fibre",
+         .min = -1,
+         .max = 1});
     s.key("primary", &P::primary,
-          {.help = "Albedo of the primary highlight, not coloured by the fibre", .min = 0, .max = 1});
+          {.help = "Albedo of the primary highlight, independent of color", .min = 0, .max = 1});
     s.key("primary_width", &P::primary_width,
           {.unit = "degrees",
            .help = "Half width of the primary highlight",
@@ -65,22 +71,23 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "Where along the strand the tangent is taken; negative moves the highlight to the tip",
+           .help = "Shift of the point whose tangent sets the highlight, along the strand. Negative values "
+                   "move the highlight toward the tip",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,
           {.unit = "fractions of the strand",
-           .help = "Random part of the shift, different for each strand, to break the highlight up",
+           .help = "Random part of primary_shift per strand, which breaks up the highlight",
            .min = 0,
            .max = 1});
     s.key("primary_tilt", &P::primary_tilt,
           {.unit = "degrees",
-           .help = "Tilts the highlight's cone toward the root (positive) or the tip; works on straight "
-                   "strands too",
+           .help = "Tilt of the highlight's cone: positive toward the root, negative toward the tip. It also "
+                   "works on straight strands",
            .min = -45,
            .max = 45});
     s.key("secondary", &P::secondary,
-          {.help = "Albedo of the secondary highlight, times color", .min = 0, .max = 1});
+          {.help = "Albedo of the secondary highlight, multiplied by color", .min = 0, .max = 1});
     s.key("secondary_width", &P::secondary_width,
           {.unit = "degrees",
            .help = "Half width of the secondary highlight",
@@ -88,7 +95,7 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("secondary_shift", &P::secondary_shift,
           {.unit = "fractions of the strand",
-           .help = "As primary_shift; positive moves it to the root",
+           .help = "As primary_shift; positive values move the highlight toward the root",
            .min = -1,
            .max = 1});
     s.key("secondary_jitter", &P::secondary_jitter,
@@ -96,8 +103,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
     s.key("secondary_tilt", &P::secondary_tilt,
           {.unit = "degrees", .help = "As primary_tilt", .min = -45, .max = 45});
     s.key("variant", &P::variant,
-          {.help = "Weight across a shell: soft edges that the Wigner sampler draws exactly, or the literal "
-                   "cosine"});
+          {.help = "Profile across a shell: `wigner` has soft edges, which the sampler draws exactly; "
+                   "`literal` is the published cosine"});
     return s;
   }();
   return table;

@@ -53,27 +53,28 @@ void add_medulla_keys(Schema<P>& s) {
     s.key(name, static_cast<std::optional<Rgb> P::*>(member),
           {.unit = "per radius of the fibre", .help = help, .min = 0, .max = 1000});
   };
-  add_color_keys(
-      s,
-      "Colour of much such fur together, turned into the absorption of cortex and medulla; unused where "
-      "a preset or sigma_ca and sigma_ma are given");
+  add_color_keys(s,
+                 "Colour of a dense coat, converted to the absorption of cortex and medulla. Unused if a "
+                 "preset, or sigma_ca and sigma_ma, are given");
   s.key("preset", static_cast<YanPreset P::*>(&P::preset),
-        {.help = "Fur to start from; the keys below change it. row-a, row-b and row-c are parameters that "
-                 "implementations of the model carry as measured, second hand and of animals unknown; all "
-                 "others are guesses"});
-  angle("alpha", &MedullaParams::alpha, "Tilt of the cuticle's scales; 2 without preset", -15, 15);
-  angle("beta_m", &MedullaParams::beta_m, "Width of the lobes along the fibre; 8 without preset", 0.1, 45);
-  angle("beta_n", &MedullaParams::beta_n, "Width of the lobes around the fibre; 10 without preset", 0.1, 60);
-  number("eta", &MedullaParams::eta, "Index of refraction; 1.55 without preset", 1.05, 3);
-  number("kappa", &MedullaParams::kappa, "Radius of the medulla over that of the fibre; 0.8 without preset",
+        {.help = "Fibre parameters to start from; the keys below change them. row-a, row-b and row-c come "
+                 "from other implementations of the model, which call them measured and do not name the "
+                 "animals. All others are guesses"});
+  angle("alpha", &MedullaParams::alpha, "Tilt of the cuticle scales; 2 without a preset", -15, 15);
+  angle("beta_m", &MedullaParams::beta_m, "Width of the lobes along the fibre; 8 without a preset", 0.1, 45);
+  angle("beta_n", &MedullaParams::beta_n, "Width of the lobes around the fibre; 10 without a preset", 0.1,
+        60);
+  number("eta", &MedullaParams::eta, "Index of refraction; 1.55 without a preset", 1.05, 3);
+  number("kappa", &MedullaParams::kappa, "Radius of the medulla relative to the fibre; 0.8 without a preset",
          0, 0.98);
-  number("sigma_ms", &MedullaParams::sigma_ms, "Scattering of the medulla; 2.5 without preset", 0, 40,
-         "per radius of the fibre");
-  number("g", &MedullaParams::g, "Mean cosine of what the medulla scatters; 0.5 without preset", -0.95, 0.95);
+  number("sigma_ms", &MedullaParams::sigma_ms, "Scattering coefficient of the medulla; 2.5 without a preset",
+         0, 40, "per radius of the fibre");
+  number("g", &MedullaParams::g, "Mean cosine of scattering in the medulla; 0.5 without a preset", -0.95,
+         0.95);
   number("layers", &MedullaParams::layers,
-         "Layers of cuticle; 0.5, which is one smooth interface, without preset", 0.05, 10);
-  absorption("sigma_ca", &MedullaParams::sigma_ca, "Absorption of the cortex");
-  absorption("sigma_ma", &MedullaParams::sigma_ma, "Absorption of the medulla");
+         "Number of cuticle layers; 0.5, which is one smooth interface, without a preset", 0.05, 10);
+  absorption("sigma_ca", &MedullaParams::sigma_ca, "Absorption coefficient of the cortex");
+  absorption("sigma_ma", &MedullaParams::sigma_ma, "Absorption coefficient of the medulla");
   s.key("field", static_cast<FibreField P::*>(&P::field), field_key());
 }
 
@@ -97,8 +98,10 @@ YanOptics MedullaParams::optics() const {
 const Schema<YanFastParams>& YanFastParams::schema() {
   static const Schema<YanFastParams> table = [] {
     Schema<YanFastParams> s("yan-fast",
-                            "Fur after Yan et al. (2017): lobes R, TT and TRT of a fibre with a medulla, and "
-                            "one analytic lobe for all that the medulla scatters.");
+                            "Fur by Yan et al. (2017): lobes R, TT and TRT of a fibre with a medulla, and "
+                            "one analytic lobe for scattering in the medulla.");
+    s.set_example(R"(materials:
+  fur: {model: yan-fast, preset: tiger-orange})");
     add_medulla_keys(s);
     return s;
   }();
@@ -108,13 +111,14 @@ const Schema<YanFastParams>& YanFastParams::schema() {
 const Schema<YanParams>& YanParams::schema() {
   static const Schema<YanParams> table = [] {
     using P = YanParams;
-    Schema<P> s(
-        "yan",
-        "Fur after Yan et al. (2015): as yan-fast, with tables of what the medulla scatters, made once "
-        "by tracing light through the fibre.");
+    Schema<P> s("yan",
+                "Fur by Yan et al. (2015): as yan-fast, but medulla scattering comes from tables, which "
+                "Pelage makes by tracing light through the fibre.");
+    s.set_example(R"(materials:
+  fur: {model: yan, preset: mouse, tables: fibre_tables})");
     add_medulla_keys(s);
     s.key("tables", &P::tables,
-          {.help = "Folder in which the tables are kept for the next run; made anew for each run without one",
+          {.help = "Folder that stores the tables between runs. Without it each run makes them anew",
            .default_text = "none"});
     return s;
   }();

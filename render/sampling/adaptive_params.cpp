@@ -6,29 +6,34 @@ namespace pelage {
 const Schema<AdaptiveParams>& AdaptiveParams::schema() {
   static const Schema<AdaptiveParams> table = [] {
     Schema<AdaptiveParams> s("adaptive",
-                             "Samples where the noise is; `samples` of `render` is then the most that a "
-                             "pixel gets.");
+                             "Adaptive sampling: takes more samples in noisy pixels. `samples` of render is "
+                             "then the maximum per pixel.");
+    s.set_example(R"(render:
+  samples: 1024   # the maximum per pixel
+  adaptive: {noise: 0.02})");
     s.key(
         "rule", &AdaptiveParams::rule,
-        {.help = "`two-stage`: a pilot of the whole frame decides how many samples each pixel gets, without "
-                 "bias. `seed`: each pixel goes on until it looks converged; as it is the same samples that "
-                 "end it, rare bright ones are lost and the picture is too dark"});
+        {.help = "`two-stage`: a pilot pass over the frame decides the number of samples of each pixel, "
+                 "without bias. `seed`: each pixel is sampled until it looks converged. This rule is biased: "
+                 "a pixel may stop before it meets rare bright paths, so the picture becomes too dark"});
     s.key("noise", &AdaptiveParams::noise,
-          {.help = "Noise budget: half of the 95 % confidence interval of a pixel's luminance, over the "
-                   "luminance. Two-stage: pixels darker than a tenth of the picture's mean count as if they "
-                   "were as bright as that",
+          {.help = "Noise budget: half of the 95 % confidence interval of a pixel's luminance, divided by "
+                   "the luminance. In `two-stage`, a pixel darker than a tenth of the picture's mean counts "
+                   "as that bright",
            .min = 1e-4,
            .max = 10});
     s.key("goal", &AdaptiveParams::goal,
-          {.help = "Two-stage: whether the root mean square over the noisy pixels of the frame keeps the "
-                   "budget, by the least number of samples, or each pixel"});
+          {.help = "For `two-stage`. `frame`: the root mean square over the noisy pixels of the frame meets "
+                   "the budget, with the minimum number of samples; `pixel`: each pixel meets it"});
     s.key("pilot", &AdaptiveParams::pilot,
-          {.help = "Two-stage: samples that a pixel gets before counts are decided; a quarter of them where "
-                   "nothing is met and nothing varies",
+          {.help = "For `two-stage`: samples per pixel in the pilot pass. A pixel in which nothing is hit "
+                   "and nothing varies gets a quarter of them",
            .min = 4,
            .max = 65536});
     s.key("batch", &AdaptiveParams::batch,
-          {.help = "Seed: samples between looks at a pixel", .min = 2, .max = 65536});
+          {.help = "For `seed`: number of samples between convergence tests of a pixel",
+           .min = 2,
+           .max = 65536});
     return s;
   }();
   return table;

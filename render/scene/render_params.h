@@ -43,6 +43,9 @@ struct ValueReader<LodCamera> {
   static bool read(const Value&, const KeyOptions&, LodCamera& out, Problems&);
   static std::string type_name() { return "main, or block camera"; }
   static std::string print(const LodCamera& camera) { return camera.own ? "{}" : "main"; }
+  static void visit_blocks(Value& value, const BlockVisitor& visit) {
+    if (value.is_map()) visit(value, CameraParams::schema());
+  }
 };
 
 /// `lod:` of `render:`.

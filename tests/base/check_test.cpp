@@ -9,7 +9,8 @@ namespace {
 TEST(CheckDeathTest, BrokenInvariantStopsTheProgramAndSaysWhichAndWhere) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const int strands = -1;
-  EXPECT_DEATH(PELAGE_CHECK(strands >= 0), "bug: .*check_test.cpp:[0-9]+: this must hold: strands >= 0");
+  EXPECT_DEATH(PELAGE_CHECK(strands >= 0),
+               "internal error: .*check_test.cpp:[0-9]+: check failed: strands >= 0");
 }
 
 TEST(Check, WhatHoldsIsEvaluatedOnceAndPasses) {

@@ -64,11 +64,11 @@ TEST(Keyed, MistakesAreReported) {
   EXPECT_EQ(problems_of(keys({{"one", scalar("1")}})), Lines{"expected a frame number, got 'one'"});
   EXPECT_EQ(problems_of(keys({{"1", scalar("1")}, {"1.0", scalar("2")}})), Lines{"frame 1 has two values"});
   EXPECT_EQ(problems_of(keys({})),
-            Lines{"expected frames and their values, {1: a, 48: b}, got a block of 0 keys"});
+            Lines{"expected a map from frames to values, {1: a, 48: b}, got a block of 0 keys"});
   EXPECT_EQ(problems_of(block({{"keys", scalar("1")}})),
-            Lines{"expected frames and their values, {1: a, 48: b}, got '1'"});
+            Lines{"expected a map from frames to values, {1: a, 48: b}, got '1'"});
   EXPECT_EQ(problems_of(block({{"kyes", scalar("1")}})),
-            Lines{"unknown key 'kyes' in a value that changes over time; did you mean 'keys'?"});
+            Lines{"unknown key 'kyes' in a value with keys; did you mean 'keys'?"});
   EXPECT_EQ(problems_of(block({})), Lines{"expected {keys: {frame: value, ...}}, got {}"});
 }
 

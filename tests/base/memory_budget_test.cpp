@@ -28,14 +28,13 @@ TEST(MemoryBudget, RefusalNamesTheThingWhatIsInUseAndWhatWouldDo) {
   const MemoryCharge libraries(ledger, MemoryTag::kLibraries, 100 << 20);  // not of the budget
   EXPECT_NO_THROW(require_room(ledger, 24 << 20, "groom 'coat'"));
   try {
-    require_room(ledger, 25 << 20, "groom 'coat': the follicles of 5,000 strands");
+    require_room(ledger, 25 << 20, "placing 5000 strands of groom 'coat'");
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-    EXPECT_STREQ(
-        error.what(),
-        "groom 'coat': the follicles of 5,000 strands: needs 25.0 MiB, but render.memory is 64.0 MiB and "
-        "40.0 MiB are in use (skins 30.0 MiB, textures 10.0 MiB); it takes at least --memory 66M");
+    EXPECT_STREQ(error.what(),
+                 "placing 5000 strands of groom 'coat' needs 25.0 MiB, but render.memory is 64.0 MiB and "
+                 "40.0 MiB are in use (skins 30.0 MiB, textures 10.0 MiB); give at least --memory 66M");
   }
 }
 

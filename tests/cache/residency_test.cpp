@@ -241,7 +241,7 @@ TEST_F(ResidencyTest, RefusesABudgetBelowTheLargestChunk) {
   EXPECT_NE(text.find("the largest chunk needs 2.0 MiB"), std::string::npos) << text;
   // What it says would do does, and a MiB less does not.
   std::smatch match;
-  ASSERT_TRUE(std::regex_search(text, match, std::regex("; (\\d+)M would do")));
+  ASSERT_TRUE(std::regex_search(text, match, std::regex("; give at least (\\d+)M")));
   const uint64_t min = std::stoull(match[1]) << 20;
   with_limit(min);
   EXPECT_THROW(with_limit(min - (1 << 20)), Error);

@@ -28,7 +28,7 @@ class GrowBoxesTest : public testing::Test {
   // What was said of a frame: chunks, and how many of them were remembered.
   static std::pair<int, int> boxes(const std::string& said, int frame) {
     std::smatch match;
-    const std::regex line("boxes of frame " + std::to_string(frame) + ": (\\d+) chunks, (\\d+) of them");
+    const std::regex line("frame " + std::to_string(frame) + ": boxes of (\\d+) chunks, (\\d+) read");
     if (!std::regex_search(said, match, line)) return {0, 0};
     return {std::stoi(match[1]), std::stoi(match[2])};
   }
@@ -74,7 +74,7 @@ TEST_F(GrowBoxesTest, FailsWhenNothingWasKept) {
   } catch (const Error& error) {
     testing::internal::GetCapturedStdout();
     EXPECT_EQ(error.kind(), ErrorKind::kFailed);
-    EXPECT_STREQ(error.what(), "the cache could not be written: of groom 'coat'");
+    EXPECT_STREQ(error.what(), "cannot write the cache of groom 'coat'");
   }
 }
 

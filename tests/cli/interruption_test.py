@@ -62,7 +62,7 @@ class Interruption(ProgramTest):
         self.assertEqual(self.names(), ["a.exr", "cube.obj", "scene.yaml"])
 
     def test_a_picture_of_no_samples_replaces_nothing_when_tables_are_made(self):
-        self.keeps("--set", "materials.fur={model: yan}", stage="tables of a medulla")
+        self.keeps("--set", "materials.fur={model: yan}", stage="medulla tables")
 
     def test_a_picture_of_no_samples_replaces_nothing_when_boxes_are_measured(self):
         self.keeps("--set", "grooms.coat.strands=60000", "--set", "grooms.coat.points=60", "--set",

@@ -69,7 +69,7 @@ TEST_F(LodPictures, NothingButTheViewDecides) {
 }
 
 TEST_F(LodPictures, WhereEverythingIsKeptItIsAsIfThereWereNone) {
-  const Settings kept{kOn, {"render.lod.quality", "100"}, {"render.lod.least_share", "1"}};
+  const Settings kept{kOn, {"render.lod.quality", "100"}, {"render.lod.min_fraction", "1"}};
   const auto off = render("off", {kOff});
   EXPECT_EQ(max_left_out(off), 0);
   expect_equal(off, render("on", kept));
@@ -82,9 +82,11 @@ TEST_F(LodPictures, SomeCharactersKeepEveryHair) {
     return RunStatistics::read(folder_.path() / (name + ".json"))->number("strands_generated");
   };
   const Override eager{"render.bounds", "none"};
-  expect_equal(render("none", {kOn, eager, {"render.lod.in_full", "0"}}), render("reduced", {kOn, eager}));
-  expect_equal(render("six", {kOn, eager, {"render.lod.in_full", "6"}}), render("whole", {kOff, eager}));
-  render("three", {kOn, eager, {"render.lod.in_full", "3"}});
+  expect_equal(render("none", {kOn, eager, {"render.lod.full_detail_characters", "0"}}),
+               render("reduced", {kOn, eager}));
+  expect_equal(render("six", {kOn, eager, {"render.lod.full_detail_characters", "6"}}),
+               render("whole", {kOff, eager}));
+  render("three", {kOn, eager, {"render.lod.full_detail_characters", "3"}});
   EXPECT_LT(hairs("none"), 0.7 * hairs("six"));
   // Half of them, near and far: half of what there is to save.
   EXPECT_NEAR(hairs("three"), 0.5 * (hairs("none") + hairs("six")), 0.1 * (hairs("six") - hairs("none")));

@@ -124,13 +124,13 @@ class Measure(unittest.TestCase):
                      "--set", crowd, "--set", "image.width=96", "--set", "image.height=64", "--set", "grooms.coat.strands=4000",
                      "--set", "render.bounds=none")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        self.assertEqual(list(rows), ["warm-up", "reduced detail", "2 in full", "4 in full", "all in full",
-                                      "all in full, extrapolated", "standard error of that"])
+        self.assertEqual(list(rows), ["warm-up", "reduced detail", "2 at full detail", "4 at full detail", "all at full detail",
+                                      "all at full detail, extrapolated", "standard error of the extrapolation"])
         grown = {name: row["strands_generated"] for name, row in rows.items()}
-        self.assertEqual(grown["all in full"], 8 * 4000)
-        self.assertLess(grown["reduced detail"], 0.7 * grown["all in full"])
+        self.assertEqual(grown["all at full detail"], 8 * 4000)
+        self.assertLess(grown["reduced detail"], 0.7 * grown["all at full detail"])
         # Near and far boxes keep different shares: the line misses by no more than that.
-        self.assertLess(abs(grown["all in full, extrapolated"] / grown["all in full"] - 1), 0.1)
+        self.assertLess(abs(grown["all at full detail, extrapolated"] / grown["all at full detail"] - 1), 0.1)
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
         sections = [e.text for e in xml.etree.ElementTree.parse(self.path / "out" / "report.html").getroot().iter()
                     if e.tag.endswith("}h2")]

@@ -122,9 +122,9 @@ TEST_F(PostCommands, FramesGoFromFileToFile) {
 TEST_F(PostCommands, MistakesAreNamed) {
   EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.png"}), "-o b.png: pictures are written as .exr");
   EXPECT_EQ(refusal({"motionblur", "a.%04d.exr", "-o", "b.exr"}),
-            "a.%04d.exr: say which frames with --frames");
+            "a.%04d.exr: give the frames with --frames");
   EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.%d.exr", "--frames", "1-3"}),
-            "a.exr: several frames need a place for their number, as in %04d");
+            "a.exr: the file name of several frames needs a frame number, as in %04d");
   EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.exr", "--motion-y", "upp"}),
             "--motion-y 'upp' is not known; did you mean 'up'?");
   EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", "--convergence", "-3"}),

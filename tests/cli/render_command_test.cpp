@@ -106,10 +106,11 @@ TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
     }
     return "rendered";
   };
-  EXPECT_NE(refused({{"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}}).find("the film"),
+  EXPECT_NE(refused({{"render.memory", "4G"}, {"image", "{width: 65536, height: 65536}"}})
+                .find("the frame buffer alone"),
             std::string::npos);
   EXPECT_NE(refused({{"render.memory", "2M"}, {"grooms.coat.strands", "100000"}})
-                .find("groom 'coat': placing 100000 strands: needs 23."),
+                .find("placing 100000 strands of groom 'coat' needs 23."),
             std::string::npos);
   // The same that would do, whether strands are measured first or not.
   const auto too_large = [&](const std::string& bounds) {

@@ -54,7 +54,7 @@ TEST(SignalsDeathTest, TheSecondEndsTheProcess) {
         ::raise(SIGINT);
         ::raise(SIGINT);
       },
-      testing::KilledBySignal(SIGINT), "stopping; once more ends at once");
+      testing::KilledBySignal(SIGINT), "stopping after this pass; press Ctrl-C again to quit now");
 }
 
 }  // namespace

@@ -114,14 +114,15 @@ TEST(SurfaceTopology, RefusesWhatHasNoSurface) {
   };
   EXPECT_EQ(message(ControlMesh()), "cage.obj: the cage has no faces");
   EXPECT_EQ(message(make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1}})),
-            "cage.obj: face 2 has 2 corners, 3 to 1000 are possible");
+            "cage.obj: face 2 has 2 corners; 3 to 1000 are supported");
   EXPECT_EQ(message(make_cage({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 1}})),
-            "cage.obj: face 2 uses vertex 4 of 3\ncage.obj: face 3 has fewer than 3 different vertices");
+            "cage.obj: face 2 uses vertex 4, but the cage has 3\ncage.obj: face 3 has fewer than 3 different "
+            "vertices");
   EXPECT_NE(message(cube_cage(), SubdivisionScheme::kLoop)
-                .find("the loop scheme takes triangles only, face 1 has 4 corners; 6 of 6 faces have more"),
+                .find("the loop scheme needs triangles, but face 1 has 4 corners; 6 of 6 faces have more"),
             std::string::npos);
   EXPECT_EQ(message(prism_cage(1001)).substr(0, 30), "cage.obj: face 1 has 1001 corn");
-  EXPECT_EQ(message(poles_cage(1001)).substr(0, 40), "cage.obj: 1001 faces meet at vertex 1, a");
+  EXPECT_EQ(message(poles_cage(1001)).substr(0, 40), "cage.obj: 1001 faces meet at vertex 1; t");
   // Each allowed by itself, together tens of gigabytes.
   ControlMesh cage;
   for (uint32_t copy = 0; copy < 100; ++copy) {
@@ -134,16 +135,16 @@ TEST(SurfaceTopology, RefusesWhatHasNoSurface) {
   EXPECT_EQ(message(cage).substr(0, 46), "cage.obj: too many vertices of many faces and ");
   cage = cube_cage();
   cage.creases = {{0, 7, 1}};
-  EXPECT_EQ(message(cage), "cage.obj: a crease joins vertices 1 and 8, which no face does");
+  EXPECT_EQ(message(cage), "cage.obj: the crease from vertex 1 to 8 is not an edge of any face");
   cage = cube_cage();
   cage.corners = {{8, 1}};
-  EXPECT_EQ(message(cage), "cage.obj: corner at vertex 9: no such vertex");
+  EXPECT_EQ(message(cage), "cage.obj: corner at vertex 9: this vertex does not exist");
   cage = cube_cage();
   cage.holes = {6};
-  EXPECT_EQ(message(cage), "cage.obj: hole 7: no such face");
+  EXPECT_EQ(message(cage), "cage.obj: hole 7: this face does not exist");
   cage = cube_cage();
   cage.face_sizes.pop_back();
-  EXPECT_EQ(message(cage), "cage.obj: the faces of the cage have 20 corners, 24 are given");
+  EXPECT_EQ(message(cage), "cage.obj: the faces of the cage have 20 corners, but 24 are given");
 }
 
 /// Random faces over few vertices: edges of many faces, faces both ways round, vertices twice in a face.

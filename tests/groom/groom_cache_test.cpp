@@ -156,8 +156,7 @@ TEST_F(GroomCacheTest, GuidesAreNotReadWhenTheCacheHasTheirCoatAndMakeItStaleWhe
     write_guides(file, *rest_, 0.7f);
     const auto changed = make(coat);
     EXPECT_FALSE(changed->cache_report()->fresh);
-    EXPECT_TRUE(
-        changed->cache_report()->summary().starts_with("stale from guides on (contents of guides.hair"))
+    EXPECT_TRUE(changed->cache_report()->summary().starts_with("stale from guides (contents of guides.hair"))
         << changed->cache_report()->summary();
     const auto other = bits(*changed, at_rest());
     EXPECT_NE(cold, other);
@@ -180,12 +179,12 @@ TEST_F(GroomCacheTest, EditingAnOperatorRunsOnlyItAndWhatFollows) {
   const auto frizzed = make(with("0.6", "0.02"));
   const GroomCacheReport& last = *frizzed->cache_report();
   EXPECT_EQ(last.resumed, 4u);
-  EXPECT_EQ(last.summary(), "stale from frizz on (amplitude: 0.01 -> 0.02)");
+  EXPECT_EQ(last.summary(), "stale from frizz (amplitude: 0.01 -> 0.02)");
 
   const auto clumped = make(with("0.5", "0.02"));
   const GroomCacheReport& middle = *clumped->cache_report();
   EXPECT_EQ(middle.resumed, 2u);
-  EXPECT_EQ(middle.summary(), "stale from clump on (amount: 0.6 -> 0.5)");
+  EXPECT_EQ(middle.summary(), "stale from clump (amount: 0.6 -> 0.5)");
   EXPECT_EQ(middle.stages.back().reason, "follows");
 
   EXPECT_EQ(files("layer").size(), 4u) << "those that nothing can go on from are gone";

@@ -89,7 +89,7 @@ TEST_F(SintelTest, InterpolatedGuidesLookLikeTheRealGroom) {
   const Portrait wanted = portrait_of(real);
   // The artist's strands are shorter than their guides: half of them by more than 0.7, evenly down to a half.
   const std::string shorter = "- length: {scale: 0.95, variation: 0.5}\n";
-  const Portrait grown = grow(", spread: 0.03", shorter);
+  const Portrait grown = grow(", growth_radius: 0.03", shorter);
   // Two halves of the real groom differ by 0.077, 0.029 and 0.013; a coat all over the bust by 0.73, 0.54 and
   // 0.77.
   EXPECT_LT(difference(grown.density, wanted.density), 0.22);

@@ -81,7 +81,7 @@ class Cache(unittest.TestCase):
         self.assertIn("(new)", self.grow()[0])
         self.assertIn("coat: fresh", self.grow()[0])
         out = self.grow("--explain", "--set", "grooms.coat.operators.clump.amount=0.5")[0]
-        self.assertIn("stale from clump on (amount: 0.6 -> 0.5)", out)
+        self.assertIn("stale from clump (amount: 0.6 -> 0.5)", out)
         self.assertRegex(out, r"comb +fresh")
         self.assertRegex(out, r"frizz +stale: follows")
 

@@ -74,7 +74,7 @@ TEST(Exr, ChannelsThatAFileWouldMixAreRefused) {
     }
     return "";
   };
-  EXPECT_NE(refusal("key.R", "key.R").find("channel 'key.R' is there twice"), std::string::npos);
+  EXPECT_NE(refusal("key.R", "key.R").find("channel 'key.R' occurs twice"), std::string::npos);
   EXPECT_NE(refusal(std::string("key\0a", 5), std::string("key\0b", 5)).find("zero byte"), std::string::npos);
   EXPECT_NE(refusal(std::string(256, 'a'), "b").find("255 bytes"), std::string::npos);
   EXPECT_NE(refusal("", "b").find("no name"), std::string::npos);
@@ -216,15 +216,15 @@ TEST(Exr, RefusesHeadersThatClaimTooMuch) {
   EXPECT_EQ(error(patched(whole, window, 12, 0x7fffffff)), ": claims to have 2147483648 x 40 pixels");
   EXPECT_EQ(error(patched(whole, window, 16, 0xffffff00)), ": claims to have 64 x -255 pixels");
   EXPECT_EQ(error(patched(whole, window, 0, 0x70000000)),
-            ": attribute 'dataWindow' claims 1879048192 bytes, more than there are");
+            ": attribute 'dataWindow' claims 1879048192 bytes, more than the file has");
   EXPECT_EQ(error(patched(whole, window, 0, 0xffffffff)),
-            ": attribute 'dataWindow' claims -1 bytes, more than there are");
+            ": attribute 'dataWindow' claims -1 bytes, more than the file has");
   // The library reads as many bytes as a type has, and then takes what follows for the next attribute.
-  EXPECT_EQ(error(patched(whole, window, 0, 17)), ": attribute 'dataWindow' is not as long as it claims");
+  EXPECT_EQ(error(patched(whole, window, 0, 17)), ": attribute 'dataWindow' is shorter than it claims");
   const std::string channels("channels\0chlist\0", 16);
   const auto channel_bytes = static_cast<unsigned char>(whole[whole.find(channels) + channels.size()]);
   EXPECT_EQ(error(patched(whole, channels, 0, channel_bytes + 1u)),
-            ": attribute 'channels' is not as long as it claims");
+            ": attribute 'channels' is shorter than it claims");
   // Rows that the file does not hold: read as far as they go, then refused.
   EXPECT_NE(error(patched(whole, window, 16, 60000)), "");
 }

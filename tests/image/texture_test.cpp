@@ -140,7 +140,7 @@ TEST_F(Textures, RefuseImagesWithNumbersThatAreNone) {
   image.height = 2;
   image.channels.push_back({"Y", ChannelType::kFloat, {1, 2, 3, std::nanf("")}, {}});
   write_exr(asset("nan.exr").path, image);
-  EXPECT_EQ(message_of(asset("nan.exr")), "holds a value that is not finite at pixel 1, 1");
+  EXPECT_EQ(message_of(asset("nan.exr")), "contains a non-finite value at pixel 1, 1");
 }
 
 TEST_F(Textures, ClaimedSizesCostNothing) {
@@ -215,7 +215,7 @@ TEST_F(Textures, RefuseATruncatedEnvironment) {
   const std::string whole = read_file(data_folder() / "env/studio_small_03_1k.hdr");
   EXPECT_NE(message_of(write("cut.hdr", whole.substr(0, whole.size() / 2))), "");
   const std::string png = read_file(data_folder() / "mesh/spot_texture.png");
-  EXPECT_EQ(message_of(write("cut.png", png.substr(0, png.size() / 2))), "is cut short");
+  EXPECT_EQ(message_of(write("cut.png", png.substr(0, png.size() / 2))), "is truncated");
 }
 
 }  // namespace

@@ -202,8 +202,8 @@ TEST_F(BlurFile, RefusesInOneLineWhatItCannotUse) {
       ": has no motion vectors; name their layer with --motion-layer; it has A, B, N.X, R, Z, forward.u, id, "
       "key.diffuse.R");
   EXPECT_EQ(without("Z"),
-            ": has no depth; name a layer with --depth-layer, or 'none' to go without; it has A, B, N.X, R, "
-            "forward.u, forward.v, id, key.diffuse.R");
+            ": has no depth; name a layer with --depth-layer, or 'none' to blur without depth; it has A, B, "
+            "N.X, R, forward.u, forward.v, id, key.diffuse.R");
   ExrImage data = image;
   std::erase_if(data.channels,
                 [](const ExrChannel& c) { return c.name != "Z" && !c.name.starts_with("forward"); });
@@ -259,7 +259,7 @@ TEST_F(BlurFile, CountsVectorsThatAreNotFinite) {
   pixels_of(image, "forward.v")[9] = std::numeric_limits<float>::infinity();
   write_exr(path("in.exr"), image);
   EXPECT_EQ(blur("in.exr", "out.exr").notes,
-            std::vector<std::string>{"2 vectors are not finite and count as none"});
+            std::vector<std::string>{"2 vectors are not finite and are treated as zero"});
 }
 
 TEST_F(BlurFile, AFewPixelsInAHugeFrameStayFew) {
@@ -313,14 +313,13 @@ TEST_F(BlurFile, WarnsOfWrongUnits) {
   EXPECT_EQ(warning(0.1f, true), "");
   EXPECT_EQ(warning(0.001f), "");  // nothing moves in either unit
   EXPECT_EQ(warning(20, true),
-            "most vectors are longer than 80 pixels (the longest: 1280): they look like pixels; leave out "
+            "most vectors are longer than 80 pixels (the longest: 1280): they look like pixels; omit "
             "--motion-units ndc");
   EXPECT_EQ(warning(20, false, 100),
             "most vectors are longer than 80 pixels (the longest: 2000): check --motion-scale");
-  EXPECT_EQ(
-      warning(200),
-      "most vectors are longer than 80 pixels (the longest: 200): they look like pixels per second; at 24 "
-      "frames a second use --motion-scale 0.0417");
+  EXPECT_EQ(warning(200),
+            "most vectors are longer than 80 pixels (the longest: 200): they look like pixels per second; at "
+            "24 frames per second use --motion-scale 0.0417");
   EXPECT_EQ(
       warning(1e9f),
       "most vectors are longer than 80 pixels (the longest: 1e+09): they look like positions or another "
@@ -329,7 +328,8 @@ TEST_F(BlurFile, WarnsOfWrongUnits) {
   EXPECT_EQ(warning(0.502f), "the vectors look encoded with 0.5 for no motion; subtract 0.5 from them first");
   pixels_of(image, "forward.v").assign(64 * 48, 0);
   pixels_of(image, "forward.v")[7] = pixels_of(image, "forward.v")[70] = 1e20f;
-  EXPECT_EQ(warning(5), "2 of 3072 vectors are longer than 80 pixels, beyond the picture: they look damaged");
+  EXPECT_EQ(warning(5),
+            "2 of 3072 vectors are longer than 80 pixels, the size of the picture; they look damaged");
 }
 
 TEST_F(BlurFile, TrustsTheUnitsOfPelagesOwnPictures) {
@@ -348,12 +348,11 @@ TEST_F(BlurFile, WarnsWhereThePictureIsBlurredAlready) {
   image.attributes["pelage:shutter"] = V2f(-0.25f, 0.125f);
   write_exr(path("blurred.exr"), image);
   EXPECT_EQ(blur("blurred.exr", "twice.exr").warnings,
-            std::vector<std::string>{
-                "the picture is blurred already: it was rendered with the shutter open from -0.25 to 0.125 "
-                "frames; render it with camera.shutter: [0, 0]"});
+            std::vector<std::string>{"the picture is already blurred: it was rendered with the shutter open "
+                                     "from -0.25 to 0.125 frames; render it with camera.shutter: [0, 0]"});
   // The result says when its shutter was open, and who opened it.
   EXPECT_EQ(std::get<V2f>(read_exr(path("once.exr")).attributes.at("pelage:shutter")), V2f(-0.25f, 0.25f));
-  const std::vector<std::string> by_us{"the picture is blurred already: it was written by pelage motionblur"};
+  const std::vector<std::string> by_us{"the picture is already blurred: pelage motionblur wrote it"};
   EXPECT_EQ(blur("once.exr", "twice.exr").warnings, by_us);
   ExrImage foreign = still_image(16, 16);
   write_exr(path("foreign.exr"), foreign);

@@ -181,11 +181,11 @@ TEST_F(StereoFile, MakesOneViewOfAnother) {
 
 TEST_F(StereoFile, RefusesInOneLineWhatItCannotUse) {
   write_exr(path("in.exr"), still_image(16, 16));
-  EXPECT_EQ(refusal("in.exr"),
-            ": says nothing about its camera (worldToCamera, worldToNDC); give --fov, --focal-pixels or "
-            "--parallax-layer");
+  EXPECT_EQ(
+      refusal("in.exr"),
+      ": contains no camera (worldToCamera, worldToNDC); give --fov, --focal-pixels or --parallax-layer");
   params_.fov_deg = 40;
-  EXPECT_EQ(refusal("in.exr"), ": does not say how long a unit is; give --eye-separation");
+  EXPECT_EQ(refusal("in.exr"), ": does not give the length of a unit; give --eye-separation");
   params_.eye_separation = 1;
   run("in.exr", "out.exr");
   ExrImage flat = still_image(16, 16);

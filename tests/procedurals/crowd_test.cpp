@@ -184,9 +184,9 @@ TEST(CrowdPlacement, RefusesMoreThanFit) {
     }
   };
   EXPECT_EQ(problem(40), "");
-  EXPECT_NE(problem(106).find("106 do not fit into its area: pushed about for long, "), std::string::npos);
-  EXPECT_EQ(problem(1000000),
-            "1000000 do not fit into its area: there is room for less than 111 at this spacing");
+  EXPECT_NE(problem(106).find("106 do not fit into its area: after the maximum number of steps, "),
+            std::string::npos);
+  EXPECT_EQ(problem(1000000), "1000000 do not fit into its area: at this spacing it holds fewer than 111");
 }
 
 TEST(GroundArea, KnowsWhatIsInside) {
@@ -300,7 +300,7 @@ TEST(CrowdMemory, PlacingHoldsWhatItAsksForOrIsRefusedByName) {
     ADD_FAILURE() << "placed";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-    EXPECT_TRUE(std::string(error.what()).starts_with("crowd 'herd': placing 20000 animals: needs "))
+    EXPECT_TRUE(std::string(error.what()).starts_with("placing 20000 animals of crowd 'herd' needs "))
         << error.what();
   }
 }

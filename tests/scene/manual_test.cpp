@@ -99,6 +99,41 @@ TEST(Manual, MarkdownLinksLeadToHeadings) {
   EXPECT_NE(manual_text(Root::schema(), "root", true).find("[two words](#two-words)"), std::string::npos);
 }
 
+TEST(Manual, ShowsExamplesPicturesAndFormerNames) {
+  Schema<Lens> lens("thin lens", "Blurs.");
+  lens.set_example("camera:\n  lens: {f_stop: 4}");
+  lens.set_picture("Left: sharp. Right: blurred.");
+  lens.key("f_stop", &Lens::f_stop, {.help = "Focal length over the diameter", .old_names = {"stop", "f"}});
+  EXPECT_EQ(manual_text(lens),
+            "thin lens\n"
+            "  Blurs.\n"
+            "\n"
+            "  f_stop  number, default 8\n"
+            "          Focal length over the diameter. Formerly `stop`, `f`.\n"
+            "\n"
+            "  Example:\n"
+            "    camera:\n"
+            "      lens: {f_stop: 4}\n");
+  EXPECT_EQ(manual_text(lens, {}, true),
+            "## thin lens\n"
+            "\n"
+            "Blurs.\n"
+            "\n"
+            "![Left: sharp. Right: blurred.](images/manual/thin_lens.png)\n"
+            "\n"
+            "Left: sharp. Right: blurred.\n"
+            "\n"
+            "```yaml\n"
+            "camera:\n"
+            "  lens: {f_stop: 4}\n"
+            "```\n"
+            "\n"
+            "| key | type | default | range | unit | |\n"
+            "|---|---|---|---|---|---|\n"
+            "| `f_stop` | number | 8 |  |  | Focal length over the diameter. Formerly `stop`, `f`. |\n"
+            "\n");
+}
+
 TEST(Manual, FindsSectionsByNameOrByKey) {
   const std::string lens = manual_text(Camera::schema(), "lens");
   EXPECT_EQ(lens.substr(0, 5), "lens\n");

@@ -82,25 +82,24 @@ TEST(Overrides, LaterOnesWin) {
 }
 
 TEST(Overrides, MistakesNameTheFlag) {
-  EXPECT_EQ(
-      with({"operators.clmup.amount=1"}).problems,
-      Lines{"--set operators.clmup.amount: there is no item 'clmup' in the list; did you mean 'clump'?"});
-  EXPECT_EQ(
-      with({"operators.clump.amount=1"}).problems,
-      Lines{"--set operators.clump.amount: 'clump' means several items of the list; use an index: 1 2"});
+  EXPECT_EQ(with({"operators.clmup.amount=1"}).problems,
+            Lines{"--set operators.clmup.amount: no item 'clmup' in the list; did you mean 'clump'?"});
+  EXPECT_EQ(with({"operators.clump.amount=1"}).problems,
+            Lines{"--set operators.clump.amount: 'clump' is the name of several items of the list; use an "
+                  "index: 1 2"});
   EXPECT_EQ(with({"operators.4=1"}).problems,
-            Lines{"--set operators.4: there is no item 4 in a list of 4 (the first is 0)"});
+            Lines{"--set operators.4: no item 4 in a list of 4 (the first is 0)"});
   EXPECT_EQ(with({"render.samples.x=1"}).problems,
-            Lines{"--set render.samples.x: 'x' is sought in '64', which is no block"});
-  EXPECT_EQ(
-      with({"rendr.samples=1"}).problems,
-      Lines{"--set rendr.samples: there is no 'rendr'; did you mean 'render'? (what is new must be given "
-            "whole, as rendr={...})"});
+            Lines{"--set render.samples.x: 'x' is looked up in '64', which is not a block"});
+  EXPECT_EQ(with({"rendr.samples=1"}).problems,
+            Lines{"--set rendr.samples: no block 'rendr'; did you mean 'render'? (to add a new block, "
+                  "give it whole, as rendr={...})"});
   EXPECT_EQ(with({"render..x=1", ".=1"}).problems,
             (Lines{"--set render..x: expected names separated by single dots",
                    "--set .: expected names separated by single dots"}));
   EXPECT_EQ(with({"a=[1"}).problems, Lines{"--set a: malformed YAML: expected ',' or ']'"});
-  EXPECT_EQ(with({"a=*b"}).problems, Lines{"--set a: aliases are refused; share values by 'include:'"});
+  EXPECT_EQ(with({"a=*b"}).problems,
+            Lines{"--set a: aliases are not supported; share values with 'include:'"});
   EXPECT_EQ(with({"a={b: 1, b: 2}"}).problems, Lines{"--set a: duplicate key 'b'"});
 }
 

@@ -68,43 +68,44 @@ TEST(Yaml, WhatIsRefusedIsReportedTogether) {
                      ": 5\n"
                      "f: !mine {g: 1, g: 2}\n"),
             (Lines{
-                "s.yaml:2:4: anchors are refused ('&x'); share values by 'include:'",
-                "s.yaml:3:4: aliases are refused; share values by 'include:'",
-                "s.yaml:4:4: tags are refused ('tag:yaml.org,2002:str')",
-                "s.yaml:5:1: merge keys are refused; share values by 'include:'",
+                "s.yaml:2:4: anchors are not supported ('&x'); share values with 'include:'",
+                "s.yaml:3:4: aliases are not supported; share values with 'include:'",
+                "s.yaml:4:4: tags are not supported ('tag:yaml.org,2002:str')",
+                "s.yaml:5:1: merge keys are not supported; share values with 'include:'",
                 "s.yaml:6:1: duplicate key 'a', first on line 1",
                 "s.yaml:7:3: expected a key, got a list of 1",
-                "s.yaml:9:4: tags are refused ('!mine')",
+                "s.yaml:9:4: tags are not supported ('!mine')",
                 "s.yaml:9:17: duplicate key 'g', first on line 9",
             }));
 }
 
 TEST(Yaml, SyntaxMistakes) {
-  EXPECT_EQ(
-      problems("a: 1\nb: 2: 3\n"),
-      Lines{"s.yaml:2:5: malformed YAML: a ':' where no value may stand; check the indentation and quotes"});
+  EXPECT_EQ(problems("a: 1\nb: 2: 3\n"),
+            Lines{"s.yaml:2:5: malformed YAML: unexpected ':'; check the indentation and quotes"});
   EXPECT_EQ(problems("a: [1, 2\nb: 3\n"), Lines{"s.yaml:2:2: malformed YAML: expected ',' or ']'"});
   EXPECT_EQ(problems("a: {b: 1\n"), Lines{"s.yaml:2:1: malformed YAML: expected ',' or '}'"});
   EXPECT_EQ(problems("a:\n\tb: 1\n"),
-            Lines{"s.yaml:2:3: malformed YAML: a tab in the indentation; use spaces"});
-  EXPECT_EQ(problems("a: ]\n"), Lines{"s.yaml:1:4: malformed YAML: a closing bracket that nothing opened"});
-  EXPECT_EQ(problems("a: @b\n"),
-            Lines{"s.yaml:1:4: malformed YAML: a character that no value may begin with; put "
-                  "the text in quotes"});
-  EXPECT_EQ(problems("a: *nothing\n"), Lines{"s.yaml:1:4: aliases are refused; share values by 'include:'"});
-  EXPECT_EQ(problems("- a\n- b\n"), Lines{"s.yaml:1:1: expected a scene, a block of keys, got a list of 2"});
-  EXPECT_EQ(problems("a: 1\n---\nb: 2\n"), Lines{"s.yaml:2:1: nothing may follow the end of the document"});
-  EXPECT_EQ(problems("a: \xff\n"), Lines{"s.yaml:1:4: this is not UTF-8 text"});
-  EXPECT_EQ(problems("a: \xed\xa0\x80\n"), Lines{"s.yaml:1:4: this is not UTF-8 text"});
+            Lines{"s.yaml:2:3: malformed YAML: tab in the indentation; use spaces"});
+  EXPECT_EQ(problems("a: ]\n"), Lines{"s.yaml:1:4: malformed YAML: closing bracket without an opening one"});
+  EXPECT_EQ(
+      problems("a: @b\n"),
+      Lines{"s.yaml:1:4: malformed YAML: a value cannot begin with this character; put the text in quotes"});
+  EXPECT_EQ(problems("a: *nothing\n"),
+            Lines{"s.yaml:1:4: aliases are not supported; share values with 'include:'"});
+  EXPECT_EQ(problems("- a\n- b\n"),
+            Lines{"s.yaml:1:1: expected a scene, which is a block of keys, got a list of 2"});
+  EXPECT_EQ(problems("a: 1\n---\nb: 2\n"), Lines{"s.yaml:2:1: text after the end of the document"});
+  EXPECT_EQ(problems("a: \xff\n"), Lines{"s.yaml:1:4: the file is not UTF-8 text"});
+  EXPECT_EQ(problems("a: \xed\xa0\x80\n"), Lines{"s.yaml:1:4: the file is not UTF-8 text"});
   EXPECT_EQ(problems(std::string("a: 1\nb: \0\n", 10)),
-            Lines{"s.yaml:2:4: control characters may not stand in a scene"});
+            Lines{"s.yaml:2:4: a scene must not contain control characters"});
 }
 
 // yaml-cpp takes the end of the file for a closing quote.
 TEST(Yaml, QuotesMustEnd) {
-  EXPECT_EQ(problems("a: \"b\nc: 3\n"), Lines{"s.yaml:1:4: the quoted text does not end"});
-  EXPECT_EQ(problems("a: 'b'' c\n"), Lines{"s.yaml:1:4: the quoted text does not end"});
-  EXPECT_EQ(problems("a: \"b\\\" c\n"), Lines{"s.yaml:1:4: the quoted text does not end"});
+  EXPECT_EQ(problems("a: \"b\nc: 3\n"), Lines{"s.yaml:1:4: unterminated quoted text"});
+  EXPECT_EQ(problems("a: 'b'' c\n"), Lines{"s.yaml:1:4: unterminated quoted text"});
+  EXPECT_EQ(problems("a: \"b\\\" c\n"), Lines{"s.yaml:1:4: unterminated quoted text"});
   EXPECT_EQ(parsed("a: \"b\\\" c\"\n"), "{a: \"b\" c\"}");
   EXPECT_EQ(parsed("a: 'b'' c'\n"), "{a: \"b' c\"}");
 }
@@ -116,7 +117,7 @@ TEST(Yaml, DepthIsLimited) {
   };
   EXPECT_EQ(problems(nested(63)), Lines{});
   EXPECT_EQ(problems(nested(64)), Lines{"s.yaml:1:67: values are nested more than 64 deep"});
-  EXPECT_EQ(problems(nested(1000)), Lines{"s.yaml:1:260: too many brackets are open"});
+  EXPECT_EQ(problems(nested(1000)), Lines{"s.yaml:1:260: too many open brackets"});
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ TEST(Frames, MistakesAreExplained) {
   EXPECT_EQ(problem("4-1"), "'4-1': the range ends before it begins");
   EXPECT_EQ(problem("1-4x0"), "'1-4x0': expected a step of at least 1 after 'x'");
   EXPECT_EQ(problem("1-4x"), "'1-4x': expected a step of at least 1 after 'x'");
-  EXPECT_EQ(problem("1-4y"), "'1-4y': did not expect 'y'");
+  EXPECT_EQ(problem("1-4y"), "'1-4y': unexpected 'y'");
   EXPECT_EQ(problem("1,"), "'1,': expected a frame number");
-  EXPECT_EQ(problem("1.5"), "'1.5': did not expect '.5'");
+  EXPECT_EQ(problem("1.5"), "'1.5': unexpected '.5'");
   EXPECT_EQ(problem("99999999999"), "'99999999999': expected a frame number");
   EXPECT_EQ(problem("0-2147483647"), "'0-2147483647': more than 1000000 frames");
   EXPECT_EQ(problem("-2147483648-2147483647x2147483647"), "");

@@ -56,9 +56,48 @@ class SceneSchema : public testing::Test {
     return lines;
   }
   using Lines = std::vector<std::string>;
+  Lines warnings(const std::string& text, const std::vector<Override>& overrides = {}) {
+    Lines lines;
+    for (Problem warning : load(text, overrides).warnings) {
+      if (warning.position.line > 0) warning.position.file = "s";
+      lines.push_back(to_string(warning.position) + ": " + warning.message);
+    }
+    return lines;
+  }
 
   TemporaryFolder folder_;
 };
+
+TEST_F(SceneSchema, OldNamesOfKeysMeanWhatTheyMeant) {
+  const std::string lights = "lights:\n";
+  const auto with = [&](const std::string& text) { return replaced(lights, text + lights); };
+  const std::string old_text = with("render: {lod: {in_full: 3, turned_away: false, least_share: 0.25}}\n");
+  const SceneDescription before = load(old_text);
+  const SceneDescription now =
+      load(with("render: {lod: {full_detail_characters: 3, backfacing: false, min_fraction: 0.25}}\n"));
+  EXPECT_EQ(before.render.lod.full_detail, 3);
+  EXPECT_FALSE(before.render.lod.back_facing);
+  EXPECT_EQ(before.render.lod.min_share, 0.25f);
+  EXPECT_EQ(before.hash, now.hash);
+  EXPECT_TRUE(now.warnings.empty());
+  const Lines lines = warnings(old_text);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(lines[0].ends_with(":16: 'in_full' is now called 'full_detail_characters'")) << lines[0];
+  EXPECT_EQ(warnings(kScene, {{"render.lod.turned_away", "false"}}),
+            Lines{"--set render.lod.turned_away: 'turned_away' is now called 'backfacing'"});
+  const Lines both = problems(with("render: {lod: {in_full: 3, full_detail_characters: 4}}\n"));
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_TRUE(
+      both[0].ends_with("'in_full' is the old name of 'full_detail_characters'; give only one of them"))
+      << both[0];
+}
+
+TEST_F(SceneSchema, OldNamesOfOperatorKeys) {
+  const SceneDescription scene =
+      load(replaced("[{length", "[{noise: {along: 2}}, {curl: {random: 0.5}}, {length"),
+           {{"grooms.under.operators.noise.along", "3"}});
+  EXPECT_EQ(scene.warnings.size(), 3u);
+}
 
 TEST_F(SceneSchema, ReadsAScene) {
   const SceneDescription scene = load(kScene);
@@ -115,8 +154,9 @@ TEST_F(SceneSchema, UnknownNamesAreReported) {
 TEST_F(SceneSchema, GroomsSayOnceHowManyStrandsTheyHave) {
   EXPECT_EQ(problems(replaced("strands: 1000, ", "")),
             Lines{"s:7:3: groom 'under' needs `strands` (how many) or `density` (how many per square unit)"});
-  EXPECT_EQ(problems(replaced("{strands_file: a.hair}", "{strands_file: a.hair, density: 5}")),
-            Lines{"s:8:3: groom 'loose' has its strands from a file: `strands` and `density` mean nothing"});
+  EXPECT_EQ(
+      problems(replaced("{strands_file: a.hair}", "{strands_file: a.hair, density: 5}")),
+      Lines{"s:8:3: groom 'loose' takes its strands from a file; `strands` and `density` must not be given"});
 }
 
 TEST_F(SceneSchema, NamesThatLayersOfAPictureCannotHoldAreRefused) {
@@ -126,10 +166,10 @@ TEST_F(SceneSchema, NamesThatLayersOfAPictureCannotHoldAreRefused) {
   const std::string longest(240, 'a');
   EXPECT_EQ(named(longest), Lines{});
   EXPECT_EQ(named(longest + "b"), Lines{"s:19:3: the name of light '" + longest.substr(0, 40) +
-                                        "...' has 241 bytes, at most 240 are accepted"});
-  EXPECT_EQ(named("\"key\\0a\""), Lines{"s:19:3: the name of light 'key?a' has a control character in it"});
+                                        "...' has 241 bytes; the limit is 240"});
+  EXPECT_EQ(named("\"key\\0a\""), Lines{"s:19:3: the name of light 'key?a' contains a control character"});
   EXPECT_EQ(problems(replaced("  loose: {", "  \"lo\\0se\": {")).front(),
-            "s:8:3: the name of groom 'lo?se' has a control character in it");
+            "s:8:3: the name of groom 'lo?se' contains a control character");
 }
 
 TEST_F(SceneSchema, KnowsTheFilesThatItIsReadFrom) {
@@ -183,7 +223,7 @@ TEST_F(SceneSchema, CrowdsAreChecked) {
   EXPECT_EQ(problems(with("of: [rat], spacing: 1" + area)), Lines{});
   EXPECT_EQ(problems(with("of: [rta]" + area)),
             Lines{"s:21:15: there is no character 'rta'; did you mean 'rat'?"});
-  EXPECT_EQ(problems(with("of: []" + area)), Lines{"s:21:3: crowd 'herd' is made of no character"});
+  EXPECT_EQ(problems(with("of: []" + area)), Lines{"s:21:3: crowd 'herd' names no character"});
   EXPECT_EQ(problems(with("of: [rat], count: 3, area: {type: polygon, points: [[0, 0], [1, 1]]}")),
             Lines{"s:21:3: crowd 'herd': its area needs at least three points"});
   EXPECT_EQ(problems(with("of: [rat]" + area), {{"characters.rat.footprint", "[[0, 0, -1]]"}}),

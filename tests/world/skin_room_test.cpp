@@ -39,7 +39,7 @@ TEST_F(SkinRoomTest, DenseMeshesAreToldOfSchemeNone) {
   reserve_skin("bust", params(SubdivisionScheme::kNone), dense, job_);
   EXPECT_EQ(progress_.text, "");
   reserve_skin("bust", params(SubdivisionScheme::kCatmullClark), dense, job_);
-  EXPECT_EQ(progress_.text.find("scene.yaml:3:20: skin 'bust': the 21012 faces of scan.obj"), 0u)
+  EXPECT_EQ(progress_.text.find("scene.yaml:3:20: skin 'bust' with the 21012 faces of scan.obj"), 0u)
       << progress_.text;
   EXPECT_NE(progress_.text.find("scheme: none takes polygons as they are"), std::string::npos);
 }

@@ -37,7 +37,7 @@ ContentHash entry_key(const ContentHash& key) {
 }
 
 [[noreturn]] void refuse(const StoredSections& file) {
-  throw Error(ErrorKind::kInput, {file.path().string(), 0, 0}, "these pages of fur cannot be right");
+  throw Error(ErrorKind::kInput, {file.path().string(), 0, 0}, "damaged fur pages");
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::optional<FurPageFile> FurPageFile::open(const ContentStore& store, const Co
   try {
     return FurPageFile(std::move(*file));
   } catch (const Error& e) {
-    warn(std::string(e.what()) + "; made again");
+    warn(std::string(e.what()) + "; it is made again");
     return {};
   }
 }
@@ -157,7 +157,7 @@ bool FurPageFile::check_all(const Workers& workers, const WarningSink& warn) con
       }
     }
   });
-  if (!wrong.empty()) warn(wrong + "; made again");
+  if (!wrong.empty()) warn(wrong + "; it is made again");
   return wrong.empty();
 }
 

@@ -92,8 +92,7 @@ class FurTree::Writer {
       }
     }
     if (node_bytes_ > FurReference::kNodeReach || leaf_bytes_ > FurReference::kLeafReach)
-      throw Error(ErrorKind::kMemory,
-                  "one fur tree would need more than 4 GiB: make chunks of fewer strands");
+      throw Error(ErrorKind::kMemory, "one fur tree would need more than 4 GiB; reduce leaf_strands");
   }
 
   /// False when leaves turned out to be wide for which narrow places were kept.

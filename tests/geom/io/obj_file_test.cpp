@@ -131,17 +131,17 @@ TEST(ObjFile, NamesEveryMistakeWithItsLine) {
       "5:3 expected x, a number that a float can hold, got 'inf'",
       "9:6 a face needs 3 corners, this one has 2",
       "10:7 vertex 0: indices count from 1",
-      "11:7 vertex -9 does not exist: 8 so far",
+      "11:7 vertex -9 does not exist: only 8 precede it",
       "12:7 expected the number of a vertex, got '8.5'",
       "13 vertex 9 does not exist: the file has 8",
       "14:7 expected the number of a vertex, got '99999999999999999999'",
       "15:8 a face needs 3 different vertices",
-      "16:10 either all corners of a face have texture coordinates or none",
+      "16:10 either all corners of a face have texture coordinates or none of them",
       "16 texture coordinate 1 does not exist: the file has 0",
-      "17:7 texture coordinate -1 does not exist: 0 so far",
+      "17:7 texture coordinate -1 does not exist: only 0 precede it",
       "18:17 expected a whole number of the tag, got the end of the line",
-      "18:17 a crease joins 2 vertices or more",
-      "19 a tag counts vertices from 0 to 7",
+      "18:17 a crease needs 2 vertices or more",
+      "19 tag vertices are numbered from 0 to 7",
   };
   EXPECT_EQ(problems, expected);
 }
@@ -158,7 +158,7 @@ TEST(ObjFile, RefusesWhatItCannotHonour) {
   EXPECT_EQ(problems_of(face + "t crease 4000000000000/1/0 0 1 1\n").size(), 2u);
   EXPECT_EQ(problems_of(face + "t crease -2/1/0 0 1 1\n").size(), 1u);
   EXPECT_EQ(problems_of(face + "t hole 1/0/0 1\n"),
-            (std::vector<std::string>{"5 a tag counts faces from 0 to 0"}));
+            (std::vector<std::string>{"5 tag faces are numbered from 0 to 0"}));
   EXPECT_EQ(problems_of(face + "t hole 1/0/0 -1\n").size(), 1u);
   EXPECT_EQ(problems_of(face + "t crease\n").size(), 1u);
   EXPECT_EQ(problems_of(face + "t interpolateboundary 1/0/0 7\n").size(), 1u);
@@ -247,7 +247,7 @@ TEST(ObjFile, ReadsPositionsOfAPose) {
     read_obj_positions(path, 4);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), path.string() + ": has 3 vertices, its cage has 4");
+    EXPECT_EQ(std::string(error.what()), path.string() + ": has 3 vertices, but its cage has 4");
   }
 }
 

@@ -271,7 +271,7 @@ TEST_F(StrandFiles, SayWhyTheyAreRefused) {
   EXPECT_EQ(message_of(write("a.hair", Bytes().zeros(200).text)),
             "is not a .hair file: it does not begin with HAIR");
   EXPECT_EQ(message_of(write("a.hair", hair_header(1, 2, 64 | 2, 1).zeros(24).text)),
-            "claims arrays that the .hair format does not have");
+            "claims arrays that the .hair format does not define");
   EXPECT_EQ(message_of(write("a.hair", hair_header(1, 2, 4, 1).zeros(24).text)), "holds no points");
   EXPECT_EQ(message_of(write("a.hair", hair_header(0, 0, 2, 1).text)), "holds no strands");
   EXPECT_EQ(message_of(write("a.hair", hair_header(1, 3, 2, 2).zeros(24).text)),
@@ -289,11 +289,11 @@ TEST_F(StrandFiles, SayWhyTheyAreRefused) {
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 1, 2, 0).zeros(32).text)), "holds no points");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 0, 2, 160).zeros(32).text)), "holds no strands");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 1, 1, 160).zeros(32).text)),
-            "claims 1 points a strand, expected at least 2");
+            "claims 1 points per strand, expected at least 2");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 0xffffffff, 0xffffffff, 160).zeros(32).text)),
             "claims 4294967295 strands of 4294967295 points, more than it can hold");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 1, 2, 80).zeros(32).text)),
-            "its points would lie within its header");
+            "its points would overlap its header");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 1, 2, 0xfffffff0).zeros(32).text)),
             "claims 2 points at byte 4294967280, but has only 192 bytes");
   EXPECT_EQ(message_of(write("a.tfx", tfx_header(4, 1, 2, 160, 0, 0, 190).zeros(32).text)),
@@ -320,14 +320,15 @@ TEST_F(StrandFiles, WritersRefuseWhatTheFormatCannotHold) {
   uneven.first_point = {0, 2, 5};
   uneven.ids = {0, 1};
   uneven.points.resize(20, 1.0f);
-  EXPECT_EQ(write_error("a.tfx", Strands(uneven)),
-            "the .tfx format needs strands of equally many points, strand 0 has 2, strand 1 has 3");
+  EXPECT_EQ(
+      write_error("a.tfx", Strands(uneven)),
+      "the .tfx format needs the same number of points in every strand; strand 0 has 2, strand 1 has 3");
   StrandArrays longest;
   longest.first_point = {0, 2, 70002};
   longest.ids = {0, 1};
   longest.points.resize(70002 * 4, 1.0f);
   EXPECT_EQ(write_error("a.hair", Strands(longest)),
-            "the .hair format holds at most 65536 points a strand, strand 1 has 70000");
+            "the .hair format holds at most 65536 points per strand, strand 1 has 70000");
   EXPECT_EQ(write_error("a.obj", random_strands(1)), "expected a strand file ending in .hair or .tfx");
 }
 

@@ -203,8 +203,7 @@ TEST(EnvironmentLight, RefusesADistributionThatDoesNotFit) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
-    EXPECT_EQ(std::string(error.what()).find("light 'sky': the distribution of its 64 x 32 texels: needs "),
-              0u)
+    EXPECT_EQ(std::string(error.what()).find("sampling light 'sky' (64 x 32 texels) needs "), 0u)
         << error.what();
   }
   EXPECT_EQ(ledger.current(MemoryTag::kTextures), 0);
