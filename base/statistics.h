@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// Numbers of one run, as `--stats` writes them (design.md section 7). A value: rooms fill their part and
-/// hand it up; nothing registers itself. Counts are of the whole run, over all frames.
+/// Numbers of one run, written by `--stats`. A value: each room fills its part and passes it on; there is no
+/// global registry. Counts are totals of the whole run, over all frames.
 struct Statistics {
   double wall_s = 0;
   double first_pixel_s = 0;  ///< from the start of the run until the first tile of the first frame was done

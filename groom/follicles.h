@@ -17,7 +17,7 @@ namespace pelage {
 
 struct Job;
 
-/// What kind of hair a groom is; each role has a budget of its own when detail is reduced.
+/// Kind of hair of a groom; each role has its own budget when detail is reduced.
 enum class StrandRole { kGuard, kUnder, kWhisker };
 template <>
 struct EnumNames<StrandRole> {

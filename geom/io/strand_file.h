@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// What was mended while a strand file was read.
+/// What was repaired while a strand file was read.
 struct StrandRepairs {
-  int64_t dropped = 0;   ///< strands without extent, with too few points or with points that are not finite
+  int64_t dropped = 0;   ///< strands without extent, with too few points, or with non-finite points
   int64_t repaired = 0;  ///< strands that lost repeated points or got a usable width
 };
 
