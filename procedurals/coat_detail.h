@@ -49,11 +49,11 @@ class CoatDetail {
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
-  float first_out_ = 1;  // no strand of this priority or behind it is kept
+  float first_out_ = 1;  // no strand with this priority or a larger one is kept
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 
-/// Of a whole coat; `detail` is null where every strand is grown.
+/// Scale of a whole coat; `detail`: null where every strand is grown.
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail);
 
 }  // namespace pelage
