@@ -18,35 +18,36 @@
 namespace pelage {
 
 struct ChunkAccelOptions {
-  AccelKind kind = AccelKind::kEmbree;  ///< of flat strands; round ones and skins are Embree's
+  AccelKind kind = AccelKind::kEmbree;  ///< for flat strands; round ones and skins always use Embree
   EmbreeChunkOptions chunk;
   FurChunkOptions fur;
-  bool eager = false;         ///< everything is grown before the first ray
+  bool eager = false;         ///< grow everything before the first ray
   bool opaque = false;        ///< every strand is known to be opaque
-  uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
-  int threads = 1;            ///< TraceThread::worker is below it
-  /// Where chunks of fur are read instead of being grown, unless all are grown before the first ray; or null.
-  /// What is damaged there is grown.
+  uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
+  int threads = 1;            ///< TraceThread::worker is less than this
+  /// File from which chunks of fur are read instead of being grown, unless all are grown before the first
+  /// ray; may be null. Damaged chunks are grown.
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
-/// Accel over geometry that exists only while something needs it. Three parts: a ChunkTree says which chunks
-/// a ray may meet, a Residency grows and drops them, and a ChunkGeometry is what one of them holds.
+/// An Accel over geometry that exists only while something needs it. It has three parts: a ChunkTree finds
+/// the chunks that a ray may hit, a Residency grows and evicts them, and a ChunkGeometry intersects the
+/// contents of one chunk.
 ///
-/// A ray visits the chunks that are resident first, front to back, and then those that it still reaches of
-/// the others; each at most once. A chunk that is not resident grows only for a ray that meets one of its
-/// fine boxes, where it has any, before what the ray has met so far. What a ray meets is copied out while the
-/// chunk is pinned. Neither the budget nor the boxes, as long as they hold their chunks, nor what is resident
-/// reaches a result.
+/// A ray visits the resident chunks first, front to back, then those of the others that it still reaches;
+/// each at most once. A chunk that is not resident is grown only for rays that intersect one of its fine
+/// boxes, if it has any, in front of the nearest hit so far. The geometry that is hit is copied while the
+/// chunk is pinned. Results depend neither on the budget, nor on the boxes as long as they contain their
+/// chunks, nor on what is resident.
 ///
-/// Errors of a grower pass through closest() and transmittance().
-/// Thread safety: as Accel; each TraceThread::worker is used by one thread at a time.
+/// Errors of the grower propagate through closest() and transmittance(). Thread safety: as Accel; each
+/// TraceThread::worker is used by one thread at a time.
 class ChunkAccel final : public Accel {
  public:
-  /// `bounds`: one per chunk, over the whole shutter; what they say is not read with `eager`, where boxes are
-  /// measured on what was grown. Grower and `progress`, which is told of chunks of the file that are damaged,
-  /// outlive the accelerator. When `progress` is cancelled meanwhile, the accelerator is not to be used.
-  /// Throws Error: kMemory when the limit is too small, and what the grower throws where all is grown.
+  /// `bounds`: one per chunk, over the whole shutter; their values are ignored with `eager`, which measures
+  /// the grown contents. The grower and `progress`, which is warned of damaged chunks of the file, must
+  /// outlive the accelerator. It must not be used when `progress` was cancelled meanwhile. Throws Error:
+  /// kMemory when the limit is too small, and what the grower throws when everything is grown.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ChunkAccelOptions& options,
              const Job& job);
   ~ChunkAccel() override;
@@ -56,7 +57,7 @@ class ChunkAccel final : public Accel {
   bool opaque() const override { return options_.opaque; }
   Box3f bounds() const override { return tree_->bounds(); }
 
-  /// Whether the memory limit held all chunks together when the accelerator was made.
+  /// Whether the memory limit was sufficient for all chunks together when the accelerator was made.
   bool fits() const { return fits_; }
   ResidencyCounts counts() const { return residency_->counts(); }
 
@@ -75,7 +76,7 @@ class ChunkAccel final : public Accel {
   std::unique_ptr<Growth> growth_;
   std::unique_ptr<Residency> residency_;
   std::unique_ptr<ChunkTree> tree_;
-  std::vector<uint32_t> given_parts_;   // boxes of each chunk in the tree
+  std::vector<uint32_t> given_parts_;   // number of boxes of each chunk in the tree
   std::unique_ptr<Scratch[]> scratch_;  // one per thread
   std::vector<MemoryCharge> charges_;
   bool fits_ = true;

@@ -39,11 +39,11 @@ class EmbreeCurves {
   };
   Place locate(uint32_t primitive) const;
   float opacity(Place place, float u) const;
-  /// Asks the processor to fetch what shading will read of a strand. Called for every hit that may become the
-  /// nearest: the rest of the ray's way hides the wait for memory.
+  /// Prefetches the data of a strand that shading will read. Called for every hit that may become the
+  /// nearest: the rest of the traversal hides the latency.
   void fetch_ahead(uint32_t primitive) const;
 
-  /// Heap bytes held here.
+  /// Heap memory of this object.
   size_t bytes() const;
 
  private:
@@ -53,7 +53,7 @@ class EmbreeCurves {
   size_t vertex_count_ = 0;
   std::vector<float> copy_;                  // control points with phantom ends, or empty: read in place
   std::vector<uint32_t> first_vertex_;       // one per segment
-  uint32_t segments_per_strand_ = 0;         // when all strands have equally many
+  uint32_t segments_per_strand_ = 0;         // when all strands have the same number
   uint32_t points_per_strand_ = 0;           // the same
   std::vector<uint32_t> strand_of_segment_;  // otherwise
   std::vector<uint32_t> first_segment_;      // otherwise: of each strand

@@ -18,12 +18,11 @@ struct PathOptions {
   bool roulette = true;
 };
 
-/// Traces one path after another through a frame. A path is a function of (scene, pixel, number of the
-/// sample).
+/// Traces single paths through a frame. A path is a function of (scene, pixel, sample number).
 ///
-/// At each vertex `light_samples` shadow rays go to lights (DirectLight), and the lobes are sampled; roulette
-/// is part of the density of the latter. `bounces` scatterings follow the first at most; paths end early,
-/// with the probability of losing their weight, by roulette.
+/// At each vertex, `light_samples` shadow rays go to lights (DirectLight), and the lobes are sampled; the
+/// density of the latter includes Russian roulette. At most `bounces` scatterings follow the first; Russian
+/// roulette ends paths with a probability that depends on the loss of their weight.
 class PathTracer final : public SampleIntegrator {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
