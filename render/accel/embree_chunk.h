@@ -35,13 +35,13 @@ class EmbreeChunk final : public ChunkGeometry {
 
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }
-  /// Embree's share included.
+  /// Including Embree's memory.
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// At least what making a chunk of these counts holds at any moment, the contents that it is given
-  /// included, and what it holds afterwards.
+  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
+  /// given contents, and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);
-  /// The same where the build_peak_bytes() of an equal chunk are known.
+  /// The same when the build_peak_bytes() of an equal chunk are known.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
@@ -61,7 +61,7 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunkOptions options_;
   const EmbreeDevice& device_;
   uint32_t part_ = 0, number_ = 0;
-  float before_ = 0;                      // how far before their origin Embree's rays begin; see embree_ray()
+  float before_ = 0;                      // how far before their origin Embree's rays start; see embree_ray()
   std::optional<PackedStrands> strands_;  // or skin_
   SkinMesh skin_;
   float longest_ = 0;  // see far_behind()

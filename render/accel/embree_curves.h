@@ -10,15 +10,16 @@
 
 namespace pelage {
 
-/// Control points of a batch of strands as Embree reads them, and the way back from its primitives to
-/// strands.
+/// Control points of a batch of strands in the form that Embree reads, and the mapping from its primitives
+/// back to strands.
 ///
 /// Unpinned B-splines and linear strands are read in place; pinned B-splines and Catmull-Rom strands need a
 /// copy with a phantom point at each end.
 ///
 /// Flat segments are tested in tessellation_rate straight pieces. Of the camera rays that hit a ball of
-/// 100,000 strands, rates 4, 8 and 12 met another strand than rate 16, Embree's most, in 5.9, 1.2 and 0.4 %;
-/// rates 4 and 8 cost the same (one AVX register), rate 16 costs 4 to 10 % more for shadow rays. Hence 8.
+/// 100,000 strands, 5.9, 1.2 and 0.4 % hit another strand at rates 4, 8 and 12 than at rate 16, Embree's
+/// maximum. Rates 4 and 8 cost the same (one AVX register); rate 16 makes shadow rays 4 to 10 % slower. Hence
+/// 8.
 class EmbreeCurves {
  public:
   explicit EmbreeCurves(const AccelStrands& source);

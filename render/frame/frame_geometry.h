@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// The geometry of a frame: chunks, the boxes around them, and what rays are traced with. Chunks are grown
-/// when a ray needs them, unless the scene asks for everything up front.
+/// The geometry of a frame: chunks, the boxes around them, and the accelerator. Chunks are grown when a ray
+/// needs them, unless the scene requests everything up front.
 class FrameGeometry {
  public:
   /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
@@ -22,7 +22,7 @@ class FrameGeometry {
   const Accel& accel() const { return accel_; }
   /// Whether all chunks together fit the budget, so that none is ever evicted.
   bool fits() const { return accel_.fits(); }
-  /// Adds what was grown, evicted and tested.
+  /// Adds the numbers of units grown, evicted and tested.
   void add_to(Statistics& statistics) const;
 
  private:
