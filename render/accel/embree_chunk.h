@@ -16,14 +16,14 @@ struct EmbreeChunkOptions {
   bool compact_attributes = true;
 };
 
-/// What a chunk holds while it is resident: packed strands or a skin, and a compact Embree scene over it on a
+/// The contents of a resident chunk: packed strands or a skin, and a compact Embree scene over them on a
 /// device that all chunks share. Thread safety: const members from any thread, each inside a FlushDenormals
 /// scope.
 class EmbreeChunk final : public ChunkGeometry {
  public:
-  /// `number`: what Ray::start calls this chunk. `widest`: as StrandScale::widest has it. Built by the
-  /// calling thread alone, so that it may be made inside a loop of another team. Throws Error for what Embree
-  /// reports; the device outlives the chunk.
+  /// `number`: identifies this chunk in Ray::start. `widest`: as StrandScale::widest. Built by the calling
+  /// thread only, so that it may be made inside a loop of another pool. Throws Error for errors that Embree
+  /// reports; the device must outlive the chunk.
   EmbreeChunk(ChunkContents contents, uint32_t number, float widest, const EmbreeChunkOptions& options,
               const EmbreeDevice& device, SegmentPatterns& patterns);
   ~EmbreeChunk() override;
