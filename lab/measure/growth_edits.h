@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-/// What an edit of one frozen operator costs: the groom is grown again from the state before it.
+/// Cost of editing one frozen operator: the groom is grown again from the state before it.
 struct GrowthEdit {
   std::string op;  ///< name of the operator
   size_t place = 0;
