@@ -78,10 +78,10 @@ class FlowField {
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.
   const std::vector<Block>& blocks() const { return blocks_; }
-  /// One for each row of blocks, around all of them.
+  /// One for each row of blocks, bounding all of them.
   const std::vector<Block>& block_rows() const { return block_rows_; }
   int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
-  /// By how much a corner may move further than any pixel of its block.
+  /// By how much a corner may move farther than any pixel of its block.
   float slack() const { return slack_; }
   /// Bounds of all vectors.
   Flow low() const { return low_; }
@@ -89,10 +89,10 @@ class FlowField {
 
  private:
   static constexpr uint8_t kRight = 1, kDown = 2, kRigid = 4;
-  /// The four pixels of which this is the upper left one hang together.
+  /// The four pixels of which this is the upper left one belong to one surface.
   static constexpr uint8_t kFour = 8;
   static constexpr uint8_t kSeam = 16;
-  /// As differences to the first: equal vectors have exactly themselves as mean.
+  /// Computed from differences to the first: the mean of equal vectors is exact.
   static Flow mean_of_four(Flow a, Flow b, Flow c, Flow d) {
     return {a.x + ((b.x - a.x) + (c.x - a.x) + (d.x - a.x)) * 0.25f,
             a.y + ((b.y - a.y) + (c.y - a.y) + (d.y - a.y)) * 0.25f};

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// Scene keys and their values, as --set wants them.
+/// Scene keys and their values, in the form of --set.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// A view of the scene.
