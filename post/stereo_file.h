@@ -31,7 +31,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
 /// meaning (row vectors, NDC from 0 to 1); nothing where they are missing or singular.
 std::optional<float> focal_pixels_of(const ExrPart& part);
 
-/// The matrices as the other eye has them.
+/// Converts the camera matrices to the other eye.
 void move_camera(ExrPart& part, const StereoCamera& camera);
 
 }  // namespace pelage
