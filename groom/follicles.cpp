@@ -19,7 +19,7 @@ namespace pelage {
 namespace {
 
 /// Splits ids[begin, end) into parts of at most `leaf` by halving along the longest axis of their box: parts
-/// are compact, nearly equal in size, and a function of the positions alone.
+/// are compact, nearly equal in size, and a function of the positions only.
 void split(std::span<const V3f> positions, std::vector<uint32_t>& ids, uint32_t begin, uint32_t end,
            uint32_t leaf, const Job& job, std::vector<FollicleTree::Leaf>& leaves) {
   job.check_stop();
@@ -71,10 +71,10 @@ constexpr size_t kMoreCandidates = 100;  // for coats of a few strands
 /// Candidates that are tried for `count` follicles in the first round.
 size_t candidates_for(size_t count) { return count * kCandidatesPerFollicle + kMoreCandidates; }
 
-/// Places of follicles in their progressive order.
+/// Positions of follicles in their progressive order.
 void place(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t count, double mass,
            const Job& job, std::vector<V3f>& positions, std::vector<RootAddress>& roots) {
-  // How many candidates pass is random: ask again with more in the rare case that they are too few.
+  // The number of candidates that pass is random: repeats with more in the rare case of too few.
   MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     if (round > 0) {
@@ -99,7 +99,7 @@ void place(const LimitSurface& rest, const FollicleDensity& density, uint64_t se
   }
 }
 
-/// Shows how far placing many follicles is, and nothing of few.
+/// Shows progress for many follicles, and nothing for few.
 class PlacingStage final : public Progress {
  public:
   PlacingStage(Progress& whole, const FollicleOptions& options, size_t count)
@@ -138,7 +138,7 @@ int64_t follicle_bytes(int64_t count) {
 }
 
 FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions& options, const Job& job) {
-  // Of a coat that says how many strands it has, room is asked for before anything is looked at.
+  // For a coat with a given number of strands, memory is checked before anything is computed.
   const auto require = [&](size_t count) {
     return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
                    fmt::format("{}: placing {} {}", options.owner, count, options.noun));

@@ -14,17 +14,18 @@
 namespace pelage {
 namespace {
 
-/// Radius after one level of shrinking: small steps keep prefixes that end within a level near the best.
+/// Ratio of the radii of consecutive levels: small steps keep prefixes that end within a level nearly
+/// optimal.
 constexpr double kShrink = 0.94;
-/// Part of the densest packing (hexagons) that dart throwing is expected to fill.
+/// Fraction of the densest (hexagonal) packing that dart throwing is expected to reach.
 constexpr double kExpectedFill = 0.5;
-/// Candidates that take part per follicle expected: a fifth more than there are per follicle in the end.
+/// Active candidates per expected follicle: a fifth more than the final number per follicle.
 constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
-/// To a radius of 1e-11 of the first: only coincident candidates are left.
+/// Down to a radius of 1e-11 of the first: only coincident candidates remain.
 constexpr int kLevels = 400;
 constexpr uint32_t kEndOfList = 0xffffffffu;
 
-/// Candidates that wait for a level each, as lists through FollicleCandidate::next.
+/// Linked lists through FollicleCandidate::next of candidates waiting for each level.
 class WaitingLists {
  public:
   explicit WaitingLists(std::span<FollicleCandidate> candidates)
@@ -58,17 +59,18 @@ class Radii {
     const int level = static_cast<int>(std::ceil(std::log(distance / largest_) * (1.0 / std::log(kShrink))));
     return std::clamp(level, 0, kLevels);
   }
-  /// Follicles expected: hexagonal packing puts 2 / (sqrt(3) r^2) points at distance r on a unit of area.
+  /// Expected number of follicles: hexagonal packing has 2 / (sqrt(3) r^2) points at distance r per unit
+  /// area.
   double expected(double radius) const {
     return kExpectedFill * area_ * 2.0 / (std::sqrt(3.0) * radius * radius);
   }
 
  private:
   double area_;
-  double largest_;  // expects one follicle
+  double largest_;  // for one expected follicle
 };
 
-/// Region of space of a candidate, for trying neighbours together: Morton code of cells of side 1 /
+/// Region of space of a candidate, for trying neighbours together: Morton code of cells with side 1 /
 /// `inverse`.
 uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse) {
   const auto spread = [](float coordinate) {
@@ -86,14 +88,14 @@ uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse)
 
 namespace {
 
-/// The last level may find more than are wanted, of which the last go again.
+/// The last level may find more than wanted, the last of which are removed again.
 size_t with_overshoot(size_t count) { return count + count / 6; }
 
 }  // namespace
 
 size_t progressive_order_bytes(size_t candidates, size_t count) {
-  // Of each follicle: its place in the order, its entry in the grid and at most 4 heads of lists; and some
-  // candidates are tried at a time.
+  // Per follicle: its place in the order, its entry in the grid and at most 4 list heads; also the candidates
+  // being tried.
   constexpr size_t kOfFollicle = 4 + OctaveGrid::kItemBytes, kHeads = 16, kTried = 24;
   return candidates * sizeof(FollicleCandidate) + with_overshoot(count) * kOfFollicle +
          count * (kHeads + kTried);
@@ -127,7 +129,7 @@ std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates,
       const double ahead = std::min(radii.expected(0.6 * radius), static_cast<double>(count));
       grid.rebuild(static_cast<size_t>(ahead), r);
     }
-    // Regions hold some thousand follicles, so that what is looked at together stays in the cache.
+    // Regions contain some thousand follicles, so that those examined together stay in the cache.
     const float inverse = std::min(1.0f / (64.0f * r * smallest), 1023.0f / extent);
     const double join =
         std::min(kTakePart * radii.expected(radius) + 1, static_cast<double>(candidates.size()));
@@ -135,7 +137,7 @@ std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates,
         static_cast<double>(joined) < join ? static_cast<size_t>(std::ceil(join)) - joined : 0;
     tried.clear();
     if (waiting.size(level) + joining > tried.capacity()) {
-      release(tried);  // the old ones go before room for more is made
+      release(tried);  // frees the old ones before allocating more
       tried.reserve(waiting.size(level) + joining);
     }
     const auto add = [&](uint32_t i) { tried.emplace_back(region_of(candidates[i], box.min, inverse), i); };
@@ -155,7 +157,7 @@ std::vector<uint32_t> progressive_order(std::span<FollicleCandidate> candidates,
         waiting.add(std::max(radii.level_of(distance), level + 1), i);
       }
     }
-    // Which of a level come first must not depend on where they are.
+    // Which candidates of a level come first must not depend on their positions.
     stoppable_sort(job, order.begin() + static_cast<std::ptrdiff_t>(before), order.end(),
                    [](uint32_t a, uint32_t b) {
                      const uint64_t ha = hash64(a, random_use("follicle order")),
