@@ -90,8 +90,8 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
 bool Camera::may_see(const Box3f& box) const {
   if (box.isEmpty()) return false;
   const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
-  // Corners outside of each half space, over all keys: behind, left, right, below, above. What is beyond one
-  // border at every key is beyond it between them.
+  // Number of corners outside of each half space, over all keys: behind, left, right, below, above. A box
+  // beyond one border at every key is also beyond it in between.
   size_t outside[5] = {};
   for (const Pose& pose : keys_) {
     for (int corner = 0; corner < 8; ++corner) {
