@@ -16,7 +16,7 @@ constexpr const char* kIncludeKey = "include";
 
 void merge_into(Value& base, Value over);
 
-// Entries of `over` win; what only `base` has stays, in its place.
+// Entries of `over` take precedence; those that only `base` has stay in their place.
 void merge_maps(Value& base, Value& over) {
   std::unordered_map<std::string, size_t> places;
   for (size_t i = 0; i < base.entries().size(); ++i) places.emplace(base.entries()[i].key, i);
@@ -41,7 +41,7 @@ void merge_into(Value& base, Value over) {
   }
 }
 
-// Reads a file and what it includes, keeping track of what is being read (cycles) and has been read (limits).
+// Reads a file and its includes; keeps track of files being read (cycles) and of the total (limits).
 class Loader {
  public:
   explicit Loader(Problems& problems) : problems_(problems) {}
@@ -90,7 +90,7 @@ class Loader {
     apply_override(override, document, limits_, problems_);
   }
 
-  /// Whether some file could not be read, so that what seems to be missing may stand there.
+  /// Whether some file could not be read, which might contain keys that seem to be missing.
   bool has_holes() const { return has_holes_; }
 
  private:

@@ -36,7 +36,7 @@ std::vector<const Procedural*> leaves_of(const FurPart& part,
   return leaves;
 }
 
-/// One batch after the other.
+/// Appends batches.
 class Gatherer {
  public:
   void add(const Strands& strands) {
@@ -118,7 +118,7 @@ LabFur grow_lab_fur(const RenderScene& scene, const Job& job) {
   }
   if (gatherer.empty())
     throw Error(ErrorKind::kArguments, "there is no fur in this scene to trace rays through");
-  // One tree has one grid: wide enough that most strands fit narrow leaves.
+  // One tree has one grid: coarse enough that most strands fit narrow leaves.
   const auto percentile = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
   std::nth_element(widths.begin(), percentile, widths.end());
   fur.root_width = *percentile;
