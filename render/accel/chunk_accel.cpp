@@ -18,16 +18,16 @@ namespace {
 
 constexpr size_t kPage = 4096;
 constexpr size_t kSegmentsPerPart = 1024, kMaxParts = 64;
-// Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
-// times finer than the given ones; before a chunk is grown, always.
+// Testing learned boxes before a visit, which is cheap, is worthwhile only where they are this many times
+// finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
-constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that has no fine ones
+constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine ones
 
 size_t part_count(size_t primitives) {
   return std::clamp<size_t>(primitives / kSegmentsPerPart, 1, kMaxParts);
 }
 
-/// No strand in a box is wider than the box.
+/// Upper bound: no strand is wider than its box.
 float widest_radius(const ChunkBounds& bounds) {
   const Box3f box = bounds.whole();
   const V3f size = box.isEmpty() ? V3f(0) : box.size();
@@ -36,13 +36,13 @@ float widest_radius(const ChunkBounds& bounds) {
 
 }  // namespace
 
-/// Grows chunks for the residency, and knows of each what is known before it is grown: the fine boxes that it
-/// was given, or the boxes that it learned when it was first grown.
+/// Grows chunks for the residency, and stores what is known about each before it is grown: the given fine
+/// boxes, or boxes learned when it was first grown.
 class ChunkAccel::Growth final : public Grower {
  public:
-  /// Takes the fine boxes out of `bounds`. Of chunks that will stand in fur trees it widens what is left by
-  /// what snapping to a grid may add, and leaves one part: what a ray meets of a chunk that is resident, its
-  /// tree tells at less cost than boxes above it.
+  /// Moves the fine boxes out of `bounds`. For chunks that will use fur trees, enlarges the remaining boxes
+  /// by the error of snapping to a grid, and keeps a single part: the tree of a resident chunk is cheaper to
+  /// test than boxes above it.
   Growth(const ChunkGrower& grower, std::span<ChunkBounds> bounds, const ChunkAccelOptions& options,
          const EmbreeDevice& device, SegmentPatterns& patterns, MemoryLedger& ledger, Progress& progress)
       : grower_(grower),
@@ -66,7 +66,7 @@ class ChunkAccel::Growth final : public Grower {
         patterns.expect(counts.segments / counts.strands, counts.strands);
       KnownBounds& known = known_[chunk];
       known.fine = std::move(bounds[chunk].fine);
-      // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
+      // For a moving chunk, boxes over a longer time than the shutter are less tight than learned ones.
       known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds[chunk].keys == 1);
       bytes += known.fine.bytes();
       if (known.learns)
@@ -94,7 +94,7 @@ class ChunkAccel::Growth final : public Grower {
   std::string name(uint32_t slot) const override { return grower_.name(slot); }
 
   Grown grow(uint32_t slot) override {
-    // One thread at a time grows a slot, so nobody else stores what is learned.
+    // Only one thread at a time grows a slot, so the learned boxes have one writer.
     const bool learns = known_[slot].learns && !learned(slot);
     if (is_stored(slot)) {
       const auto warn = [this](const std::string& line) { progress_.warn(line); };
@@ -103,7 +103,7 @@ class ChunkAccel::Growth final : public Grower {
         const size_t bytes = fur->bytes();
         return {std::move(fur), bytes};
       }
-      // It is no longer stored: growing it takes more than reading it was thought to.
+      // It is no longer in the file: growing it needs more memory than was estimated for reading it.
       const size_t needed = reserve_bytes(slot);
       if (needed > options_.file->bytes_bound(slot)) return {nullptr, needed};
     }
@@ -126,10 +126,10 @@ class ChunkAccel::Growth final : public Grower {
     return {std::move(unit), bytes};
   }
 
-  /// Null before the chunk was first grown, and where the fine boxes say as much.
+  /// Null before the chunk was first grown, and when the fine boxes are as tight.
   const PartBoxes* learned(uint32_t slot) const { return learned_[slot].load(std::memory_order_acquire); }
   const FineBoxes& fine(uint32_t slot) const { return known_[slot].fine; }
-  /// By how much fine boxes have to be larger.
+  /// By how much fine boxes must be enlarged.
   float margin(uint32_t slot) const { return known_[slot].margin; }
   bool in_fur_tree(uint32_t slot) const { return known_[slot].in_fur_tree; }
   bool knows(uint32_t slot) const { return fine(slot).count() > 0; }
@@ -158,7 +158,7 @@ class ChunkAccel::Growth final : public Grower {
     return options;
   }
 
-  PagePool pool_;  // of all trees
+  PagePool pool_;  // for all trees
   const ChunkGrower& grower_;
   const ChunkAccelOptions& options_;
   Progress& progress_;
@@ -167,19 +167,19 @@ class ChunkAccel::Growth final : public Grower {
   SegmentPatterns& patterns_;
   std::vector<KnownBounds> known_;
   std::vector<std::atomic<const PartBoxes*>> learned_;
-  std::vector<std::atomic<uint32_t>> build_pages_;  // what the tree needed when it was built, once it was
+  std::vector<std::atomic<uint32_t>> build_pages_;  // memory that the tree needed during its last build
   MemoryCharge charge_;
 };
 
-/// What one thread needs to know of the ray that it traces.
+/// Per-thread state of the current ray.
 struct alignas(64) ChunkAccel::Scratch {
   struct Waiting {
     float entry;
-    uint32_t boxes;  // fine ones that the ray meets
+    uint32_t boxes;  // number of fine ones that the ray intersects
     uint32_t chunk;
   };
 
-  /// Whether this ray has not come to the chunk before; now it has.
+  /// Whether this is the ray's first visit of the chunk; marks it as visited.
   bool first_time(uint32_t chunk) {
     if (seen[chunk] == ray) return false;
     seen[chunk] = ray;
@@ -192,8 +192,8 @@ struct alignas(64) ChunkAccel::Scratch {
     ray = 1;
   }
 
-  uint32_t ray = 0;            // counts rays
-  std::vector<uint32_t> seen;  // by chunk: the last ray that came to it
+  uint32_t ray = 0;            // number of the current ray
+  std::vector<uint32_t> seen;  // by chunk: the last ray that visited it
   std::vector<Waiting> waiting;
 };
 
@@ -237,8 +237,8 @@ void ChunkAccel::build_tree(const std::vector<ChunkBounds>& bounds, const Job& j
                         static_cast<int64_t>(tree_->bytes() + bounds.size() * sizeof(uint32_t)));
 }
 
-/// Calls visit(chunk) for every chunk that the ray may meet before far(), which may become smaller from visit
-/// to visit; ends when a visit returns false.
+/// Calls visit(chunk) for every chunk that the ray may hit before far(), which may decrease between visits;
+/// ends when a visit returns false.
 template <class Far, class Visit>
 void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
                               const Visit& visit) const {
@@ -246,8 +246,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   scratch.next_ray();
   ChunkWalk walk(*tree_, ray, order);
   const bool any = order == ChunkWalk::Order::kLongestFirst;
-  // Where the ray enters the chunk by what is known of it; infinity when it does not. `boxes` becomes the
-  // number of fine ones that a ray meets which looks for anything in its way.
+  // Entry distance of the ray according to the known boxes of the chunk; infinity when it misses. `boxes`
+  // becomes the number of fine ones that an occlusion ray intersects.
   const auto enter = [&](uint32_t chunk, float entry, bool resident, uint32_t& boxes) {
     const PartBoxes* learned = growth_->learned(chunk);
     if (learned &&
@@ -261,7 +261,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
     boxes = hits.boxes;
     return hits.entry;
   };
-  // The far end of a ray is often infinite too.
+  // The far end of a ray may be infinite too.
   const auto reaches = [&](float entry) {
     return entry <= far() && entry < std::numeric_limits<float>::infinity();
   };
@@ -275,8 +275,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   bool goes_on = true;
   while (goes_on && walk.next(far(), chunk, entry)) {
     if (!scratch.first_time(chunk)) {
-      // Boxes do not come strictly in order: one of a chunk that waits may be entered before those seen so
-      // far. Finer ones were looked at all together.
+      // Boxes are not strictly ordered: one of a pending chunk may be entered before those seen so far. Fine
+      // boxes were all tested together.
       if (growth_->knows(chunk)) continue;
       for (Scratch::Waiting& waiting : scratch.waiting) {
         if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
@@ -295,7 +295,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   }
   thread.counts.box_tests += walk.box_tests();
   if (!goes_on) return;
-  // What is nearest first, or what will most likely stop the ray: skins, then chunks of which it meets most.
+  // Nearest first, or for occlusion what most likely blocks the ray: skins, then chunks with the most
+  // intersected boxes.
   using Waiting = Scratch::Waiting;
   std::sort(scratch.waiting.begin(), scratch.waiting.end(), [any](const Waiting& a, const Waiting& b) {
     if (any && a.boxes != b.boxes) return a.boxes > b.boxes;
@@ -304,7 +305,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   const float looked_until = far();
   for (Waiting& waiting : scratch.waiting) {
     if (waiting.entry > far()) continue;
-    // Since then the ray may have become shorter, and another thread may have grown the chunk.
+    // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
     const bool tells_more = far() < looked_until || growth_->learned(waiting.chunk);
     if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
     if (!visit_one(waiting.chunk)) return;
@@ -325,7 +326,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
         if (found) nearest_chunk = chunk;
         return true;
       });
-  // Only the answer counts: what else was hit on the way depends on the order of the visits.
+  // Only the final answer counts: other hits on the way depend on the order of visits.
   if (nearest_chunk) residency_->mark_hit(*nearest_chunk);
   return nearest.hit;
 }

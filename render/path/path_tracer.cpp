@@ -7,15 +7,15 @@
 namespace pelage {
 namespace {
 
-/// Draws of a sample (see SampleStream): places that stay the same whatever a path does.
+/// Draws of a sample (see SampleStream): fixed positions, independent of the path.
 enum Draw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 enum VertexDraw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-/// Of the light about it, what a surface shows: roughly, pale fur less than skin.
+/// Reflected fraction of the surrounding light: a rough value, between pale fur and skin.
 constexpr float kShown = 0.5f;
 
-/// How likely roulette lets a path go on that has this weight: what it may still bring, over what the pixel
-/// shows [Vorba16]. By the weight alone, paths would end that bring as much as others: in pale fur a quarter
-/// fewer rays, and two thirds more variance.
+/// Survival probability of Russian roulette for a path with this weight: its expected contribution relative
+/// to the pixel's value [Vorba16]. Using the weight alone would end paths that contribute as much as others:
+/// in pale fur a quarter fewer rays, but two thirds more variance.
 float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
 }  // namespace
@@ -55,9 +55,9 @@ struct PathTracer::Path {
   SampleStream stream;
   Scratch& scratch;
   uint32_t vertex = 0;
-  uint32_t random = 0;  // decides at semi-transparent crossings
+  uint32_t random = 0;  // used at semi-transparent crossings
   float time = 0;
-  Ray ray;  // that led to `hit`
+  Ray ray;  // the ray that hit `hit`
   Hit hit;
   Rgb first[kLobeGroups];  // rho / pdf of the first vertex, by lobe group
   Rgb throughput{1};       // of the vertices after the first
@@ -97,7 +97,7 @@ Ray PathTracer::camera_ray(int x, int y, SampleStream& stream, Scratch& scratch)
   return ray;
 }
 
-/// Lights that the camera sees directly, in front of `distance`.
+/// Adds lights directly visible to the camera, in front of `distance`.
 void PathTracer::see_lights(const Ray& ray, float distance, Scratch& scratch) const {
   for (size_t i = 0; i < scene_.lights.size(); ++i) {
     const Light& light = scene_.lights.light(i);
@@ -124,9 +124,8 @@ bool PathTracer::is_last(const Path& path) const {
   return path.vertex == static_cast<uint32_t>(scene_.render.bounces);
 }
 
-/// The density with which sample_lobes() arrives at a light in a direction: that of the lobes, and what
-/// roulette leaves of it. Without the latter, what a dark surface scatters of a light would be left to a few
-/// rays of great weight.
+/// Density with which sample_lobes() finds a light in a direction: that of the lobes, including Russian
+/// roulette. Without roulette, light scattered by a dark surface would be left to a few rays of large weight.
 float PathTracer::arriving_pdf(const FibreValue& value, const Path& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
   return value.pdf * survival(path.weight * (value.total() / value.pdf));
@@ -144,8 +143,8 @@ void PathTracer::shadow_ray(const ScatterPoint& point, const LightPoint& to, flo
   if (through > 0) path.add_scattered(to.light, to.value, to.arriving * (through * factor));
 }
 
-/// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
-/// `shadowed`, what lies between has yet to be found out.
+/// Adds lights along a ray sampled from the lobes of the current vertex `point`, in front of `distance`. With
+/// `shadowed`, occlusion still has to be tested.
 void PathTracer::gather_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                bool shadowed, Path& path) const {
   direct_.find_lights(point, ray.direction, distance, lobe_pdf, path.scratch.direct,
@@ -160,7 +159,7 @@ void PathTracer::gather_lights(const ScatterPoint& point, const Ray& ray, float 
                       });
 }
 
-/// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
+/// Traces a direction sampled from the lobes to the next vertex. Returns false where the path ends.
 bool PathTracer::sample_lobes(const ScatterPoint& point, Path& path) const {
   const bool last = is_last(path);
   if (last && options_.direct == DirectTechniques::kLightsOnly) return false;
