@@ -14,8 +14,8 @@ namespace {
 
 constexpr uint32_t kPointsAtOnce = 1 << 16;
 
-/// Calls visit(begin, end) for ranges of strands that cover the file, each of some ten thousand points or of
-/// one strand.
+/// Calls visit(begin, end) for ranges of strands that cover the file, each with some ten thousand points or a
+/// single strand.
 template <class Visit>
 void for_each_range(const RawStrands& raw, const Job& job, const Visit& visit) {
   for (size_t begin = 0; begin < raw.strand_count;) {
