@@ -6,13 +6,13 @@
 namespace pelage {
 
 /// Sets how many strands of each coat are grown together, where the scene does not. If not all fur of the
-/// scene may fit the memory limit, leaves are small enough that some hundred chunks fit: scattered rays go
-/// everywhere and need little in each place. Strands of a file are read in groups of at least a few dozen,
-/// because seeking costs more for smaller ones. If everything fits, leaves are small enough that growing only
-/// some of them saves time. Sizes have few steps, so that similar limits share stored boxes; with stored
-/// trees (render.bvh.file) the size does not depend on the limit, so that one file serves all. Coats with a
-/// cache, whose files are for one size, are unchanged, as are strands of a file with stored trees. Does not
-/// affect pixels.
+/// scene may fit the memory limit, leaves are so small that some hundred chunks fit: scattered rays go
+/// everywhere and need little in each place. For strands of a file it is some dozen chunks, because finding
+/// strands costs more the fewer are read together. If everything fits, leaves are so small that the temporary
+/// memory for growing some of them fits too. Sizes have few steps, so that similar limits share stored boxes;
+/// with stored trees (render.bvh.file) the size does not depend on the limit, so that one file serves all.
+/// Coats with a cache, whose files are for one size, are unchanged, as are strands of a file with stored
+/// trees. Does not affect pixels.
 void choose_leaf_sizes(SceneDescription& scene);
 
 }  // namespace pelage
