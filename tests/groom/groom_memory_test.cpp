@@ -175,7 +175,7 @@ TEST_F(GroomMemoryTest, ReadingManyPointsShowsItsProgress) {
   }
 }
 
-/// Asks to stop after so many looks.
+/// Asks to stop after this many checks.
 class StopsAfterLooks final : public Progress {
  public:
   explicit StopsAfterLooks(int looks) : left_(looks) {}
