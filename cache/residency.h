@@ -63,8 +63,7 @@ struct ResidencyCounts {
   int64_t working_set_bytes = 0;  ///< total size of all distinct slots ever grown
   int64_t peak_bytes = 0;         ///< max held at once, including reservations
   int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
-  double waited_s =
-      0;  ///< sum over threads: time asleep until another thread had grown or released something
+  double waited_s = 0;            ///< time asleep waiting for others, summed over threads
 };
 
 /// A fixed number of slots whose units are grown on first visit, kept while the budget allows, and grown

@@ -35,9 +35,8 @@ class SkinLattice {
   /// A line to be divided: a cage edge, or the spoke from the middle of an n-gon's edge to the n-gon's
   /// centre.
   struct Line {
-    uint32_t id = 0;  ///< the cage edge, or edge_count + the ptex face whose side 1 is the spoke
-    uint32_t face =
-        kNone;  ///< the first face that is not a hole and has the line, or half of it, as its side `side`
+    uint32_t id = 0;        ///< the cage edge, or edge_count + the ptex face whose side 1 is the spoke
+    uint32_t face = kNone;  ///< the first non-hole face with the line, or half of it, as side `side`
     uint32_t side = 0;
     bool halved = false;   ///< the line is split by a face with several ptex faces: its rate must be even
     bool is_half = false;  ///< `side` of `face` is one half of the line

@@ -45,8 +45,7 @@ class Sample {
 
   static constexpr uint64_t kBehind = uint64_t{1} << 63;  // the sign of the depth
   static constexpr uint64_t kInfinite = uint64_t{0xff800000} << 32;
-  static constexpr uint64_t kEmpty =
-      ~uint64_t{0};  // farther than infinity, at a position outside of any picture
+  static constexpr uint64_t kEmpty = ~uint64_t{0};  // beyond infinity, outside of any picture
   uint64_t bits_ = kEmpty;
 };
 static_assert(sizeof(Sample) == 8);

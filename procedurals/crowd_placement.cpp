@@ -230,8 +230,7 @@ class Crowd {
     const float wanted = a.discs[p].z + b.discs[q].z + rules_.spacing;
     const float length = apart.length();
     if (length >= wanted) return 0;
-    const float angle =
-        2 * kPi * unit_float(tie);  // at the same point: an arbitrary but deterministic direction
+    const float angle = 2 * kPi * unit_float(tie);  // same point: arbitrary, deterministic
     apart = length > 1e-6f * wanted ? apart / length : V2f(std::sin(angle), std::cos(angle));
     // d(lever)/d(heading) is the lever rotated by a quarter turn: (z, -x).
     const float turn_a = lever_a.y * apart.x - lever_a.x * apart.y;

@@ -68,9 +68,8 @@ struct BarPlot {
   std::vector<Values> series;
   bool stacked = false;
   bool half = false;
-  std::vector<std::pair<double, double>> spread =
-      {};                               ///< min and max per group, drawn as a whisker; or empty
-  std::vector<std::string> notes = {};  ///< per group: shown where there is no number
+  std::vector<std::pair<double, double>> spread = {};  ///< min and max per group (whiskers); or empty
+  std::vector<std::string> notes = {};                 ///< per group: shown where there is no number
 };
 
 /// Pixels for screens: 1 (grey) or 3 (sRGB) bytes each, rows from the top.

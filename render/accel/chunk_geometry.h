@@ -15,9 +15,8 @@ namespace pelage {
 /// The nearest hit of a ray so far, over all visited chunks.
 struct NearestSoFar {
   Hit hit;
-  uint32_t face = 0;  ///< ptex face of a hit on a skin
-  uint32_t triangle =
-      0;  ///< triangle in the chunk, of a hit on a skin; ordered equally in every chunk with the face
+  uint32_t face = 0;      ///< ptex face of a hit on a skin
+  uint32_t triangle = 0;  ///< in the chunk, of a hit on a skin; same order in every chunk with the face
 
   /// Breaks ties in distance: strands before skins, then strand id, part, segment, or face and triangle.
   auto rank() const {

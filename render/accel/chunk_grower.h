@@ -22,8 +22,7 @@ struct FurContents {
 /// Contents of a chunk: fur of one part, or one skin.
 struct ChunkContents {
   std::variant<FurContents, SkinMesh> geometry;
-  uint32_t part =
-      0;  ///< index of the coat of a character, or of the skin; strand ids are unique within a part
+  uint32_t part = 0;  ///< index of the coat or skin; strand ids are unique within a part
 };
 
 /// Upper bounds of the size of a chunk's contents.

@@ -66,8 +66,7 @@ class RaySlabs {
   // Max rounding error of a side or a hit, relative to the largest input: 32 units in the last place. The
   // hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
   static constexpr float kErrorBound = 0x1p-19f;
-  static constexpr float kSmallest =
-      1e-18f;  // min component of a direction: its inverse times any coordinate is finite
+  static constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
 
   struct Axis {
     Four near_origin, far_origin, inverse;

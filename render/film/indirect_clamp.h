@@ -13,8 +13,7 @@ namespace pelage {
 struct IndirectClamp {
   float limit = 0;  ///< luminance; 0 is none
   int64_t lost = 0,
-          indirect =
-              0;  ///< luminance of all samples in units of 1/65,536: integer sums do not depend on the order
+          indirect = 0;  ///< luminance, in units of 1/65,536: integers sum in any order
 
   /// Factor applied to light that reaches the camera as lobes[g] * light, summed over lobe groups g.
   float keep(const Rgb* lobes, const Rgb& light) {

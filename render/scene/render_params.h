@@ -68,9 +68,8 @@ struct RenderParams {
   std::optional<AdaptiveParams> adaptive;
   float time_limit = 0;  ///< seconds; 0 is no limit
   int light_samples = 1;
-  int bounces = 4;  ///< 0 = direct light only
-  float clamp_indirect =
-      0;  ///< max luminance that one path may add after its first scattering; 0 is no limit
+  int bounces = 4;           ///< 0 = direct light only
+  float clamp_indirect = 0;  ///< max luminance of a path after its first scattering; 0 is no limit
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;

@@ -11,8 +11,7 @@ namespace {
 // less than half. Points in ray space computed in float have an error below 35 units, including rotated
 // frames (where numbers may be smaller by the square root of 3).
 constexpr float kErrorBound = 0x1p-19f;
-constexpr float kSmallest =
-    1e-18f;  // min component of a direction: its inverse times any coordinate is finite
+constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
 
 bool is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +

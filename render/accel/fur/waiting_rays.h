@@ -57,9 +57,8 @@ class WaitingRays {
   };
 
   struct Ray {
-    uint32_t number = 0;  ///< index among the query's rays
-    uint32_t next =
-        kNone;  ///< the slot of the next ray that waits for the same page, or of the next free slot
+    uint32_t number = 0;       ///< index among the query's rays
+    uint32_t next = kNone;     ///< slot of the next ray waiting for the same page, or next free slot
     bool is_complete = false;  ///< there are no steps after the upcoming ones
     UpcomingSteps upcoming;
   };
