@@ -27,14 +27,14 @@ namespace format = stored_file_format;
 
 namespace {
 
-/// Writing a time costs more than reading it, and nobody asks for minutes.
+/// Updates the time only when it is outdated, because writing costs more than reading; minutes do not matter.
 void mark_used(const OpenFile& file) {
   struct stat info {};
   if (::fstat(file.descriptor(), &info) == 0 && std::time(nullptr) - info.st_mtime > 3600)
     ::futimens(file.descriptor(), nullptr);
 }
 
-/// How long nothing has written or used a file that is no link.
+/// Time since a file, which must not be a link, was written or used.
 std::optional<std::chrono::seconds> unused_for(const std::filesystem::path& path) {
   struct stat info {};
   if (::lstat(path.c_str(), &info) != 0 || !S_ISREG(info.st_mode)) return {};
@@ -167,7 +167,7 @@ ContentStore::Lock::Lock(Lock&& other) noexcept
 
 ContentStore::Lock::~Lock() {
   if (descriptor_ < 0) return;
-  // While it is still locked: who waits for it sees that its name is gone, and begins again.
+  // While it is still locked: a process waiting for it then sees that its name is gone, and starts again.
   ::unlink(path_.c_str());
   ::close(descriptor_);
 }
@@ -241,7 +241,7 @@ void ContentStore::sweep(std::chrono::seconds age) const {
   for (std::filesystem::directory_iterator at(folder_, error), end; !error && at != end;
        at.increment(error)) {
     const std::string name = at->path().filename().string();
-    // Temporary files may be of a machine that still writes them.
+    // Temporary files may belong to another machine that is still writing.
     if (name.starts_with(kTemporaryPrefix)) continue;
     if (!name.starts_with('.') || !(name.ends_with(format::kEnding) || name.ends_with(format::kLockEnding)))
       continue;

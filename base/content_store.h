@@ -18,14 +18,14 @@
 
 namespace pelage {
 
-/// Takes one line about what went wrong and did not stop the run.
+/// Receives one line about a problem that did not stop the run.
 using WarningSink = std::function<void(const std::string& line)>;
 
-/// A file of a content store, mapped: a few sections of bytes, each 64-byte aligned in memory. Every byte has
-/// been checked against its checksum.
+/// A memory-mapped file of a content store: a few sections of bytes, each aligned to 64 bytes. All bytes have
+/// been verified against their checksums.
 class StoredFile {
  public:
-  /// Reads and checks a file by itself, whatever its name. Throws Error (kInput) that says what is wrong.
+  /// Reads and verifies a file, whatever its name. Throws Error (kInput) with the reason.
   explicit StoredFile(const std::filesystem::path& path) : StoredFile(OpenFile(path)) {}
   explicit StoredFile(const OpenFile& file);
 
@@ -42,38 +42,37 @@ class StoredFile {
   std::vector<std::span<const std::byte>> sections_;
 };
 
-/// Whether a file begins as those of content stores do.
+/// Whether a file starts like those of content stores.
 bool is_stored_file(const std::filesystem::path& path);
 
-/// Files named by kind and content hash in one folder: what was computed once and may be computed again.
+/// A folder of files named by kind and content hash: results that can be computed again.
 ///
-/// A file appears whole or not at all, and a reader believes only one that is of this format, of the kind and
-/// key that it asked for, as long as it says, and whose every section has its checksum (law 6). Everything
-/// else counts as absent, with one warning. A symbolic link is never followed, neither to read nor to write
-/// (the folder itself may be one), and a file of another user counts as absent too, unless that user is root
-/// or the folder is shared by name (is_shared_folder()). Nothing here throws for what the file system does: a
-/// store that cannot be written is one that remembers nothing. `kind` is of lower-case letters, digits and
-/// '-', at most 16 characters. Thread safety: const members may be called from any thread and by many
-/// processes.
+/// A file appears completely or not at all. A reader accepts only files with the right format, kind, key and
+/// length and with correct checksums of all sections (law 6); everything else counts as missing, with one
+/// warning. Symbolic links are never followed, neither for reading nor for writing (the folder itself may be
+/// one). A file of another user also counts as missing, unless that user is root or the folder is declared
+/// shared (is_shared_folder()). File system errors never throw: a store that cannot be written behaves as if
+/// it were empty. `kind`: lower-case letters, digits and '-', at most 16 characters. Thread safety: const
+/// members may be called from any thread and by many processes.
 class ContentStore {
  public:
   /// The folder need not exist.
   explicit ContentStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// Where an entry stands or would stand.
+  /// Path of an entry, existing or not.
   std::filesystem::path file(const std::string& kind, const ContentHash& key) const;
 
-  /// Nothing when there is no such entry, or a damaged or foreign one: then `warn` has been told. The time of
-  /// the file becomes that of its last use, to the hour.
+  /// Empty when the entry is missing, damaged or foreign; the latter two call `warn`. Updates the
+  /// modification time of the file to record its last use, with a resolution of one hour.
   std::optional<StoredFile> open(const std::string& kind, const ContentHash& key,
                                  const WarningSink& warn) const;
-  /// The same of an entry whose sections are read one by one: each is checked when it is read.
+  /// The same for an entry whose sections are read one by one; each is verified when it is read.
   std::optional<StoredSections> open_sections(const std::string& kind, const ContentHash& key,
                                               const WarningSink& warn) const;
 
-  /// Writes one entry, section by section; it exists from commit() on. After the first failure nothing more
-  /// is written and commit() says what was wrong, once, to `warn`.
+  /// Writes one entry, section by section; it exists after commit(). After the first failure nothing more is
+  /// written, and commit() reports it once to `warn`.
   class Writer {
    public:
     void add(std::span<const std::byte> section);
@@ -81,9 +80,9 @@ class ContentStore {
     void add(std::span<const T> values) {
       add(std::as_bytes(values));
     }
-    /// Whether nothing more can come of it.
+    /// Whether writing has failed.
     bool failed() const { return !failure_.empty(); }
-    /// Whether the entry now exists.
+    /// Returns whether the entry now exists.
     bool commit(const WarningSink& warn);
 
    private:
@@ -102,17 +101,17 @@ class ContentStore {
     std::vector<Section> sections_;
   };
   Writer writer(const std::string& kind, const ContentHash& key) const;
-  /// All sections at once. Whether the entry now exists.
+  /// Writes all sections at once. Returns whether the entry now exists.
   bool store(const std::string& kind, const ContentHash& key,
              std::span<const std::span<const std::byte>> sections, const WarningSink& warn) const;
 
-  /// Held by the one process (or thread) that is about to compute an entry.
+  /// Held by the one process (or thread) that computes an entry.
   class Lock {
    public:
     Lock(Lock&& other) noexcept;
     ~Lock();
-    /// Whether it is held: not where the folder cannot be written or patience ran out. Then the work may be
-    /// done twice; the result is the same.
+    /// Whether the lock is held: false when the folder cannot be written or the timeout expired. The work may
+    /// then be done twice, with the same result.
     bool held() const { return descriptor_ >= 0; }
 
    private:
@@ -121,28 +120,29 @@ class ContentStore {
     int descriptor_ = -1;
     std::filesystem::path path_;
   };
-  /// Waits until nobody else computes this entry, patience runs out or `cancelled` says so. Open it again
-  /// afterwards: it may be there now. A process that dies gives its locks back.
+  /// Waits until no other process computes this entry, the timeout expires or `cancelled` returns true. Open
+  /// the entry again afterwards: it may exist now. The locks of a process that dies are released.
   Lock lock(
       const std::string& kind, const ContentHash& key,
       const std::function<bool()>& cancelled = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
-  /// Removes what processes that were killed have left half-written: their temporary files
-  /// (sweep_temporaries()), and locks that have not been touched for `age`.
+  /// Removes incomplete files of killed processes: temporary files (sweep_temporaries()), and locks that have
+  /// not been touched for `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
 
-  /// What nothing has used for so long goes whenever something is stored.
+  /// Storing an entry removes entries that have not been used for this time.
   static constexpr std::chrono::hours kUnusedAge{24 * 30};
 
   struct Removed {
     size_t files = 0;
     uint64_t bytes = 0;
   };
-  /// Removes entries that nobody has written or opened for `age`, but for the files in `keep`. Safe beside
-  /// processes that use the folder: who has a file open keeps it, who comes later makes it again.
+  /// Removes entries that have not been written or opened for `age`, except for the files in `keep`. Safe
+  /// while other processes use the folder: open files stay readable, and entries removed too early are
+  /// computed again.
   Removed prune(std::chrono::seconds age, std::span<const std::filesystem::path> keep = {}) const;
-  /// The same for one file.
+  /// The same for a single file.
   static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:

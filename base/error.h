@@ -9,17 +9,17 @@
 
 namespace pelage {
 
-/// Where in an input something stands. Line and column count from 1; 0 means that the input has no lines.
+/// A position in an input. Line and column count from 1; 0 means that the input has no lines.
 struct SourcePosition {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// "file:line:column", without the parts that are not known.
+/// "file:line:column", without the parts that are unknown.
 std::string to_string(const SourcePosition& position);
 
-/// One mistake of a user or one failure of the outside world, in one line without a final full stop.
+/// One mistake of the user, or one failure of the system, as one line without a final full stop.
 struct Problem {
   SourcePosition position;
   std::string message;
@@ -31,11 +31,11 @@ enum class ErrorKind {
   kArguments,  ///< bad arguments: 2
   kInput,      ///< a scene or an asset is missing, malformed or damaged: 3
   kMemory,     ///< the memory budget is too small: 4
-  kStopped,    ///< the user wanted to stop, and there is nothing to show: 130
+  kStopped,    ///< the user asked to stop and there is nothing to show: 130
 };
 
-/// The one exception type for what users and the outside world do wrong. Carries every problem found, in file
-/// order. Bugs are not errors: they stop the program (base/check.h).
+/// The only exception type for mistakes of the user and failures of the system. Carries every problem found,
+/// in file order. Bugs are not errors: they abort the program (base/check.h).
 class Error : public std::exception {
  public:
   Error(ErrorKind kind, std::vector<Problem> problems);
@@ -58,7 +58,7 @@ class Error : public std::exception {
 class Problems {
  public:
   Problems() = default;
-  /// Keeps the first `max` and only counts the others, for files whose damage may be as long as they are.
+  /// Keeps the first `max` problems and only counts the rest, because a damaged file may contain very many.
   explicit Problems(size_t max) : max_(max) {}
 
   void add(SourcePosition position, std::string message) {
@@ -69,10 +69,10 @@ class Problems {
     }
   }
   bool empty() const { return list_.empty(); }
-  /// Into file order, for a reader of one file that finds some mistakes only at its end.
+  /// Sorts by line, for readers of a single file that find some mistakes only at its end.
   void sort_by_line();
   const std::vector<Problem>& list() const { return list_; }
-  /// Throws an Error of `kind` with all problems, if there are any, and says how many were only counted.
+  /// Throws an Error of `kind` with all problems, if there are any. States how many more were only counted.
   void throw_if_any(ErrorKind kind = ErrorKind::kInput) const;
 
  private:

@@ -60,14 +60,14 @@ std::string read_file(const std::filesystem::path& path, size_t limit) {
 }
 
 std::filesystem::path target_of_links(std::filesystem::path path) {
-  constexpr int kMaxLinks = 40;  // as many as the kernel follows
+  constexpr int kMaxLinks = 40;  // the kernel's limit
   const std::filesystem::path named = path;
   std::error_code error;
   for (int i = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(path, error)); ++i) {
     if (i == kMaxLinks) fail_write(named, "too many symbolic links");
     const std::filesystem::path target = std::filesystem::read_symlink(path, error);
     if (error) fail_write(named, error.message());
-    path = path.parent_path() / target;  // an absolute target replaces the whole
+    path = path.parent_path() / target;  // an absolute target replaces the whole path
   }
   return path;
 }
@@ -104,7 +104,7 @@ AtomicFile::AtomicFile(std::filesystem::path path, Links links) : named_(std::mo
   descriptor_ = file.descriptor;
   temporary_ = std::move(file.path);
   if (links == Links::kReplace || !replaces) return;
-  // Whoever may not give files away keeps the new one.
+  // Without the permission to change the owner, the new one is kept.
   [[maybe_unused]] const int given = ::fchown(descriptor_, old.st_uid, old.st_gid);
   ::fchmod(descriptor_, old.st_mode & 0777);
 }
@@ -136,7 +136,7 @@ void AtomicFile::write_at(uint64_t offset, std::span<const std::byte> bytes) {
 void AtomicFile::write(std::string_view text) { write(std::as_bytes(std::span(text.data(), text.size()))); }
 
 void AtomicFile::commit() {
-  // fsync also reaches what a library wrote through temporary_path(): it is the same file.
+  // fsync also covers what a library wrote through temporary_path(), because it is the same file.
   if (::fsync(descriptor_) != 0 && errno != EINVAL) fail_write(named_, reason());
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail_write(named_, reason());
   temporary_.clear();

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// content_hash() of all bytes of a file, read a piece at a time: neither the heap nor the resident set grows
-/// with the file. Throws Error (kInput) when it cannot be read or is not a regular file.
+/// content_hash() of all bytes of a file, read piecewise: neither the heap nor the resident set grows with
+/// the file. Throws Error (kInput) when it cannot be read or is not a regular file.
 ContentHash file_hash(const std::filesystem::path& path);
 
 }  // namespace pelage

@@ -15,9 +15,9 @@ constexpr size_t kHeader = 16;  // before the block, in its first page
 
 void keep_heap_small() {
 #if defined(__GLIBC__)
-  // A threshold of one's own also keeps the library from raising it whenever a large block is freed.
+  // Setting the threshold also stops the library from raising it whenever a large block is freed.
   mallopt(M_MMAP_THRESHOLD, static_cast<int>(kHeapPages));
-  // Linux allows a process 65,530 mappings; half of them are left for others.
+  // Linux allows 65,530 mappings per process; half of them are left for others.
   mallopt(M_MMAP_MAX, 30000);
 #endif
 }

@@ -5,19 +5,19 @@
 
 namespace pelage {
 
-/// Blocks of the heap of at least this size are pages of their own after keep_heap_small().
+/// Heap blocks of at least this size have their own pages after keep_heap_small().
 inline constexpr size_t kHeapPages = 16 * 1024;
 
-/// Makes the heap of this process give memory back to the system as it is freed. Without it, pieces of one
-/// size that are made and dropped all the time by several threads, the trees of chunks above all, leave a
-/// third more behind than is in use. Called once, before threads are started.
+/// Makes the heap of this process return memory to the system when it is freed. Without it, blocks of similar
+/// size that several threads keep allocating and freeing, such as the trees of chunks, leave fragmentation of
+/// a third of the memory in use. Call once, before threads are started.
 void keep_heap_small();
 
-/// Gives what is free between blocks in use back to the system too: for the moment when much was dropped that
-/// will not be made again.
+/// Also returns free memory between used blocks to the system. Call after freeing much memory that will not
+/// be needed again.
 void trim_heap();
 
-/// What a block of `bytes` really takes after keep_heap_small().
+/// Actual size of a block of `bytes` after keep_heap_small().
 size_t heap_bytes(size_t bytes);
 
 }  // namespace pelage

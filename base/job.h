@@ -10,17 +10,17 @@
 
 namespace pelage {
 
-/// What work that may take a while has in hand: threads, accounts of memory, progress. References only, so
-/// that it is passed on by const reference; all three outlive it.
+/// What a long computation works with: threads, memory ledger, progress. Holds references only and is passed
+/// by const reference; all three must outlive it.
 struct Job {
   const Workers& workers;
   MemoryLedger& ledger;
   Progress& progress;
 
-  /// Throws Error (kStopped) once the user has asked to stop. Called at least every 0.1 s.
+  /// Throws Error (kStopped) once the user has asked to stop. Call at least every 0.1 s.
   void check_stop() const;
 
-  /// Workers::for_each that throws Error (kStopped) before the next range once the user has asked to stop; a
+  /// Workers::for_each that throws Error (kStopped) before the next range once the user has asked to stop. A
   /// range should take less than 0.1 s.
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 };

@@ -10,14 +10,14 @@
 
 namespace pelage {
 
-/// A number or vector that may change over time: {keys: {1: v, 48: v}}, linear in frames between keys and
-/// constant outside them.
+/// A number or vector that may be animated: {keys: {1: v, 48: v}}, linear in frames between keys and constant
+/// outside them.
 template <class T>
 class Keyed {
  public:
   Keyed() = default;
   Keyed(T constant) : keys_{{0.0, constant}} {}
-  /// `keys` are sorted by frame and not empty.
+  /// `keys` must be sorted by frame and not empty.
   explicit Keyed(std::vector<std::pair<double, T>> keys) : keys_(std::move(keys)) {}
 
   T at(double frame) const {
@@ -39,8 +39,8 @@ class Keyed {
 };
 
 namespace detail {
-/// Entries of a {keys: {frame: value}} block with their frames, sorted; nullptr when `value` is no such
-/// block. Adds problems for frames that are not numbers or stand twice.
+/// Entries of a {keys: {frame: value}} block with their frames, sorted. `is_keyed`: whether `value` is such a
+/// block. Adds problems for frames that are not numbers or occur twice.
 bool read_key_frames(const Value& value, std::vector<std::pair<double, const Value*>>& frames, bool& is_keyed,
                      Problems& problems);
 }  // namespace detail

@@ -8,16 +8,16 @@
 
 namespace pelage {
 
-/// Who owns a piece of memory. The names are those of `memory_bytes` in the statistics.
+/// Owner of a piece of memory. The names are the keys of `memory_bytes` in the statistics.
 enum class MemoryTag {
   kChunks,  ///< grown strands and the trees over them
   kSkins,   ///< cages, refined control points, tessellations, crowds
-  kGrooms,  ///< follicles, guides, clump centres, places of imported strands
+  kGrooms,  ///< follicles, guides, clump centres, positions of imported strands
   kOperatorCache,
   kReflectionCache,
   kFilm,
   kTextures,   ///< decoded images and environment distributions
-  kLibraries,  ///< what loading a module cost, pages of its files apart
+  kLibraries,  ///< memory taken by loading a module, except for pages of its files
   kCount,
 };
 std::string_view memory_tag_name(MemoryTag tag);
@@ -28,14 +28,14 @@ class MemoryLedger {
   void charge(MemoryTag tag, int64_t bytes);
   int64_t current(MemoryTag tag) const;
   int64_t peak(MemoryTag tag) const;
-  /// Whether `render.memory` covers a tag: it covers all that is held of a scene and all that making it takes
-  /// for a moment, but neither the libraries nor the program itself (law 5).
+  /// Whether `render.memory` covers a tag. It covers everything held for a scene and the temporary memory
+  /// needed to make it, but neither the libraries nor the program itself (law 5).
   static bool is_budgeted(MemoryTag tag);
-  /// Bytes in use of what `render.memory` covers.
+  /// Bytes in use by the tags that `render.memory` covers.
   int64_t budgeted() const;
 
-  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger
-  /// only remembers it: who makes something asks first (base/memory_budget.h).
+  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger only stores it: code
+  /// that allocates checks it first (base/memory_budget.h).
   void set_limit(uint64_t bytes) { limit_ = static_cast<int64_t>(bytes); }
   int64_t limit() const { return limit_; }
 
@@ -48,7 +48,7 @@ class MemoryLedger {
   int64_t limit_ = 0;
 };
 
-/// Holds a charge for as long as it lives. A default-constructed one holds nothing.
+/// Holds a charge for its lifetime. A default-constructed one holds nothing.
 class MemoryCharge {
  public:
   MemoryCharge() = default;

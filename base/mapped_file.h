@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// A whole file in the address space, read only. Its pages come from the file when they are touched and may
-/// leave again, so they are not charged to the ledger (law 5). The file must not be made shorter meanwhile:
-/// for files that are only ever replaced by a rename. Thread safety: as an array of constants.
+/// A whole file mapped into memory, read-only. Its pages are loaded on access and may be evicted by the
+/// system, so they are not charged to the ledger (law 5). The file must not be truncated meanwhile: use only
+/// for files that are replaced by a rename. Thread safety: as an array of constants.
 class MappedFile {
  public:
   MappedFile() = default;

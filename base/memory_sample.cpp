@@ -15,7 +15,7 @@ ResidentMemory resident_memory() {
     if (line.starts_with("RssAnon:")) memory.anonymous = std::stoll(line.substr(8)) * 1024;
     if (line.starts_with("RssFile:")) {
       memory.file = std::stoll(line.substr(8)) * 1024;
-      break;  // stands behind RssAnon
+      break;  // comes after RssAnon
     }
   }
   return memory;

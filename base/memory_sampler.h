@@ -11,14 +11,14 @@
 
 namespace pelage {
 
-/// What a sampler saw. Timelines of long runs are thinned out as they grow, so that they stay small.
+/// Result of a sampler. Timelines of long runs are thinned as they grow.
 struct MemoryHistory {
-  MemorySample highest;                ///< when the anonymous pages were at their highest
-  std::vector<MemorySample> timeline;  ///< in order of time; the first and the last moment included
+  MemorySample highest;                ///< the sample with the most anonymous pages
+  std::vector<MemorySample> timeline;  ///< in order of time; includes the first and the last sample
 };
 
-/// Looks at this process's memory again and again, from a thread of its own. Thread safety: stop() by one
-/// thread; the ledger may be charged by any.
+/// Samples this process's memory periodically, on its own thread. Thread safety: stop() by one thread; the
+/// ledger may be charged by any.
 class MemorySampler {
  public:
   using Clock = std::chrono::steady_clock;
@@ -31,7 +31,7 @@ class MemorySampler {
   MemorySampler(const MemorySampler&) = delete;
   MemorySampler& operator=(const MemorySampler&) = delete;
 
-  /// Takes a last sample and ends the thread. Later calls return the same.
+  /// Takes a last sample and ends the thread. Later calls return the same result.
   const MemoryHistory& stop();
 
  private:
@@ -41,7 +41,7 @@ class MemorySampler {
   const MemoryLedger& ledger_;
   Clock::time_point start_;
   Clock::duration interval_;
-  MemoryHistory history_;  // the thread's, until it has been joined
+  MemoryHistory history_;  // used by the thread until it has been joined
 
   std::mutex mutex_;  // guards stopping_
   std::condition_variable wake_;

@@ -49,7 +49,7 @@ Module::Module(const std::string& name) {
     }
     looked += " " + candidate.string();
   }
-  // Programs that link an installed Pelage carry its folder of modules in their run path.
+  // Programs linked with an installed Pelage have its module folder in their run path.
   const std::string file = "lib" + name + ".so";
   handle_ = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle_) throw Error(ErrorKind::kFailed, "module " + name + " not found; searched in" + looked);

@@ -6,9 +6,9 @@
 
 namespace pelage {
 
-/// A shared library opened at run time, kept open for the life of the value. Looks beside the executable
-/// (../lib and ../lib/pelage), then in the folders of PELAGE_MODULE_PATH. Throws Error (kFailed) naming every
-/// place it looked.
+/// A shared library opened at run time, kept open for the lifetime of the value. Searched beside the
+/// executable (../lib and ../lib/pelage), then in the folders of PELAGE_MODULE_PATH. Throws Error (kFailed)
+/// naming every searched place.
 class Module {
  public:
   explicit Module(const std::string& name);

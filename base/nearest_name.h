@@ -7,17 +7,18 @@
 
 namespace pelage {
 
-/// The candidate that `name` most likely meant (optimal string alignment distance, transpositions count one),
-/// or an empty view when none is within a third of its length.
+/// The candidate that `name` most likely means (optimal string alignment distance, transpositions count as
+/// one), or an empty view when none is within a third of its length.
 std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 /// "; did you mean 'clump'?" or an empty string.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
-/// did_you_mean, or the list of all candidates (when it is short) if none is near: "; expected one of a, b".
+/// did_you_mean(), or the list of all candidates (when it is short) if none is similar: "; expected one of a,
+/// b".
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
-/// A user's text for a message: in quotes, in one line, cut when it is long.
+/// A user's text for a message: quoted, on one line, shortened when it is long.
 std::string quote(std::string_view text);
 
 }  // namespace pelage

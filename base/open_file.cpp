@@ -22,7 +22,7 @@ namespace {
 }  // namespace
 
 OpenFile::OpenFile(std::filesystem::path path, Links links) : path_(std::move(path)) {
-  // Without O_NONBLOCK a pipe would wait for its writer.
+  // Without O_NONBLOCK, opening a pipe would wait for its writer.
   const int refused = links == Links::kRefuse ? O_NOFOLLOW : 0;
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | refused);
   if (descriptor_ < 0) {

@@ -8,13 +8,13 @@
 
 namespace pelage {
 
-/// A regular file, open for reading, with what the system says of exactly this file: whatever its path names
-/// later is another matter.
+/// A regular file that is open for reading, with attributes of this very file, whatever its path refers to
+/// later.
 class OpenFile {
  public:
   enum class Links { kFollow, kRefuse };
-  /// Throws Error (kInput) when `path` cannot be read, is not a regular file, or is a symbolic link where
-  /// those are refused.
+  /// Throws Error (kInput) when `path` cannot be read, is not a regular file, or is a symbolic link and
+  /// `links` refuses those.
   explicit OpenFile(std::filesystem::path path, Links links = Links::kFollow);
   ~OpenFile();
   OpenFile(OpenFile&& other) noexcept;

@@ -12,7 +12,7 @@ namespace pelage {
 namespace {
 
 constexpr size_t kPage = 4096;
-constexpr size_t kOwnPages = 64 * 1024;  // from here on a page that is partly used costs little
+constexpr size_t kOwnPages = 64 * 1024;  // from this size on, a partially used page costs little
 constexpr size_t kAlignment = 64;
 constexpr uintptr_t kLargePage = uintptr_t(2) << 20;
 
@@ -39,7 +39,7 @@ PageBlock::PageBlock(size_t bytes) : bytes_(held_bytes(bytes)) {
 
 void PageBlock::prefer_large_pages() {
 #ifdef MADV_HUGEPAGE
-  // Only whole pages within the block: nothing beyond it may become resident.
+  // Only whole pages within the block: nothing outside may become resident.
   const auto begin = (reinterpret_cast<uintptr_t>(data_) + kLargePage - 1) / kLargePage * kLargePage;
   const auto end = (reinterpret_cast<uintptr_t>(data_) + bytes_) / kLargePage * kLargePage;
   if (bytes_ >= kOwnPages && begin < end)

@@ -8,8 +8,8 @@ namespace pelage {
 
 class PagePool;
 
-/// One piece of memory of a fixed size, aligned to 64 bytes and not initialised. Large pieces are pages of
-/// their own: the system has them back the moment the block dies, whatever else the heap holds beside them.
+/// A block of memory of fixed size, aligned to 64 bytes and uninitialised. Large blocks have their own pages,
+/// which return to the system as soon as the block is freed, whatever else is on the heap.
 class PageBlock {
  public:
   PageBlock() = default;
@@ -27,15 +27,15 @@ class PageBlock {
   }
   ~PageBlock();
 
-  /// Asks the system for pages of 2 MiB where it has them, for what is read in no order at all. Before the
-  /// block is written to.
+  /// Requests pages of 2 MiB from the system where available, for data with random access. Call before
+  /// writing to the block.
   void prefer_large_pages();
 
   std::byte* data() { return data_; }
   const std::byte* data() const { return data_; }
-  /// What is really held, rounded up to what the system gives.
+  /// Actual size, rounded up to the system's granularity.
   size_t bytes() const { return bytes_; }
-  /// What a block of `bytes` will hold.
+  /// Actual size of a block of `bytes`.
   static size_t held_bytes(size_t bytes);
 
  private:
@@ -44,7 +44,7 @@ class PageBlock {
 
   std::byte* data_ = nullptr;
   size_t bytes_ = 0;
-  PagePool* pool_ = nullptr;  // which has it back
+  PagePool* pool_ = nullptr;  // returns there when freed
 };
 
 }  // namespace pelage

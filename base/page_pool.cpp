@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kLargePage = size_t(2) << 20;
 constexpr size_t kPiece = size_t(256) << 20;
 constexpr size_t kMaxPieceBytes = size_t(16) << 20;  // larger blocks have large pages without a pool
-constexpr size_t kMinPieceBytes = 64 * 1024;         // as PageBlock: smaller ones are the heap's
+constexpr size_t kMinPieceBytes = 64 * 1024;         // as in PageBlock: smaller ones come from the heap
 
 }  // namespace
 
@@ -43,7 +43,7 @@ PageBlock PagePool::take(size_t bytes) {
 }
 
 PagePool::Piece PagePool::make_piece() {
-  // Only what is written to becomes memory.
+  // Only pages that are written to use memory.
   void* mapping = ::mmap(nullptr, kPiece + kLargePage, PROT_READ | PROT_WRITE,
                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapping == MAP_FAILED) throw std::bad_alloc();
@@ -59,7 +59,7 @@ PagePool::Piece PagePool::make_piece() {
   return piece;
 }
 
-/// From the lowest place that has room, so that blocks stay together.
+/// Takes the lowest free range that is large enough, which keeps blocks together.
 std::byte* PagePool::take_from(Piece& piece, size_t bytes) {
   const auto found = std::find_if(piece.free.begin(), piece.free.end(),
                                   [bytes](const auto& range) { return range.second >= bytes; });

@@ -10,12 +10,12 @@
 
 namespace pelage {
 
-/// Blocks side by side in large pieces of address space, for which the system is asked for pages of 2 MiB: so
-/// that what is read in no order at all has them even if each block is smaller than one. What a block held is
-/// given back the moment it dies; besides what blocks hold, at most the rest of the large pages at the end of
-/// each piece is resident.
+/// Blocks within large pieces of address space, for which the system is asked for pages of 2 MiB: data with
+/// random access benefits from these even if each block is smaller than a page. Memory of a block is returned
+/// to the system as soon as the block is freed; besides blocks, at most the rest of the large pages at the
+/// end of each piece is resident.
 ///
-/// Outlives its blocks. Thread safety: every member, and the death of blocks, from any thread.
+/// Must outlive its blocks. Thread safety: every member, and the destruction of blocks, from any thread.
 class PagePool {
  public:
   PagePool() = default;
@@ -23,8 +23,8 @@ class PagePool {
   PagePool(const PagePool&) = delete;
   PagePool& operator=(const PagePool&) = delete;
 
-  /// As PageBlock(bytes), with the same bytes held. Small blocks are the heap's, very large ones have pages
-  /// of their own. Throws std::bad_alloc.
+  /// Like PageBlock(bytes), with the same actual size. Small blocks come from the heap, very large ones have
+  /// their own pages. Throws std::bad_alloc.
   PageBlock take(size_t bytes);
 
  private:
@@ -32,7 +32,7 @@ class PagePool {
   struct Piece {
     std::byte* begin = nullptr;
     void* mapping = nullptr;
-    std::map<size_t, size_t> free;  // bytes from the beginning: how many are free from there on
+    std::map<size_t, size_t> free;  // free ranges: offset to length in bytes
   };
 
   void release_block(std::byte* data, size_t bytes);

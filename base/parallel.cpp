@@ -132,9 +132,9 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 
 #ifdef PELAGE_STD_THREADS
 
-// TBB hands the memory of an ended arena to the next one by means that the thread sanitizer cannot see, and
-// clears it with a function that it can: arenas begin and end one at a time here. What runs in them is not
-// ordered by this.
+// TBB passes the memory of an ended arena to the next one in ways that the thread sanitizer cannot see, and
+// clears it with a function that it can see. Therefore arenas are created and destroyed one at a time here.
+// This does not order what runs in them.
 void Workers::run_library(const std::function<void()>& body) const {
   static std::mutex mutex;
   struct SerialArena {

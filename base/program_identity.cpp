@@ -44,7 +44,7 @@ std::string build_id(const dl_phdr_info& object) {
   return id;
 }
 
-// The first object is the program itself; a value other than 0 ends the walk.
+// The first object is the program itself; a non-zero result ends the iteration.
 int look_at_first(dl_phdr_info* object, size_t, void* found) {
   *static_cast<std::string*>(found) = build_id(*object);
   return 1;

@@ -6,12 +6,12 @@
 
 namespace pelage {
 
-/// Tells this build of the program from every other: what it computes may differ in the last digit, or in
-/// more when its code has changed. The linker's build id; where there is none, a hash of the executable file.
+/// Identifies this build of the program, because other builds may compute results that differ in the last
+/// digit or more. The linker's build id or, if there is none, a hash of the executable file.
 std::string program_identity();
 
-/// The same of a shared library that the program was started with, by a part of its file name; "none" when
-/// there is none such, "unknown" when it does not say.
+/// The same for a shared library that the program was started with, given a part of its file name; "none"
+/// when there is no such library, "unknown" when it has no build id.
 std::string library_identity(std::string_view name);
 
 }  // namespace pelage

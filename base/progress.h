@@ -5,22 +5,22 @@
 
 namespace pelage {
 
-/// Receives how far a long job is, and says whether to go on. Thread safety: every member may be called from
-/// any thread; `advance` is called often and must be cheap.
+/// Receives the progress of a long job, and can request a stop. Thread safety: every member may be called
+/// from any thread; `advance` is called often and must be cheap.
 class Progress {
  public:
   virtual ~Progress() = default;
   /// A stage begins: "grow", "build", "render frame 3". Stages do not nest.
   virtual void begin(std::string_view stage, double total) = 0;
   virtual void advance(double amount) = 0;
-  /// The whole of the current stage is now thought to be this much, in place of what begin() said.
+  /// Replaces the total that begin() gave for the current stage by a better estimate.
   virtual void expect(double /*total*/) {}
   virtual void end() = 0;
-  /// A line for the user, between or within stages; where nobody looks, nothing happens.
+  /// A line for the user, between or within stages; does nothing by default.
   virtual void note(std::string_view /*line*/) {}
-  /// The same for what went wrong and did not stop the run.
+  /// The same for problems that do not stop the run.
   virtual void warn(std::string_view /*line*/) {}
-  /// True once the user has asked to stop (Ctrl-C): loops finish what they hold and leave.
+  /// True once the user has asked to stop (Ctrl-C): loops then finish the current item and return.
   virtual bool cancelled() const = 0;
 };
 

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// A stage of a Progress that ends with its scope, also when something is thrown. Nothing is shown of one
-/// that will be over in a moment.
+/// A stage of a Progress that ends with its scope, even after an exception. Not shown for stages that are too
+/// short.
 class ProgressStage {
  public:
   ProgressStage(Progress& progress, std::string_view name, double total, bool worth_showing = true)

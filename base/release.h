@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// Gives the memory of a vector back; `values = {}` would keep it for the next ones.
+/// Frees the memory of a vector; `values = {}` would keep it.
 template <class T>
 void release(std::vector<T>& values) {
   std::vector<T>().swap(values);

@@ -15,7 +15,7 @@
 
 namespace pelage {
 
-// How the scene file is checked. Each type declares a `Params` struct and, beside it, one table of keys:
+// Validation of the scene file. Each type declares a `Params` struct and, beside it, one table of keys:
 //
 //   struct CurlParams {
 //     Field radius{0.05f};
@@ -33,19 +33,19 @@ namespace pelage {
 //     return table;
 //   }
 //
-// The same table validates documents (unknown keys name the nearest known one), fills the struct and prints
-// the manual. Defaults are those of a default-constructed Params. How a member type is read is its
-// ValueReader (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and maps; rooms
-// add their own).
+// The same table validates documents (an unknown key is reported with the nearest known one), fills the
+// struct and prints the manual. Defaults are those of a default-constructed Params. The ValueReader of a
+// member's type reads it (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and
+// maps; other rooms add their own).
 
-/// What a key's value must satisfy and how the manual describes it.
+/// Constraints on a key's value, and its description in the manual.
 struct KeyOptions {
   std::string unit = {};
   std::string help = {};
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< min itself is refused
+  bool above_min = false;  ///< min itself is not allowed
   std::string default_text =
       {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
   std::vector<std::string> old_names = {};  ///< published names that this key had before
@@ -69,10 +69,10 @@ struct KeyInfo {
   bool has_old_name(std::string_view old_name) const;
 };
 
-/// One parameter as it stands: "levels[0].amount", "{map: fur/amount.png, channel: r}", and the files whose
-/// contents it stands for.
+/// One parameter as text, "levels[0].amount" with the value "{map: fur/amount.png, channel: r}", and the
+/// files whose contents are part of the value.
 struct ParameterText {
-  /// An image that is looked up by texture coordinates, and where the scene names it.
+  /// An image that is looked up by texture coordinates, and the place in the scene that names it.
   struct Map {
     std::filesystem::path file;
     SourcePosition position;
@@ -87,7 +87,7 @@ struct ParameterText {
 /// "0 .. 1", "> 0", or "" when unlimited.
 std::string range_text(const KeyOptions& options);
 
-/// A table of keys without its types: what the manual needs.
+/// A table of keys without the types of its members: the part that the manual needs.
 class SchemaInfo {
  public:
   SchemaInfo(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
@@ -115,10 +115,10 @@ class SchemaInfo {
 };
 
 /// Reads a T from a Value. Specialisations provide
-///   // Returns false and adds a problem when the value is no T.
+///   // Returns false and adds a problem when the value is not a T.
 ///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);
 ///   static std::string type_name();
-///   // As it would stand in a scene.
+///   // As written in a scene file.
 ///   static std::string print(const T&);
 /// and optionally
 ///   // Tables of nested blocks.
@@ -129,7 +129,7 @@ class SchemaInfo {
 ///   static void add_files(const T&, std::vector<std::filesystem::path>&);
 ///   // Adds the images that the value looks up by texture coordinates.
 ///   static void add_maps(const T&, std::vector<ParameterText::Map>&);
-///   // For values that print() does not state in full.
+///   // For values that print() does not describe completely.
 ///   static void describe(const T&, const std::string& key, std::vector<ParameterText>& out);
 template <class T, class Enable = void>
 struct ValueReader;
@@ -154,7 +154,7 @@ void describe_value(const T& value, const std::string& key, std::vector<Paramete
     ValueReader<T>::describe(value, key, out);
   } else {
     ParameterText one{key, ValueReader<T>::print(value), {}};
-    PELAGE_CHECK(one.text != "{}");  // print() of a map or a variant says nothing of what it holds
+    PELAGE_CHECK(one.text != "{}");  // print() of a map or a variant does not describe its contents
     if constexpr (requires { ValueReader<T>::add_files(value, one.files); })
       ValueReader<T>::add_files(value, one.files);
     if constexpr (requires { ValueReader<T>::add_maps(value, one.maps); })
@@ -190,16 +190,16 @@ class Schema : public SchemaInfo {
     return *this;
   }
 
-  /// Every parameter, in the order of the table: two structs that differ give different texts.
+  /// Every parameter, in the order of the table. Structs that differ give different texts.
   std::vector<ParameterText> describe(const P& params, const std::string& prefix = {}) const {
     std::vector<ParameterText> out;
     for (const auto& describer : describers_) describer(params, prefix, out);
     return out;
   }
 
-  /// Fills `out` from a map; adds a problem for every unknown, missing or malformed key. A key that belongs
-  /// to the enclosing structure (the `type` of a light) is named by `skip`. Returns whether no problem was
-  /// added.
+  /// Fills `out` from a map and adds a problem for every unknown, missing or malformed key. `skip` names a
+  /// key that belongs to the enclosing structure, such as the `type` of a light. Returns whether no problem
+  /// was added.
   bool read(const Value& value, P& out, Problems& problems, std::string_view skip = {}) const {
     if (!detail::expect_map(value, *this, problems)) return false;
     const size_t before = problems.list().size();
@@ -228,7 +228,7 @@ class Schema : public SchemaInfo {
   std::vector<std::function<void(const P&, const std::string&, std::vector<ParameterText>&)>> describers_;
 };
 
-/// A struct with a table of its own may stand wherever a value may.
+/// Reads a struct that has a table of its own, so that it may be used wherever a value may.
 template <class P>
 struct ValueReader<P, std::void_t<decltype(P::schema())>> {
   static bool read(const Value& value, const KeyOptions&, P& out, Problems& problems) {

@@ -5,11 +5,11 @@
 
 namespace pelage {
 
-/// Environment variable: folders, separated by ':', whose caches other users may fill for this one.
+/// Environment variable: folders, separated by ':', whose caches other users may fill for this user.
 inline constexpr const char* kSharedCachesVariable = "PELAGE_SHARED_CACHES";
 
-/// Whether the variable names `folder` or one that it is in, under any name. It is the user or the farm that
-/// trusts other users, by the environment, and never a scene: a scene comes from those very users.
+/// Whether the variable names `folder` or a parent of it, by any path. Trust in other users is declared by
+/// the user or the farm through the environment, never by a scene, which may come from those very users.
 bool is_shared_folder(const std::filesystem::path& folder);
 
 }  // namespace pelage

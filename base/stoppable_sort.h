@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// std::sort that throws Error (kStopped), and leaves the elements in no order, once the user has asked to
-/// stop.
+/// std::sort that throws Error (kStopped), leaving the elements in unspecified order, once the user has asked
+/// to stop.
 template <class Iterator, class Less>
 void stoppable_sort(const Job& job, Iterator begin, Iterator end, const Less& less) {
   size_t comparisons = 0;

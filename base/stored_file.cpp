@@ -19,7 +19,7 @@ StoredFile::StoredFile(const OpenFile& file) : file_(file) {
       });
   kind_ = layout.kind;
   key_ = layout.key;
-  // What lies between the parts is zeros, so that no byte of the file goes unchecked.
+  // The padding between parts must be zero, so that every byte of the file is verified.
   uint64_t end = sizeof(format::Header);
   const auto padded_to = [&](uint64_t next) {
     if (next < end || next - end >= format::kAlignment) return false;

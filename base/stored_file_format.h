@@ -4,7 +4,8 @@
 #include <cstdint>
 
 // Layout of a file of ContentStore: header, sections (each at a multiple of kAlignment), table of sections,
-// trailer at the very end. Numbers are those of the machine that wrote it; the byte order is stated.
+// trailer at the very end. Numbers have the byte order of the machine that wrote the file; the header states
+// it.
 namespace pelage::stored_file_format {
 
 inline constexpr uint64_t kMagic = 0x686361436c65500aull;  // "\nPelCach"

@@ -22,7 +22,7 @@ constexpr uint64_t kSystemPage = 4096;
 }  // namespace
 
 StoredSections::StoredSections(OpenFile file) : file_(std::move(file)) {
-  // Reading ahead would fetch neighbours that nobody asked for.
+  // Read-ahead would load neighbouring sections that are not needed.
   ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_RANDOM);
   layout_ = StoredFileLayout::read(path(), file_bytes(),
                                    [&](uint64_t offset, std::span<std::byte> out) { read_at(offset, out); });

@@ -12,14 +12,14 @@
 
 namespace pelage {
 
-/// A file of a content store that is larger than memory may be: its sections are read when they are asked
-/// for, into memory of the caller's, and checked each time. Nothing is mapped, and the system is asked to
-/// keep no copy of what was read, so that all that stays resident is what the caller holds.
+/// A file of a content store that may be larger than memory. Sections are read on request into the caller's
+/// memory and verified each time. Nothing is mapped, and the system is asked not to cache what was read, so
+/// that only the caller's memory stays resident.
 ///
 /// Thread safety: const members may be called from any thread.
 class StoredSections {
  public:
-  /// Reads and checks header and table. Throws Error (kInput) that says what is wrong.
+  /// Reads and verifies header and table. Throws Error (kInput) with the reason.
   explicit StoredSections(std::filesystem::path path) : StoredSections(OpenFile(std::move(path))) {}
   explicit StoredSections(OpenFile file);
 
@@ -29,14 +29,14 @@ class StoredSections {
   size_t section_count() const { return layout_.sections.size(); }
   uint64_t section_bytes(size_t i) const { return layout_.sections[i].bytes; }
   uint64_t file_bytes() const { return file_.bytes(); }
-  /// What this object holds.
+  /// Memory of this object.
   size_t bytes() const { return layout_.sections.capacity() * sizeof(layout_.sections[0]); }
 
-  /// Reads section `i` into `out`, which is as long as it. Throws Error (kInput) when it cannot be read or is
-  /// not what was written.
+  /// Reads section `i` into `out`, which must have its length. Throws Error (kInput) when it cannot be read
+  /// or its checksum is wrong.
   void read(size_t i, std::span<std::byte> out) const;
-  /// Says that section `i` will be read soon: the system may fetch it meanwhile. Until it is read, the system
-  /// keeps that copy.
+  /// Tells the system that section `i` will be read soon. The system may load it, and keeps its copy until it
+  /// is read.
   void prefetch(size_t i) const;
 
  private:

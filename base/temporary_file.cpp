@@ -33,8 +33,8 @@ void keep_name_characters(std::string& text) {
   text.resize(std::min(text.size(), kLongestHost));
 }
 
-/// What tells this machine from others that see the same folder: its name, or, since many are called
-/// "localhost", the number that its system drew when it started. Has no '-'.
+/// Distinguishes this machine from others with access to the same folder: its name or, since many are called
+/// "localhost", the number that its system generated at boot. Contains no '-'.
 std::string machine_name() {
   std::array<char, 256> buffer{};
   std::string name;
@@ -64,7 +64,7 @@ bool still_named(int descriptor, const std::filesystem::path& path) {
   return ::fstat(descriptor, &held) == 0 && ::lstat(path.c_str(), &named) == 0 && same_file(held, named);
 }
 
-/// The process in ".pelage-HOST-PROCESS-...", if the host is this one.
+/// The process id in ".pelage-HOST-PROCESS-...", if the host is this machine.
 std::optional<pid_t> writer_here(std::string_view name, std::string_view host) {
   if (host.empty() || !name.starts_with(kTemporaryPrefix)) return {};
   name.remove_prefix(kTemporaryPrefix.size());
@@ -82,7 +82,7 @@ void remove_if_dead(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
   struct stat info {};
-  // Its writer may run where its process cannot be seen from here (another container): then it has the lock.
+  // The process of its writer may not be visible from here (another container): then the lock is held.
   if (::fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) && info.st_uid == ::geteuid() &&
       ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && still_named(descriptor, path)) {
     ::unlink(path.c_str());
@@ -102,8 +102,8 @@ TemporaryFile create_temporary(const std::filesystem::path& target) {
     file.descriptor = ::open(file.path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (file.descriptor < 0 && errno == EEXIST) continue;
     if (file.descriptor < 0) return file;
-    // Who sweeps may come between the creation and the lock; then the name is gone. File systems without
-    // locks are never swept.
+    // A sweep may happen between creation and locking; then the name is gone. File systems without locks are
+    // never swept.
     while (::flock(file.descriptor, LOCK_EX) != 0 && errno == EINTR) {
     }
     if (still_named(file.descriptor, file.path)) return file;

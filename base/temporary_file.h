@@ -6,22 +6,22 @@
 
 namespace pelage {
 
-/// How the names of temporary files begin.
+/// Prefix of the names of temporary files.
 inline constexpr std::string_view kTemporaryPrefix = ".pelage-";
 
-/// A new, empty file beside the one that it will replace, so that the rename stays on one file system:
-/// ".pelage-HOST-PROCESS-RANDOM.ENDING". The ending is that of the target, for libraries that look at it.
+/// A new, empty file in the folder of its target, so that renaming stays on one file system:
+/// ".pelage-HOST-PROCESS-RANDOM.ENDING". The ending is that of the target, for libraries that depend on it.
 struct TemporaryFile {
   std::filesystem::path path;
-  int descriptor = -1;  ///< open for reading and writing and locked (flock); -1: errno says why there is none
+  int descriptor = -1;  ///< open for reading and writing, and locked (flock); -1: failed, see errno
 };
 
-/// The caller closes the descriptor, which ends the lock, and renames or removes the file.
+/// The caller must close the descriptor, which releases the lock, and rename or remove the file.
 TemporaryFile create_temporary(const std::filesystem::path& target);
 
-/// Removes from `folder` the temporary files of processes that were killed: those of create_temporary() that
-/// were made on this machine, by this user, whose process is gone and whose lock nobody holds. Whatever
-/// cannot be decided is left alone, and so is everything on failure. Safe beside processes that write there.
+/// Removes from `folder` the temporary files of killed processes: those of create_temporary() that were made
+/// on this machine by this user, whose process no longer exists and whose lock is free. Leaves files alone in
+/// case of doubt or failure. Safe while other processes write there.
 void sweep_temporaries(const std::filesystem::path& folder);
 
 }  // namespace pelage

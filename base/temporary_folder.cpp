@@ -27,7 +27,7 @@ std::filesystem::path system_folder() {
 TemporaryFolder::TemporaryFolder() : TemporaryFolder(system_folder()) {}
 
 TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent) {
-  std::error_code ignored;  // mkdtemp() says what is wrong
+  std::error_code ignored;  // mkdtemp() reports the problem
   std::filesystem::create_directories(parent, ignored);
   std::string pattern = (parent / "pelage-XXXXXX").string();
   if (!::mkdtemp(pattern.data()))

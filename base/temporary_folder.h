@@ -5,13 +5,14 @@
 
 namespace pelage {
 
-/// A new, empty folder "pelage-XXXXXX" (X: any letter or digit), removed with everything in it at the end.
-/// Nothing that stood beside it before is touched.
+/// A new, empty folder "pelage-XXXXXX" (X: any letter or digit), removed on destruction with everything in
+/// it. Does not touch anything else.
 class TemporaryFolder {
  public:
-  /// In the system's folder for temporary files. Throws Error (kFailed) when it cannot be made.
+  /// In the system's folder for temporary files. Throws Error (kFailed) when it cannot be created.
   TemporaryFolder();
-  /// In `parent`, which need not exist, and stays. Throws Error (kFailed) when it cannot be made.
+  /// In `parent`, which is created if necessary and not removed. Throws Error (kFailed) when it cannot be
+  /// created.
   explicit TemporaryFolder(const std::filesystem::path& parent);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -12,11 +12,10 @@
 
 namespace pelage {
 
-/// A node of a scene document, independent of the parser that made it, that remembers where it stood.
+/// A node of a scene document with its position, independent of the parser that made it.
 ///
-/// Scalars keep their text: what it means is decided by whoever reads it against a schema, so that `strands:
-/// 1e5` and `name: 007` both mean what the schema says. Maps keep the order of the file; their keys are
-/// unique.
+/// Scalars keep their text. The schema they are read against decides the meaning, so that `strands: 1e5` and
+/// `name: 007` both mean what the schema says. Maps keep the order of the file; their keys are unique.
 class Value {
  public:
   enum class Kind { kNull, kScalar, kList, kMap };
@@ -35,7 +34,7 @@ class Value {
 
   const SourcePosition& position() const { return position_; }
   void set_position(SourcePosition position) { position_ = std::move(position); }
-  /// Text of a scalar; whether it stood in quotes (then it is never a number, a boolean or null).
+  /// Text of a scalar, and whether it was quoted (then it is never a number, a boolean or null).
   const std::string& text() const { return text_; }
   bool quoted() const { return quoted_; }
   const std::vector<Value>& items() const { return items_; }

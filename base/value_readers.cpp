@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-// Digits with single underscores between them become plain digits; anything else that is odd stays odd.
+// Removes single underscores between digits; anything else that is malformed stays so.
 std::string without_underscores(std::string_view text) {
   std::string plain;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -36,7 +36,7 @@ std::optional<int64_t> parse_integer(std::string_view text) {
       result.ec == std::errc() && result.ptr == end) {
     return exact;
   }
-  // 1e6 and 3.0 are whole too; beyond 2^53 a double could not tell.
+  // 1e6 and 3.0 are integers too; beyond 2^53 a double is not exact.
   const std::optional<double> number = parse_number(text);
   if (!number || *number != std::floor(*number) || std::abs(*number) > 0x1p53) return {};
   return static_cast<int64_t>(*number);
@@ -205,7 +205,7 @@ bool ValueReader<AssetPath>::read(const Value& value, const KeyOptions&, AssetPa
     return false;
   }
   std::filesystem::path path = value.text();
-  // A value without a line stood on the command line: its path is relative to the current folder.
+  // A value without a line comes from the command line: its path is relative to the current folder.
   if (path.is_relative() && value.position().line > 0) {
     path = (std::filesystem::path(value.position().file).parent_path() / path).lexically_normal();
   }

@@ -12,24 +12,24 @@
 #include "base/schema.h"
 #include "base/vector.h"
 
-// ValueReaders of the types that scene files are made of. See base/schema.h.
+// ValueReaders for the basic types of scene files. See base/schema.h.
 
 namespace pelage {
 
-/// A finite decimal number: 12, -0.5, 1e6, 1_000; nothing for any other text.
+/// A finite decimal number: 12, -0.5, 1e6, 1_000; empty for any other text.
 std::optional<double> parse_number(std::string_view text);
-/// Bytes with an optional suffix K, M, G or T (powers of 1024): 512M, 1.5G; nothing for any other text.
+/// Bytes with an optional suffix K, M, G or T (powers of 1024): 512M, 1.5G; empty for any other text.
 std::optional<uint64_t> parse_bytes(std::string_view text);
 
-/// A file that a scene names. Relative paths are relative to the file in which they stand; on the command
-/// line, to the current folder. `position` is where it was named, for errors about the file itself.
+/// A file that a scene names. Relative paths are relative to the file that contains them or, on the command
+/// line, to the current folder. `position`: where it was named, for errors about the file itself.
 struct AssetPath {
   std::filesystem::path path;
   SourcePosition position;
   bool empty() const { return path.empty(); }
 };
 
-/// The name of something else in the scene, and where it was used, for errors about what it names.
+/// The name of something else in the scene, and where it was used, for error messages.
 struct NameReference {
   std::string name;
   SourcePosition position;
@@ -40,7 +40,7 @@ struct ByteSize {
   uint64_t bytes = 0;
 };
 
-/// Entries of a map whose keys are names given by the user, in file order.
+/// A map whose keys are names chosen by the user, in file order.
 template <class T>
 struct Named {
   struct Item {
@@ -141,7 +141,7 @@ struct ValueReader<V3f> {
   static std::string type_name() { return "3 numbers"; }
   static std::string print(const V3f& v);
 };
-/// A single number stands for three equal channels.
+/// A single number sets all three channels.
 template <>
 struct ValueReader<Rgb> {
   static bool read(const Value&, const KeyOptions&, Rgb& out, Problems&);
@@ -152,7 +152,7 @@ struct ValueReader<Rgb> {
 namespace detail {
 bool read_enum(const Value&, std::span<const char* const> names, int& out, Problems&);
 std::string enum_type_name(std::span<const char* const> names);
-/// The value of `key` in a block of several kinds, or nullptr and a problem that lists the kinds.
+/// The value of `key` in a block of several kinds; otherwise nullptr, and a problem that lists the kinds.
 const Value* find_type(const Value& block, const char* key, std::span<const std::string> kinds, Problems&);
 }  // namespace detail
 
@@ -170,7 +170,7 @@ struct ValueReader<E, std::enable_if_t<std::is_enum_v<E>>> {
 
 template <class T>
 struct ValueReader<std::optional<T>> {
-  /// null stands for nothing, so that `--set camera.lens=null` removes what the file says.
+  /// null means empty, so that `--set camera.lens=null` removes the value of the file.
   static bool read(const Value& value, const KeyOptions& options, std::optional<T>& out, Problems& problems) {
     if (value.is_null()) {
       out.reset();
@@ -252,7 +252,7 @@ struct ValueReader<Named<T>> {
   }
 };
 
-/// A block of one of several kinds, told apart by a key: each P has, beside its schema,
+/// A block of one of several kinds, distinguished by a key. Beside its schema, each P has
 ///   static constexpr const char* kTypeKey = "type";   // the same for all
 ///   static constexpr const char* kTypeName = "sphere";
 template <class... Ps>

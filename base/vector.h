@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-// Vectors at interfaces and in scalar code. None of them is trivially copyable: point storage and SIMD
-// kernels use plain float arrays instead.
+// Vectors for interfaces and scalar code. They are not trivially copyable; point storage and SIMD kernels use
+// plain float arrays instead.
 using Imath::Box3f;
 using Imath::M33f;
 using Imath::M44f;
@@ -23,7 +23,7 @@ using Imath::V3f;
 using Rgb = Imath::Color3f;
 
 /// Rec. 709 luminance of a linear colour.
-/// Its largest component, of a vector or a colour.
+/// Largest component of a vector or a colour.
 inline float max_component(const V3f& v) { return std::max({v.x, v.y, v.z}); }
 inline float luminance(const Rgb& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 

@@ -20,7 +20,8 @@
 namespace pelage {
 namespace {
 
-/// One of PELAGE_BENCH_MESH, an OBJ file, where it is given; else a bumpy sphere of about so many triangles.
+/// The mesh of PELAGE_BENCH_MESH, an OBJ file, if it is set; otherwise a bumpy sphere of about this many
+/// triangles.
 ControlMesh mesh_of(int64_t faces) {
   if (faces == 0) return read_obj(std::getenv("PELAGE_BENCH_MESH"));
   return bumpy_sphere(static_cast<uint32_t>(std::sqrt(static_cast<double>(faces) / 2)) + 1);

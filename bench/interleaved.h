@@ -27,7 +27,7 @@ class Interleaved {
       double sum_first = 0, sum_second = 0;
       for (size_t slice = 0; slice < slices; ++slice) {
         double a = 0, b = 0;
-        // Whoever comes second finds what the rays are and a clock that has come up to speed.
+        // The second one finds the rays in the cache and the clock at full speed.
         if ((pass + slice) % 2 == 0) {
           a = timed(first, slice), b = timed(second, slice);
         } else {

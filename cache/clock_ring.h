@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// A circle of numbers below a fixed capacity with a hand on one of them, for replacement by CLOCK
-/// [Corbato68]: the hand goes round and takes what has not been used since it last came by. Not thread safe.
+/// A ring of numbers below a fixed capacity, with a hand on one of them, for CLOCK replacement [Corbato68]:
+/// the hand goes round and evicts entries that were not used since its last visit. Not thread safe.
 class ClockRing {
  public:
   explicit ClockRing(size_t capacity) : links_(capacity) {}
@@ -16,11 +16,11 @@ class ClockRing {
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
   size_t bytes() const { return links_.capacity() * sizeof(Link); }
-  /// The number under the hand; the ring is not empty.
+  /// The number under the hand. The ring must not be empty.
   uint32_t hand() const { return hand_; }
   void advance() { hand_ = links_[hand_].next; }
 
-  /// Adds a number that is not in the ring where the hand comes last.
+  /// Adds a number that is not in the ring, at the position that the hand reaches last.
   void insert(uint32_t number) {
     if (size_++ == 0) {
       links_[number] = {number, number};
@@ -33,7 +33,7 @@ class ClockRing {
     links_[hand_].previous = number;
   }
 
-  /// Takes out the number under the hand, which moves on to the next.
+  /// Removes the number under the hand and moves the hand to the next one.
   uint32_t remove_hand() {
     const uint32_t number = hand_;
     const Link link = links_[number];

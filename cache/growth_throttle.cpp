@@ -6,11 +6,11 @@
 namespace pelage {
 namespace {
 
-/// Growths after which the number of turns is looked at, and the parts of them, in percent, above which there
-/// are too many and below which there may be more.
+/// Growths after which the limit is reconsidered, and the percentages of repeated growths above which it is
+/// lowered and below which it may be raised.
 constexpr int kWindow = 64, kTooMany = 75, kFew = 40;
-/// Every time that there turned out to be too many, twice as many good windows are wanted before one more is
-/// tried, up to this.
+/// Whenever the limit had to be lowered, the number of good windows needed before it is raised again doubles,
+/// up to this.
 constexpr int kMaxNeeded = 64;
 
 }  // namespace
@@ -48,7 +48,7 @@ void GrowthThrottle::grown(int thread, bool again_soon, Clock::time_point now) {
 void GrowthThrottle::set_concurrency(int count) {
   concurrency_ = count;
   if (concurrency_ >= threads_) turns_.clear();
-  // Who used it last has the most to lose.
+  // Threads that used their turn most recently keep it.
   std::sort(turns_.begin(), turns_.end(), [](const Turn& a, const Turn& b) { return a.used > b.used; });
   if (static_cast<int>(turns_.size()) > concurrency_)
     turns_.resize(static_cast<size_t>(concurrency_), {0, {}});

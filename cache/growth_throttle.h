@@ -6,23 +6,24 @@
 
 namespace pelage {
 
-/// How many threads may grow units at once. Where most of what is grown had been dropped only just before,
-/// the threads take each other's units away: all that each of them needs for a while does not fit together.
-/// Then fewer may grow, down to one, and the others wait; where that is no longer so, more.
+/// Limits how many threads may grow units at the same time. When most of the units being grown were evicted
+/// only recently, the threads are evicting each other's units: the working sets of all threads do not fit
+/// together. The limit is then lowered, down to one thread, and the others wait; it is raised when this no
+/// longer happens.
 ///
-/// A turn is kept as long as it is used: who has grown nothing for a while has lost it, so that nobody waits
-/// for a thread that has all it needs, or has ended. Not thread safe.
+/// A thread keeps its turn while it uses it. A thread that has grown nothing for kIdleTimeout loses it, so
+/// that nobody waits for a thread that has all it needs or has ended. Not thread safe.
 class GrowthThrottle {
  public:
   using Clock = std::chrono::steady_clock;
-  /// A turn that was not used for so long is free.
+  /// A turn that has not been used for this long is free.
   static constexpr std::chrono::milliseconds kIdleTimeout{500};
 
   explicit GrowthThrottle(int threads);
 
-  /// Whether a thread may grow something now; it has a turn from then on.
+  /// Whether a thread may grow a unit now. If so, the thread has a turn.
   bool may_grow(int thread, Clock::time_point now);
-  /// A thread has grown something; `again_soon`: what had been dropped only just before.
+  /// Records that a thread has grown a unit; `again_soon`: the unit had been evicted recently.
   void grown(int thread, bool again_soon, Clock::time_point now);
   int concurrency() const { return concurrency_; }
 
@@ -35,9 +36,9 @@ class GrowthThrottle {
 
   const int threads_;
   int concurrency_;
-  int good_ = 0, needed_ = 1;   // windows since in which there could have been more; how many it takes
-  int window_ = 0, again_ = 0;  // growths since the number was last looked at; of these, again soon
-  std::vector<Turn> turns_;     // empty while everybody may grow
+  int good_ = 0, needed_ = 1;  // windows in which the limit could have been raised; number needed to raise it
+  int window_ = 0, again_ = 0;  // growths since the last evaluation; of these, of recently evicted units
+  std::vector<Turn> turns_;     // empty while all threads may grow
 };
 
 }  // namespace pelage

@@ -39,8 +39,8 @@ size_t Residency::index_bytes(size_t slots, int threads) {
   return slots * sizeof(Slot) + static_cast<size_t>(threads) * sizeof(Hazard) + ClockRing(slots).bytes();
 }
 
-/// Threads that lack room wait and hold nothing, so whoever pins or grows gets done, and in the end there is
-/// room for any slot that fits alone.
+/// Threads that wait for memory hold nothing, so every thread that pins or grows a unit finishes, and
+/// eventually there is memory for any slot that fits by itself.
 void Residency::refuse_small_budget() const {
   if (budget_.limit == 0) return;
   size_t largest = 0;
@@ -89,20 +89,21 @@ void Residency::sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chr
 }
 
 void Residency::wake() {
-  // Whoever saw our pin and is about to sleep holds the mutex until it does.
+  // A thread that saw our pin and is about to sleep holds the mutex until it does.
   { const std::lock_guard lock(mutex_); }
   changed_.notify_all();
 }
 
-/// Takes units that hold `bytes` together out of the index, all or none: kLater when pins left too little,
-/// kNever when even all units are too little.
+/// Removes units with a total size of at least `bytes` from the index, all or none: kLater when pins left too
+/// little, kNever when all units together are too small.
 ///
-/// CLOCK with credit: a unit that was used since the hand last came by gains a round, up to kMaxCredit, one
-/// that was not loses one, and one that has none left goes. On what the rays of a crowd visit this grows 2 to
-/// 9 % less often than plain CLOCK, which is as good as dropping the least recently used.
+/// CLOCK with credit: a unit used since the last visit of the hand gains a round, up to kMaxCredit; an unused
+/// one loses a round, and is evicted when it has none left. For the rays of a crowd this causes 2 to 9 %
+/// fewer growths than plain CLOCK, which performs like least-recently-used.
 Residency::Reservation Residency::evict(int64_t bytes, Victims& victims) {
   constexpr uint8_t kMaxCredit = 2;
-  // After one round to forget uses and those of the credit, everything may go that is not pinned.
+  // After one round that clears the use flags and one per credit, everything that is not pinned may be
+  // evicted.
   const size_t round = clock_.size(), patience = (1 + kMaxCredit + 1) * round;
   for (size_t step = 0; step < patience + round && victims.bytes < bytes && !clock_.empty(); ++step) {
     Slot& slot = slots_[clock_.hand()];
@@ -137,8 +138,8 @@ Residency::Reservation Residency::evict(int64_t bytes, Victims& victims) {
   return any_pinned ? Reservation::kLater : Reservation::kNever;
 }
 
-/// Charges `bytes` within the limit, at the cost of `victims` if need be. What those hold stays charged until
-/// they are freed.
+/// Charges `bytes` within the limit, evicting units to `victims` if necessary. Their memory stays charged
+/// until they are freed.
 Residency::Reservation Residency::reserve(int64_t bytes, Victims& victims) {
   const int64_t limit = static_cast<int64_t>(budget_.limit);
   const int64_t lacking = limit > 0 ? ledger_.budgeted() + bytes - limit : 0;
@@ -158,7 +159,7 @@ Residency::Reservation Residency::reserve(int64_t bytes, Victims& victims) {
 Resident& Residency::pin_slowly(uint32_t slot, int thread) {
   auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
   Slot& s = slots_[slot];
-  // Who lets go of a pin or a reservation while this is up wakes us.
+  // While this is raised, threads that release a pin or a reservation wake us.
   struct WaitingForMemory {
     std::atomic<int>& count;
     bool up = false;
@@ -183,7 +184,7 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
       continue;
     }
     if (!s.growing) {
-      needed = static_cast<int64_t>(grower_.reserve_bytes(slot));  // more, if growing it gave no unit
+      needed = static_cast<int64_t>(grower_.reserve_bytes(slot));  // larger after growing it returned no unit
       Victims victims;
       const Reservation room = reserve(needed, victims);
       if (room == Reservation::kGranted) {
@@ -191,7 +192,7 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
         continue;
       }
       if (room == Reservation::kNever) throw_too_full(slot, needed);
-      if (!waiting_for_memory.up) {  // a pin let go before now would not have woken us
+      if (!waiting_for_memory.up) {  // a pin released before now would not have woken us
         waiting_for_memory.raise();
         continue;
       }
@@ -200,8 +201,8 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
   }
 }
 
-/// Grows a slot whose bytes are reserved, and pins it for `thread` before anybody could evict it. Null, and
-/// nothing reserved any more, where they turned out to be too few.
+/// Grows a slot with a reservation of `reserved` bytes, and pins it for `thread` before it could be evicted.
+/// Returns null, with the reservation released, when the slot needs more.
 Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int thread, int64_t reserved,
                           Victims& victims) {
   Slot& s = slots_[slot];
@@ -240,7 +241,7 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
     return nullptr;
   }
   charge(bytes - reserved);
-  // What goes and comes back within so few growths was being used, by this thread or another one.
+  // A unit evicted and grown again within this many growths was still in use, by this thread or another one.
   constexpr uint32_t kSoon = 32;
   const auto since = static_cast<uint32_t>(counts_.expansions) - s.dropped_at;
   throttle_.grown(thread, s.touched && since < kSoon, GrowthThrottle::Clock::now());
@@ -256,7 +257,7 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   s.bytes = grown.bytes;
   s.credit = 0;
   s.hit.store(false, std::memory_order_relaxed);
-  s.used.store(false, std::memory_order_relaxed);  // what is grown for one ray only goes first
+  s.used.store(false, std::memory_order_relaxed);  // units grown for a single ray are evicted first
   clock_.insert(slot);
   Resident* unit = grown.unit.release();
   if (!never_evicts_) hazards_[static_cast<size_t>(thread)].unit.store(unit, std::memory_order_seq_cst);

@@ -22,34 +22,34 @@
 
 namespace pelage {
 
-/// Something that can be dropped and made again.
+/// A unit that can be evicted and grown again.
 class Resident {
  public:
   virtual ~Resident() = default;
 };
 
-/// Makes the residents of a Residency. Thread safety: every member may be called from many threads at once,
-/// for different slots.
+/// Grows the units of a Residency. Thread safety: every member may be called from many threads at once, for
+/// different slots.
 class Grower {
  public:
   struct Grown {
-    std::unique_ptr<Resident> unit;  ///< null: it takes more than was reserved, see grow()
-    size_t bytes = 0;                ///< held from now on, at most reserve_bytes
+    std::unique_ptr<Resident> unit;  ///< null: needs more memory than reserved, see grow()
+    size_t bytes = 0;                ///< memory held from now on, at most reserve_bytes()
   };
   virtual ~Grower() = default;
-  /// Upper bound of the bytes held at any moment while `slot` is grown and afterwards. May become less once
-  /// the slot has been grown, more only by what grow() said.
+  /// Upper bound of the memory held at any moment while `slot` is grown and afterwards. May decrease once the
+  /// slot has been grown; increases only to the size reported by grow().
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
-  /// For messages: what the slot is of, or nothing.
+  /// Name of the slot's owner for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Same slot, same content. Called by a thread that pins nothing; visits nothing itself. May throw. Where
-  /// it turns out that the slot takes more than was reserved, it gives no unit and says in `bytes` how much,
-  /// which reserve_bytes() says from then on: it is called again when so much is reserved, and holds nothing
-  /// until then.
+  /// Grows the unit of a slot: same slot, same content. Called by a thread that pins nothing; must not visit
+  /// the Residency itself. May throw. If the slot turns out to need more than was reserved, returns no unit
+  /// and the required size in `bytes`; reserve_bytes() returns that size from then on, and grow() is called
+  /// again with that reservation. It must hold no memory in between.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
-/// What `render.memory` allows for everything that MemoryLedger::budgeted() counts.
+/// The part of `render.memory` available to everything that MemoryLedger::budgeted() counts.
 struct MemoryBudget {
   uint64_t limit = 0;  ///< bytes; 0 is no limit
 };
@@ -58,41 +58,43 @@ struct ResidencyCounts {
   int64_t expansions = 0;    ///< units grown
   int64_t reexpansions = 0;  ///< of these, of slots that had been grown before
   int64_t evictions = 0;
-  int64_t touched = 0;            ///< distinct slots grown
-  int64_t false_expansions = 0;   ///< units dropped, or held now, without a mark_hit
-  int64_t working_set_bytes = 0;  ///< of all distinct slots ever grown
-  int64_t peak_bytes = 0;         ///< most held at once, reservations included
+  int64_t touched = 0;            ///< distinct slots that were grown
+  int64_t false_expansions = 0;   ///< units evicted, or held now, without a mark_hit()
+  int64_t working_set_bytes = 0;  ///< total size of all distinct slots ever grown
+  int64_t peak_bytes = 0;         ///< max held at once, including reservations
   int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
-  double waited_s = 0;            ///< sum over threads, asleep until another had grown or let go
+  double waited_s = 0;            ///< time asleep waiting for others, summed over threads
 };
 
-/// A fixed number of slots whose units are grown on first visit, held while the budget allows and grown again
-/// when they are needed again. How much is held never changes what a visit sees.
+/// A fixed number of slots whose units are grown on first visit, kept while the budget allows, and grown
+/// again when they are needed after an eviction. The amount of memory never changes what a visit sees.
 ///
-/// A visit pins its unit by one store to a slot of the thread's own (a hazard pointer [Michael04]) and a
-/// second look at the index; nothing is locked. Growth and eviction are rare and happen under one mutex,
-/// except for the growing and the freeing themselves. A unit is freed after it was taken out of the index and
-/// no thread was seen to pin it; when one pins it after all, it goes back. Reservations are all or nothing: a
-/// thread reserves what growing can take at most before it claims the slot, and until then it holds nothing,
-/// neither memory nor pin nor claim. So a thread that needs room can have all that the others do not pin or
-/// grow at this moment, and they get done: every budget that holds the largest slot finishes. One that holds
-/// the largest slots of all threads at once lets none of them wait for room. Where the units that each thread
-/// comes back to do not fit together, fewer threads grow at a time (GrowthThrottle).
+/// Visits are lock-free: a visit pins its unit with one store to a slot of its thread (a hazard pointer
+/// [Michael04]) and then checks the index again. Growth and eviction are rare and synchronised by one mutex,
+/// which is released while units are grown or freed. A unit is freed after it was removed from the index and
+/// no thread was found to pin it; if a thread does pin it, the unit is put back.
 ///
-/// Whatever else is charged to budgeted tags is seen by the next reservation; what may grow while a Residency
-/// works (poses, say) should be charged at its most before.
+/// Every budget that holds the largest slot makes progress. Reservations are all or nothing: a thread
+/// reserves the upper bound of a slot before it claims the slot, and while it waits it holds no memory, no
+/// pin and no claim. It can therefore obtain everything that the other threads do not pin or grow at that
+/// moment, and those finish. With a budget for the largest slots of all threads at once, no thread waits for
+/// memory. When the working sets of the threads do not fit together, fewer threads may grow at a time
+/// (GrowthThrottle).
 ///
-/// Thread safety: visit, is_resident, mark_hit and counts from any thread; each number `thread` by one thread
-/// at a time. The others by one thread while nobody visits.
+/// Other charges to budgeted tags are taken into account by the next reservation. Charge memory that may grow
+/// while a Residency is in use, such as poses, at its maximum beforehand.
+///
+/// Thread safety: visit, is_resident, mark_hit and counts may be called from any thread, but each `thread`
+/// number from one thread at a time. The other members from one thread, without concurrent visits.
 class Residency {
  public:
-  /// `threads`: visits carry 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the largest
-  /// slot beside what the ledger has already.
+  /// `threads`: visits pass 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the largest
+  /// slot in addition to what the ledger already contains.
   Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget, MemoryLedger& ledger,
             MemoryTag tag);
-  /// Drops everything. No visit is under way.
+  /// Frees everything. There must be no concurrent visit.
   ~Residency();
-  /// What a Residency holds beside its units.
+  /// Memory of a Residency without its units.
   static size_t index_bytes(size_t slots, int threads);
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
@@ -108,16 +110,16 @@ class Residency {
     return std::forward<Use>(use)(unit);
   }
 
-  /// A hint: it may change at once.
+  /// A hint: may be outdated immediately.
   bool is_resident(uint32_t slot) const {
     return slots_[slot].unit.load(std::memory_order_relaxed) != nullptr;
   }
 
-  /// The unit was of use, for false_expansions.
+  /// Records that the unit was useful, for false_expansions.
   void mark_hit(uint32_t slot) { set_flag(slots_[slot].hit); }
 
-  /// Grows everything and never evicts again; before the first visit. Leaves early when `progress` is
-  /// cancelled. Throws Error (kMemory) when it does not fit.
+  /// Grows all units and never evicts afterwards; call before the first visit. Returns early when `progress`
+  /// is cancelled. Throws Error (kMemory) when not everything fits.
   void grow_all(const Job& job);
 
   size_t slot_count() const { return slots_.size(); }
@@ -126,12 +128,12 @@ class Residency {
  private:
   struct Slot {
     std::atomic<Resident*> unit{nullptr};
-    std::atomic<bool> used{false};  // since the hand of the clock came by
+    std::atomic<bool> used{false};  // since the last visit of the clock's hand
     std::atomic<bool> hit{false};   // since it was grown
-    bool growing = false;           // this and the following: guarded by mutex_
+    bool growing = false;           // from here on: guarded by mutex_
     bool touched = false;
     uint8_t credit = 0;       // rounds of the clock's hand that it may stay unused
-    uint32_t dropped_at = 0;  // how many expansions there had been
+    uint32_t dropped_at = 0;  // number of expansions at the time of its eviction
     size_t bytes = 0;
   };
   struct alignas(64) Hazard {
@@ -142,7 +144,7 @@ class Residency {
     int thread;
     ~Unpin() { residency.unpin(thread); }
   };
-  /// Units taken out of the index, to be freed without the mutex; still charged.
+  /// Units removed from the index, to be freed without the mutex; still charged.
   struct Victims {
     std::vector<std::pair<uint32_t, std::unique_ptr<Resident>>> units;
     int64_t bytes = 0;
@@ -165,8 +167,8 @@ class Residency {
       return *unit;
     }
     if (unit) {
-      // In the one order of sequentially consistent operations, either the evictor sees this store or we see
-      // that the index no longer has the unit.
+      // In the single order of sequentially consistent operations, either the evictor sees this store, or we
+      // see that the unit is no longer in the index.
       hazard.store(unit, std::memory_order_seq_cst);
       if (s.unit.load(std::memory_order_seq_cst) == unit) {
         set_flag(s.used);
@@ -193,7 +195,7 @@ class Residency {
   Reservation evict(int64_t bytes, Victims& victims);
   bool is_pinned(const Resident* unit) const;
   void charge(int64_t bytes);
-  /// Until something changed, or `timeout` so long.
+  /// Waits until something changed, at most for `timeout`.
   void sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> timeout = {});
   void wake();
   void refuse_small_budget() const;
@@ -205,13 +207,14 @@ class Residency {
   const MemoryBudget budget_;
   std::vector<Slot> slots_;
   std::vector<Hazard> hazards_;
-  bool never_evicts_;  // nothing is ever evicted, so nothing need be pinned; fixed before the first visit
+  bool never_evicts_;  // nothing is ever evicted, so pins are not needed; fixed before the first visit
   MemoryCharge index_charge_;
-  std::atomic<int> waiting_for_memory_{0};  // threads that wait until a pin or a reservation is let go
+  std::atomic<int> waiting_for_memory_{0};  // threads waiting for a pin or a reservation to be released
 
   mutable std::mutex mutex_;
-  std::condition_variable changed_;  // a growth ended, or something was let go while somebody starved
-  ClockRing clock_;                  // slots with a unit; this and the following: guarded by mutex_
+  std::condition_variable
+      changed_;      // a growth ended, or something was released while a thread waited for memory
+  ClockRing clock_;  // slots with a unit; from here on: guarded by mutex_
   GrowthThrottle throttle_;
   std::map<uint32_t, std::exception_ptr> failures_;
   int growing_ = 0;

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-// One function per command, in a file of its own. Each returns the exit code of the process and throws Error
-// for what users and the outside world do wrong.
+// One function per command, each in its own file. Returns the exit code of the process, and throws Error for
+// mistakes of the user and failures of the system.
 
 int run_render(const Options& options);
 int run_grow(const Options& options);

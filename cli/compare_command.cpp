@@ -31,7 +31,7 @@ void check_fur(const SceneDescription& scene, const std::string& input) {
   throw Error(ErrorKind::kInput, input + ": the scene has no character with fur");
 }
 
-// NAME.svg with words, and NAME.png, the pixels alone.
+// NAME.svg with text, and NAME.png with pixels only.
 void write_sheet(std::filesystem::path name, const Picture& sheet) {
   write_file(name.replace_extension(".svg"), standalone_svg(picture_svg(sheet)));
   write_file(name.replace_extension(".png"), png_bytes(sheet));

@@ -7,11 +7,11 @@
 
 namespace pelage {
 
-/// Does the first of two bounding passes ahead of time: sees to it that the side files of boxes beside the
-/// caches of the grooms hold every frame of the scene, grows what they lack, and says on standard output what
-/// was done. Coats without a cache remember nothing and are left out, and so is everything where the bounding
-/// strategy of the scene measures nothing. Reduced detail has boxes of its own: those of what the scene asks
-/// for are grown. Returns false when it was cancelled.
+/// Runs the first of two bounding passes ahead of time. Ensures that the side files of boxes beside the
+/// caches of the grooms contain every frame of the scene, grows what is missing, and reports on standard
+/// output. Skips coats without a cache, and everything when the scene's bounding strategy does not measure.
+/// Reduced detail has its own boxes: those of the detail that the scene requests are grown. Returns false
+/// when cancelled.
 bool grow_boxes(const SceneDescription& scene, Assets& assets, Run& run);
 
 }  // namespace pelage

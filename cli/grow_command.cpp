@@ -37,7 +37,7 @@ int64_t bytes_of(const StrandCounts& n) {
                                                                     sizeof(RootAddress) + sizeof(V2f)));
 }
 
-// All leaves of one coat, grown in parallel; kept only to be written, which holds them twice.
+// All leaves of one coat, grown in parallel; kept only for writing, which needs twice their memory.
 Growth grow(const FurPart& part, bool keep, Run& run) {
   std::vector<std::unique_ptr<Procedural>> leaves;
   for (const auto& procedural : part.procedurals) {
@@ -94,7 +94,7 @@ void report_cache(const std::string& name, const GroomCacheReport& cache, bool e
   std::cout << fmt::format("  {}\n", cache.file.string());
 }
 
-// Keeps of each folder what the grooms of the scene now have in it.
+// Keeps only the current files of the scene's grooms in each cache folder.
 void prune_caches(const Assets& assets) {
   std::map<std::filesystem::path, std::vector<std::filesystem::path>> folders;
   for (const auto& [name, groom] : assets.grooms) {
@@ -111,7 +111,7 @@ void prune_caches(const Assets& assets) {
   }
 }
 
-// A strand file has one basis.
+// A strand file has a single basis.
 void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   for (const Strands& strands : grown) {
     if (strands.basis() != grown.front().basis()) {
@@ -123,7 +123,7 @@ void write_grown(const std::string& path, const std::vector<Strands>& grown) {
   std::cout << path << "\n";
 }
 
-// Whoever grows caches ahead of time must be told when there are none afterwards.
+// When growing caches ahead of time, missing caches must be an error.
 void require_kept(const Assets& assets, const Options& options) {
   std::string lost;
   for (const auto& [name, groom] : assets.grooms) {
@@ -158,7 +158,7 @@ int run_grow(const Options& options) {
   }
   const int frame = scene.frames.frames.front();
   const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-  // What opening, filling and growing caches took is a stage of its own.
+  // Opening, filling and growing caches is a separate stage.
   double cache_s = 0;
   for (const auto& [name, groom] : assets->grooms) {
     if (groom->cache_report()) cache_s += groom->cache_report()->seconds;
@@ -176,7 +176,7 @@ int run_grow(const Options& options) {
   if (options.output.empty() && options.groom.empty() && !grow_boxes(scene, *assets, run)) {
     return SignalGuard::exit_code();
   }
-  // What a cache holds needs no pose; strands are made for those who ask for them.
+  // Cached data needs no pose; strands are made only if requested.
   if (all_cached && options.output.empty()) {
     run.finish(options);
     require_kept(*assets, options);
@@ -194,7 +194,7 @@ int run_grow(const Options& options) {
   for (const FurPart& part : world.scene.fur) {
     const std::string groom = groom_of(part);
     if (!options.groom.empty() && groom != options.groom) continue;
-    // Without a file to write, it is enough to see each coat once, not on every animal of a crowd.
+    // Without an output file, each coat is reported once, not for every animal of a crowd.
     if (options.output.empty() && (assets->grooms.at(groom)->cache_report() || !seen.insert(groom).second))
       continue;
     Growth growth = grow(part, !options.output.empty(), run);

@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-// What `pelage info` says of each kind of file: lines of text, the last one ended.
+// Output of `pelage info` for each kind of file: complete lines of text.
 
 std::string describe_scene(const SceneDescription& scene);
 std::string describe_strands(const StrandFile& file);

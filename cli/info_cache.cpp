@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-// Bytes of a strand, for what is written at most.
+// Bytes per strand, for the largest parts.
 std::string describe_column(const FrozenLeaf& leaf, StrandCodes::Column kind) {
   const CodeColumn& column = leaf.column(kind);
   switch (column.form) {
@@ -26,7 +26,7 @@ std::string describe_column(const FrozenLeaf& leaf, StrandCodes::Column kind) {
   return "";
 }
 
-// The first section is about all leaves; each of the others is one.
+// The first section describes all leaves; each of the others is one leaf.
 std::string describe_offsets(const StoredFile& file) {
   static constexpr std::pair<StrandCodes::Column, const char*> kColumns[] = {
       {StrandCodes::kWidthScale, "widths"},           {StrandCodes::kWidthProfile, "width profile"},
@@ -59,7 +59,7 @@ std::string describe_offsets(const StoredFile& file) {
   return text;
 }
 
-// Text that a terminal may have.
+// Text that is safe for a terminal.
 std::string describe_manifest(std::span<const std::byte> bytes) {
   std::string text = "  ";
   for (std::byte b : bytes) {

@@ -40,7 +40,7 @@ std::string describe_file(const Options& options) {
 }  // namespace
 
 int run_info(const Options& options) {
-  const std::string text = describe_file(options);  // before anything is printed: it may throw
+  const std::string text = describe_file(options);  // before printing, because it may throw
   std::cout << options.input << ": " << text;
   return 0;
 }

@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-// The longest attribute text that is shown whole.
+// Max length of an attribute text shown completely.
 constexpr size_t kLongestText = 100;
 
 template <class T>
@@ -25,7 +25,7 @@ std::string shown_box(const Box3f& box) {
   return box.isEmpty() ? "empty" : fmt::format("{} to {}", shown(box.min), shown(box.max));
 }
 
-// "name: value" without control characters, which would reach the terminal.
+// "name: value" without control characters, which would affect the terminal.
 std::string printable(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -113,7 +113,7 @@ std::string describe_mesh(const ControlMesh& mesh) {
 std::string describe_exr(const ExrImage& image) {
   std::string text =
       fmt::format("image, {} x {} pixels, {} channels\n", image.width, image.height, image.channels.size());
-  // Channels of one layer stand together: "key.diffuse: R G B (half)".
+  // Groups channels by layer: "key.diffuse: R G B (half)".
   std::map<std::string, std::map<ChannelType, std::string>> layers;
   for (const ExrChannel& channel : image.channels) {
     const size_t dot = channel.name.rfind('.');

@@ -58,7 +58,7 @@ int run_command_line(int argc, char** argv) {
   }
 }
 
-// What was printed but did not arrive is a failure too. Who stops reading (head) has what he wants to know.
+// Output that could not be written is a failure too. A reader that stops early (head) is not.
 int after_output(int code, int failure) {
   if (failure == 0 || code != 0) return code;
   if (failure != EPIPE)

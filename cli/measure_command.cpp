@@ -38,14 +38,14 @@ MeasureSetup setup_of(const Options& options, const SceneDescription& scene) {
     setup.folder =
         std::filesystem::path(options.input).stem().string() + "_" + experiment_name(options.experiment);
   }
-  // Other experiments are about every hair, unless they are asked to be about fewer.
+  // Other experiments use full detail, unless the user requests otherwise.
   if (options.experiment != Experiment::kLod)
     setup.arguments.insert(setup.arguments.end(), {"--set", "render.lod.enabled=false"});
   for (const Override& override : options.overrides)
     setup.arguments.insert(setup.arguments.end(), {"--set", override.key + "=" + override.value});
   if (options.experiment == Experiment::kAccel)
     setup.arguments.insert(setup.arguments.end(), {"--rays", std::to_string(options.rays)});
-  // One frame is what pictures, timelines and counts are compared of.
+  // Pictures, timelines and counts are compared for a single frame.
   setup.arguments.insert(setup.arguments.end(), {"--frames", fmt::format("{}", scene.frames.frames.front())});
   if (options.threads > 0)
     setup.arguments.insert(setup.arguments.end(), {"--threads", std::to_string(options.threads)});
@@ -113,8 +113,8 @@ int run_measure(const Options& options) {
   write_report_figures(setup.folder, report);
   std::cout << (setup.folder / "report.html").string() << "\n";
   if (interrupted) return SignalGuard::exit_code();
-  // A refused budget, or one so small that it takes too long, is an answer where budgets are the question;
-  // everything else that did not end well is not.
+  // A refused budget, or one so small that it takes too long, is a result when budgets are measured;
+  // everything else that failed is not.
   const bool budgets =
       options.experiment == Experiment::kResidency || options.experiment == Experiment::kAccel;
   const bool answered =

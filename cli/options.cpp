@@ -19,7 +19,7 @@
 namespace pelage {
 namespace {
 
-// What the parser leaves as text until it is checked here, so that every message is ours.
+// Flags that the parser leaves as text until they are validated here, so that all messages are our own.
 struct Texts {
   std::string frames, memory, progress, basis, stats, experiment;
   std::vector<std::string> set;
@@ -239,13 +239,13 @@ const std::map<std::string, Command>& command_names() {
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
-// A first word that is no command would otherwise be reported as a superfluous argument.
+// Otherwise an unknown first word would be reported as a superfluous argument.
 void check_command(const std::vector<std::string>& arguments) {
   if (arguments.empty()) fail("expected a command; see 'pelage --help'");
   if (arguments[0].starts_with("-") || command_names().contains(arguments[0])) return;
   std::vector<std::string> names;
   for (const auto& [name, command] : command_names()) {
-    if (command != Command::kTrace) names.push_back(name);  // not for people
+    if (command != Command::kTrace) names.push_back(name);  // internal
   }
   fail("unknown command " + quote(arguments[0]) + suggest(arguments[0], names));
 }
@@ -258,7 +258,7 @@ std::vector<std::string> flag_names(const CLI::App& app) {
   return names;
 }
 
-// As it is typed: "pelage", "pelage render".
+// As typed: "pelage", "pelage render".
 std::string command_name(const CLI::App& app) {
   return app.get_parent() ? app.get_parent()->get_name() + " " + app.get_name() : app.get_name();
 }
@@ -275,7 +275,7 @@ std::string command_name(const CLI::App& app) {
   fail("cannot parse the arguments; see 'pelage --help'");
 }
 
-// An empty name, as of a shell variable that is not set, would otherwise mean the default.
+// Otherwise an empty name, such as an unset shell variable, would mean the default.
 void check_file_names(const CLI::App& app) {
   for (const char* name : {"--output", "--stats"}) {
     const CLI::Option* option = app.get_option_no_throw(name);

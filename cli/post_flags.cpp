@@ -60,7 +60,7 @@ void add_fill_flag(CLI::App& command, PostFileParams& file, const char* help) {
 
 [[noreturn]] void fail(const std::string& message) { throw Error(ErrorKind::kArguments, message); }
 
-/// Whether `text` is the second of two words; empty is the first one.
+/// Whether `text` is the second of two words; false for the first; otherwise an error.
 bool is_second(const std::string& flag, const std::string& text, const std::vector<std::string>& words) {
   if (text.empty() || text == words[0]) return false;
   if (text == words[1]) return true;
@@ -71,7 +71,7 @@ void check_finite(const std::string& flag, float value) {
   if (!std::isfinite(value)) fail(flag + ": expected a finite number");
 }
 
-/// `vectors` is what the flags of the vectors begin with.
+/// `vectors`: prefix of the vector flags.
 void interpret_file(const PostTexts& texts, const std::string& vectors, PostFileParams& file) {
   file.layers.depth = texts.depth_layer;
   file.layers.data = texts.data;

@@ -12,13 +12,13 @@ class App;
 
 namespace pelage {
 
-/// What the flags of motionblur and stereo leave as text until it is checked, so that every message is ours.
+/// Flags of motionblur and stereo that stay text until they are validated, so that all messages are our own.
 struct PostTexts {
   std::string units, up, filter, eye, convergence;
   std::string motion_layer, depth_layer;
   std::vector<std::string> data, colors;
   float vector_scale = 1;
-  int scale = 0;  // 0: the tool's own
+  int scale = 0;  // 0: the tool's default
 };
 
 void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts);

@@ -16,7 +16,7 @@
 namespace pelage {
 namespace {
 
-constexpr double kSteps = 1000;  // at most this many looks at the clock per stage
+constexpr double kSteps = 1000;  // max number of clock queries per stage
 constexpr double kRedraw_s = 0.1;
 constexpr double kFirstLine_s = 10, kNextLine_s = 30, kShortStage_s = 1;  // of lines
 constexpr int kNarrowestBar = 10;
@@ -46,7 +46,7 @@ ProgressStyle resolve(ProgressStyle style) {
 
 double fraction_of(double done, double total) { return std::clamp(done / total, 0.0, 1.0); }
 
-// The small excess keeps a sum of many rounded amounts from ending at 99 %.
+// The small offset keeps a sum of many rounded amounts from ending at 99 %.
 int percent_of(double fraction) { return static_cast<int>(fraction * 100 + 1e-6); }
 
 }  // namespace

@@ -14,29 +14,29 @@
 
 namespace pelage {
 
-/// Where progress goes and how it looks there.
+/// Destination and appearance of progress.
 struct ProgressTarget {
-  std::function<void(std::string_view)> write;  ///< called under a lock, with whole lines or redraws
-  std::function<double()> seconds;              ///< a clock that never goes back
+  std::function<void(std::string_view)> write;  ///< called under a lock, with complete lines or redraws
+  std::function<double()> seconds;              ///< a monotonic clock
   int columns = 80;                             ///< of the terminal, for the bar
   bool color = false;
 };
 
-/// Shows progress as a bar, as lines or as JSON lines. Drawing is left to whichever thread passes the next
-/// step first; others never wait for it. A stage within a stage is shown in its place until it ends.
+/// Shows progress as a bar, as lines or as JSON lines. Whichever thread first passes the next step draws;
+/// others never wait for it. A nested stage is shown instead of the outer one until it ends.
 ///
-/// Lines are for logs: one when a stage has gone on for ten seconds, one every half minute from then on, and
-/// one at the end of each stage that took a second or more.
+/// Lines are for logs: one when a stage has taken ten seconds, one every half minute afterwards, and one at
+/// the end of each stage that took a second or more.
 class ProgressDisplay final : public Progress {
  public:
-  /// On standard error. kAuto becomes a bar on a terminal and lines elsewhere; colour follows NO_COLOR and
-  /// TERM. `cancelled` is asked by cancelled() and must be cheap and thread safe.
+  /// Writes to standard error. kAuto becomes a bar on a terminal and lines elsewhere; colour follows NO_COLOR
+  /// and TERM. cancelled() calls `cancelled`, which must be cheap and thread safe.
   ProgressDisplay(ProgressStyle style, std::function<bool()> cancelled);
   /// For tests and other targets; `style` is not kAuto.
   ProgressDisplay(ProgressStyle style, ProgressTarget target, std::function<bool()> cancelled);
   ~ProgressDisplay() override;
 
-  /// What follows is about this frame, the `place`-th of `count`, counted from 1. Not shown for one frame.
+  /// Announces the current frame, number `place` of `count`, counted from 1. Not shown for a single frame.
   void frame(int number, size_t place, size_t count);
 
   void begin(std::string_view stage, double total) override;
@@ -45,9 +45,9 @@ class ProgressDisplay final : public Progress {
   void end() override;
   bool cancelled() const override { return cancelled_(); }
 
-  /// Does not tear the bar. Not shown when quiet.
+  /// Does not interrupt the bar. Not shown when quiet.
   void note(std::string_view line) override;
-  /// The same for what went wrong and did not stop the run: shown when quiet, too.
+  /// The same for problems that do not stop the run; also shown when quiet.
   void warn(std::string_view line) override;
 
  private:
@@ -73,7 +73,7 @@ class ProgressDisplay final : public Progress {
   std::atomic<double> done_{0};  // of the innermost stage
   std::atomic<double> next_step_{0};
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the following
   std::vector<Stage> stages_;
   struct Frame {
     int number = 0;
@@ -81,7 +81,7 @@ class ProgressDisplay final : public Progress {
   };
   std::optional<Frame> frame_;
   double drawn_s_ = 0;
-  bool line_open_ = false;  // the cursor stands behind a bar
+  bool line_open_ = false;  // the cursor is at the end of a bar
 };
 
 /// "0:07", "12:40", "1:02:03".

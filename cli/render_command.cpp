@@ -23,7 +23,7 @@ std::string output_name(const Options& options, const FrameList& frames) {
   return frames.frames.size() > 1 ? stem + ".%04d.exr" : stem + ".exr";
 }
 
-// No file of the run may replace another, and an hour of rendering must not end with "permission denied".
+// No output may replace another file, and an hour of rendering must not end with "permission denied".
 void check_files(const Options& options, const SceneDescription& scene, const std::string& output) {
   check_stats(options, scene.files);
   for (const int frame : scene.frames.frames) {
@@ -41,7 +41,7 @@ std::string samples_text(const FrameResult& result) {
   return fmt::format("{:.1f} samples on average", result.mean_samples);
 }
 
-// Adds what a frame took to the numbers of the run.
+// Adds the results of a frame to the statistics of the run.
 void count(const FrameResult& result, double posed_s, double share, Statistics& statistics) {
   if (statistics.first_pixel_s == 0) statistics.first_pixel_s = posed_s + result.first_tile_s;
   statistics.samples_per_pixel += result.mean_samples * share;
@@ -53,15 +53,15 @@ void note_no_output(const std::string& path, Run& run) {
   run.display().warn(path + ": stopped before the first sample; nothing was written");
 }
 
-// Where a picture goes. One with pixels that have no sample replaces no file that is there: it goes beside
-// it.
+// Path for a picture. A picture with pixels that have no sample does not replace an existing file but is
+// written beside it.
 std::string place_of(const FrameResult& result, const std::string& path) {
   std::error_code ignored;
   if (result.samples > 0 || !std::filesystem::exists(path, ignored)) return path;
   return std::filesystem::path(path).replace_extension(".partial.exr").string();
 }
 
-// Renders and writes one frame; returns whether all of it was done.
+// Renders and writes one frame; returns whether it is complete.
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
   const double began = run.seconds();
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });

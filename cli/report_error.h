@@ -10,8 +10,8 @@ namespace pelage {
 /// Exit code of the process for a kind of error; docs/RUNNING.md lists the codes.
 int exit_code(ErrorKind kind);
 
-/// What the user sees: a line "file:line:column: message" per problem, "pelage: error: message" where there
-/// is no position, and a last line with the number of those that are left out when there are very many.
+/// The text shown to the user: a line "file:line:column: message" per problem, "pelage: error: message"
+/// without a position, and a last line with the number of problems omitted when there are very many.
 std::string error_text(const Error& error);
 
 }  // namespace pelage

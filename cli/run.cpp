@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-// Without --sample-memory only the peak is of interest.
+// Without --sample-memory only the peak is used.
 constexpr double kSampleMemory_s = 0.05;
 
 Statistics baseline() {

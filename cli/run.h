@@ -14,7 +14,7 @@
 
 namespace pelage {
 
-/// What a command that works for a while has in hand: threads, accounts, progress, and a clock.
+/// Context of a long-running command: threads, ledger, progress, and a clock.
 class Run {
  public:
   explicit Run(const Options& options);
@@ -26,14 +26,14 @@ class Run {
   Job job() { return {workers_, ledger_, display_}; }
   double seconds() const;
 
-  /// Runs `work`, shows it as a stage of unknown length and adds its wall time to stages_s.
+  /// Runs `work` as a stage of unknown length and adds its wall time to stages_s.
   template <class Work>
   auto stage(std::string_view name, Work&& work) {
     const StageTimer timer(*this, name);
     return work();
   }
 
-  /// Completes the statistics and writes them where `--stats` says.
+  /// Completes the statistics and writes them to the file of `--stats`.
   void finish(const Options& options);
 
  private:

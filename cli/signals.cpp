@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-// A signal handler can reach nothing but statics.
+// A signal handler can access only statics.
 std::atomic<int> g_signal{0};  // the first one; 0: none yet
 std::atomic<int64_t> g_heard_ms{0};
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
@@ -23,7 +23,8 @@ int64_t now_ms() {
   return int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
 }
 
-/// timeout(1) and batch systems send SIGTERM or SIGHUP to a process and to its group: that is one request.
+/// timeout(1) and batch systems send SIGTERM or SIGHUP to a process and to its group: this counts as one
+/// request.
 constexpr int64_t kOneRequest_ms = 1000;
 
 void on_signal(int signal) {
@@ -74,8 +75,8 @@ void prepare_process() {
   ::signal(SIGPIPE, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // The lowest free number is that of the stream. Nobody reads messages to a closed standard error; output
-    // was asked for, and must not seem to arrive.
+    // open() returns the lowest free number, that of the stream. Messages to a closed standard error are
+    // discarded; output was requested, so writing it must fail.
     [[maybe_unused]] const int opened = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

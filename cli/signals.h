@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP only raises a flag, so that a render can write what it
-/// has; the second one ends the process at once. Signals that the process was started to ignore (nohup) stay
-/// ignored. One at a time.
+/// During its lifetime, the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that a render can write a
+/// partial result; the second one ends the process at once. Signals that were ignored when the process was
+/// started (nohup) stay ignored. Only one at a time.
 class SignalGuard {
  public:
   SignalGuard();
@@ -20,8 +20,8 @@ class SignalGuard {
 
   /// Thread safety: may be called from any thread, and is cheap.
   static bool interrupted();
-  /// Exit code of a run that was interrupted: 128 and the number of the signal that the last guard saw first
-  /// (130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP); 130 where it saw none.
+  /// Exit code of an interrupted run: 128 plus the number of the first signal that the last guard received
+  /// (130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP); 130 if it received none.
   static int exit_code();
 
   static constexpr std::array kHandled{SIGINT, SIGTERM, SIGHUP};
@@ -30,9 +30,9 @@ class SignalGuard {
   std::array<struct sigaction, kHandled.size()> old_;
 };
 
-/// For the whole process, once, before any thread: a file that may not grow (SIGXFSZ) and a reader that has
-/// left (SIGPIPE) become errors of the write that meets them, and a standard stream that is closed is opened
-/// on nothing, so that no other file gets its number: what is written to a closed output fails.
+/// Call once per process, before starting threads. Makes writing beyond a file size limit (SIGXFSZ) and to a
+/// closed pipe (SIGPIPE) an error of that write. Opens closed standard streams on /dev/null, so that no other
+/// file gets their numbers; writing to a closed output fails.
 void prepare_process();
 
 }  // namespace pelage

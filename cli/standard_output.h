@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// While it lives, std::cout writes to a descriptor through it, and it remembers whether all of it arrived.
-/// One at a time. Line by line on a terminal, in blocks elsewhere.
+/// During its lifetime, std::cout writes to a descriptor through this object, which records failures. Only
+/// one at a time. Line-buffered on a terminal, otherwise in blocks.
 class StandardOutput final : private std::streambuf {
  public:
   explicit StandardOutput(int descriptor);
@@ -16,7 +16,7 @@ class StandardOutput final : private std::streambuf {
   StandardOutput(const StandardOutput&) = delete;
   StandardOutput& operator=(const StandardOutput&) = delete;
 
-  /// Writes what is left; errno of the first write that failed, or 0.
+  /// Flushes; returns errno of the first failed write, or 0.
   int finish();
 
  private:

@@ -8,14 +8,14 @@
 
 namespace pelage {
 
-/// Version of the object that --stats writes: goes up when a name changes its meaning or vanishes.
+/// Version of the object that --stats writes: incremented when a name changes its meaning or is removed.
 constexpr int kStatisticsSchema = 1;
 
 /// The numbers of a run as one JSON object, names as in base/statistics.h, units in
 /// names.
 std::string statistics_json(const Statistics& statistics);
 
-/// Writes it, whole or not at all. Throws Error (kFailed).
+/// Writes that object, completely or not at all. Throws Error (kFailed).
 void write_statistics(const std::filesystem::path& path, const Statistics& statistics);
 
 }  // namespace pelage

@@ -8,11 +8,11 @@ namespace {
 
 constexpr double kFirst_s = 3;
 constexpr double kMinDone = 0.01;
-/// Most by which the rates of the last quarter and of the last half may differ. Just after a slow beginning
-/// they differ by two.
+/// Max ratio of the rates of the last quarter and of the last half. Just after a slow start they differ by a
+/// factor of two.
 constexpr double kAgreement = 1.5;
 
-/// Distance of samples that are kept: so that one stands near any share of the time.
+/// Interval of stored samples, such that one is near any fraction of the time.
 double next_sample(double elapsed_s) { return 1.05 * elapsed_s + 0.1; }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace Sdc = OpenSubdiv::Sdc;
 
 namespace {
 
-/// The line of an OBJ file with the first face of more than three corners; 0 where there is none.
+/// The line of an OBJ file with the first face of more than three corners; 0 if there is none.
 int first_polygon_line(const std::string& file) {
   std::ifstream in(file);
   std::string line;
@@ -32,7 +32,7 @@ int first_polygon_line(const std::string& file) {
   return 0;
 }
 
-/// Collects what keeps a cage from being subdivided, the first few of it in words.
+/// Collects the problems that prevent subdivision of a cage; the first few get their own message.
 class CageChecker {
  public:
   CageChecker(const ControlMesh& mesh, SubdivisionScheme scheme, const std::string& source)
@@ -62,7 +62,7 @@ class CageChecker {
       check_face(face, std::span(mesh_.face_vertices).subspan(first, mesh_.face_sizes[face]), valence);
     }
     if (polygons_ > 0) complain_of_polygons();
-    // Without subdivision nothing grows with the valence of a vertex.
+    // Without subdivision no cost grows with the valence of a vertex.
     if (scheme_ == SubdivisionScheme::kNone) valence.clear();
     check_weights(valence);
     for (size_t v = 0; v < valence.size(); ++v) {
@@ -77,8 +77,8 @@ class CageChecker {
     }
   }
 
-  /// Subdivision needs about 200 bytes for the square of each of these numbers, and cutting a polygon may
-  /// take as many steps: a file of megabytes could ask for terabytes.
+  /// Subdivision needs about 200 bytes times the square of each of these numbers, and triangulation as many
+  /// steps: a file of megabytes could require terabytes.
   void check_weights(const std::vector<uint32_t>& valence) {
     constexpr uint64_t kFew = 16, kMaxSquares = 10'000'000;
     uint64_t squares = 0;
@@ -113,7 +113,7 @@ class CageChecker {
     for (uint32_t v : vertices) ++valence[v];
   }
 
-  /// Once for all of them, at the first in the file.
+  /// One problem for all of them, at the first one in the file.
   void complain_of_polygons() {
     const std::string count = polygons_ == 1
                                   ? "1 face has"
@@ -156,7 +156,7 @@ class CageChecker {
   const ControlMesh& mesh_;
   SubdivisionScheme scheme_;
   const std::string& source_;
-  size_t polygons_ = 0;  // faces that the loop scheme does not take
+  size_t polygons_ = 0;  // faces that the Loop scheme does not support
   size_t first_polygon_ = 0, first_corners_ = 0;
   Problems problems_{20};
 };

@@ -17,7 +17,7 @@ constexpr uint32_t kTrianglesPerCheck = 4096;
 constexpr uint32_t kLeaf = 1u << 31;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-/// Boxes of up to four children, one per lane. Lanes without a child have an empty box, infinitely far away.
+/// Boxes of up to four children, one per lane. Lanes without a child have an empty box at infinite distance.
 struct Node {
   FourVectors low, high;
   uint32_t child[kWidth];  // a node, or kLeaf and a packet
@@ -42,7 +42,7 @@ struct ClosestPointTree::Impl {
     uint32_t begin, end;
     uint32_t size() const { return end - begin; }
   };
-  /// What the build knows of a triangle.
+  /// Data of a triangle during the build.
   struct Item {
     Box3f box;
     V3f centre;
@@ -64,7 +64,7 @@ struct ClosestPointTree::Impl {
       items[t].centre = items[t].box.center();
       items[t].triangle = t;
     }
-    // A nearest point that rounding put outside its box must not be missed.
+    // Nearest points outside of their box because of rounding must not be missed.
     pad = 1e-6f * farthest;
     packets.reserve(count / kWidth + 1);
     nodes.reserve(count / (kWidth * 2) + 1);
@@ -137,7 +137,7 @@ struct ClosestPointTree::Impl {
   uint32_t make_packet(const std::vector<Item>& items, Range range) {
     TrianglePacket packet;
     for (uint32_t lane = 0; lane < kWidth; ++lane) {
-      // The last triangle fills up lanes that are left.
+      // The last triangle fills unused lanes.
       const uint32_t triangle = items[std::min(range.begin + lane, range.end - 1)].triangle;
       packet.triangle[lane] = triangle;
       for (uint32_t i = 0; i < 3; ++i) {
@@ -156,7 +156,7 @@ struct ClosestPointTree::Impl {
       float distance;
     };
     const FourVectors lanes{four(point.x), four(point.y), four(point.z)};
-    // Every level leaves at most three children behind.
+    // Every level leaves at most three children pending.
     Visit stack[3 * 32];
     size_t depth = 0;
     float best = limit;
@@ -178,7 +178,7 @@ struct ClosestPointTree::Impl {
         } else {
           const Node& node = nodes[now.child];
           const Four distances = box_distances(node, lanes);
-          // Nearest on top. What is as far as the best may hold a triangle of a lower number.
+          // Nearest on top. A node as far as the best hit may contain a triangle with a lower number.
           const size_t bottom = depth;
           for (uint32_t lane = 0; lane < kWidth; ++lane) {
             if (!(distances[lane] <= best) || node.child[lane] == kNone) continue;
@@ -195,7 +195,7 @@ struct ClosestPointTree::Impl {
 
   V3d face_normal(uint32_t triangle) const { return triangle_at(triangle).normal(); }
 
-  /// The normal whose side of the surface is that of every point nearest to this feature [Baerentzen05].
+  /// The normal that gives the side of the surface for every point nearest to this feature [Baerentzen05].
   V3d pseudonormal(uint32_t triangle, const NearestOnTriangle& nearest) const {
     if (nearest.feature == NearestOnTriangle::Feature::kFace) return face_normal(triangle);
     V3d sum(0);
@@ -216,7 +216,7 @@ struct ClosestPointTree::Impl {
 
   const SkinMesh& mesh;
   int key;
-  const Job* job;  // while it is built
+  const Job* job;  // during the build
   float pad = 0;
   uint32_t root = kNone;
   std::vector<Node> nodes;

@@ -11,7 +11,7 @@ namespace pelage {
 
 struct Job;
 
-/// The point of a skin nearest to some point of space.
+/// The point of a skin nearest to a query point.
 struct ClosestPoint {
   V3f position{0};
   V3f normal{0};        ///< interpolated limit normal there, unit
@@ -20,8 +20,8 @@ struct ClosestPoint {
   uint32_t triangle = 0;
 };
 
-/// Closest-point queries on one motion key of a skin, by a tree of boxes over its triangles.
-/// Keeps a reference to `mesh`. Thread safety: const members may be called from any thread.
+/// Closest-point queries on one motion key of a skin, using a box tree over its triangles. Refers to `mesh`.
+/// Thread safety: const members may be called from any thread.
 class ClosestPointTree {
  public:
   /// With a job, throws Error (kStopped).
@@ -29,7 +29,7 @@ class ClosestPointTree {
   ~ClosestPointTree();
   ClosestPointTree(ClosestPointTree&&) noexcept;
 
-  /// Nearest point within `limit`; false when there is none. Equal distances are decided by triangle number.
+  /// Nearest point within `limit`; false when there is none. Ties are broken by triangle number.
   bool closest(const V3f& point, float limit, ClosestPoint& result) const;
   size_t bytes() const;
 

@@ -16,7 +16,7 @@ struct Knot {
   friend Knot operator*(float s, const Knot& a) { return {s * a.p, s * a.r}; }
 };
 
-/// A moment of the shutter: between the keys `key` and `key + 1`, or at `key` when `fraction` is 0.
+/// A time within the shutter: between the keys `key` and `key + 1`, or at `key` when `fraction` is 0.
 struct KeyTime {
   int key = 0;
   float fraction = 0;
@@ -51,7 +51,7 @@ CubicSegment b_spline_segment(const Strands& strands, size_t strand, int first, 
   const Knot p2 = at(first + 2);
   const Knot b1 = kThird * (2.0f * p1 + p2);
   const Knot b2 = kThird * (p1 + 2.0f * p2);
-  // At a pinned end the phantom point makes the curve meet the end point; said exactly here.
+  // At a pinned end the phantom point makes the curve interpolate the end point; set exactly here.
   const Knot b0 = first < 0 ? p1 : 0.5f * (kThird * (at(first) + 2.0f * p1) + b1);
   const Knot b3 = first + 3 > last ? p2 : 0.5f * (b2 + kThird * (2.0f * p2 + at(first + 3)));
   return cubic(b0, b1, b2, b3);
@@ -113,7 +113,7 @@ V3f curve_tangent(const CubicSegment& s, float t) {
   const V3f b = s.p[2] - s.p[1];
   const V3f c = s.p[3] - s.p[2];
   const V3f first = 3.0f * ((u * u) * a + (2.0f * u * t) * b + (t * t) * c);
-  // A derivative lost in rounding next to the polygon's length says nothing about direction.
+  // A derivative that is lost in rounding relative to the polygon's length has no meaningful direction.
   const float scale2 = a.length2() + b.length2() + c.length2();
   const float vanishing2 = 1e-10f * scale2;
   if (first.length2() > vanishing2) return first;

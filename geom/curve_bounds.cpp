@@ -11,8 +11,8 @@
 namespace pelage {
 namespace {
 
-// Points evaluated in float stray from the true curve by a few units in the last place of the largest
-// coordinate. Boxes are enlarged by eight half units, so that those points lie inside as well.
+// Points evaluated in float deviate from the exact curve by a few units in the last place of the largest
+// coordinate. Boxes are enlarged by eight half units, so that those points are inside as well.
 constexpr float kRounding = 0x1p-21f;
 
 float largest(const CubicSegment& s, int axis) {
@@ -24,7 +24,7 @@ float largest(const CubicSegment& s, int axis) {
 /// Largest value on [0, 1] of the cubic with Bezier coefficients b.
 double cubic_maximum(double b0, double b1, double b2, double b3) {
   double best = std::max(b0, b3);
-  if (std::max(b1, b2) <= best) return best;  // the hull says that an end is the highest point
+  if (std::max(b1, b2) <= best) return best;  // by the convex hull, an end is the max
   const double d0 = b1 - b0, d1 = b2 - b1, d2 = b3 - b2;
   // derivative / 3 = d0 (1-t)^2 + 2 d1 t (1-t) + d2 t^2 = a t^2 + 2 h t + d0
   const double a = d0 - 2 * d1 + d2;
@@ -42,8 +42,7 @@ double cubic_maximum(double b0, double b1, double b2, double b3) {
   return best;
 }
 
-/// Exact upper end along `axis` of sign * centre + radius, where a negative interpolated radius counts as
-/// none.
+/// Exact upper end along `axis` of sign * centre + radius, where a negative interpolated radius counts as 0.
 double exact_reach(const CubicSegment& s, int axis, double sign) {
   double p[4];
   bool has_negative = false;
@@ -55,7 +54,7 @@ double exact_reach(const CubicSegment& s, int axis, double sign) {
   return has_negative ? std::max(reach, cubic_maximum(p[0], p[1], p[2], p[3])) : reach;
 }
 
-/// Enlarges `box` by the exact box of the segment. A hull that lies inside already saves the extrema.
+/// Enlarges `box` by the exact box of the segment. Skips the extrema if the hull is already inside.
 void extend_exactly(Box3f& box, const CubicSegment& s) {
   for (int axis = 0; axis < 3; ++axis) {
     float low = s.p[0][axis], high = low;
@@ -74,9 +73,9 @@ void extend_exactly(Box3f& box, const CubicSegment& s) {
   }
 }
 
-/// Whether the hull of the strand's points at all motion keys lies inside `box`, and with it the strand:
-/// Bezier points of linear and B-spline segments, pinned ends included, are convex combinations of points of
-/// the strand.
+/// Whether the hull of the strand's points at all motion keys lies inside `box`, and thus the strand: Bezier
+/// points of linear and B-spline segments, including pinned ends, are convex combinations of points of the
+/// strand.
 bool is_hull_inside(const Box3f& box, const Strands& strands, size_t strand) {
   if (strands.basis() == CurveBasis::kCatmullRom || box.isEmpty()) return false;
   float low[3], high[3];
@@ -144,7 +143,7 @@ void append_hull_bounds(const Strands& strands, size_t strand, int key, std::vec
   const float* p = &strands.points(key)[size_t(strands.first_point(strand)) * 4];
   const auto knot = [p](size_t i) { return Four{p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]}; };
   constexpr float kThird = 1.0f / 3.0f;
-  // Neighbours share the Bezier point at their joint, half way between the inner points beside it.
+  // Neighbours share the Bezier point at their joint, the midpoint of the adjacent inner points.
   Four start = knot(0);
   for (uint32_t i = 0; i < segments; ++i) {
     const Four a = knot(i), b = knot(i + 1);

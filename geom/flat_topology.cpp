@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kFacesPerCheck = 4096;
 
-/// The triangles of a mesh, as corners of its faces counted through; of each the face that it is cut from.
+/// The triangles of a mesh, as consecutive corner numbers of its faces, with the face that each was cut from.
 struct CutMesh {
   std::vector<uint32_t> corners;
   std::vector<uint32_t> faces;  // empty when every face is a triangle
@@ -52,14 +52,14 @@ CutMesh cut_faces(const ControlMesh& mesh, const std::function<void()>& check_st
   return cut;
 }
 
-/// Side `i` of a triangle, counted through; its ends.
+/// Side `i` of a triangle, numbered consecutively; its ends.
 struct Side {
-  uint32_t other = 0;  // the end of higher number
+  uint32_t other = 0;  // the end with the higher number
   uint32_t side = 0;
 };
 
-/// Lists the sides that begin or end at each vertex by the lower of their ends, so that those of one edge
-/// stand side by side, in order of faces.
+/// Lists the sides at each vertex by the lower-numbered of their ends, so that those of one edge are
+/// adjacent, in order of faces.
 class SidesByVertex {
  public:
   SidesByVertex(const std::vector<uint32_t>& corner_vertex, size_t vertices) : first_(vertices + 1) {
@@ -161,7 +161,7 @@ void fill_flat_topology(const ControlMesh& mesh, const std::function<void()>& ch
   impl.hole.resize(count);
   for (uint32_t i = 0; i < count; ++i) impl.hole[i] = hole[cut.faces.empty() ? i : cut.faces[i]];
   if (!cut.faces.empty()) {
-    // Where faces were cut depends on more than their corners.
+    // The triangulation of faces depends on more than their corners.
     impl.hash = ContentHasher().add(impl.hash).add(std::span<const uint32_t>(cage.corner_vertex)).digest();
   }
   impl.polygon = std::move(cut.faces);
@@ -195,7 +195,7 @@ V3f flat_vertex_normal(const SurfaceTopology::Impl& impl, std::span<const V3f> p
     const double length = normal.length();
     if (length > 0 && std::isfinite(length)) sum += normal * (std::atan2(length, a.dot(b)) / length);
   }
-  // Of an angle of 1: what is far below it is rounding of normals that cancel out.
+  // For an angle of 1: sums far below are rounding of normals that cancel.
   return sum.length() > 1e-6 ? V3f(sum.normalized()) : V3f(0);
 }
 

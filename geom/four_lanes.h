@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// Four floats side by side, in the compilers' own vector type: + - * / and comparisons work lane by lane,
-/// and what a lane holds never depends on the others (law 1).
+/// Four floats side by side, in the compilers' own vector type: + - * / and comparisons work per lane, and
+/// lanes never depend on each other (law 1).
 using Four = float __attribute__((vector_size(16)));
 
 inline Four four(float x) { return Four{x, x, x, x}; }

@@ -14,10 +14,10 @@ namespace pelage {
 
 namespace {
 
-// Below this sine of the angle between du and dv there is no plane to speak of.
+// Below this sine of the angle between du and dv, the tangent plane is undefined.
 constexpr double kFlatSine = 1e-4;
 
-/// A point and what happens to stand behind it.
+/// A point, followed by one more float.
 Four load(const std::vector<float>& points, size_t index) {
   Four p;
   std::memcpy(&p, &points[index * 3], sizeof p);
@@ -28,7 +28,8 @@ V3f xyz_of(Four p) { return {p[0], p[1], p[2]}; }
 
 float into_unit(float x) { return x > 0 ? std::min(x, 1.0f) : 0.0f; }  // NaN becomes 0
 
-/// Normal of a parallelogram in double, so that no size of cage under- or overflows; false when it has none.
+/// Normal of a parallelogram, computed in double, so that no size of cage under- or overflows; false when it
+/// has none.
 bool normal_of(const V3f& du, const V3f& dv, V3f& normal) {
   const V3d a(du), b(dv);
   const V3d n = a.cross(b);
@@ -38,14 +39,14 @@ bool normal_of(const V3f& du, const V3f& dv, V3f& normal) {
   return true;
 }
 
-/// Any unit vector across `n`: the axis that is farthest from it, made perpendicular.
+/// Any unit vector perpendicular to `n`: the axis that is farthest from it, orthogonalised.
 V3d across(const V3d& n) {
   V3d axis(0);
   axis[std::abs(n.x) < 0.6 ? 0 : 1] = 1;
   return (axis - n * n.dot(axis)).normalized();
 }
 
-/// `along` lies in the plane of which `normal` is the normal, but for rounding.
+/// `along` must be perpendicular to `normal`, except for rounding.
 Frame frame_around(const V3f& normal, const V3f& along) {
   const V3d n(normal), a(along);
   const V3d tangent = (a - n * n.dot(a)).normalized();
@@ -74,7 +75,7 @@ SurfaceTopology::PoseBytes SurfaceTopology::pose_bytes(std::span<const uint32_t>
   const size_t points = blocks.point_count();
   return {sizeof(LimitSurface) + (points * (impl_->flat ? 6 : 3) + 1) * sizeof(float) +
               blocks.place.size() * sizeof(uint32_t),
-          // Points, which of them are wanted, and those that are still to be seen to.
+          // Points, which of them are needed, and those that are still to be processed.
           PointRules::temporary_bytes(points) + blocks.wanted.size() * sizeof(uint16_t) +
               2 * points * sizeof(uint32_t)};
 }
@@ -83,7 +84,7 @@ LimitSurface::LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std:
     : topology_(std::move(topology)) {
   const SurfaceTopology::Impl& impl = topology_->impl();
   measure(positions);
-  points_.resize(impl.rules.point_count() * 3 + 1);  // a vector of four may be loaded everywhere
+  points_.resize(impl.rules.point_count() * 3 + 1);  // every point may be loaded as a vector of four
   for (size_t i = 0; i < positions.size(); ++i) {
     const V3f p = positions[i] - origin_;
     std::copy_n(&p.x, 3, &points_[i * 3]);
@@ -150,7 +151,7 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   float weights[20], du_weights[20], dv_weights[20];
   impl.patches->EvaluateBasis(*handle, u, v, weights, du_weights, dv_weights);
   const Far::ConstIndexArray vertices = impl.patches->GetPatchVertices(*handle);
-  // From the first of them, so that small patches of a large surface keep their derivatives.
+  // Relative to the first of them, so that small patches of a large surface keep precise derivatives.
   const Four first = load(points_, place_of(vertices[0]));
   Four position = four(0), du = four(0), dv = four(0);
   for (int i = 1; i < vertices.size(); ++i) {
@@ -162,7 +163,7 @@ SurfacePoint LimitSurface::evaluate(uint32_t face, float u, float v) const {
   position += first;
   SurfacePoint result{xyz_of(position) + origin_, xyz_of(du), xyz_of(dv)};
   if (impl.part[face]) {
-    // OpenSubdiv's derivatives are by the parameters of a quad of which this ptex face would be a quarter.
+    // OpenSubdiv's derivatives use the parameters of a quad of which this ptex face would be a quarter.
     result.du *= 0.5f;
     result.dv *= 0.5f;
   }
@@ -183,7 +184,7 @@ SurfacePoint LimitSurface::evaluate_flat(uint32_t face, float u, float v) const 
   result.dv = p[2] - p[0];
   result.position = p[0] + u * result.du + v * result.dv + origin_;
   const V3f normal = (1 - u - v) * n[0] + u * n[1] + v * n[2];
-  // Normals of vertices may cancel out between them.
+  // Vertex normals may cancel in between.
   if (normal.length2() > 1e-6f) result.smooth_normal = normal.normalized();
   return result;
 }
@@ -192,7 +193,7 @@ Frame LimitSurface::frame_of(const SurfacePoint& point) {
   if (point.smooth_normal != V3f(0)) return smooth_frame(point.smooth_normal, point.du);
   V3f normal;
   if (normal_of(point.du, point.dv, normal)) return frame_around(normal, point.du);
-  // No plane, perhaps a line.
+  // The plane is undefined, but perhaps not the line.
   const V3d du(point.du), dv(point.dv);
   const V3d longer = du.length2() >= dv.length2() ? du : dv;
   if (!(longer.length() > 0) || !std::isfinite(longer.length())) return {};
@@ -216,7 +217,7 @@ Frame LimitSurface::frame(const SurfacePoint& here, uint32_t face, float u, floa
 
 ContentHash LimitSurface::hash() const {
   PELAGE_CHECK(blocks_.empty());
-  // All points follow from the control points and the topology.
+  // All points depend only on the control points and the topology.
   const auto control = std::span(points_).first(size_t(3) * topology_->control_count());
   return ContentHasher()
       .add(topology_->hash())

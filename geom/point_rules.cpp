@@ -7,8 +7,7 @@
 namespace pelage {
 namespace {
 
-// Sums are in double: rounding at one level would add to that at the next. Two to a vector, the last one
-// idle.
+// Sums are in double, because rounding accumulates over levels. Two per vector, the last one unused.
 using Pair = double __attribute__((vector_size(16)));
 struct Point {
   Pair xy, z;
@@ -21,7 +20,7 @@ void store(const Point& p, float* out) {
   out[2] = static_cast<float>(p.z[0]);
 }
 
-/// The weighted sum that makes point `made`; `at(i)` is where point i stands among `all`.
+/// The weighted sum that makes point `made`; `at(i)` is the index of point i in `all`.
 template <class At>
 Point sum(const PointRules& rules, size_t made, const std::vector<Point>& all, const At& at) {
   Point sum{};
@@ -35,7 +34,7 @@ Point sum(const PointRules& rules, size_t made, const std::vector<Point>& all, c
   return sum;
 }
 
-/// Calls `body(point)` for every point that is wanted, in their order.
+/// Calls `body(point)` for every needed point, in their order.
 template <class Body>
 void for_each_point(const PointBlocks& blocks, const Body& body) {
   for (uint32_t block = 0; block < blocks.place.size(); ++block) {
@@ -50,7 +49,7 @@ PointRules::Terms PointRules::terms(size_t made) const {
   const uint32_t first = first_term[made], count = first_term[made + 1] - first;
   if (first + count <= source.size()) return {source.data() + first, weight.data() + first, count};
   const size_t local = first - source.size();
-  // Indices of the library are not negative.
+  // OpenSubdiv's indices are not negative.
   return {reinterpret_cast<const uint32_t*>(local_source) + local, local_weight + local, count};
 }
 
@@ -88,7 +87,7 @@ PointBlocks SurfaceTopology::Impl::points_of(std::span<const uint32_t> faces) co
   const size_t all = (rules.point_count() + PointBlocks::kSize - 1) / PointBlocks::kSize;
   blocks.place.assign(all, PointBlocks::kAbsent);
   blocks.wanted.assign(all, 0);
-  std::vector<uint32_t> open;  // made points whose sources have not been seen to
+  std::vector<uint32_t> open;  // made points whose sources have not been visited
   const auto want = [&](uint32_t point) {
     uint16_t& wanted = blocks.wanted[point / PointBlocks::kSize];
     const auto bit = static_cast<uint16_t>(1u << point % PointBlocks::kSize);

@@ -40,7 +40,7 @@ class EarCutter {
   uint32_t before(size_t i) const { return left_[(i + left_.size() - 1) % left_.size()]; }
   uint32_t after(size_t i) const { return left_[(i + 1) % left_.size()]; }
 
-  /// Area along the polygon's normal: negative for triangles that are turned over.
+  /// Area relative to the polygon's normal: negative for inverted triangles.
   double area(uint32_t a, uint32_t b, uint32_t c) const {
     return (at(b) - at(a)).cross(at(c) - at(a)).dot(normal_);
   }
@@ -55,8 +55,8 @@ class EarCutter {
     });
   }
 
-  /// The ear with the shortest cut, or left_.size() where there is none: the polygon crosses itself, or has
-  /// no area.
+  /// The ear with the shortest cut, or left_.size() where there is none because the polygon intersects itself
+  /// or has no area.
   size_t best_ear() const {
     size_t best = left_.size();
     double shortest = std::numeric_limits<double>::infinity();

@@ -10,13 +10,12 @@
 
 namespace pelage {
 
-/// Cuts a polygon, which need not be convex or quite flat, into triangles with its vertices as corners:
-/// appends corner numbers counted from 0, three for each triangle, in the polygon's sense of rotation.
-/// The ear with the shortest cut goes first, as long as there is one: a corner that is convex and has no
-/// other corner inside [Meisters75]; what is left without one becomes a fan. Triangles with a repeated vertex
-/// are left out.
+/// Triangulates a polygon, which need not be convex or exactly planar: appends corner indices starting at 0,
+/// three per triangle, in the polygon's orientation. Clips the ear with the shortest cut as long as there is
+/// one, which is a convex corner with no other corner inside [Meisters75]; a remainder without ears becomes a
+/// fan. Triangles with a repeated vertex are omitted.
 ///
-/// `vertices` are the numbers, `corners` the positions of the polygon's corners.
+/// `vertices`: vertex numbers, `corners`: positions of the polygon's corners.
 void cut_polygon(std::span<const uint32_t> vertices, std::span<const V3f> corners,
                  std::vector<uint32_t>& triangles);
 

@@ -10,7 +10,7 @@
 
 namespace pelage {
 
-/// The files of a sequence and what was read of them.
+/// The files of a sequence, and the poses read from them.
 class PoseSequence::Files {
  public:
   using Positions = std::shared_ptr<const std::vector<V3f>>;
@@ -49,9 +49,9 @@ class PoseSequence::Files {
   const std::vector<std::filesystem::path> paths_;
   const size_t cage_points_;
   MemoryLedger& ledger_;
-  std::mutex mutex_;             // guards what follows
+  std::mutex mutex_;             // guards the following
   std::vector<Positions> read_;  // of each file, or null
-  std::vector<size_t> order_;    // files that are in memory, the first read first
+  std::vector<size_t> order_;    // files in memory, the one read first first
   int64_t charged_ = 0;
 };
 
@@ -68,7 +68,7 @@ std::vector<V3f> PoseSequence::positions(double frame) const {
   const auto count = static_cast<double>(files_->count());
   double at = (frame - first_) / frames_per_pose_;
   if (cycle_) at -= std::floor(at / count) * count;
-  // Rounding may leave a cycle at its end; what is not finite becomes the first pose.
+  // Rounding may yield the end of a cycle; non-finite values become the first pose.
   at = at > 0 ? std::min(at, cycle_ ? count : count - 1) : 0;
   const double below = std::floor(at);
   const auto t = static_cast<float>(at - below);

@@ -10,18 +10,19 @@
 
 namespace pelage {
 
-/// Poses of a cage, one OBJ file each, numbered from `first`, which frame `first` shows; between poses,
-/// positions blend linearly. A cycle goes on for ever in both directions, otherwise the first and the last
+/// Poses of a cage, one OBJ file each, numbered from `first`, which is shown at frame `first`; positions are
+/// interpolated linearly between poses. A cycle repeats in both directions; otherwise the first and the last
 /// pose hold.
 ///
-/// A file is read when it is first needed and its positions are kept, up to `kMaxBytes` of them, so that a
-/// crowd reads each pose once. Thread safety: const members may be called from any thread.
+/// A file is read when first needed. Up to `kMaxBytes` of positions are kept, so that a crowd reads each pose
+/// once. Thread safety: const members may be called from any thread.
 class PoseSequence {
  public:
   /// Positions kept in memory per sequence, charged to the skins.
   static constexpr size_t kMaxBytes = size_t(64) << 20;
 
-  /// `cage_points`: how many every file must have. `frames_per_pose`: frames from one pose to the next.
+  /// `cage_points`: number of points that every file must have. `frames_per_pose`: frames from one pose to
+  /// the next.
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,
                MemoryLedger& ledger, double frames_per_pose = 1);
   PoseSequence(PoseSequence&&) noexcept;

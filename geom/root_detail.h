@@ -8,25 +8,25 @@
 
 namespace pelage {
 
-/// What a strand of a thinned coat knows of its root: the line of the skin's normal there when the shutter
-/// opens, off by up to a degree, and the share of the strands that are kept there. Three bytes, packed.
+/// Root data of a strand in a thinned coat: the line of the skin's normal at shutter open, with an error of
+/// up to a degree, and the share of the strands kept there. Packed into three bytes.
 ///
-/// Strands carry it as one of their attributes, so that it goes wherever they go: into batches, chunks and
-/// files, and to the one strand that was hit. Only here is it known how.
+/// Stored as an attribute of the strands, so that it follows them into batches, chunks, files, and the single
+/// strand of a hit. Only this class knows the encoding.
 class RootDetail {
  public:
-  static constexpr size_t kFloats = 3;  ///< of a strand, as attributes are counted
+  static constexpr size_t kFloats = 3;  ///< per strand, as attributes are counted
 
   RootDetail(const V3f& normal, float share);
 
-  /// Unit; of the two directions either.
+  /// Unit; the sign is arbitrary.
   V3f normal() const;
-  /// In (0, 1]; finer the less it is, and 1 stays 1.
+  /// In (0, 1]; more precise for smaller values, exact for 1.
   float share() const { return root_of_share_ * root_of_share_; }
 
-  /// One for each strand.
+  /// Adds one to each strand.
   static Strands added(Strands strands, const std::vector<RootDetail>& details);
-  /// Of one strand; nothing where the strands have none.
+  /// That of one strand; empty when the strands have none.
   static std::optional<RootDetail> of(const Strands& strands, size_t strand);
 
  private:

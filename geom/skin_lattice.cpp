@@ -47,7 +47,7 @@ SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const 
     Face face{id, {kNone, kNone, kNone, kNone}};
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
       const uint32_t wanted = line_id(id, side);
-      // Where all lines before it are there, as in a whole skin, a line stands at its number.
+      // When all lines before it are present, as in a whole skin, the index of a line is its number.
       const bool there = wanted < lines_.size() && lines_[wanted].id == wanted;
       const auto found =
           there ? lines_.begin() + wanted
@@ -70,11 +70,11 @@ SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const 
   }
 }
 
-/// The lines of those of `faces` that are no holes, ascending.
+/// The lines of those of `faces` that are not holes, ascending.
 std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
                                             const CheckStop& check_stop) const {
   std::vector<uint32_t> ids;
-  // Of many faces, marks among all lines give the order sooner than sorting does.
+  // For many faces, marking among all lines is faster than sorting.
   const size_t all = topology_.cage.edge_count() + topology_.cage_face.size();
   std::vector<bool> seen(faces.size() > topology_.cage_face.size() / 8 ? all : 0);
   if (seen.empty()) ids.reserve(faces.size() * topology_.corners_per_face());
@@ -103,7 +103,7 @@ std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
   return ids;
 }
 
-/// The lines of those of `faces` that are no holes, and the vertices of the cage that they end at.
+/// Finds the lines of those of `faces` that are not holes, and the cage vertices at their ends.
 void SkinLattice::find_lines(std::span<const uint32_t> faces, const CheckStop& check_stop) {
   const std::vector<uint32_t> ids = line_ids(faces, check_stop);
   lines_.resize(ids.size());
@@ -155,8 +155,8 @@ uint32_t SkinLattice::line_id(uint32_t face, uint32_t side) const {
   }
 }
 
-/// The vertex of the cage where a side of a ptex face begins; kNone where it begins at the middle of an edge
-/// or of a face.
+/// The cage vertex at the start of a side of a ptex face; kNone where it starts at the middle of an edge or
+/// of a face.
 uint32_t SkinLattice::corner_vertex(uint32_t face, uint32_t side) const {
   const CageConnectivity& cage = topology_.cage;
   const uint32_t whole = topology_.cage_face[face];
@@ -164,7 +164,7 @@ uint32_t SkinLattice::corner_vertex(uint32_t face, uint32_t side) const {
   return side == 0 ? cage.corner_vertex[cage.first_corner[whole] + face - cage.first_ptex[whole]] : kNone;
 }
 
-/// Where a vertex of the cage stands in cage_vertices_, or kNone.
+/// Index of a cage vertex in cage_vertices_, or kNone.
 uint32_t SkinLattice::place_of(uint32_t cage_vertex) const {
   if (cage_vertex < cage_vertices_.size() && cage_vertices_[cage_vertex] == cage_vertex) return cage_vertex;
   const auto found = std::lower_bound(cage_vertices_.begin(), cage_vertices_.end(), cage_vertex);
@@ -178,7 +178,7 @@ SkinLattice::Rail SkinLattice::rail(const Face& f, uint32_t side) const {
   if (!is_edge(line.id)) {
     return side == 1 ? Rail{&line, 0, 1, line.rate} : Rail{&line, line.rate, -1, line.rate};
   }
-  // Edges run one way, the faces around them both ways.
+  // Edges have one direction, the faces around them use both.
   const uint32_t whole = topology_.cage_face[f.id], n = cage.face_size(whole);
   const bool split = is_part(f.id);
   const uint32_t corner = split ? f.id - cage.first_ptex[whole] : side;
@@ -228,7 +228,7 @@ void SkinLattice::number_line(uint32_t index) {
     return;
   }
   // The centre belongs to the n-gon's first spoke, which is numbered before the others. All spokes of an
-  // n-gon follow each other.
+  // n-gon are consecutive.
   const uint32_t owner = line.id - topology_.cage.edge_count();
   const uint32_t first = index - (owner - topology_.cage.first_ptex[topology_.cage_face[owner]]);
   if (lines_[first].end == kNone) lines_[first].end = new_points(1);
@@ -263,7 +263,8 @@ void SkinLattice::divide(Face& f) {
   }
 }
 
-/// Places what no face before has placed. Of a face without triangles here, what it shares with those.
+/// Places what no previous face has placed; of a face without triangles here, only the parts shared with
+/// faces that have some.
 void SkinLattice::place_rails(const Face& f) {
   const auto place = [&](uint32_t vertex, V2f uv) {
     if (points_[vertex].face == kNone) points_[vertex] = {f.id, uv};
@@ -305,7 +306,7 @@ void SkinLattice::number(const CheckStop& check_stop) {
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) number_line(face.line[side]);
     divide(face);
   }
-  // Spokes start in the middle of an edge, which has its vertices by now.
+  // Spokes start in the middle of an edge, whose vertices already exist.
   for (const uint32_t inside : inside_) {
     const Face& face = faces_[inside];
     if (is_hole(face) || !is_part(face.id)) continue;
@@ -329,7 +330,7 @@ void SkinLattice::visit_split(const std::function<void(uint32_t, const LatticePo
   for (const Face& face : faces_) {
     if (is_hole(face)) continue;
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
-      // A side's last node is the first of another: each face counts once at each vertex.
+      // A side's last node is the first of another side: each face counts once at each vertex.
       const uint32_t corner = corner_vertex(face.id, side);
       if (corner != kNone && cage.vertex_split[corner]) {
         const uint32_t at = place_of(corner);

@@ -11,65 +11,65 @@
 #include "base/vector.h"
 #include "geom/surface_topology_impl.h"
 
-// Which vertices and triangles a tessellated skin has, before any of them has a position. For
-// tessellation.cpp and skin_pieces.cpp.
+// Topology of a tessellated skin, before vertices have positions. For tessellation.cpp and skin_pieces.cpp.
 
 namespace pelage {
 
-/// A point of a skin by its parameters.
+/// A point of a skin, by its parameters.
 struct LatticePoint {
   uint32_t face = 0;  ///< ptex face
   V2f uv{0};
 };
 
-/// Divides the edges of a cage, each by a rate of its own, and fills the faces between them with triangles
-/// that use the vertices of their edges: neighbours share them, so no crack can open. Edges of a face that is
-/// split into several ptex faces are divided evenly, because two of these share each edge.
+/// Divides the edges of a cage, each with its own rate, and fills the faces between them with triangles that
+/// use the vertices of their edges: neighbours share these, so no cracks can occur. Edges of a face that is
+/// split into several ptex faces are divided into an even number, because two of these share each edge.
 ///
-/// Of a whole skin, or of some of its faces: these get the triangles, and their vertices the places, that
-/// they have in the whole.
+/// Covers a whole skin, or some of its faces, whose triangles and vertex positions are the same as in the
+/// whole.
 class SkinLattice {
   using CheckStop = std::function<void()>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
  public:
-  /// What is divided: a cage edge, or the spoke from the middle of an n-gon's edge to the n-gon's centre.
+  /// A line to be divided: a cage edge, or the spoke from the middle of an n-gon's edge to the n-gon's
+  /// centre.
   struct Line {
     uint32_t id = 0;        ///< the cage edge, or edge_count + the ptex face whose side 1 is the spoke
-    uint32_t face = kNone;  ///< the first that is no hole and has the line, or half of it, as its side `side`
+    uint32_t face = kNone;  ///< the first non-hole face with the line, or half of it, as side `side`
     uint32_t side = 0;
-    bool halved = false;   ///< by a face of several ptex faces: its rate must be even
-    bool is_half = false;  ///< `side` of `face` is one half of it
+    bool halved = false;   ///< the line is split by a face with several ptex faces: its rate must be even
+    bool is_half = false;  ///< `side` of `face` is one half of the line
     uint32_t rate = 1;
     uint32_t start = 0, end = 0;  ///< vertices
-    uint32_t inner = 0;           ///< first of the rate - 1 vertices between them
+    uint32_t inner = 0;           ///< first of the rate - 1 vertices in between
   };
 
-  /// Of all faces. `check_stop` is called every few thousand faces.
+  /// For all faces. `check_stop` is called every few thousand faces.
   explicit SkinLattice(
       const SurfaceTopology::Impl& topology, const CheckStop& check_stop = [] {});
-  /// Of `faces`, all ptex faces of some cage faces; `around` are these and all that touch them
-  /// (faces_around). Both ascending.
+  /// For `faces`, all ptex faces of some cage faces; `around`: these and all that touch them (faces_around).
+  /// Both ascending.
   SkinLattice(
       const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
       std::span<const uint32_t> around, const CheckStop& check_stop = [] {});
 
-  /// Those of all faces with triangles. Set their rates before number().
+  /// The lines of all faces with triangles. Set their rates before number().
   std::vector<Line>& lines() { return lines_; }
-  /// The rates of a lattice of all faces.
+  /// Copies the rates from a lattice of all faces.
   void take_rates(const SkinLattice& whole);
-  /// The piece of a line that its `side` of its `face` is, as parameters of the face at fraction t.
+  /// The piece of a line that is `side` of its face: parameters of the face at fraction t.
   V2f side_uv(uint32_t side, float t) const;
-  /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than 31 bits can number.
+  /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than fit 31 bits.
   void number(const CheckStop& check_stop = [] {});
-  /// After number(): finds a place for every vertex.
+  /// Call after number(): assigns a position to every vertex.
   void place();
 
   size_t vertex_count() const { return vertex_count_; }
   size_t triangle_count() const { return triangle_count_; }
   const std::vector<LatticePoint>& points() const { return points_; }
 
-  /// Faces with triangles here, holes among them.
+  /// Number of faces with triangles here, including holes.
   size_t face_count() const { return inside_.size(); }
   /// Ptex face number `i`.
   uint32_t face(size_t i) const { return faces_[inside_[i]].id; }
@@ -77,13 +77,13 @@ class SkinLattice {
     return (i + 1 < inside_.size() ? faces_[inside_[i + 1]].triangle : triangle_count_) -
            faces_[inside_[i]].triangle;
   }
-  /// Writes the triangles of ptex face number `i` where they belong in a skin's arrays.
+  /// Writes the triangles of ptex face number `i` to their positions in a skin's arrays.
   void write_triangles(size_t i, uint32_t* triangles, uint32_t* faces, V2f* uv) const;
-  /// Calls `visit` for every vertex and face around it where the normals of its faces differ, in order of
-  /// faces.
+  /// Calls `visit` for every vertex, and each adjacent face, where the normals of the adjacent faces differ,
+  /// in order of faces.
   void visit_split(const std::function<void(uint32_t vertex, const LatticePoint& place)>& visit) const;
 
-  /// What a lattice holds at most, of so many faces around and vertices.
+  /// Max memory of a lattice with this number of surrounding faces and vertices.
   static size_t bytes_bound(size_t around, size_t vertices);
 
  private:
@@ -97,10 +97,10 @@ class SkinLattice {
   };
   struct Face {
     uint32_t id = 0;               ///< ptex face
-    std::array<uint32_t, 4> line;  ///< of each side: which of lines_; kNone: of no face with triangles
+    std::array<uint32_t, 4> line;  ///< index into lines_ of each side; kNone: line of no face with triangles
     uint32_t inner = 0;            ///< first inner vertex
     uint32_t triangle = 0;         ///< first triangle
-    uint32_t nu = 0;               ///< divisions of the inner lattice; triangular faces have one number
+    uint32_t nu = 0;               ///< divisions of the inner lattice; triangular faces have a single number
     uint32_t nv = 0;
   };
   class Writer;
@@ -122,10 +122,10 @@ class SkinLattice {
 
   const SurfaceTopology::Impl& topology_;
   std::vector<Line> lines_;              // ascending by id
-  std::vector<uint32_t> cage_vertices_;  // those that lines_ end at, ascending
-  std::vector<uint32_t> numbers_;        // what vertex each of these became
-  std::vector<Face> faces_;              // those around
-  std::vector<uint32_t> inside_;         // those of faces_ with triangles
+  std::vector<uint32_t> cage_vertices_;  // end points of lines_, ascending
+  std::vector<uint32_t> numbers_;        // the vertex of each of these
+  std::vector<Face> faces_;              // including surrounding ones
+  std::vector<uint32_t> inside_;         // indices into faces_ of those with triangles
   std::vector<LatticePoint> points_;
   uint64_t vertex_count_ = 0, triangle_count_ = 0;
 };

@@ -14,8 +14,8 @@ namespace pelage {
 
 namespace {
 
-// Bytes of a ptex face, measured on meshes of all kinds (tests/geom/skin_memory_test.cpp): by how many levels
-// isolate extraordinary vertices, and of regular quads.
+// Bytes per ptex face, measured on meshes of all kinds (tests/geom/skin_memory_test.cpp): by the number of
+// levels that isolate extraordinary vertices, and for regular quads.
 struct FaceBytes {
   double making, held;
 };
@@ -23,11 +23,11 @@ constexpr FaceBytes kPolygonPart[] = {{3100, 1800}, {6900, 3900}, {13900, 5600}}
 constexpr FaceBytes kIrregularQuad[] = {{4200, 2300}, {9500, 5000}, {21000, 7500}};
 constexpr FaceBytes kLoopTriangle[] = {{1100, 480}, {1500, 650}, {3000, 1000}};
 constexpr FaceBytes kRegular = {560, 330}, kBilinear = {650, 280};
-// Of the square of each valence and polygon beyond what is usual; of each vertex where infinitely sharp edges
-// end or branch, and of such an edge; of a semi-sharp one, for each of the parts that it is refined to.
+// Additional bytes: per square of each unusual valence and polygon size; per vertex where infinitely sharp
+// edges end or branch, and per such edge; per semi-sharp edge, for each of its refined parts.
 constexpr FaceBytes kSquare = {260, 115}, kSharpEnd = {62000, 20000}, kSharpEdge = {1200, 600},
                     kSharpPart = {7800, 3000};
-// Of the lattice, the triangles and the tree over them, for each.
+// Per triangle: the lattice, the triangle and the tree over them.
 constexpr double kOfTriangle = 300;
 constexpr double kOfSkin = 1 << 16;
 
@@ -39,14 +39,14 @@ std::vector<uint32_t> valences(const ControlMesh& mesh) {
   return valence;
 }
 
-/// What is usual: four faces at a vertex, two or one at a border.
+/// The usual case: four faces at a vertex, two or one at a border.
 bool is_regular_quad(std::span<const uint32_t> vertices, const std::vector<uint32_t>& valence) {
   return vertices.size() == 4 && std::all_of(vertices.begin(), vertices.end(), [&](uint32_t v) {
            return v < valence.size() && (valence[v] == 4 || valence[v] <= 2);
          });
 }
 
-/// Parts of ptex faces that subdivision treats alike.
+/// Numbers of ptex faces that subdivision treats alike.
 struct FaceCounts {
   double regular = 0, parts = 0, irregular = 0, squares = 0;
 };
@@ -67,7 +67,7 @@ FaceCounts count_faces(const ControlMesh& mesh) {
   return counts;
 }
 
-/// Of sharp edges and corners, and of what is beyond the usual valences.
+/// Bytes of sharp edges and corners, and of unusual valences.
 FaceBytes special_bytes(const ControlMesh& mesh, const FaceCounts& counts) {
   FaceBytes sum = {counts.squares * kSquare.making, counts.squares * kSquare.held};
   const auto add = [&](const FaceBytes& each, double count) {

@@ -11,7 +11,7 @@ namespace pelage {
 
 namespace {
 
-/// A face of the cage, about where it stands, and what it will cost.
+/// A face of the cage, its approximate position, and its cost.
 struct CageFace {
   uint32_t face = 0;
   size_t cost = 0;
@@ -39,15 +39,15 @@ std::vector<CageFace> cage_faces(const SkinLattice& whole, const LimitSurface& s
   return faces;
 }
 
-/// How many faces of `range`, in order of one coordinate, come to about `wanted`: at least one, and not all.
-/// These then stand first. Each look halves what is left to sort: linear in total.
+/// Number of faces of `range`, in order of one coordinate, with a total cost of about `wanted`: at least one,
+/// and not all. These are moved to the front. Each step halves the unsorted range: linear in total.
 size_t split_off(std::span<CageFace> range, int axis, size_t wanted, const Job& job) {
   const auto before = [axis](const CageFace& a, const CageFace& b) {
     return std::pair(a.middle[axis], a.face) < std::pair(b.middle[axis], b.face);
   };
   const auto at = [&](size_t i) { return range.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(0), at(0), at(range.size()), before);
-  size_t low = 1, high = range.size() - 1, left = range[0].cost;  // `left`: of those before `low`
+  size_t low = 1, high = range.size() - 1, left = range[0].cost;  // cost of those before `low`
   while (low < high) {
     job.check_stop();
     const size_t middle = low + (high - low) / 2;
@@ -64,7 +64,7 @@ size_t split_off(std::span<CageFace> range, int axis, size_t wanted, const Job& 
   return low;
 }
 
-/// How many faces of a range are cut off across its longest side; all of one that costs no more than `max`.
+/// Number of faces of a range to cut off across its longest side; all if the range costs no more than `max`.
 size_t cut(std::span<CageFace> range, size_t max, const Job& job) {
   size_t all = 0;
   Box3f box;
@@ -73,12 +73,12 @@ size_t cut(std::span<CageFace> range, size_t max, const Job& job) {
     box.extendBy(face.middle);
   }
   if (all <= max || range.size() == 1) return range.size();
-  // Into parts of whole pieces, so that these become much alike.
+  // Into multiples of whole pieces, so that pieces have similar costs.
   const size_t pieces = (all + max - 1) / max;
   return split_off(range, static_cast<int>(box.majorAxis()), all / pieces * (pieces / 2), job);
 }
 
-/// Cuts the faces until no part costs more than `max`. In order from one side to the other.
+/// Cuts the faces until no part costs more than `max`. Parts are in order from one side to the other.
 std::vector<std::span<CageFace>> cut_all(std::span<CageFace> faces, size_t max, const Job& job) {
   std::vector<std::span<CageFace>> done, open{faces};
   while (!open.empty()) {
@@ -160,7 +160,7 @@ std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<co
 std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<const uint32_t> around) {
   const CageConnectivity& cage = topology.impl().cage;
   std::vector<uint32_t> vertices;
-  uint32_t last = UINT32_MAX;  // faces of one polygon follow each other
+  uint32_t last = UINT32_MAX;  // faces of one polygon are consecutive
   for (const uint32_t face : around) {
     const uint32_t whole = topology.impl().cage_face[face];
     if (whole == last) continue;

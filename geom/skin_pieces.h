@@ -12,32 +12,32 @@ namespace pelage {
 
 struct Job;
 
-/// A part of a skin that is tessellated by itself (tessellate_faces).
+/// A part of a skin that is tessellated separately (tessellate_faces).
 struct SkinPiece {
   std::vector<uint32_t>
       faces;            ///< ptex faces, ascending, all of each of some cage faces; empty: all there are
-  size_t vertices = 0;  ///< what tessellating gives, of one motion key
+  size_t vertices = 0;  ///< size of its tessellation, for one motion key
   size_t triangles = 0;
 
   bool is_whole() const { return faces.empty(); }
 };
 
-/// What tessellating some faces takes, in triangles: posing a ptex face takes as much memory as this many.
+/// Cost of posing a ptex face relative to a triangle, by memory.
 constexpr size_t kTrianglesPerPose = 16;
 constexpr size_t kMaxPieces = 64;
 
-/// Divides a skin into pieces that are compact and much alike in cost: at most `max_cost` each, in triangles
-/// and kTrianglesPerPose for each face, or one cage face, or a kMaxPieces-th of the whole, because each
-/// piece poses the faces around it too. One piece where the whole costs no more. Every face is in one piece,
-/// holes in any. The same for any number of threads. Throws as tessellate().
+/// Divides a skin into compact pieces of similar cost. Each costs at most `max_cost` (its triangles, plus
+/// kTrianglesPerPose per face), or consists of one cage face, or costs a kMaxPieces-th of the whole, because
+/// each piece also poses the faces around it. Returns one piece when the whole costs no more. Every face is
+/// in exactly one piece, holes included. The result is the same for any number of threads. Throws as
+/// tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
                                    const TessellationOptions& options, size_t max_cost, const Job& job);
 
-/// Ptex faces of the cage faces that have a vertex in common with those of `faces`, these included.
-/// Ascending.
+/// Ptex faces of the cage faces that share a vertex with those of `faces`, including these. Ascending.
 std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<const uint32_t> faces);
-/// Vertices of the cage that shape `around`, ascending: the limit surface of the faces in the middle lies
-/// within their hull, as LimitSurface says.
+/// Vertices of the cage that shape `around`, ascending. The limit surface of the faces in its middle lies
+/// within their hull, to the accuracy of LimitSurface.
 std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<const uint32_t> around);
 
 }  // namespace pelage

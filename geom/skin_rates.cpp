@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kLinesAtOnce = 256;
 
-/// Pieces that a line must be cut into so that none looks longer than asked for, in any of the poses.
+/// Number of pieces of a line so that none is longer on screen than requested, in any of the poses.
 uint32_t line_rate(const SkinLattice::Line& line, const SkinLattice& lattice,
                    std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options) {
   float pixels = 0;

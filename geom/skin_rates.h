@@ -11,7 +11,7 @@ namespace pelage {
 
 class Workers;
 
-/// Divides every line of a lattice as finely as its own length on screen asks for, in any of the rated keys.
+/// Sets the rate of every line of a lattice according to its own length on screen, at any of the rated keys.
 /// `check_stop` is called every few hundred lines, by any thread.
 void set_rates(
     SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How SkinLattice fills a face with triangles.
+// Fills the faces of a SkinLattice with triangles.
 #include <algorithm>
 #include <vector>
 
@@ -28,9 +28,9 @@ class SkinLattice::Writer {
     ++at_;
   }
 
-  /// Fills the strip between two rows that run the same way, `above` to the left of `below`, always advancing
-  /// on the one whose next node comes first. Node j of `above` is at fraction (offset + j) / divisions of the
-  /// way.
+  /// Fills the strip between two rows with the same direction, `above` to the left of `below`, always
+  /// advancing on the row whose next node comes first. Node j of `above` is at the fraction (offset + j) /
+  /// divisions of the way.
   void strip(const std::vector<Node>& below, const std::vector<Node>& above, float offset, float divisions) {
     const auto steps = static_cast<float>(below.size() - 1);
     size_t i = 0, j = 0;

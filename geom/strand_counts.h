@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// How much a batch of strands holds, known before it is grown.
+/// Size of a batch of strands, known before it is grown.
 struct StrandCounts {
   size_t strands = 0;
   size_t points = 0;    ///< of one motion key

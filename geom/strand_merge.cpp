@@ -25,7 +25,7 @@ std::vector<Source> sources_by_id(std::span<const Strands> batches) {
   return sources;
 }
 
-// The values of `from` that belong to one strand, spread to the class `to`.
+// Appends the values of `from` for one strand, converted to the frequency `to`.
 void append_values(const StrandAttribute& from, const Source& source, AttributeClass to,
                    std::vector<float>& out) {
   const auto components = static_cast<size_t>(from.components);
@@ -40,7 +40,7 @@ void append_values(const StrandAttribute& from, const Source& source, AttributeC
   }
 }
 
-// Class in which all batches can hold the attribute; false when one of them lacks it.
+// Frequency at which all batches can hold the attribute; false when one of them does not have it.
 bool common_class(std::span<const Strands* const> batches, const StrandAttribute& attribute,
                   AttributeClass& widest) {
   widest = attribute.frequency;

@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// One batch with the strands of all, in order of their ids (ties: in order of the batches). The batches have
-/// one basis and one number of motion keys. Attributes that every batch has are kept, in the widest class
-/// that any batch has them in; roots and root uvs are kept when every batch that is not empty has them.
+/// Merges batches into one, ordered by id (ties: in order of the batches). The batches must have the same
+/// basis and number of motion keys. Keeps attributes that every batch has, at the highest frequency of any
+/// batch; keeps roots and root uvs when every non-empty batch has them.
 Strands merge(std::span<const Strands> batches);
 
 }  // namespace pelage

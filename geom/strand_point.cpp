@@ -47,8 +47,8 @@ Weights bezier_derivative(float t) {
 /// Points first .. first + 3 of a strand, of which `before` at the front and `after` at the back do not
 /// exist: a phantom point 2 P0 - P1 is folded into the weights of P0 and P1.
 struct Window {
-  size_t first = 0;  ///< index among all points of the first that exists
-  int count = 4;     ///< points that exist
+  size_t first = 0;  ///< index of the first existing point
+  int count = 4;     ///< number of existing points
   bool phantom_before = false, phantom_after = false;
 
   Window(const Strands& strands, size_t strand, uint32_t segment) {
@@ -68,7 +68,7 @@ struct Window {
     if (!phantom_before) --first;
   }
 
-  /// Weights of the points that exist, from those of all four.
+  /// Weights of the existing points, from those of all four.
   Weights fold(Weights all) const {
     float* w = all.w;
     if (phantom_before) {
@@ -99,7 +99,7 @@ struct Sum {
   V3f vector() const { return {c[0], c[1], c[2]}; }
 };
 
-/// A sum over the points of a window at a time of the shutter.
+/// A weighted sum over the points of a window at a shutter time.
 Sum weighted_points(const Strands& strands, const Window& window, const Weights& weights, float time) {
   Sum sum;
   const auto points = [&](int key) { return &strands.points(key)[4 * window.first]; };
@@ -131,7 +131,7 @@ V3f unit_tangent(const Strands& strands, size_t strand, uint32_t segment, const 
   const V3f d =
       weighted_points(strands, window, window.fold(derivative_weights(strands.basis(), t)), time).vector();
   const float length2 = d.length2();
-  // Next to nothing: where the curve stands still, curve_tangent() knows which way it goes.
+  // Nearly zero: where the curve has no derivative, curve_tangent() determines its direction.
   const float* p = &strands.points()[4 * window.first];
   const V3f step(p[4] - p[0], p[5] - p[1], p[6] - p[2]);
   if (!(length2 > 1e-8f * step.length2()) || length2 < 1e-30f) {

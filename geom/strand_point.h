@@ -6,18 +6,18 @@
 
 namespace pelage {
 
-/// The centre line of a strand at one place.
+/// The centre line of a strand at one point.
 struct StrandPoint {
   V3f position{0};
   float radius = 0;
   V3f tangent{0};  ///< unit, root to tip
 };
 
-/// At parameter t of a segment and time [0, 1] of the shutter. The same curve as bezier_segment_at() gives,
-/// straight from the strand's own points: for renderers, which ask for one place at a time.
+/// Evaluates parameter t of a segment at shutter time [0, 1]. The same curve as bezier_segment_at(), computed
+/// directly from the strand's points: for renderers, which need one point at a time.
 StrandPoint strand_point(const Strands& strands, size_t strand, uint32_t segment, float t, float time);
 
-/// Unit tangent at v in [0, 1] over the whole strand, all segments of equal parameter length.
+/// Unit tangent at v in [0, 1] over the whole strand, where all segments have equal parameter length.
 V3f strand_tangent(const Strands& strands, size_t strand, float v, float time);
 
 }  // namespace pelage

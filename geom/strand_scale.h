@@ -5,12 +5,12 @@
 
 namespace pelage {
 
-/// How finely the strands of one coat need to be known, and where they are: what their coordinates may be
-/// rounded to depends on this alone. The same for all strands of a coat in a frame, however it is divided.
+/// Precision that the strands of one coat need, and their position: determines how coordinates may be
+/// rounded. The same for all strands of a coat in a frame, however it is divided.
 struct StrandScale {
-  float width = 0;   ///< of strands at their roots, about
+  float width = 0;   ///< approximate width of strands at their roots
   V3f anchor{0};     ///< a point near them
-  float widest = 0;  ///< of the widest strands, about; 0 where that is not known
+  float widest = 0;  ///< approximate width of the widest strands; 0 when unknown
 };
 
 }  // namespace pelage

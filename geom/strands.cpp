@@ -104,7 +104,7 @@ void interpolate_attribute(const Strands& strands, const StrandAttribute& attrib
     std::copy_n(&attribute.values[index * n], n, out);
     return;
   }
-  // A span of an unpinned B-spline lies beside the second and third of its four points.
+  // A span of an unpinned B-spline lies between the second and third of its four points.
   const size_t before = strands.basis() == CurveBasis::kBSpline ? 1 : 0;
   const size_t stride = strands.basis() == CurveBasis::kBezier ? 3 : 1;
   const float* a = &attribute.values[(strands.first_point(strand) + segment * stride + before) * n];

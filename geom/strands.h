@@ -11,26 +11,26 @@
 
 namespace pelage {
 
-/// How the points of a strand make a curve. Grown strands are uniform cubic B-splines whose first and last
-/// points are met: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are made only where
-/// needed, so n points give n - 1 segments. `kBSpline` (files) has no phantom points: n points give n - 3
-/// segments. `kCatmullRom` gets phantom ends of the same kind and passes through all its points. `kBezier` is
-/// what strands are while they are rendered: 3 n + 1 points are n segments, and of what its points carry only
-/// that at the ends of segments counts. Neither files nor grooms have it.
+/// How the points of a strand define a curve. Grown strands are uniform cubic B-splines that interpolate
+/// their first and last points: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are
+/// computed only where needed, so n points give n - 1 segments. `kBSpline` (files) has no phantom points: n
+/// points give n - 3 segments. `kCatmullRom` uses the same phantom points and interpolates all its points.
+/// `kBezier` is used while rendering only, never in files or grooms: 3 n + 1 points give n segments, and
+/// per-point attributes are read only at the ends of segments.
 enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom, kBezier };
 
-/// Where on a skin a strand grows: ptex face and parameters in [0, 1]^2.
+/// Root of a strand on a skin: ptex face and parameters in [0, 1]^2.
 struct RootAddress {
   uint32_t face = 0;
   float u = 0;
   float v = 0;
 };
 
-/// How often an attribute's value changes.
+/// How often the value of an attribute changes.
 enum class AttributeClass {
   kConstant,   ///< one value for all strands
   kPerStrand,  ///< one per strand
-  kPerPoint,  ///< one per point, interpolated linearly in the curve parameter between the points of a segment
+  kPerPoint,   ///< one per point; linear in the curve parameter between the points of a segment
 };
 
 struct StrandAttribute {
@@ -40,30 +40,29 @@ struct StrandAttribute {
   std::vector<float> values;
 };
 
-/// Plain arrays of a batch of strands while it is being made.
+/// The arrays of a batch of strands under construction.
 ///
-/// points: motion_keys x point_count x (x, y, z, radius), the whole of key 0 first; key k is at time
-/// k / (motion_keys - 1) of the shutter. World space or file space, scene units; the radius is half the
-/// width.
+/// points: motion_keys x point_count x (x, y, z, radius), all of key 0 first; key k is at time k /
+/// (motion_keys - 1) of the shutter. World space or file space, in scene units; the radius is half the width.
 struct StrandArrays {
   CurveBasis basis = CurveBasis::kPinnedBSpline;
   int motion_keys = 1;
   std::vector<float> points;
   std::vector<uint32_t>
       first_point;                 ///< strand_count + 1 entries: strand i has points first[i] .. first[i+1]-1
-  std::vector<uint64_t> ids;       ///< one per strand, stable for ever (law 2)
-  std::vector<RootAddress> roots;  ///< one per strand, or empty when the strands grow on no skin
+  std::vector<uint64_t> ids;       ///< one per strand, never changes (law 2)
+  std::vector<RootAddress> roots;  ///< one per strand, or empty when the strands do not grow on a skin
   std::vector<V2f> root_uv;        ///< texture coordinates of the roots, or empty
   std::vector<StrandAttribute> attributes;
 };
 
-/// An immutable batch of strands, the one thing that grooms make and renderers take. Curves are ray-facing
-/// ribbons of circular fibres: h across, v along (0 at the root, 1 at the tip).
+/// An immutable batch of strands: what grooms produce and renderers consume. Curves are ray-facing ribbons of
+/// circular fibres: h across, v along (0 at the root, 1 at the tip).
 class Strands {
  public:
   Strands() = default;
-  /// Takes the arrays. Their sizes must fit together (checked; a mismatch is a bug of the caller). Files are
-  /// repaired before they come here (geom/io).
+  /// Takes ownership of the arrays. Their sizes must be consistent (checked; a mismatch is a bug of the
+  /// caller). geom/io repairs the contents of files before it calls this.
   explicit Strands(StrandArrays arrays);
 
   size_t strand_count() const { return a_.first_point.empty() ? 0 : a_.first_point.size() - 1; }
@@ -91,12 +90,12 @@ class Strands {
   const std::vector<StrandAttribute>& attributes() const { return a_.attributes; }
   const StrandAttribute* find_attribute(std::string_view name) const;
 
-  /// Becomes the one strand `strand` of `source`, with all its motion keys and attributes. Memory is reused:
-  /// once it is large enough, nothing is allocated.
+  /// Becomes a copy of strand `strand` of `source`, with all its motion keys and attributes. Reuses its
+  /// memory: does not allocate once it is large enough.
   void assign_strand(const Strands& source, size_t strand);
 
   const StrandArrays& arrays() const { return a_; }
-  /// Gives the arrays away, so that the next batch can use their memory again.
+  /// Moves the arrays out, so that the next batch can reuse their memory.
   StrandArrays release() && { return std::move(a_); }
   /// Heap bytes of all arrays.
   size_t bytes() const;
@@ -107,12 +106,12 @@ class Strands {
 
 /// Segments of a strand of `points` points in `basis`; 0 when there are too few.
 uint32_t segment_count(CurveBasis basis, uint32_t points);
-/// Linear between a and b; exactly a where both are equal, so that it does not matter how finely a value that
-/// never changes is stored.
+/// Linear interpolation. Returns exactly a where a and b are equal, so that a value that never changes is the
+/// same however densely it is stored.
 inline float interpolate(float a, float b, float t) { return a == b ? a : a * (1.0f - t) + b * t; }
-/// The `components` values of an attribute at parameter `t` of segment `segment` of a strand, into `out`.
-/// Per-point values are linear between the two points beside the segment; constant and per-strand ones are
-/// copied.
+/// Writes the `components` values of an attribute at parameter `t` of segment `segment` of a strand to `out`.
+/// Per-point values are interpolated linearly between the two points of the segment; constant and per-strand
+/// values are copied.
 void interpolate_attribute(const Strands& strands, const StrandAttribute& attribute, size_t strand,
                            uint32_t segment, float t, float* out);
 

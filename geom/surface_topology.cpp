@@ -18,7 +18,7 @@ namespace pelage {
 
 namespace {
 
-// Levels of refinement around creases and corners. Semi-sharp creases are resolved up to here.
+// Refinement levels around creases and corners. Semi-sharp creases are resolved up to this sharpness.
 constexpr int kSharpLevels = 6;
 
 template <class T>
@@ -87,13 +87,13 @@ CageConnectivity connect(const Far::TopologyRefiner& refiner, SubdivisionScheme 
   return cage;
 }
 
-/// The ptex face of `face` that holds the half of its edge `i` next to corner `corner` (i or i + 1).
+/// The ptex face of `face` that contains the half of its edge `i` next to corner `corner` (i or i + 1).
 uint32_t ptex_at_corner(const CageConnectivity& cage, uint32_t face, uint32_t corner) {
   const uint32_t first = cage.first_ptex[face];
   return cage.first_ptex[face + 1] - first == 1 ? first : first + corner;
 }
 
-/// Ptex face on the other side of edge `i` of cage face `face`, at the end where its corner `near` is; or -1.
+/// Ptex face on the other side of edge `i` of cage face `face`, at the end with its corner `near`; or -1.
 int across(const Far::TopologyLevel& base, const CageConnectivity& cage, uint32_t face, uint32_t i,
            uint32_t near) {
   const auto edge = static_cast<int>(cage.corner_edge[cage.first_corner[face] + i]);
@@ -174,12 +174,12 @@ void sort_patches(SurfaceTopology::Impl& impl) {
   visit([&](size_t face, const auto& handle) { impl.face_patches[next[face]++] = handle; });
 }
 
-// The library's own StencilTableFactory casts what it makes to a type that it is not: its base is used
-// instead.
+// OpenSubdiv's own StencilTableFactory casts its result to a type that it does not have, so its base class is
+// used instead.
 using Stencils = Far::StencilTableReal<float>;
 using StencilsFactory = Far::StencilTableFactoryReal<float>;
 
-/// The stencils from `first`, whose sources count from point `origin`, after the terms of those before.
+/// Appends the stencils from `first`, whose sources count from point `origin`, after the existing terms.
 void append_rules(const Stencils& stencils, size_t first, size_t count, uint32_t origin, size_t& term,
                   PointRules& rules) {
   for (size_t i = first; i < first + count; ++i) {
@@ -195,8 +195,7 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
                       const std::function<void()>& check_stop) {
   PointRules rules;
   rules.control_count = static_cast<uint32_t>(refiner.GetLevel(0).GetNumVertices());
-  // Not multiplied out: the stencils of a level take their points from the level before it, counted from its
-  // start.
+  // Not composed: the stencils of a level refer to points of the previous level, counted from its start.
   StencilsFactory::Options options;
   options.factorizeIntermediateLevels = false;
   const std::unique_ptr<const Stencils> refined(StencilsFactory::Create(refiner, options));
@@ -215,7 +214,7 @@ PointRules make_rules(const Far::TopologyRefiner& refiner, const Far::PatchTable
     origin += static_cast<uint32_t>(refiner.GetLevel(level - 1).GetNumVertices());
   }
   if (local) {
-    // The patches keep these terms anyway.
+    // The patches store these terms anyway.
     rules.local_source = local->GetControlIndices().data();
     rules.local_weight = local->GetWeights().data();
     for (const int size : local->GetSizes())
@@ -329,7 +328,7 @@ size_t SurfaceTopology::bytes() const {
   const size_t patch_count = patches.GetPatchParamTable().size();
   bytes +=
       patches.GetPatchControlVerticesTable().size() * sizeof(int) + patch_count * sizeof(Far::PatchParam);
-  // The map: a handle per patch, and a third as many tree nodes as patches beside one per ptex face.
+  // The patch map: a handle per patch, one tree node per ptex face and one per three patches.
   bytes += patch_count * sizeof(Far::PatchTable::PatchHandle) + (patch_count / 3 + i.cage_face.size()) * 16;
   bytes += heap_bytes(i.first_patch) + heap_bytes(i.face_patches);
   if (const Stencils* local = patches.GetLocalPointStencilTable<float>()) {

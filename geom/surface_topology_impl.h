@@ -10,21 +10,20 @@
 
 #include "geom/limit_surface.h"
 
-// What SurfaceTopology is made of, for the sources of geom that evaluate and tessellate. Not for other rooms.
+// Members of SurfaceTopology, for the sources of geom that evaluate and tessellate. Not for other rooms.
 
 namespace pelage {
 
 namespace Far = OpenSubdiv::Far;
 
-/// Vertices, edges and faces of a cage, for whoever walks over it. Edge i of a face joins its corners i and i
-/// + 1.
+/// Vertices, edges and faces of a cage, for traversal. Edge i of a face joins its corners i and i + 1.
 struct CageConnectivity {
   std::vector<uint32_t> first_corner;  ///< face_count + 1 entries
   std::vector<uint32_t> corner_vertex;
   std::vector<uint32_t> corner_edge;
   std::vector<uint32_t> edge_vertices;  ///< 2 per edge
   std::vector<uint8_t>
-      edge_split;  ///< the normals of its faces differ: infinitely sharp, of three faces, or bilinear
+      edge_split;  ///< the normals of its faces differ: infinitely sharp, with three faces, or bilinear
   std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
   std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
 
@@ -34,28 +33,28 @@ struct CageConnectivity {
   size_t bytes() const;
 };
 
-/// Some points out of many, in blocks of neighbours, so that a short table finds them.
+/// A subset of points, in blocks of neighbours, so that a short table locates them.
 struct PointBlocks {
   static constexpr uint32_t kSize = 16;
   static constexpr uint32_t kAbsent = UINT32_MAX;
 
-  std::vector<uint32_t> place;   ///< of each block of all points: its place among those kept, or kAbsent
-  std::vector<uint16_t> wanted;  ///< of each block of all points: which of its points
-  uint32_t count = 0;            ///< blocks that are kept
+  std::vector<uint32_t> place;  ///< for each block of all points: its index among the kept blocks, or kAbsent
+  std::vector<uint16_t> wanted;  ///< for each block of all points: mask of its needed points
+  uint32_t count = 0;            ///< number of kept blocks
 
-  /// Where point `p` stands among those kept, if its block is.
+  /// Index of point `p` among the kept points, if its block is kept.
   size_t operator[](uint32_t p) const { return size_t(place[p / kSize]) * kSize + p % kSize; }
   size_t point_count() const { return size_t(count) * kSize; }
 };
 
-/// How the points of patches follow from control points: each is a weighted sum of points before it, so that
-/// one sweep makes them all. Keeping every level's rules apart, instead of multiplying them out to control
-/// points, costs a fraction of the memory and does not grow with the square of a pole's valence.
+/// Rules that compute the points of patches from control points: each is a weighted sum of previous points,
+/// so that one sweep computes them all. Keeping the rules of each level, instead of composing them down to
+/// control points, needs a fraction of the memory and does not grow with the square of a pole's valence.
 struct PointRules {
   uint32_t control_count = 0;
   /// One of the weighted sums.
   struct Terms {
-    const uint32_t* source;  ///< of each term: number of the point, control points first
+    const uint32_t* source;  ///< of each term: point number, control points first
     const float* weight;
     uint32_t count;
   };
@@ -63,19 +62,19 @@ struct PointRules {
   std::vector<uint32_t> first_term;   ///< made_count() + 1 entries
   std::vector<uint32_t> source;       ///< of the terms of refined points, which come first
   std::vector<float> weight;          ///< the same
-  const int* local_source = nullptr;  ///< of the terms behind them, in the patches
+  const int* local_source = nullptr;  ///< of the following terms, in the patches
   const float* local_weight = nullptr;
 
   Terms terms(size_t made) const;
 
   size_t made_count() const { return first_term.size() - 1; }
   size_t point_count() const { return control_count + made_count(); }
-  /// Fills in all points (xyz) behind the control points.
+  /// Computes all points (xyz) after the control points.
   void apply(float* points) const;
-  /// The same for those that are wanted, which include all that they follow from; `points` holds the blocks
-  /// that are kept.
+  /// The same for the needed points, which include everything that they depend on; `points` holds the kept
+  /// blocks.
   void apply(float* points, const PointBlocks& blocks) const;
-  /// What apply() holds of its own for so many points.
+  /// Temporary memory of apply() for this number of points.
   static size_t temporary_bytes(size_t points);
   size_t bytes() const;
 };
@@ -87,19 +86,19 @@ struct SurfaceTopology::Impl {
   ContentHash hash;
   CageConnectivity cage;
 
-  // One entry per ptex face; of neighbours and uv one per corner as well.
+  // One entry per ptex face; neighbours and uv have one per corner as well.
   std::vector<uint32_t> cage_face;
   std::vector<uint8_t> hole;
   std::vector<uint8_t> part;  // one of the n ptex faces of an n-gon
   std::vector<int32_t> neighbours;
   std::vector<V2f> uv;  // empty when the cage has none
 
-  std::vector<uint32_t> first_use;  // per vertex of the cage, and one more: its own among `uses`
-  /// Ascending for each vertex: of flat triangles the corners, counted through; else the faces of the cage.
+  std::vector<uint32_t> first_use;  // per vertex of the cage, plus one: start of its entries in `uses`
+  /// Ascending for each vertex: corner numbers of flat triangles, otherwise faces of the cage.
   std::vector<uint32_t> uses;
 
   // Of flat triangles.
-  std::vector<uint32_t> polygon;  // face of the mesh that each is cut from; empty when it is itself one
+  std::vector<uint32_t> polygon;  // mesh face that each triangle was cut from; empty when all are triangles
 
   // Of the others.
   std::unique_ptr<const Far::PatchTable> patches;
@@ -111,9 +110,9 @@ struct SurfaceTopology::Impl {
   uint32_t corners_per_face() const { return triangular ? 3 : 4; }
   /// Fills first_use and uses from `cage`.
   void list_uses(uint32_t vertices);
-  /// The face of the cage that an entry of `uses` is of.
+  /// The cage face of an entry of `uses`.
   uint32_t face_of_use(uint32_t use) const { return flat ? use / 3 : use; }
-  /// The points of the patches of some faces, and all that they follow from.
+  /// The points of the patches of some faces, and all points that they depend on.
   PointBlocks points_of(std::span<const uint32_t> faces) const;
 };
 

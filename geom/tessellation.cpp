@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kFacesAtOnce = 64;
 constexpr size_t kPointsAtOnce = 1024;
 
-/// Loops, and what is looked at before each range of them.
+/// Parallel loops, with a check before each range.
 struct Loops {
   const Workers& workers;
   const Job* job = nullptr;  // null: cannot be stopped
@@ -35,7 +35,7 @@ struct Loops {
   }
 };
 
-/// Unit sums of the normals of all faces around each vertex at which they differ.
+/// Normalised sums of the normals of all faces around each vertex where they differ.
 void average_split_normals(const SkinLattice& lattice, const LimitSurface& surface, float* normals) {
   std::vector<std::pair<uint32_t, V3f>> shares;
   lattice.visit_split([&](uint32_t vertex, const LatticePoint& place) {
@@ -47,7 +47,7 @@ void average_split_normals(const SkinLattice& lattice, const LimitSurface& surfa
     const uint32_t vertex = shares[i].first;
     V3f sum(0);
     for (; i < shares.size() && shares[i].first == vertex; ++i) sum += shares[i].second;
-    // Faces back to back have no normal in common: that of the first stays.
+    // Faces back to back have no common normal: the first one's is kept.
     if (sum.length() > 1e-3f) std::copy_n(&(sum.normalize().x), 3, &normals[size_t(vertex) * 3]);
   }
 }
@@ -144,8 +144,8 @@ SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const ui
 size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices) {
   const std::vector<uint8_t>& split = topology.impl().cage.vertex_split;
   const bool any = std::find(split.begin(), split.end(), uint8_t(1)) != split.end();
-  // Beside the lattice, the faces themselves, and the normals of what is split: about four of each vertex, in
-  // a vector that grows by doubling and is sorted with a copy beside it.
+  // In addition to the lattice: the faces themselves, and split normals, about four per such vertex, in a
+  // vector that grows by doubling and is sorted with a temporary copy.
   return SkinLattice::bytes_bound(faces, vertices) + faces * 2 * sizeof(uint32_t) +
          (any ? vertices * 12 * sizeof(std::pair<uint32_t, V3f>) : 0);
 }

@@ -14,7 +14,7 @@ namespace pelage {
 
 class Workers;
 
-/// The triangles of a skin that every consumer of a frame uses: rays, push_out, occlusion. Watertight where
+/// The triangles of a skin, shared by all consumers of a frame: rays, push_out, occlusion. Watertight where
 /// the surface is closed. Vertices lie on the limit surface.
 struct SkinMesh {
   int motion_keys = 1;
@@ -34,36 +34,36 @@ struct SkinMesh {
     const float* p = &normals[(static_cast<size_t>(key) * vertex_count() + vertex) * 3];
     return {p[0], p[1], p[2]};
   }
-  /// Becomes the one triangle `triangle` of `source`, over all motion keys, its corners vertices 0, 1, 2.
-  /// Memory is reused.
+  /// Becomes the single triangle `triangle` of `source`, with all motion keys and corners 0, 1, 2. Reuses its
+  /// memory.
   void assign_triangle(const SkinMesh& source, size_t triangle);
   size_t bytes() const;
 };
 
 struct TessellationOptions {
-  float edge_pixels = 4;  ///< aimed length of the longest edge on screen
-  int max_rate = 32;      ///< most quads along an edge of a ptex face
-  /// Keys by whose edges the rates are chosen, from the first to the one before `end`: poses that are added
-  /// before and after these change no triangle.
+  float edge_pixels = 4;  ///< target length of the longest edge on screen
+  int max_rate = 32;      ///< max number of quads along an edge of a ptex face
+  /// Range of keys whose edges determine the rates: poses added before and after these change no triangle.
   size_t first_rated_key = 0, end_rated_key = SIZE_MAX;
 };
 
-/// Tessellates poses of one topology (one per motion key, at even times over the shutter) for `view`. Every
-/// edge of the cage is divided by its own length on screen, so that a skin costs what is seen of it; faces
-/// that share an edge share its vertices. Holes are left out. The same for any number of threads. Throws
-/// Error (kMemory) when there would be more than 2^31 vertices or triangles.
+/// Tessellates poses of one topology (one per motion key, at evenly spaced times over the shutter) for
+/// `view`. Every edge of the cage is divided according to its own length on screen, so that the cost of a
+/// skin depends on its visible size; adjacent faces share the vertices of their edge. Holes are omitted. The
+/// result is the same for any number of threads. Throws Error (kMemory) for more than 2^31 vertices or
+/// triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
-/// The same, and throws Error (kStopped).
+/// The same, but throws Error (kStopped).
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Job& job);
-/// The triangles of `faces` alone: all ptex faces of some cage faces, ascending. Bit by bit those of the
-/// whole, in the same order; their vertices are numbered anew. The surfaces need only be there on
-/// faces_around(faces). By the calling thread.
+/// The triangles of `faces` only: all ptex faces of some cage faces, ascending. Bit-identical to those of the
+/// whole and in the same order, with vertices renumbered. The surfaces need to exist only on
+/// faces_around(faces). Runs on the calling thread.
 SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
                           const View& view, const TessellationOptions& options);
-/// What either holds at most beside what it gives, of so many ptex faces, those around them included, and
-/// vertices.
+/// Max temporary memory of either function, without its result, for this number of ptex faces (including
+/// those around them) and vertices.
 size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices);
 
 }  // namespace pelage

@@ -19,15 +19,15 @@ Four edge_distances(const FourVectors& a, const FourVectors& b) {
   return nearest.dot(nearest);
 }
 
-/// Squared distances to the feet of the perpendiculars from the origin, where they lie within the triangles;
+/// Squared distances to the feet of the perpendiculars from the origin, where these lie within the triangles;
 /// infinite elsewhere.
 Four face_distances(const FourVectors& a, const FourVectors& b, const FourVectors& c) {
   const FourVectors normal = (b - a).cross(c - a);
-  // Areas that the foot cuts off, times twice the area of the whole.
+  // Areas separated by the foot, times twice the total area.
   const Four wa = normal.dot(b.cross(c)), wb = normal.dot(c.cross(a)), wc = normal.dot(a.cross(b));
   const Four sum = wa + wb + wc;
   const FourVectors foot = (a * wa + b * wb + c * wc) * (four(1) / larger(sum, four(kTiny)));
-  // Where the sum is tiny, there is no area to be within.
+  // Where the sum is tiny, the triangle has no interior.
   const auto within = (smaller(smaller(wa, wb), wc) >= four(0)) & (sum > four(kTiny));
   return within ? foot.dot(foot) : four(std::numeric_limits<float>::infinity());
 }

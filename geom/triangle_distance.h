@@ -14,8 +14,8 @@ struct TrianglePacket {
   uint32_t triangle[4];  ///< their numbers
 };
 
-/// Squares of the distances from a point to four triangles. Never less than the truth but for rounding,
-/// degenerate triangles included: it is the distance to a point that each triangle has.
+/// Squared distances from a point to four triangles. Never smaller than the exact ones except for rounding,
+/// including degenerate triangles: each is the distance to an actual point of the triangle.
 Four packet_distances(const TrianglePacket& packet, const V3f& point);
 
 struct Triangle {
@@ -27,13 +27,13 @@ struct Triangle {
   double angle(size_t corner) const;
 };
 
-/// The point of a triangle that is nearest to another, and whether it lies within, on an edge or at a corner.
+/// The point of a triangle nearest to a given point, and whether it is inside, on an edge or at a corner.
 struct NearestOnTriangle {
   enum class Feature { kFace, kEdge, kVertex };
   V3d position{0};
   V3d weights{0};  ///< of the corners, sum 1
   Feature feature = Feature::kFace;
-  uint32_t corner = 0;  ///< the vertex, or the first of the edge's two
+  uint32_t corner = 0;  ///< the vertex, or the first vertex of the edge
 };
 NearestOnTriangle nearest_on_triangle(const Triangle& triangle, const V3d& point);
 

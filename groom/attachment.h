@@ -20,7 +20,7 @@ struct EnumNames<Attachment> {
   static constexpr const char* names[] = {"auto", "skin", "none"};
 };
 
-/// How far the strands of a file begin from a skin.
+/// Distances from the roots of a file's strands to a skin.
 struct SkinGaps {
   float min = 0, median = 0, max = 0;
   float skin_size = 0;  ///< diagonal of the skin's box
@@ -28,10 +28,10 @@ struct SkinGaps {
   /// `gaps`: one per strand, reordered.
   static SkinGaps of(std::vector<float>& gaps, const Box3f& skin);
 
-  /// Fraction of the skin's size. Hair that was made for a skin begins on it or a little above or below; a
-  /// file in another unit, or of another character, begins farther away than this.
+  /// Fraction of the skin's size. Hair made for a skin starts on it or slightly above or below; a file in
+  /// another unit, or for another character, starts farther away than this.
   static constexpr float kNear = 0.1f;
-  /// Whether at least half of the strands begin farther away than kNear.
+  /// Whether at least half of the strands start farther away than kNear.
   bool far() const { return median > kNear * skin_size; }
   /// "begin 97 to 103 units from skin 'rat', which is 5.2 units across"
   std::string describe(const std::string& skin) const;
@@ -39,9 +39,9 @@ struct SkinGaps {
 
 struct GroomParams;
 
-/// Finds the place on the skin of every strand of `params.strands_file`, which begin at `positions`, and
-/// moves these there. False, with nothing changed, when the strands are not to follow the skin; `job` is
-/// warned of those that are too far from it. Throws Error (kInput) when they must follow a skin without
+/// Finds the nearest point on the skin for every strand of `params.strands_file` and moves its root in
+/// `positions` there. Returns false, with nothing changed, when the strands are not to follow the skin; warns
+/// `job` of strands that are too far from it. Throws Error (kInput) when they must follow a skin without
 /// faces.
 bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
                  std::vector<V3f>& positions, std::vector<RootAddress>& roots);

@@ -17,7 +17,7 @@ struct BendParams {
   static const Schema<BendParams>& schema();
 };
 
-/// Bends strands towards a direction, more and more from root to tip. Keeps every segment's length.
+/// Bends strands towards a direction, increasingly from root to tip. Preserves the length of every segment.
 class Bend final : public OperatorOf<BendParams> {
  public:
   static constexpr const char* kName = "bend";

@@ -9,14 +9,14 @@ namespace pelage {
 namespace {
 
 constexpr const char* kKind = "manifest";
-constexpr size_t kLongest = 60;  // of a value that is shown
+constexpr size_t kLongest = 60;  // of a displayed value
 constexpr const char* kState = "+";
 constexpr size_t kStatesKept = 8;
 constexpr std::chrono::hours kStateAge{24};
 
 ContentHash key_of(const std::string& groom) { return ContentHasher().add("groom").add(groom).digest(); }
 
-/// In one line, without what separates fields.
+/// On one line, without field separators.
 std::string plain(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -28,7 +28,7 @@ std::string shown(const std::string& text) {
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
 }
 
-// Hashes say nothing to people.
+// Hashes are meaningless to users.
 bool is_contents(const std::string& key) {
   return key.starts_with("contents of ") || key == "mesh" || key == "program" || key == "seed";
 }
@@ -104,7 +104,7 @@ void GroomManifest::add_state(State now, const std::optional<GroomManifest>& bef
                        !std::filesystem::exists(store.folder() / old.offsets));
     (gone ? forgotten : states_).push_back(old);
   }
-  // States may have their follicles in common.
+  // States may share their follicles.
   for (const State& old : forgotten) {
     const bool shared = std::any_of(states_.begin(), states_.end(),
                                     [&](const State& state) { return state.follicles == old.follicles; });
@@ -128,7 +128,7 @@ std::optional<GroomManifest> GroomManifest::read(const ContentStore& store, cons
     const std::string first(cut(line, '\t'));
     if (first == kState) {
       State& state = manifest.states_.emplace_back();
-      // Names only: a path would lead out of the folder.
+      // Names only: a path could lead out of the folder.
       state.offsets = std::filesystem::path(cut(line, '\t')).filename().string();
       state.follicles = std::filesystem::path(line).filename().string();
     } else if (!first.empty()) {
@@ -162,7 +162,7 @@ std::vector<GroomCacheReport::Stage> explain(const GroomManifest& now,
       fresh = false;
       reason = !old ? "new" : old->name != stage.name ? "replaces " + old->name : changes(*old, stage);
     } else if (!fresh) {
-      // Its own changes too: more than one may have been edited.
+      // Reports the stage's own changes too: more than one stage may have been edited.
       const bool same = old && old->name == stage.name && old->inputs == stage.inputs;
       reason = same || !old || old->name != stage.name ? "follows" : changes(*old, stage);
     }

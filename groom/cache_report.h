@@ -10,52 +10,52 @@
 
 namespace pelage {
 
-/// What became of a groom's cache when the groom was made, and why.
+/// State of a groom's cache when the groom was made, with reasons.
 struct GroomCacheReport {
   struct Stage {
     std::string name;
     bool fresh = false;
-    std::string reason;  ///< why it is not: "amount: 0.6 -> 0.5"
+    std::string reason;  ///< why it is stale: "amount: 0.6 -> 0.5"
   };
   bool fresh = false;         ///< everything was read, nothing had to be grown
-  bool stored = false;        ///< it stands in a file now
+  bool stored = false;        ///< the groom is now stored in a file
   std::vector<Stage> stages;  ///< skin, strands, points, frozen operators
-  size_t resumed = 0;         ///< frozen operators whose result was still there
+  size_t resumed = 0;         ///< frozen operators whose result was still available
   std::filesystem::path file;
-  std::vector<std::filesystem::path> files;  ///< all that the groom now has in the folder
+  std::vector<std::filesystem::path> files;  ///< all files of the groom in the folder
   size_t strands = 0;
-  size_t offset_bytes = 0, follicle_bytes = 0;  ///< of what rendering reads, as files
+  size_t offset_bytes = 0, follicle_bytes = 0;  ///< of the files read for rendering
   double seconds = 0;
 
-  /// "fresh" or what is stale and why, in one line.
+  /// "fresh", or what is stale and why, in one line.
   std::string summary() const;
 };
 
-/// What a groom was made from the last time, kept beside its cache to say what has changed and what is no
-/// longer needed. No strand depends on it.
+/// What a groom was made from the last time. Kept beside its cache to report changes and to find files that
+/// are no longer needed. No strand depends on it.
 class GroomManifest {
  public:
   /// The first `count` stages of a groom.
   GroomManifest(const GroomIdentity& identity, size_t count);
-  /// Nothing when there is none, or a damaged one.
+  /// Empty when missing or damaged.
   static std::optional<GroomManifest> read(const ContentStore& store, const std::string& groom);
-  /// Failing to is no harm.
+  /// Ignores failures.
   void write(const ContentStore& store, const std::string& groom) const;
 
   const std::vector<GroomStage>& stages() const { return stages_; }
 
-  /// The files of a state of the groom: what growing it anew would write.
+  /// The files of one state of the groom: those that growing it would write.
   struct State {
     std::string offsets, follicles;  ///< names in the folder
     bool operator==(const State&) const = default;
   };
-  /// The states of late, the latest first.
+  /// Recent states, the latest first.
   const std::vector<State>& states() const { return states_; }
-  /// Puts the present one before those of the manifest that this one takes the place of. Those that are eight
-  /// states behind, and not used for a day, are forgotten, and their files removed.
+  /// Adds the current state in front of those of `before`, the manifest that this one replaces. States that
+  /// are eight behind and have not been used for a day are dropped, and their files removed.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);
-  /// As `pelage info` shows it.
+  /// The text that `pelage info` shows.
   std::string text() const;
 
  private:
@@ -64,7 +64,8 @@ class GroomManifest {
   std::vector<State> states_;
 };
 
-/// Compares stages with what they were: a stage is fresh when nothing before or in it has changed.
+/// Compares stages with the previous ones: a stage is fresh when neither it nor a stage before it has
+/// changed.
 std::vector<GroomCacheReport::Stage> explain(const GroomManifest& now,
                                              const std::optional<GroomManifest>& before);
 

@@ -13,9 +13,9 @@
 namespace pelage {
 namespace {
 
-/// How much longer drawing may make a strand before it is scaled back: as a part of amount * (distance to the
-/// centre
-/// + twice the strand's length). Keeps the way back shorter than that part of the way there.
+/// Max extra length that pulling may give a strand before it is scaled back, as a fraction of amount *
+/// (distance to the centre + twice the strand's length). Keeps the way back shorter than that fraction of the
+/// way there.
 constexpr float kStretch = 0.25f;
 
 }  // namespace
@@ -105,7 +105,7 @@ void Clump::apply(StrandBatch& batch) const { draw(batch, levels_.size()); }
 void Clump::draw(StrandBatch& batch, size_t level_count) const {
   if (level_count == 0) return;
   const size_t points = batch.points.size();
-  std::vector<StrandRow> arcs(points);  // of the strands as they come
+  std::vector<StrandRow> arcs(points);  // of the incoming strands
   arcs[0].fill(0.0f);
   for (size_t p = 1; p < points; ++p) {
     for (size_t s = 0; s < batch.count; ++s) {
@@ -118,7 +118,7 @@ void Clump::draw(StrandBatch& batch, size_t level_count) const {
   totals.roots.fill(0.0f);
   for (size_t i = 0; i < level_count; ++i) draw_level(levels_[i], hash64(seed_, i), arcs, batch, totals);
 
-  // Strands that have become longer are scaled back about their roots.
+  // Strands that became longer are scaled back about their roots.
   StrandRow length;
   arc_lengths(batch, length);
   for (size_t s = 0; s < batch.count; ++s) {
@@ -163,7 +163,7 @@ void Clump::draw_level(const Level& level, uint64_t level_seed, const std::vecto
       if (strength[s] <= 0) continue;
       const float k = std::clamp(row[s], 0.0f, 1.0f) * profile * strength[s];
       max[s] = std::max(max[s], k);
-      // Centres live in rest space, at the scale of the rest skin.
+      // Centres are in rest space, at the scale of the rest skin.
       const V3f rest =
           centres.at(centre[s].index, arc[s] / batch.scale, segment[s]) - vector_at(batch.rest.position, s);
       const V3f here = batch.offset(p, s);
@@ -188,12 +188,12 @@ Clump::Pull Clump::pull() const {
 }
 
 float Clump::displacement_bound(const StrandReach& before) const {
-  // A point P and its places on the centre strands lie within D = distances of the roots + reach of P + arc
-  // of the centres of each other. All levels together move P by d <= K D, with 1 - K the product of their (1
-  // - k).
+  // A point P and its points on the centre strands are within D = root distances + reach of P + arc length of
+  // the centres of each other. All levels together move P by d <= K D, with 1 - K the product of their (1 -
+  // k).
   const auto [amount, roots] = pull();
   const float drawn = amount * (roots + before.distance + before.length);
-  // Scaling back moves P + d towards the root: never further from P than the longer of |P| and |d|.
+  // Scaling back moves P + d towards the root: never farther from P than the longer of |P| and |d|.
   const float moved = drawn >= before.distance ? drawn : drawn * (1 + kStretch);
   return std::min(moved, before.distance + reach_after(before).distance);
 }

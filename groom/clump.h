@@ -33,12 +33,12 @@ struct ClumpParams {
   static const Schema<ClumpParams>& schema();
 };
 
-/// Draws strands towards the nearest of a set of centre strands, which stand on the rest skin as blue noise
-/// and are grown by the operators before this one; finer levels draw towards finer sets, whose strands the
-/// coarser levels have drawn already.
+/// Pulls strands towards the nearest of a set of centre strands, which are distributed as blue noise on the
+/// rest skin and grown by the operators before this one. Finer levels pull towards denser sets, whose strands
+/// the coarser levels have already pulled.
 ///
-/// A strand meets its centre's at the same arc length, so that strands of unequal length lie together. One
-/// that would grow longer than it was is scaled back about its root, fully unless it is shorter than 1.5
+/// A strand and its centre are matched by arc length, so that strands of unequal length lie together. A
+/// strand that would become longer is scaled back about its root, completely unless it is shorter than 1.5
 /// times the distance to its centre. Where a strand and its centre diverge by 30 degrees, half the amount
 /// shortens it by 3 %.
 class Clump final : public OperatorOf<ClumpParams> {
@@ -59,12 +59,12 @@ class Clump final : public OperatorOf<ClumpParams> {
     Field amount;
     std::shared_ptr<const ClumpCentres> centres;
   };
-  /// How far strands have been drawn, for scaling them back.
+  /// How far strands have been pulled, for scaling them back.
   struct PullTotals {
     StrandRow stays;  // product over levels of 1 - largest amount along the strand
-    StrandRow roots;  // sum of the distances of their centres' roots
+    StrandRow roots;  // sum of the distances to their centres' roots
   };
-  /// All levels together: K with 1 - K = product of (1 - k), and the distances at which centres stand.
+  /// All levels combined: K with 1 - K = product of (1 - k), and the distances of the centres.
   struct Pull {
     float amount = 0;
     float roots = 0;

@@ -51,7 +51,7 @@ ClumpCentres::ClumpCentres(const PrepareContext& context, float spacing, uint64_
     for (size_t begin = range.begin; begin < range.end; begin += kBlockStrands) {
       batch->count = std::min(kBlockStrands, range.end - begin);
       place_on_rest(*batch, *context.rest, centres, begin);
-      // Random numbers of a centre must not be those of the strand with the same number.
+      // A centre must not have the random numbers of the strand with the same number.
       for (size_t s = 0; s < batch->count; ++s) batch->ids[s] |= uint64_t(1) << 63;
       start_strands(*batch, points_);
       grow(*batch);

@@ -13,26 +13,26 @@ namespace pelage {
 /// The centre strands of one level of clumps, in rest space.
 class ClumpCentres {
  public:
-  /// Centres as blue noise, one per spacing^2 of the rest skin; `grow` shapes strands that have been placed
-  /// and started. Charged to the ledger. Throws Error (kInput) at the operator's position when there would be
-  /// too many, Error (kMemory) before any is made when there is no room, Error (kStopped).
+  /// Distributes centres as blue noise, one per spacing^2 of the rest skin; `grow` shapes strands that have
+  /// been placed and started. Charged to the ledger. Throws Error (kInput) at the operator's position for too
+  /// many centres, Error (kMemory) before making any that do not fit, Error (kStopped).
   ClumpCentres(const PrepareContext& context, float spacing, uint64_t seed,
                const std::function<void(StrandBatch&)>& grow);
 
-  /// Furthest that a strand looks for its centre, in spacings: blue noise leaves no place further from a
+  /// Search radius of a strand for its centre, in spacings: with blue noise, no place is farther from a
   /// centre.
   static constexpr float kReach = 1.25f;
 
   const RootGrid& roots() const { return roots_; }
-  /// Place on centre `i` at arc length `arc` from its root, straight on beyond its tip. `segment` is where
-  /// the last call for this strand and centre ended (0 at first); arcs must not decrease from call to call.
+  /// Point of centre `i` at arc length `arc` from its root; extended straight beyond its tip. `segment`:
+  /// where the last call for this strand and centre ended (0 at first); arcs must not decrease between calls.
   V3f at(size_t i, float arc, int& segment) const;
 
  private:
   RootGrid roots_;
   int points_ = 0;
   MemoryCharge charge_;
-  std::vector<float> curves_;  // per centre and point: rest position and arc length up to it
+  std::vector<float> curves_;  // per centre and point: rest position, and arc length up to it
 };
 
 }  // namespace pelage

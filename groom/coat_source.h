@@ -12,26 +12,25 @@
 
 namespace pelage {
 
-/// Where the strands of a groom stand, and what they are before the first operator: straight strands on
-/// follicles, or those of a file. Immutable once made. Thread safety: const members may be called from any
-/// thread.
+/// Roots of the strands of a groom, and their shape before the first operator: straight strands on follicles,
+/// or those of a file. Immutable once made. Thread safety: const members may be called from any thread.
 struct CoatSource {
-  std::shared_ptr<const LimitSurface> rest;  ///< null: strands stand free
+  std::shared_ptr<const LimitSurface> rest;  ///< null: strands without a skin
   int points = 8;                            ///< of a strand that is not imported
   FollicleTree grown;                        ///< of strands that are not imported
   std::optional<ImportedStrands> imported;
 
   const FollicleTree& follicles() const { return imported ? imported->follicles() : grown; }
   int strand_points(size_t follicle) const { return imported ? imported->strand_points(follicle) : points; }
-  /// How many of the follicles from `begin`, at most to `end`, make a batch.
+  /// Number of follicles from `begin`, up to `end` at most, that make one batch.
   size_t run_length(size_t begin, size_t end) const {
     return imported ? imported->run_length(begin, end) : std::min(kBlockStrands, end - begin);
   }
   /// Fills rest roots, ids and texture coordinates of batch.count strands.
   void place(StrandBatch& batch, size_t begin) const;
-  /// The same, and makes what the first operator sees.
+  /// The same, and also creates the points that the first operator sees.
   void start(StrandBatch& batch, size_t begin) const;
-  /// What holds of the strands of a leaf before the first operator.
+  /// Properties of the strands of a leaf before the first operator.
   StrandReach reach(size_t leaf) const;
   size_t bytes() const { return imported ? imported->bytes() : grown.bytes(); }
 };

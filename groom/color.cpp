@@ -57,7 +57,7 @@ void Color::apply(StrandBatch& batch) const {
     factor[s] = brightness(seed_, batch.ids[s]).value;
   StrandColor color(params_.value, batch);
   for (size_t p = 0; p < batch.colors.size(); ++p) {
-    // Not in place: the value may read the colour that the strand has.
+    // Not in place: the value may read the strand's current colour.
     VectorRow value;
     color.at(static_cast<int>(p), value);
     for (size_t c = 0; c < 3; ++c) {

@@ -13,9 +13,9 @@ namespace {
 
 constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
 
-/// Where a strand on a root with this frame shall point. A direction that is nearly normal to the skin says
-/// little about where to lie: from a fifth of its length along the skin downwards the strand stands up
-/// gradually, so that the coat has no seam there.
+/// Target direction of a strand at a root with this frame. A direction nearly normal to the skin hardly
+/// defines where to lie: below a fifth of its length along the skin, the strand gradually stands up, so that
+/// the coat has no seam there.
 V3f combed_direction(const V3f& direction, const V3f& normal, float lift) {
   const V3f unit = normalised_or(direction, normal);
   const V3f along_skin = unit - normal * unit.dot(normal);
@@ -84,7 +84,7 @@ void Comb::apply(StrandBatch& batch) const {
 }
 
 float Comb::largest_turn(const StrandReach& before) const {
-  // A chord leans no more than the segments do as long as those stay on one side of the skin.
+  // As long as the segments stay on one side of the skin, a chord leans no more than they do.
   const float lean = before.lean <= kQuarterTurn ? before.lean : std::numbers::pi_v<float>;
   const float target = kQuarterTurn * (1.0f - std::clamp(params_.lift.value_range().first, 0.0f, 1.0f));
   const float amount = std::clamp(params_.amount.value_range().second, 0.0f, 1.0f);

@@ -13,9 +13,9 @@
 namespace pelage {
 namespace {
 
-/// A uniform cubic B-spline through control points on a circle, a fixed part of a turn apart, has (2 + cos) /
-/// 3 of the circle's radius. The inverse, so that the curve gets the radius asked for; up to a third of a
-/// turn, where control points stop describing a circle.
+/// Inverse of the radius factor of a uniform cubic B-spline whose control points are on a circle, a fixed
+/// fraction of a turn apart: (2 + cos) / 3. Gives the curve the requested radius; valid up to a third of a
+/// turn, beyond which control points do not describe a circle.
 float spline_gain(float turns_per_segment) {
   float sine, cosine;
   sincos_turns(std::min(std::fabs(turns_per_segment), 1.0f / 3), sine, cosine);

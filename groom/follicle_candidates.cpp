@@ -16,7 +16,7 @@ namespace {
 
 float area_element(const SurfacePoint& point) { return point.du.cross(point.dv).length(); }
 
-// Ptex parameters fill a square; those of a triangle (Loop) its lower half.
+// Ptex parameters cover a square; those of a triangle (Loop) its lower half.
 bool is_triangular(const LimitSurface& rest) { return rest.topology().is_triangular(); }
 
 FaceStatistics measure_face(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
@@ -73,7 +73,7 @@ std::vector<FaceStatistics> measure_faces(const LimitSurface& rest, const Follic
   return result;
 }
 
-/// A place on a face, uniform by area.
+/// A random point on a face, uniform by area.
 struct Place {
   RootAddress root;
   SurfacePoint point;
@@ -84,7 +84,7 @@ Place place_on_face(const LimitSurface& rest, uint32_t face, const FaceStatistic
                     uint64_t stream) {
   Place place{{face, 0, 0}, {}, V3f(0)};
   const float limit = statistics.largest_element * 1.1f;
-  // Rejection against |du x dv|; after 64 failures (a face that is nearly a line) any place.
+  // Rejection against |du x dv|; after 64 failures (a nearly degenerate face) any point.
   for (uint64_t attempt = 0; attempt < 64; ++attempt) {
     const uint64_t h = hash64(stream, attempt);
     place.root.u = unit_float(h);
@@ -149,7 +149,7 @@ FollicleCandidates::FollicleCandidates(const LimitSurface& rest, const FollicleD
   double mass = 0;
   for (const FaceStatistics& face : faces_) mass += face.mass;
   if (!(mass > 0)) return;
-  // Every face tries as many as its area times a bound on its density asks for.
+  // The number of attempts per face is its area times a bound of its density.
   double cumulative = 0;
   for (size_t f = 0; f < faces_.size(); ++f) {
     const double limit = faces_[f].largest_density * room_;

@@ -15,13 +15,13 @@ namespace pelage {
 
 struct Job;
 
-/// Relative density of strands over a skin: a field and, where operators restrict a coat, a factor.
+/// Relative density of strands over a skin: a field and, when operators restrict a coat, a factor.
 struct FollicleDensity {
   Field field{1.0f};
   std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< may be empty
 
   bool is_uniform() const { return field.is_constant() && !coverage; }
-  /// >= 0; what is not finite counts as 0.
+  /// >= 0; a non-finite value counts as 0.
   float at(const SurfaceTopology& topology, const RootAddress& address, const SurfacePoint& point) const;
 };
 
@@ -61,11 +61,11 @@ struct SurfaceMeasure {
 /// By 4 x 4 Gauss points per ptex face for the area and a grid of samples for the density.
 SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job);
 
-/// What candidates of a face need: its area, and bounds for rejection.
+/// Per-face data for making candidates: its area, and bounds for rejection.
 struct FaceStatistics {
   double area = 0;
   double mass = 0;
-  float largest_element = 0;  ///< of |du x dv|, by samples
+  float largest_element = 0;  ///< max of |du x dv| over samples
   float largest_density = 0;
 };
 
@@ -102,12 +102,12 @@ class FollicleCandidates {
   const FollicleDensity& density_;
   const uint64_t seed_;
   const size_t wanted_;
-  const float room_;  // on the largest density that was sampled, for what lies between the samples
+  const float room_;  // factor on the largest sampled density, for values between the samples
   std::vector<FaceStatistics> faces_;
   std::vector<uint64_t> first_;  // attempt of each face, and their number
 };
 
-/// A unit vector in 3 x 10 bits, to a thousandth.
+/// A unit vector in 3 x 10 bits, accurate to a thousandth.
 uint32_t pack_normal(const V3f& normal);
 V3f unpack_normal(uint32_t packed);
 

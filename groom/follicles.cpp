@@ -20,7 +20,7 @@ namespace pelage {
 namespace {
 
 /// Splits ids[begin, end) into parts of at most `leaf` by halving along the longest axis of their box: parts
-/// are compact, nearly equal in size, and a function of the positions alone.
+/// are compact, nearly equal in size, and a function of the positions only.
 void split(std::span<const V3f> positions, std::vector<uint32_t>& ids, uint32_t begin, uint32_t end,
            uint32_t leaf, const Job& job, std::vector<FollicleTree::Leaf>& leaves) {
   job.check_stop();
@@ -124,7 +124,7 @@ void place(const LimitSurface& rest, const FollicleDensity& density, const Folli
   }
 }
 
-/// Shows how far placing many follicles is, and nothing of few.
+/// Shows progress for many follicles, and nothing for few.
 class PlacingStage final : public Progress {
  public:
   PlacingStage(Progress& whole, const FollicleOptions& options, size_t count)
@@ -165,7 +165,7 @@ int64_t follicle_bytes(int64_t count) {
 }
 
 FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions& options, const Job& job) {
-  // Of a coat that says how many strands it has, room is asked for before anything is looked at.
+  // For a coat with a given number of strands, memory is checked before anything is computed.
   const auto require = [&](size_t count) {
     return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
                    fmt::format("placing {} {} of {}", count, options.noun, options.owner));

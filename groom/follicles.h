@@ -17,7 +17,7 @@ namespace pelage {
 
 struct Job;
 
-/// What kind of hair a groom is; each role has a budget of its own when detail is reduced.
+/// Kind of hair of a groom; each role has its own budget when detail is reduced.
 enum class StrandRole { kGuard, kUnder, kWhisker };
 template <>
 struct EnumNames<StrandRole> {
@@ -25,7 +25,7 @@ struct EnumNames<StrandRole> {
 };
 
 struct FollicleOptions {
-  int64_t count = 0;    ///< strands in all; 0: `per_area` decides
+  int64_t count = 0;    ///< total number of strands; 0: `per_area` decides
   double per_area = 0;  ///< strands per square scene unit of the rest limit surface where the density is 1
   Field density{1.0f};  ///< relative density over the skin, >= 0
   std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< factor on the density; may be empty
@@ -35,20 +35,20 @@ struct FollicleOptions {
   std::string noun = "strands";  ///< for messages: what grows on them
 };
 
-/// What placing `count` follicles holds at most, the tree included (progressive_order.h).
+/// Max memory for placing `count` follicles, including the tree (progressive_order.h).
 int64_t follicle_temporary_bytes(int64_t count);
-/// What a tree of `count` follicles holds afterwards, but for its leaves.
+/// Memory of a tree of `count` follicles, without its leaves.
 int64_t follicle_bytes(int64_t count);
 
-/// Where the strands of a groom grow: progressive blue noise on the rest limit surface, in a fixed hierarchy.
+/// Roots of the strands of a groom: progressive blue noise on the rest limit surface, in a fixed hierarchy.
 ///
 /// A follicle's id is its rank in the progressive order: every prefix of the ids is blue noise, so an id is
-/// also the LOD priority (law 3). Ids depend on the rest surface, the density and the seed alone (law 2), not
-/// on leaf_strands or threads. Follicles are stored leaf after leaf, by id within each; leaves are compact in
-/// space. Immutable. Thread safety: const members may be called from any thread.
+/// also the LOD priority (law 3). Ids depend only on the rest surface, the density and the seed (law 2), not
+/// on leaf_strands or threads. Follicles are stored leaf by leaf, ordered by id within each; leaves are
+/// compact in space. Immutable. Thread safety: const members may be called from any thread.
 class FollicleTree {
  public:
-  /// Most follicles of one groom.
+  /// Max number of follicles of one groom.
   static constexpr int64_t kMaxFollicles = 500'000'000;
 
   struct Leaf {
@@ -56,20 +56,20 @@ class FollicleTree {
     Box3f rest_roots;             ///< box of their rest positions
   };
 
-  /// Empty where the density is 0 everywhere. Throws Error (kInput) when more than kMaxFollicles are asked
-  /// for, Error (kMemory) before anything is made that the ledger has no room for, Error (kStopped).
+  /// Empty where the density is 0 everywhere. Throws Error (kInput) for more than kMaxFollicles, Error
+  /// (kMemory) before making anything that the ledger has no room for, Error (kStopped).
   static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Job& job);
-  /// The same hierarchy over given places with ascending ids; without roots where they are on no skin.
-  /// `order` receives the place of each follicle.
+  /// The same hierarchy over given positions with ascending ids; without roots for strands without a skin.
+  /// `order` receives the index of each follicle's position.
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
                            std::span<const uint32_t> ids, int leaf_strands, const Job& job,
                            std::vector<uint32_t>& order);
 
-  /// What was taken from a tree, put together again: leaves follow each other and cover all follicles.
+  /// A tree from its stored parts: leaves must be consecutive and cover all follicles.
   static FollicleTree of(std::vector<Leaf> leaves, std::vector<uint32_t> ids, std::vector<RootAddress> roots);
 
   size_t size() const { return ids_.size(); }
-  /// Whether its follicles stand on a skin: those of a file may stand free.
+  /// Whether its follicles are on a skin; those of a file may not be.
   bool has_roots() const { return !roots_.empty(); }
   std::span<const Leaf> leaves() const { return leaves_; }
   uint64_t id(size_t follicle) const { return ids_[follicle]; }

@@ -13,8 +13,8 @@
 namespace pelage {
 namespace {
 
-/// Sideways noise of each strand at one place: unit vectors that stand at whole numbers of `t`, blended
-/// smoothly between, so never longer than 1.
+/// Sideways noise per strand at one position: unit vectors at integer `t`, blended smoothly in between, so
+/// never longer than 1.
 struct LatticeNoise {
   StrandRow before, after;  // turns of the two unit vectors
   StrandRow blend;

@@ -14,7 +14,7 @@ struct FrizzParams {
   static const Schema<FrizzParams>& schema();
 };
 
-/// Makes each strand wander sideways in its own way.
+/// Makes each strand wander sideways independently.
 class Frizz final : public OperatorOf<FrizzParams> {
  public:
   static constexpr const char* kName = "frizz";

@@ -35,10 +35,10 @@ void scales_of(const CodeColumn& column, const std::byte* stored, size_t count, 
   for (size_t s = 0; s < count; ++s) out[s] = small_float::decode(own[s]);
 }
 
-/// A column of numbers relative to one of the strand.
+/// A column of numbers relative to a number of the strand.
 class Profile {
  public:
-  /// `table`: that of the column, decoded.
+  /// `table`: the decoded table of the column.
   Profile(const CodeColumn& column, const std::vector<float>& table, const std::byte* stored, size_t row,
           size_t count)
       : column_(column), table_(table.data()), stored_(stored), row_(row), count_(count) {

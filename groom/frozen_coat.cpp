@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kKind = "offsets";
 
-/// Section 0; the leaves follow. Raise the version when the bytes of a leaf come to mean something else.
+/// Section 0; the leaves follow. Increment the version when the meaning of a leaf's bytes changes.
 struct Head {
   uint32_t version = 2;
   uint32_t leaves = 0;

@@ -14,12 +14,12 @@
 
 namespace pelage {
 
-/// All leaves of a coat after its frozen operators: of a file, or in memory where no file could be written.
+/// All leaves of a coat after its frozen operators: in a file, or in memory when no file could be written.
 /// Immutable. Thread safety: const members may be called from any thread.
 class FrozenCoat {
  public:
   static std::filesystem::path file(const ContentStore& store, const ContentHash& key);
-  /// What stands in the store. Nothing when it is not there, or not the leaves of `source`.
+  /// The coat in the store. Empty when it is missing, or when its leaves are not those of `source`.
   static std::optional<FrozenCoat> open(const ContentStore& store, const ContentHash& key,
                                         const CoatSource& source, const WarningSink& warn);
   /// Leaves that were just grown, kept in memory and charged to `ledger`.
@@ -30,9 +30,9 @@ class FrozenCoat {
                     const std::vector<StrandReach>& reaches, const WarningSink& warn);
 
   const FrozenLeaf& leaf(size_t i) const { return leaves_[i]; }
-  /// What holds of a leaf's strands; quantisation included.
+  /// Properties of a leaf's strands, including quantisation.
   const StrandReach& reach(size_t leaf) const { return reaches_[leaf]; }
-  /// Of all leaves, without what surrounds them in a file.
+  /// Size of all leaves, without the rest of the file.
   size_t bytes() const;
 
  private:
@@ -45,38 +45,38 @@ class FrozenCoat {
   std::vector<StrandReach> reaches_;
 };
 
-/// A coat on its way through the frozen operators.
+/// Runs a coat through the frozen operators.
 struct FrozenGrowth {
   const std::string& owner;  ///< for messages: "groom 'coat'"
   const CoatSource& source;
   OperatorStack& stack;
   const GroomIdentity& identity;
-  size_t frozen = 0;  ///< operators [0, frozen) run
+  size_t frozen = 0;  ///< number of frozen operators: [0, frozen)
   const ContentStore& store;
-  const WarningSink& warn;          ///< of damaged files
-  const WarningSink& cannot_store;  ///< of files that cannot be written
+  const WarningSink& warn;          ///< called for damaged files
+  const WarningSink& cannot_store;  ///< called for files that cannot be written
   const Job& job;
 
   struct Result {
     std::vector<std::vector<std::byte>> leaves;
     std::vector<StrandReach> reaches;
-    size_t resumed = 0;   ///< operators whose result stood in the store
+    size_t resumed = 0;   ///< operators whose result was in the store
     MemoryCharge charge;  ///< of the leaves
   };
-  /// Grows all leaves, from the last operator on whose result the store has, and stores the state behind each
-  /// operator that runs, but the last. Prepares the operators that it needs. Throws what they throw, and
-  /// Error (kMemory) once the first leaves tell that all of them will not fit, Error (kStopped): then nothing
-  /// is stored.
+  /// Grows all leaves, starting after the last operator whose result is in the store, and stores the state
+  /// after each operator that runs except the last. Prepares the operators that it needs. Throws what they
+  /// throw, Error (kMemory) as soon as the first leaves show that all of them will not fit, Error (kStopped);
+  /// nothing is stored then.
   Result run(const PrepareContext& context, int leaf_strands) const;
   void charge_grown(size_t done, Result& result) const;
-  /// Whether growth can go on from a layer; then `reaches` are those behind its operator.
+  /// Whether growth can continue from a layer; if so, `reaches` are those after its operator.
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;
 };
 
-/// The file of the state behind an operator whose stage has this hash.
+/// The file with the state after the operator whose stage has this hash.
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands);
 
-/// A layer or the offsets: the same strands in another layout of leaves stand in another file.
+/// Key of a layer or the offsets: the same strands in another layout of leaves use another file.
 ContentHash in_leaves(const ContentHash& hash, int leaf_strands);
 
 }  // namespace pelage

@@ -14,18 +14,18 @@ namespace {
 
 constexpr const char* kKind = "layer";
 
-/// What still holds when every point may be off by what quantising does (groom/frozen_leaf.h).
+/// Properties of strands after quantisation, whose error applies to every point (groom/frozen_leaf.h).
 StrandReach quantised(StrandReach reach) {
   constexpr float kError = 0.8661f / codes::kLargestStep;  // of the longest segment
   reach.distance += 1.1f * kError * reach.length;
   reach.length *= 1.0f + 2.2f * kError * static_cast<float>(reach.segments);
   reach.radius *= 1.0f + 0x1p-10f;
-  // Operators that keep a lean below a half turn keep the segments of a strand alike in length.
+  // Operators that keep a lean below a half turn also keep the segments of a strand similar in length.
   if (reach.lean > 0) reach.lean = std::min(reach.lean + 1e-3f, std::numbers::pi_v<float>);
   return reach;
 }
 
-/// One leaf on its way.
+/// Grows one leaf.
 class LeafGrowth {
  public:
   LeafGrowth(const FrozenGrowth& growth, size_t leaf)
@@ -46,7 +46,7 @@ class LeafGrowth {
     return at == layer.size();
   }
 
-  /// Runs operators [from, frozen) on the state in `layer` (from > 0) and keeps the state behind all but the
+  /// Runs operators [from, frozen) on the state in `layer` (from > 0) and stores the state after all but the
   /// last.
   std::vector<std::byte> run(size_t from, std::span<const std::byte> layer,
                              std::vector<std::vector<std::byte>>& layers) const {
@@ -101,7 +101,7 @@ bool FrozenGrowth::resumes(const StoredFile& layer, std::vector<StrandReach>& re
   return true;
 }
 
-/// Charges the first `done` leaves; those that are there tell about how much all of them will take.
+/// Charges the first `done` leaves, and estimates the size of all from them.
 void FrozenGrowth::charge_grown(size_t done, Result& result) const {
   int64_t bytes = 0;
   for (size_t leaf = 0; leaf < done; ++leaf) bytes += static_cast<int64_t>(result.leaves[leaf].capacity());

@@ -17,7 +17,7 @@ const T* rows(const std::byte* at) {
   return reinterpret_cast<const T*>(at);
 }
 
-/// Adds the next step of every strand to where it is.
+/// Adds the next step of every strand to its position.
 void advance(const int16_t* __restrict q, const float* __restrict step, size_t count, float* __restrict at) {
   for (size_t s = 0; s < count; ++s) at[s] += static_cast<float>(q[s]) * step[s];
 }
@@ -26,7 +26,7 @@ void decode(const uint16_t* __restrict code, size_t count, float* __restrict out
   for (size_t s = 0; s < count; ++s) out[s] = small_float::decode(code[s]);
 }
 
-/// What each element of a column's table means.
+/// Decodes each element of a column's table.
 template <class T, class Meaning>
 std::vector<float> decoded(const CodeColumn& column, const Meaning& meaning) {
   std::vector<T> codes(column.table.size() / sizeof(T));

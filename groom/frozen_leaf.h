@@ -14,42 +14,46 @@
 
 namespace pelage {
 
-/// The strands of a leaf after the frozen operators, read from bytes that stay where they are.
+/// The strands of a leaf after the frozen operators, read in place from bytes.
 ///
 /// Blocks of at most kBlockStrands strands in the leaf's order, each with rows over its strands, so that a
 /// prefix of the strands is a prefix of the bytes. Every number is a function of its strand alone
-/// (groom/strand_codes.h); only how it is written down depends on the leaf. Shapes are in the follicle frame
-/// of the rest skin: 16 bits per component and point, each point from the decoded one before in steps of the
-/// strand's own, so that no point is further than 0.87 steps from its place; a step is the 32766th part of
-/// the strand's longest segment (largest component), and at most 2^-10 more. Widths: the strand's widest to
-/// 2^-11 of it, and each point to 1/510 of the widest, or 1/131070 where all strands have one profile.
-/// Colours: each point to 0.0015 of the strand's brightest channel, and its root to as much. Strands that
-/// this would move by more than a twentieth of their width, or that have larger numbers, are kept in floats,
-/// and with them their block. Immutable. Thread safety: const members may be called from any thread.
+/// (groom/strand_codes.h); only its encoding depends on the leaf.
+///
+/// Shapes are in the follicle frame of the rest skin: 16 bits per component and point, each point relative to
+/// the previous decoded one in steps whose size is chosen per strand, so that no point is off by more than
+/// 0.87 steps. A step is 1/32766 of the strand's longest segment (largest component), or up to 2^-10 more.
+/// Widths: the strand's max width to a relative error of 2^-11, and each point to 1/510 of it, or 1/131070
+/// where all strands share one profile. Colours: each point and the root to 0.0015 of the strand's brightest
+/// channel. Strands that this would move by more than a twentieth of their width, or whose numbers are too
+/// large, are kept in floats, together with their block.
+///
+/// Immutable. Thread safety: const members may be called from any thread.
 class FrozenLeaf {
  public:
   struct Block {
-    uint32_t first = 0;  ///< strand of the leaf
+    uint32_t first = 0;  ///< index of its first strand in the leaf
     uint32_t count = 0;
     int points = 0;
     bool plain = false;  ///< in floats
-    size_t data = 0;     ///< where its rows begin
+    size_t data = 0;     ///< offset of its rows
   };
 
-  /// Nothing when the bytes are not those of a leaf. `bytes` must be 16-byte aligned.
+  /// Empty when the bytes are not those of a leaf. `bytes` must be 16-byte aligned.
   static std::optional<FrozenLeaf> read(std::span<const std::byte> bytes);
 
   size_t strand_count() const { return strands_; }
   std::span<const Block> blocks() const { return blocks_; }
   size_t bytes() const { return bytes_.size(); }
   bool has_colors() const { return color_rows_ != ColorRows::kNone; }
-  /// How the codes of a kind are written.
+  /// Encoding of one kind of code.
   const CodeColumn& column(StrandCodes::Column kind) const { return columns_[kind]; }
 
-  /// Radii, colours and clump numbers of the first batch.count strands of a block; ids must be set. What the
-  /// leaf does not hold stays as it is, but for clump numbers, which are those of strands in no clump.
+  /// Radii, colours and clump numbers of the first batch.count strands of a block; ids must be set.
+  /// Attributes that the leaf does not store stay unchanged, except for clump numbers, which are set to those
+  /// of unclumped strands.
   void attributes(const Block& block, StrandBatch& batch) const;
-  /// Offsets of the same along the axes of `frames`' space, times `scale`.
+  /// Offsets of the same strands along the axes of `frames`, times `scale`.
   void shape(const Block& block, const RootRows& frames, float scale, StrandBatch& batch) const;
 
  private:
@@ -67,7 +71,7 @@ class FrozenLeaf {
   std::span<const std::byte> bytes_;
   std::vector<Block> blocks_;
   std::array<CodeColumn, StrandCodes::kColumns> columns_;
-  std::vector<float> width_table_, color_table_;  // of the profiles' tables, decoded
+  std::vector<float> width_table_, color_table_;  // decoded tables of the profiles
   size_t strands_ = 0;
   ColorRows color_rows_ = ColorRows::kNone;
   bool has_base_ = false;

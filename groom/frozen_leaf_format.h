@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// First bytes of a leaf. Behind it: the tables of the columns, each from a multiple of 4 on, a BlockEntry
-/// for each block, and from the next multiple of 16 on the blocks.
+/// First bytes of a leaf, followed by the tables of the columns, each aligned to 4 bytes, a BlockEntry for
+/// each block, and the blocks, aligned to 16 bytes.
 struct FrozenLeaf::Header {
   struct Column {
     uint8_t form = 0;
@@ -21,16 +21,16 @@ struct FrozenLeaf::Header {
   };
   uint32_t strands = 0;
   uint32_t blocks = 0;
-  uint8_t has_base = 0;  // point 0 is kept: strands whose first point is not their root
+  uint8_t has_base = 0;  // point 0 is stored: strands whose first point is not their root
   uint8_t color_rows = 0;
   uint8_t unused[6] = {};
   Column columns[StrandCodes::kColumns];
 };
 
-/// Where the rows of a block stand, from its first byte on.
+/// Offsets of the rows of a block from its first byte.
 struct FrozenLeaf::Layout {
-  size_t row = 0;                                     // strands of a row: the count, rounded up to 8
-  size_t shapes = 0, radii = 0, colors = 0, end = 0;  // radii, colors: of plain blocks
+  size_t row = 0;                                     // strands per row: the count, rounded up to 8
+  size_t shapes = 0, radii = 0, colors = 0, end = 0;  // radii, colors: of plain blocks only
   std::array<size_t, StrandCodes::kColumns> columns{};
 
   Layout(const FrozenLeaf& leaf, size_t count, size_t points, bool plain) {

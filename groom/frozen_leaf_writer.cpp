@@ -16,7 +16,7 @@ void put_rows(const T* from, size_t rows, size_t count, size_t row, std::byte* t
     std::memcpy(to + r * row * sizeof(T), from + r * count, count * sizeof(T));
 }
 
-/// Codes of one strand after the other as rows over strands.
+/// Transposes codes strand by strand to rows over strands.
 void put_raw(const std::vector<std::byte>& entries, size_t element_bytes, size_t count, size_t row,
              std::byte* to) {
   const size_t elements = entries.size() / count / element_bytes;
@@ -39,7 +39,7 @@ CodeColumn FrozenLeafWriter::column(StrandCodes::Column kind, CodeColumn::Choice
     max = std::max(max, block.columns[kind].size() / block.count / column.element_bytes);
   if (max == 0) return column;
   column.elements = static_cast<uint16_t>(max);
-  // Strands may have unequally many points: the entries of the shorter ones end with zeros.
+  // Strands may have different numbers of points: the entries of shorter ones are padded with zeros.
   std::vector<std::byte> entries;
   for (const StrandCodes& block : blocks_) {
     const std::vector<std::byte>& own = block.columns[kind];

@@ -10,16 +10,16 @@
 namespace pelage {
 
 /// Collects the batches of a leaf, in rest space after the frozen operators, and writes their codes in the
-/// form that takes least room.
+/// smallest form.
 class FrozenLeafWriter {
  public:
   explicit FrozenLeafWriter(const CodeOptions& options = {}) : options_(options) {}
   void add(const StrandBatch& batch) { blocks_.emplace_back(batch, options_); }
-  /// The bytes that FrozenLeaf reads: the same for the same strands, on any machine of one byte order.
+  /// The bytes that FrozenLeaf reads: the same for the same strands, on any machine with the same byte order.
   std::vector<std::byte> finish() const;
 
  private:
-  /// The column that `kind` is to be written in; `choice` keeps its table.
+  /// The column in which `kind` is written; `choice` owns its table.
   CodeColumn column(StrandCodes::Column kind, CodeColumn::Choice& choice) const;
 
   CodeOptions options_;

@@ -48,7 +48,7 @@ bool Groom::has_priority_order() const { return !impl_->source.imported; }
 float Groom::priority(size_t follicle) const {
   const FollicleTree& follicles = impl_->source.follicles();
   const uint64_t id = follicles.id(follicle);
-  // Ids of grown strands are ranks in their progressive order; those of a file may run along the skin.
+  // Ids of grown strands are ranks in their progressive order; those of a file may follow the skin.
   if (!has_priority_order()) return unit_float(hash64(id, random_use("priority")));
   return static_cast<float>((static_cast<double>(id) + 0.5) / static_cast<double>(follicles.size()));
 }
@@ -72,7 +72,7 @@ void check_combination(const std::string& name, const GroomParams& params, bool 
     throw Error(ErrorKind::kInput, problem->position, problem->message);
 }
 
-/// Grown strands have a width even when nothing gives them one.
+/// Grown strands have a width even if no operator sets one.
 OperatorList with_width(const GroomParams& params) {
   OperatorList list = params.operators;
   const bool has_width =
@@ -108,7 +108,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->source.rest = std::move(rest);
   impl->source.points = params.points;
   if (!params.strands_file.empty()) {
-    // Strands that do not follow the skin grow as on none.
+    // Strands that do not follow the skin grow as without a skin.
     impl->source.imported.emplace(params, impl->source.rest.get(), owner, job);
     if (impl->source.imported->is_free()) impl->source.rest = nullptr;
   }
@@ -118,7 +118,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
     throw Error(ErrorKind::kInput, "groom '" + name + "' pushes strands out of a skin but grows on none");
   }
 
-  // Two coats of one skin must not grow from the same places because neither was given a seed.
+  // Two coats of one skin without explicit seeds must not grow from the same places.
   const uint64_t name_hash = pelage::content_hash(std::as_bytes(std::span(name.data(), name.size()))).low;
   const uint64_t seed = hash64(static_cast<uint64_t>(params.seed), name_hash);
   PrepareContext context{impl->source.rest.get(),           textures,      job, {},

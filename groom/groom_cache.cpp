@@ -25,8 +25,8 @@ std::optional<size_t> stored_bytes(const std::filesystem::path& file) {
   return error ? std::optional<size_t>() : bytes;
 }
 
-/// Layers are large and serve the next edit only: those of operators that are no longer so go. The offsets
-/// stay, for whoever takes an edit back.
+/// Removes layers of stages that have changed: they are large and serve the next edit only. The offsets stay,
+/// in case an edit is undone.
 void remove_old_layers(const ContentStore& store, const GroomManifest& before, const GroomManifest& now,
                        int leaf_strands) {
   for (const GroomStage& old : before.stages()) {
@@ -68,7 +68,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   };
   open(warn);
   report->fresh = report->stored = frozen.has_value();
-  // A folder that takes nothing is told of once.
+  // Reports a folder that cannot be written once.
   bool told = false;
   const WarningSink cannot_store = [&](const std::string& line) {
     if (!told) warn(line);
@@ -78,7 +78,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     store->sweep();
     const ContentStore::Lock lock =
         store->lock("offsets", offset_key, [&] { return job.progress.cancelled(); });
-    open([](const std::string&) {});  // another process may have been at it; damage has been told of
+    open([](const std::string&) {});  // another process may have written it; damage has already been reported
     report->fresh = report->stored = frozen.has_value();
     if (!have_follicles) {
       stack->prepare_coverage(context);
@@ -92,17 +92,17 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
       report->resumed = grown.resumed;
       if (before) remove_old_layers(*store, *before, now, params.leaf_size());
       report->stored = FrozenCoat::store(*store, offset_key, grown.leaves, grown.reaches, cannot_store);
-      // Read back, so that what is in memory may go.
+      // Reads the file back, so that the copy in memory can be freed.
       if (report->stored) frozen = FrozenCoat::open(*store, offset_key, source, warn);
       grown.charge = {};
       if (!frozen) frozen.emplace(std::move(grown.leaves), std::move(grown.reaches), job.ledger);
     }
   }
-  // What was made the last time does not matter where what is needed is there.
+  // The previous state does not matter when everything needed is available.
   for (GroomCacheReport::Stage& stage : report->stages) {
     if (report->fresh) stage = {stage.name, true, ""};
   }
-  // Of strands of a file nothing but the offsets is kept.
+  // For strands of a file, only the offsets are stored.
   const std::filesystem::path follicles = source.imported ? "" : follicle_file(*store, follicle_key);
   now.add_state({report->file.filename().string(), follicles.filename().string()}, before, *store);
   if (!before || before->text() != now.text()) now.write(*store, name);

@@ -43,7 +43,7 @@ size_t key_count(const PosedSkin& pose, bool on_skin) {
 void Groom::Impl::grow_plain(const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const {
   const size_t keys = key_count(pose, source.rest != nullptr);
   const auto batch = std::make_unique<StrandBatch>();
-  // One key is made in place; more need the rest state again.
+  // A single key is computed in place; several need the rest state again.
   const auto posed = keys > 1 ? std::make_unique<StrandBatch>() : nullptr;
   for (size_t at = begin, run = 0; at < end; at += run) {
     run = source.run_length(at, end);
@@ -89,7 +89,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
   const size_t live = std::max(frozen_end, stack->first_live());
   const FrozenLeaf& strands = frozen->leaf(leaf);
   const auto batch = std::make_unique<StrandBatch>();
-  // Live operators need the state of before at every key; without them a key only turns the offsets anew.
+  // Live operators need their input state at every key; without them a key only transforms the offsets again.
   const bool has_live = live < stack->size();
   const auto posed = keys > 1 && (has_live || needs_rest_frames) ? std::make_unique<StrandBatch>() : nullptr;
   for (const FrozenLeaf::Block& block : strands.blocks()) {
@@ -139,7 +139,7 @@ void Groom::Impl::grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, 
 }
 
 StrandWriter::Chosen Groom::Impl::chosen(const KeptStrands& kept, size_t begin) const {
-  constexpr float kDarkest = 1e-3f;  // what is black already stays so
+  constexpr float kDarkest = 1e-3f;  // colours that are already black stay so
   StrandWriter::Chosen chosen{kept.strands, kept.width, {}};
   if (kept.contrast.empty()) return chosen;
   chosen.color.reserve(kept.strands.size());
@@ -268,7 +268,7 @@ Box3f Groom::conservative_bound(size_t leaf, const PosedSkin& pose, size_t count
     for (const M44f& m : pose.free_transforms) box.extendBy(Imath::transform(range.rest_roots, m));
   }
   const StrandReach reach = g.reach(leaf);
-  // Rounding of positions far from the origin, and of the frames that turn offsets.
+  // Rounding of positions far from the origin, and of the frames that rotate offsets.
   const float size = std::max({std::fabs(box.min.x), std::fabs(box.min.y), std::fabs(box.min.z),
                                std::fabs(box.max.x), std::fabs(box.max.y), std::fabs(box.max.z)});
   const V3f out((reach.distance * pose.length + reach.radius) * pose.scale * 1.00002f + 1e-6f * size);

@@ -35,7 +35,7 @@ GroomIdentity::GroomIdentity(const GroomParams& params, uint64_t seed, const Ope
   describe(params.strands_file, "strands_file", strands);
   describe(params.basis, "basis", strands);
   describe(params.default_width, "default_width", strands);
-  // Of strands that follow no skin, `rest` is null.
+  // `rest` is null for strands that follow no skin.
   describe(params.attach, "attach", strands);
   for (const auto& op : stack.operators()) {
     if (!op->restricts_coverage()) continue;
@@ -53,7 +53,7 @@ void GroomIdentity::add(std::string name, const std::vector<ParameterText>& para
   GroomStage stage{std::move(name), {}, {}};
   for (const ParameterText& parameter : parameters) {
     std::string text = parameter.text;
-    // A file is its contents: where it stands is no part of what is made from it.
+    // A file is identified by its contents: its path does not affect the result.
     for (const std::filesystem::path& file : parameter.files) {
       const std::string path = file.string(), shown = file.filename().string();
       for (size_t at = text.find(path); at != std::string::npos; at = text.find(path, at + shown.size()))

@@ -17,14 +17,14 @@ namespace pelage {
 /// `cache:` of a groom.
 struct GroomCacheParams {
   AssetPath directory{"cache", {}};
-  NameReference freeze;  ///< the last frozen operator; of several with one name, the last
+  NameReference freeze;  ///< the last frozen operator; when several have this name, the last of them
   static const Schema<GroomCacheParams>& schema();
 };
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  NameReference skin;                     ///< name of a skin; empty for an imported groom
-  AssetPath strands_file;                 ///< curves made elsewhere, instead of follicles
+  NameReference skin;                     ///< name of a skin; empty for an imported groom without one
+  AssetPath strands_file;                 ///< curves from a file, instead of follicles
   std::optional<CurveBasis> basis;        ///< of strands_file
   std::optional<float> default_width;     ///< of strands_file
   Attachment attach = Attachment::kAuto;  ///< of strands_file
@@ -37,12 +37,13 @@ struct GroomParams {
   std::optional<int> leaf_strands;
   std::optional<GroomCacheParams> cache;
 
-  static constexpr int kMaxLeafStrands = 8000;  ///< where nobody says
+  static constexpr int kMaxLeafStrands = 8000;  ///< default of leaf_strands
   int leaf_size() const { return leaf_strands.value_or(kMaxLeafStrands); }
   static const Schema<GroomParams>& schema();
 };
 
-/// What is wrong with `cache.freeze`: it names no operator, or one that does not depend on rest state alone.
+/// The problem with `cache.freeze`: it names no operator, or one that does not depend on rest state alone.
+/// Empty when there is none.
 std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

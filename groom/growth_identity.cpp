@@ -7,9 +7,9 @@ namespace pelage {
 
 std::string growth_identity() {
   std::string identity(growth_sources());
-  // Subdivision, and the functions of the C library, which differ by what the processor can do. Only
-  // libraries that the program starts with: others come with the module that reads textures, and the answer
-  // must not depend on whether one has been read.
+  // Subdivision, and the functions of the C library, which depend on the processor. Only libraries that the
+  // program starts with: others are loaded with the module that reads textures, and the identity must not
+  // depend on whether one has been read.
   for (const char* library : {"libm.so", "libosdCPU.so"}) identity += " " + library_identity(library);
 #ifdef __x86_64__
   if (__builtin_cpu_supports("fma")) identity += " fma";

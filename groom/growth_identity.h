@@ -6,13 +6,13 @@
 
 namespace pelage {
 
-/// Hash of the sources of every room that growth is made of (base, image, geom, groom; a groom may include no
-/// other), and of the compiler and its settings. Made while building, so nobody can forget to change it.
+/// Hash of the sources of every room that affects growth (base, image, geom, groom; a groom may include no
+/// other), the compiler and its settings. Computed by the build, so nobody has to remember to change it.
 std::string_view growth_sources();
 
-/// Tells apart programs and machines that may grow different strands, be it in the last digit:
-/// growth_sources(), the system libraries that compute, and the instructions that these may choose to use.
-/// Programs that differ elsewhere, in how they render, say, have the same.
+/// Distinguishes programs and machines that may grow different strands, even in the last digit:
+/// growth_sources(), the system libraries used for computation, and the instruction sets that these may
+/// select. Programs that differ elsewhere, such as in rendering, have the same identity.
 std::string growth_identity();
 
 }  // namespace pelage

@@ -15,7 +15,7 @@
 namespace pelage {
 namespace {
 
-/// Median over a bounded number of guides, evenly chosen, of the distance to the nearest other guide.
+/// Median distance to the nearest other guide, over a bounded number of evenly chosen guides.
 float median_spacing(const std::vector<V3f>& roots, const Job& job) {
   if (roots.size() < 2) return 0;
   const size_t step = std::max<size_t>(1, roots.size() / 1000);
@@ -37,7 +37,7 @@ float median_spacing(const std::vector<V3f>& roots, const Job& job) {
 
 GuideSet::GuideSet(const GuideFile& source, const PrepareContext& context) : points_(context.points) {
   const Job& job = context.job;
-  // Read, resampled and found again in two grids: all of it is a few times the file.
+  // Memory for reading, resampling and two search grids, as a multiple of the file's size.
   constexpr int64_t kOfFile = 4;
   std::error_code missing;
   const auto file_bytes = std::filesystem::file_size(source.file.path, missing);

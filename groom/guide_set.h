@@ -18,11 +18,11 @@ struct GuideFile {
   V3f translate{0};
 };
 
-/// Guide strands in rest space, bound to the rest skin and brought to one number of points.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// Guide strands in rest space, bound to the rest skin and resampled to a common number of points. Immutable.
+/// Thread safety: const members may be called from any thread.
 class GuideSet {
  public:
-  /// Throws Error (kInput) when the file cannot be read or holds no strand.
+  /// Throws Error (kInput) when the file cannot be read or contains no strands.
   GuideSet(const GuideFile& source, const PrepareContext& context);
 
   size_t size() const { return normals_.size(); }
@@ -35,7 +35,7 @@ class GuideSet {
   }
   float length(size_t g) const { return lengths_[g]; }  ///< of the control polygon
   float longest() const { return longest_; }
-  /// Median distance from a guide's root to the nearest other's.
+  /// Median distance from a guide's root to its nearest neighbour.
   float spacing() const { return spacing_; }
   size_t bytes() const;
 

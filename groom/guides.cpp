@@ -24,7 +24,7 @@ struct Weights {
   int count = 0;
 };
 
-/// The guides of a place and their weights, which sum to 1; none when no guide is near.
+/// The guides near a position and their weights, which sum to 1; empty when no guide is near.
 Weights find_weights(const RootGrid& grid, const V3f& position, const V3f& normal, int neighbours) {
   Weights w;
   const int found = grid.nearest(position, normal, neighbours + 1, w.guide.data());
@@ -37,7 +37,7 @@ Weights find_weights(const RootGrid& grid, const V3f& position, const V3f& norma
     w.weight[k] = x * x;
     total += w.weight[k];
   }
-  // All equally far: all the same.
+  // All equally far: equal weights.
   for (int i = 0; i < w.count; ++i) {
     const auto k = static_cast<size_t>(i);
     w.weight[k] = total > 1e-12f ? w.weight[k] / total : 1.0f / static_cast<float>(w.count);

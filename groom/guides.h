@@ -29,13 +29,13 @@ struct GuidesParams {
   static const Schema<GuidesParams>& schema();
 };
 
-/// Gives strands the shape of nearby guides: the offsets of each guide from its root, turned by the smallest
-/// rotation from the guide's root normal to the strand's, weighted by (1 - d / R)^2, at the weighted mean of
-/// their lengths.
+/// Gives strands the shape of nearby guides: the offsets of each guide from its root, rotated by the smallest
+/// rotation from the guide's root normal to the strand's, weighted by (1 - d / R)^2, with the weighted mean
+/// of their lengths.
 ///
-/// R is the distance of the first guide that is left out, or the radius if that is less, so that the coat is
-/// continuous where the set of nearest guides changes. A strand that has no guide within the radius stays as
-/// it was.
+/// R is the distance of the first guide that is not used, or the radius if that is smaller, so that the coat
+/// is continuous where the set of nearest guides changes. A strand without a guide within the radius stays
+/// unchanged.
 class Guides final : public OperatorOf<GuidesParams> {
  public:
   static constexpr const char* kName = "guides";

@@ -20,9 +20,9 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
     : reader_(with_errors_at_asset(params.strands_file, [&] {
         return StrandReader(params.strands_file.path, {params.basis, params.default_width});
       })) {
-  // Of each strand: first point, root and id in the order of the file; then what is kept, in the order of
+  // Per strand: first point, root and id in the order of the file; then the retained data in the order of
   // follicles: root, id and number, at most two numbers of the reader, and the first point of a free strand
-  // or, before that is known, its distance from the skin.
+  // or, before it is known to be free, its distance to the skin.
   constexpr size_t kMaking = sizeof(V3f) + sizeof(RootAddress) + sizeof(uint32_t);
   constexpr size_t kKept = sizeof(RootAddress) + 4 * sizeof(uint32_t) + sizeof(V3f);
   const size_t claimed = reader_.strands_in_file();
@@ -62,8 +62,8 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
   find_reach(positions, job, stage);
 }
 
-/// `roots`: of all strands, by their numbers. Reads the file from its beginning to its end once more, which
-/// costs less than to look for the strands of each leaf.
+/// `roots`: of all strands, by their numbers. Reads the file sequentially once more, which costs less than
+/// seeking the strands of each leaf.
 void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job, const ProgressStage& stage) {
   std::vector<uint32_t> leaf_of(roots.size());
   for (uint32_t leaf = 0; leaf < follicles_.leaves().size(); ++leaf) {
@@ -92,7 +92,7 @@ void ImportedStrands::find_reach(std::span<const V3f> roots, const Job& job, con
   });
 }
 
-/// Of follicles of one leaf.
+/// Reads follicles of one leaf.
 Strands ImportedStrands::read(size_t begin, size_t end) const {
   return reader_.read(places().subspan(begin, end - begin));
 }
@@ -135,7 +135,7 @@ std::vector<StrandAttribute> ImportedStrands::attributes(std::span<const uint32_
     result.push_back(attribute);
     varies |= attribute.frequency != AttributeClass::kConstant;
   }
-  // A few strands at a time: their points are read along with them.
+  // A few strands at a time, because their points are read as well.
   std::vector<uint32_t> wanted;
   for (size_t begin = 0; varies && begin < follicles.size(); begin += kBlockStrands) {
     wanted.clear();

@@ -11,19 +11,19 @@ namespace pelage {
 
 class ProgressStage;
 
-/// The strands of a file as the start of a groom: each is bound to the nearest place of the rest skin, or
-/// stands free. The strands stay in the file; only where they are is held. Immutable. Thread safety: const
-/// members may be called from any thread.
+/// The strands of a file as the start of a groom: each is bound to the nearest point of the rest skin, or has
+/// no skin. The strands stay in the file; only their positions are kept in memory. Immutable. Thread safety:
+/// const members may be called from any thread.
 class ImportedStrands {
  public:
-  /// Throws Error (kInput) when the file cannot be read, Error (kMemory) before it is, Error (kStopped).
-  /// `rest` may be null; `owner` is for messages. The job is warned of strands that are too far from the skin
-  /// to follow it.
+  /// Throws Error (kInput) when the file cannot be read, Error (kMemory) before reading it, Error (kStopped).
+  /// `rest` may be null; `owner` is for messages. Warns the job of strands that are too far from the skin to
+  /// follow it.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 
   const FollicleTree& follicles() const { return follicles_; }
-  /// Whether the strands follow no skin.
+  /// Whether the strands have no skin.
   bool is_free() const { return free_; }
   CurveBasis basis() const { return reader_.basis(); }
   const StrandRepairs& repairs() const { return reader_.repairs(); }
@@ -31,20 +31,20 @@ class ImportedStrands {
 
   int max_points() const { return static_cast<int>(reader_.max_points()); }
 
-  /// How many of the follicles from `begin`, at most to `end`, can share a batch: as many as have equally
-  /// many points.
+  /// Number of follicles from `begin`, up to `end` at most, that can share a batch because they have the same
+  /// number of points.
   size_t run_length(size_t begin, size_t end) const;
-  /// Rest roots of strands that stand free: their first points, along the axes.
+  /// Rest roots of strands without a skin: their first points, with frames along the axes.
   void place_free(StrandBatch& batch, size_t begin) const;
   /// Points and radii from the file, as offsets from the rest roots that are set.
   void start(StrandBatch& batch, size_t begin) const;
-  /// What holds of the strands [begin, end).
+  /// Properties of the strands of a leaf.
   const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
-  /// Where the strand of a follicle begins that stands free, in the space of the file.
+  /// First point of the strand of a follicle without a skin, in the space of the file.
   const V3f& first_point(size_t follicle) const { return free_roots_[follicle]; }
-  /// Attributes of the file for some follicles, all but `except`.
+  /// Attributes from the file for some follicles, all except `except`.
   std::vector<StrandAttribute> attributes(std::span<const uint32_t> follicles, std::string_view except) const;
-  /// How many floats those of the follicles [begin, end) have.
+  /// Number of floats of these attributes for the follicles [begin, end).
   size_t attribute_floats(size_t begin, size_t end, std::string_view except) const;
   size_t bytes() const;
 
@@ -57,8 +57,8 @@ class ImportedStrands {
   StrandReader reader_;
   bool free_ = true;
   FollicleTree follicles_;
-  std::vector<uint32_t> place_;     // empty where every strand of the file is usable: its id is its number
-  std::vector<V3f> free_roots_;     // of strands that stand free
+  std::vector<uint32_t> place_;     // empty where every strand of the file is usable: its id is its index
+  std::vector<V3f> free_roots_;     // of strands without a skin
   std::vector<StrandReach> reach_;  // per leaf
 };
 

@@ -79,7 +79,7 @@ StrandReach Length::reach_after(const StrandReach& before) const {
 }
 
 float Length::displacement_bound(const StrandReach& before) const {
-  // The tip of a straight strand moves by the change of length.
+  // The tip of a straight strand moves by the change of its length.
   const float scale_low = std::max(params_.scale.value_range().first, 0.0f) * (1.0f - params_.variation);
   if (!params_.value) {
     const float scale_high = std::max(params_.scale.value_range().second, 0.0f);

@@ -17,7 +17,7 @@ struct LengthParams {
   static const Schema<LengthParams>& schema();
 };
 
-/// Scales each strand about its root until it is as long as asked.
+/// Scales each strand about its root to the requested length.
 class Length final : public OperatorOf<LengthParams> {
  public:
   static constexpr const char* kName = "length";

@@ -7,11 +7,11 @@
 
 namespace pelage {
 
-/// Rethrows an error in the content of a file that a scene names. The position becomes that of the name in
-/// the scene; each message begins with the position in the file.
+/// Rethrows an error about the contents of a file that a scene names. The position becomes that of the name
+/// in the scene; each message starts with the position in the file.
 [[noreturn]] void rethrow_at_asset(const Error& error, const AssetPath& file);
 
-/// What `work` returns. Errors of kind kInput go through rethrow_at_asset().
+/// Returns the result of `work`. Errors of kind kInput are passed to rethrow_at_asset().
 template <class Work>
 auto with_errors_at_asset(const AssetPath& file, const Work& work) {
   try {

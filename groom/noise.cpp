@@ -44,7 +44,7 @@ void Noise::prepare(const PrepareContext& context) {
 
 void Noise::apply(StrandBatch& batch) const {
   StrandField amplitude(params_.amplitude, batch);
-  const V3f drift(0.37f, 0.61f, 0.70f);  // where strands go through the noise: no axis of its lattice
+  const V3f drift(0.37f, 0.61f, 0.70f);  // direction of strands through the noise, not aligned to its lattice
   for (int p = 1; p < batch.point_count(); ++p) {
     const float along = batch.along(p);
     const float envelope = std::pow(along, params_.profile) * batch.scale;

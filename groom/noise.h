@@ -16,7 +16,7 @@ struct NoiseParams {
   static const Schema<NoiseParams>& schema();
 };
 
-/// Pushes neighbouring strands about together, by noise over the rest skin.
+/// Displaces neighbouring strands coherently, by noise over the rest skin.
 class Noise final : public OperatorOf<NoiseParams> {
  public:
   static constexpr const char* kName = "noise";

@@ -11,7 +11,8 @@
 namespace pelage {
 namespace {
 
-/// A candidate this near a follicle, in radii, need not know how near it is: it waits for many levels anyway.
+/// For a candidate nearer than this to a follicle, in radii, the exact distance does not matter: it waits for
+/// many levels anyway.
 constexpr float kNearEnough = 0.6f;
 
 int32_t cell_of(float coordinate) {
@@ -50,7 +51,7 @@ float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius) cons
   for (unsigned left = octaves_; left != 0; left &= left - 1) {
     const int octave = std::countr_zero(left);
     const float inverse = inverse_cell(octave);
-    // Whatever lies in this octave has less than its upper spacing.
+    // Everything in this octave has less than its upper spacing.
     const float reach =
         radius * std::min(candidate.spacing, smallest_ * static_cast<float>(uint64_t(2) << octave));
     const int32_t x0 = cell_of((candidate.x - reach) * inverse),

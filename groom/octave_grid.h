@@ -10,25 +10,24 @@
 
 namespace pelage {
 
-/// Follicles in cells of space, found by hashing, for progressive_order(). Follicles whose spacings differ by
-/// more than two are kept in grids of their own (octaves), so that a search never walks through many small
-/// cells.
+/// Follicles in a spatial hash grid, for progressive_order(). Follicles whose spacings differ by more than a
+/// factor of two are kept in separate grids (octaves), so that a search never visits many small cells.
 class OctaveGrid {
  public:
-  /// Of at most about `max` follicles.
+  /// For at most about `max` follicles.
   OctaveGrid(float smallest_spacing, size_t max) : smallest_(smallest_spacing) { items_.reserve(max); }
   /// What a grid of at most `max` follicles takes once rebuild() has made room for `expected`.
   static size_t bytes(size_t max, size_t expected) {
     return max * sizeof(Item) + head_count(expected) * sizeof(uint32_t);
   }
 
-  /// Files everything anew for searches at radii up to `radius`, with room for about `expected` follicles.
+  /// Reinserts everything for searches at radii up to `radius`, with room for about `expected` follicles.
   void rebuild(size_t expected, float radius);
   void insert(const FollicleCandidate& follicle);
 
   /// Distance from a candidate to the nearest follicle whose normal lies within 60 degrees of its own, in
-  /// units of the smaller of both spacings, or `radius` when none is nearer. Once a follicle much nearer than
-  /// that is found, its distance will do, although there may be a nearer one.
+  /// units of the smaller of both spacings, or `radius` when none is nearer. The search stops at a follicle
+  /// that is much nearer than that, although there may be a nearer one.
   float nearest(const FollicleCandidate& candidate, float radius) const;
 
  private:
@@ -50,7 +49,7 @@ class OctaveGrid {
   float smallest_;
   float cell_ = 1;
   unsigned octaves_ = 0;         // bit k: octave k holds follicles
-  std::vector<uint32_t> heads_;  // of lists; the cells of a row of 16 along x lie side by side
+  std::vector<uint32_t> heads_;  // of lists; the cells of a row of 16 along x are adjacent
   std::vector<Item> items_;
 };
 

@@ -20,7 +20,7 @@
 namespace pelage {
 namespace {
 
-/// What the reader must know of each operator.
+/// Data that the reader needs about each operator.
 struct OperatorKind {
   const char* name;
   std::shared_ptr<const Operator> (*read)(const Value&, Problems&);

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// `operators:` of a groom: a list of maps of one key each, the operator's name. Holds the operators as the
-/// scene describes them, not yet prepared; grooms copy what they need.
+/// `operators:` of a groom: a list of maps with one key each, the operator's name. Holds the operators as
+/// described by the scene, before prepare(); grooms copy what they need.
 struct OperatorList {
   struct Item {
     std::string name;
@@ -22,7 +22,7 @@ struct OperatorList {
   std::vector<Item> items;
 };
 
-/// An operator with all its defaults; `name` is one that exists.
+/// An operator with default parameters; `name` must exist.
 OperatorList::Item default_operator(std::string_view name);
 
 template <>

@@ -49,7 +49,7 @@ void check_bounded(const Operator& op, const SourcePosition& position) {
                   "`clump` have limits");
 }
 
-/// The frame at a point already evaluated; only where it is ill defined is the surface asked again.
+/// The frame at a point that is already evaluated; evaluates the surface again only where it is ill-defined.
 Frame frame_at(const LimitSurface& surface, const RootAddress& root, const SurfacePoint& point) {
   const V3f cross = point.du.cross(point.dv);
   if (cross.dot(cross) > 1e-6f * point.du.dot(point.du) * point.dv.dot(point.dv))
@@ -86,8 +86,8 @@ void OperatorStack::prepare(size_t begin, size_t end, const PrepareContext& cont
   }
 }
 
-/// Depends on how many of its name come before, not on its place, so that adding an operator of another name
-/// changes nothing in it.
+/// Depends on the number of preceding operators with the same name rather than on its position, so that
+/// adding an operator with another name does not affect it.
 uint64_t OperatorStack::seed_of(uint64_t groom, size_t i) const {
   return hash64(groom, places_[i].name, places_[i].number);
 }

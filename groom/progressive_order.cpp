@@ -16,9 +16,10 @@
 namespace pelage {
 namespace {
 
-/// Radius after one level of shrinking: small steps keep prefixes that end within a level near the best.
+/// Ratio of the radii of consecutive levels: small steps keep prefixes that end within a level nearly
+/// optimal.
 constexpr double kShrink = 0.94;
-/// Part of the densest packing (hexagons) that dart throwing is expected to fill.
+/// Fraction of the densest (hexagonal) packing that dart throwing is expected to reach.
 constexpr double kExpectedFill = 0.5;
 /// Levels beyond the one that is expected to be the last.
 constexpr int kSpareLevels = 1;
@@ -26,7 +27,7 @@ constexpr int kSpareLevels = 1;
 constexpr double kFill = 0.5;
 /// Candidates that take part per follicle expected: a fifth more than there are per follicle in the end.
 constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
-/// To a radius of 1e-11 of the first: only coincident candidates are left.
+/// Down to a radius of 1e-11 of the first: only coincident candidates remain.
 constexpr int kLevels = 400;
 
 /// A follicle of the level that is tried.
@@ -47,7 +48,8 @@ class Radii {
     const int level = static_cast<int>(std::ceil(std::log(distance / largest_) * (1.0 / std::log(kShrink))));
     return std::clamp(level, 0, kLevels);
   }
-  /// Follicles expected: hexagonal packing puts 2 / (sqrt(3) r^2) points at distance r on a unit of area.
+  /// Expected number of follicles: hexagonal packing has 2 / (sqrt(3) r^2) points at distance r per unit
+  /// area.
   double expected(double radius) const {
     return kExpectedFill * area_ * 2.0 / (std::sqrt(3.0) * radius * radius);
   }
@@ -58,10 +60,10 @@ class Radii {
 
  private:
   double area_;
-  double largest_;  // expects one follicle
+  double largest_;  // for one expected follicle
 };
 
-/// Region of space of a candidate, for trying neighbours together: Morton code of cells of side 1 /
+/// Region of space of a candidate, for trying neighbours together: Morton code of cells with side 1 /
 /// `inverse`.
 uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse) {
   const auto spread = [](float coordinate) {

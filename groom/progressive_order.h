@@ -11,7 +11,7 @@ namespace pelage {
 
 struct Job;
 
-/// Candidates that are tried per follicle wanted. More pack the last follicles tighter, at proportional cost.
+/// Candidates tried per follicle. More candidates pack the last follicles more tightly, at proportional cost.
 inline constexpr size_t kCandidatesPerFollicle = 6;
 
 /// How many candidates are in memory at a time.
@@ -30,10 +30,10 @@ struct HeldCandidates {
 /// [McCool92, section 4]. Two follicles stand at least the radius times the smaller of their spacings apart,
 /// by Euclidean distance; those whose normals differ by more than 60 degrees ignore each other.
 ///
-/// Deviates from the paper in cost: a rejected candidate waits until the radius has shrunk to its distance
+/// Differs from the paper in cost: a rejected candidate waits until the radius has shrunk to its distance
 /// from the nearest follicle, and candidates join in proportion to the follicles placed so far, so that each
-/// is looked at a few times in all: O(N log N). `area` is that of the surface where the spacing is 1 (the
-/// integral of the density); it only says how many follicles to expect of a radius.
+/// is examined only a few times: O(N log N). `area`: of the surface scaled to spacing 1 (the integral of the
+/// density); used only to estimate the number of follicles at a radius.
 ///
 /// Returns attempts of candidates; fewer than `count` when there are fewer candidates. Where not all fit into
 /// `held`, those are forgotten that the follicles placed so far keep away to the end: the order is the same,

@@ -14,10 +14,10 @@
 namespace pelage {
 namespace {
 
-/// How far the tip may come from the root, in lengths of the strand: pushing stretches it a little.
+/// Max distance from the tip to the root, in lengths of the strand: pushing stretches it slightly.
 constexpr float kReach = 1.02f;
 
-/// One strand while it is pushed, in the space of the pose.
+/// One strand during push_out, in the space of the pose.
 class PushedStrand {
  public:
   PushedStrand(const StrandBatch& batch, size_t s)
@@ -37,8 +37,8 @@ class PushedStrand {
 
   const std::vector<V3f>& points() const { return points_; }
 
-  /// Lays the strand out again from the root, segment by segment: each keeps its length and its direction
-  /// unless that leads into the skin; then it slides along it.
+  /// Lays out the strand again from the root, segment by segment: each keeps its length and, unless it leads
+  /// into the skin, its direction; otherwise it slides along the skin.
   void slide(float offset, int rounds, const V3f& tangent) {
     const std::vector<V3f> before = points_;
     for (size_t p = 1; p < points_.size(); ++p) {
@@ -48,7 +48,7 @@ class PushedStrand {
       for (int round = 0; round < rounds; ++round) {
         V3f target = points_[p];
         V3f out;
-        // `from` is outside, so nothing on the way from it is deeper than the segment is long.
+        // `from` is outside, so no point of the segment is deeper than its length.
         if (!push(target, clearance(p, offset), lengths_[p] + offset, &out)) break;
         if (round == 0) {
           direction -= out * std::min(direction.dot(out), 0.0f);
@@ -61,13 +61,14 @@ class PushedStrand {
     }
   }
 
-  /// Moves control points that are still inside or nearer than their clearance.
+  /// Moves control points that are inside or nearer than their clearance.
   void push_points(float offset) {
     for (size_t p = 1; p < points_.size(); ++p)
       push(points_[p], clearance(p, offset), depth_limit(points_[p]) + offset);
   }
 
-  /// Where the curve between control points is inside, moves the control points beside; whether any moved.
+  /// Where the curve between control points is inside, moves the adjacent control points; returns whether any
+  /// moved.
   bool push_curve() {
     bool moved = false;
     for (size_t segment = 0; segment + 1 < points_.size(); ++segment) {
@@ -76,7 +77,7 @@ class PushedStrand {
         V3f out = on_curve;
         if (!push(out, 0.0f, depth_limit(out))) continue;
         moved = true;
-        // The two nearest control points carry two thirds or more of the weight here.
+        // The two nearest control points have two thirds or more of the weight here.
         const V3f step = (out - on_curve) * 1.6f;
         if (segment > 0) points_[segment] += step;
         points_[segment + 1] += step;
@@ -94,7 +95,7 @@ class PushedStrand {
     std::vector<V3f> kept(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(good) + 1);
     const size_t last = points_.size() - 1;
     if (good == 0) {
-      // Nothing is outside but the root: a stub along its normal.
+      // Only the root is outside: a stub along its normal.
       for (size_t p = 1; p <= last; ++p) points_[p] = root_ + normal_ * (1e-3f * arcs_[p]);
       return;
     }
@@ -108,21 +109,21 @@ class PushedStrand {
  private:
   static size_t index(int p) { return static_cast<size_t>(p); }
 
-  /// The root stands on the skin, so points near it cannot keep the whole distance.
+  /// The root is on the skin, so points near it cannot keep the full distance.
   float clearance(size_t p, float offset) const { return std::min(offset, 0.5f * arcs_[p]); }
 
-  /// The root is on the skin: nothing is deeper than its distance from it.
+  /// The root is on the skin: no point is deeper than its distance from it.
   float depth_limit(const V3f& point) const { return (point - root_).length(); }
 
-  /// Moves a point that is inside, or outside but nearer than `distance`, to that distance; whether it had
-  /// to. `out_of` receives the way out. Looks no further than `limit`.
+  /// Moves a point that is inside, or outside but nearer than `distance`, to that distance; returns whether
+  /// it moved. `out_of` receives the outward direction. Searches up to `limit`.
   bool push(V3f& point, float distance, float limit, V3f* out_of = nullptr) const {
     ClosestPoint nearest;
     if (!skin_.closest(point, limit * 1.001f + 1e-6f, nearest)) return false;
     if (!nearest.inside && nearest.distance >= distance * 0.999f) return false;
     const V3f way = nearest.inside ? nearest.position - point : point - nearest.position;
     const V3f out = nearest.distance > 1e-6f * limit ? normalised_or(way, nearest.normal) : nearest.normal;
-    // A hair's breadth more, so that rounding does not leave the point on the inner side.
+    // Slightly farther, so that rounding does not leave the point inside.
     point = nearest.position + out * (distance + 1e-4f * limit);
     if (out_of) *out_of = out;
     return true;
@@ -210,8 +211,8 @@ void PushOut::apply(StrandBatch& batch) const {
 }
 
 float PushOut::displacement_bound(const StrandReach& before) const {
-  // A strand that points straight in comes to lie along the skin; none leaves the ball of its length by more
-  // than pushing stretches it.
+  // A strand that points straight in is laid along the skin; none leaves the ball of its length by more than
+  // the stretching.
   return before.distance + before.length * kReach;
 }
 

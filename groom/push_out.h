@@ -14,12 +14,12 @@ struct PushOutParams {
   static const Schema<PushOutParams>& schema();
 };
 
-/// Moves strands out of the posed skin. Live: runs in every pose, against the tessellation that everything
-/// else sees.
+/// Moves strands out of the posed skin. Live: runs in every pose, using the tessellation that everything else
+/// uses.
 ///
-/// After it no point of a strand's curve lies inside a closed skin, and control points keep a distance from
-/// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as that allows; a strand
-/// that finds no way out is drawn back along itself to where it last was outside.
+/// Afterwards no point of a strand's curve lies inside a closed skin, and control points keep a distance to
+/// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a strand
+/// that finds no way out is retracted along itself to where it last was outside.
 class PushOut final : public OperatorOf<PushOutParams> {
  public:
   static constexpr const char* kName = "push_out";

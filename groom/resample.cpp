@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-/// The strand as a polyline fine enough to measure it by.
+/// The strand as a polyline that is fine enough for measuring it.
 std::vector<V3f> trace(const Strands& strands, size_t strand) {
   constexpr int kSteps = 8;
   std::vector<V3f> line;
@@ -41,8 +41,8 @@ std::vector<V3f> at_even_arcs(const std::vector<V3f>& line, int count) {
 
 std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count) {
   const std::vector<V3f> through = at_even_arcs(trace(strands, strand), count);
-  // Ends are met by construction; inside (P[i-1] + 4 P[i] + P[i+1]) / 6 = Q[i], solved by elimination
-  // (Thomas).
+  // The ends are interpolated by construction; inside, solves (P[i-1] + 4 P[i] + P[i+1]) / 6 = Q[i] by
+  // elimination (Thomas).
   std::vector<V3f> points = through;
   const size_t last = points.size() - 1;
   std::vector<float> upper(points.size(), 0.0f);

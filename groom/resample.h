@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Control points of a pinned uniform cubic B-spline of `count` points that runs along strand `strand` at
-/// even arc length: the spline passes through the strand at its joints.
+/// Control points of a pinned uniform cubic B-spline with `count` points that follows strand `strand` at even
+/// arc length: the spline interpolates the strand at its knots.
 std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count);
 
 }  // namespace pelage

@@ -19,7 +19,7 @@ RootGrid::RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float r
   first_.assign(std::bit_ceil(2 * positions_.size() + 1) + 1, 0);
   const auto bucket_of = [this](const V3f& p) { return bucket(cell(p.x), cell(p.y), cell(p.z)); };
   for (const V3f& p : positions_) ++first_[bucket_of(p)];
-  // Where each bucket ends; the last place of a bucket goes there first, which leaves where it begins.
+  // End of each bucket; places are inserted from the end, which leaves its start.
   for (size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
   items_.resize(positions_.size());
   for (size_t i = positions_.size(); i-- > 0;)

@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// Finds the nearest of a fixed set of places on a skin. Places whose normals differ by more than 60 degrees
-/// from that of the query do not count, so that the two sides of a thin ear stay apart. Immutable. Thread
-/// safety: const members may be called from any thread.
+/// Finds the nearest of a fixed set of places on a skin. Ignores places whose normals differ by more than 60
+/// degrees from the query's, which separates the two sides of a thin ear. Immutable. Thread safety: const
+/// members may be called from any thread.
 class RootGrid {
  public:
   struct Neighbour {
@@ -19,7 +19,7 @@ class RootGrid {
   };
 
   RootGrid() = default;
-  /// `radius`: the furthest that queries look.
+  /// `radius`: max search distance.
   RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float radius);
 
   size_t size() const { return positions_.size(); }
@@ -27,16 +27,15 @@ class RootGrid {
   const V3f& normal(size_t i) const { return normals_[i]; }
   float radius() const { return radius_; }
 
-  /// Nearest place within the radius, the lower index of equals; false when there is none.
+  /// Nearest place within the radius, the lower index in case of a tie; false when there is none.
   bool nearest(const V3f& position, const V3f& normal, Neighbour& result) const;
-  /// The `wanted` nearest places within the radius into `result`, nearest first; how many there are.
+  /// Writes the `wanted` nearest places within the radius to `result`, nearest first; returns their number.
   int nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const;
   size_t bytes() const;
   /// Upper bound of bytes() per place.
   static constexpr size_t kMaxBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
 
-  /// Calls visit(index, squared distance) for every place within the radius, in no meaningful but a fixed
-  /// order.
+  /// Calls visit(index, squared distance) for every place within the radius, in a fixed but arbitrary order.
   template <class Visit>
   void for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const;
 
@@ -68,7 +67,7 @@ void RootGrid::for_each_near(const V3f& position, const V3f& normal, const Visit
           const V3f d = p - position;
           const float distance2 = d.dot(d);
           if (distance2 > radius_ * radius_ || normals_[i].dot(normal) < 0.5f) continue;
-          // Several cells may share a bucket: each place counts in its own cell only.
+          // Several cells may share a bucket: skip places of other cells.
           if (cell(p.x) != x || cell(p.y) != y || cell(p.z) != z) continue;
           visit(i, distance2);
         }

@@ -7,7 +7,8 @@
 
 namespace pelage {
 
-/// Sine and cosine of `turns` full turns, to 4e-6. Plain arithmetic, so that loops over strands vectorise.
+/// Sine and cosine of `turns` full turns, with an error of 4e-6. Plain arithmetic, so that loops over strands
+/// vectorise.
 inline void sincos_turns(float turns, float& sine, float& cosine) {
   const auto sine_of_quarter = [](float y) {  // |y| <= 1/4 turn: Taylor series to the 9th power
     const float a = 6.28318531f * y;
@@ -21,7 +22,7 @@ inline void sincos_turns(float turns, float& sine, float& cosine) {
   sine = std::copysign(sine_of_quarter(folded), x);
 }
 
-/// Unit vector along `v`, or `fallback` where `v` has no direction.
+/// Unit vector along `v`, or `fallback` where `v` is too short to have a direction.
 inline V3f normalised_or(const V3f& v, const V3f& fallback) {
   const float length2 = v.dot(v);
   return length2 > 1e-24f ? v * (1.0f / std::sqrt(length2)) : fallback;
@@ -33,7 +34,7 @@ inline V3f any_perpendicular(const V3f& n) {
   return normalised_or(axis - n * n.dot(axis), V3f(0, 0, 1));
 }
 
-/// Turns about a unit axis.
+/// A rotation about a unit axis.
 struct Rotation {
   V3f axis{0, 0, 1};
   float angle = 0;  ///< radians
@@ -45,8 +46,8 @@ struct Rotation {
   }
 };
 
-/// The smallest rotation that takes the unit vector `from` to the unit vector `to`; about `if_opposite`
-/// (unit, perpendicular to `from`) when they are opposite.
+/// The smallest rotation from the unit vector `from` to the unit vector `to`; about `if_opposite` (unit,
+/// perpendicular to `from`) when they are opposite.
 inline Rotation rotation_between(const V3f& from, const V3f& to, const V3f& if_opposite) {
   const V3f cross = from.cross(to);
   const float sine = cross.length();

@@ -27,13 +27,13 @@ namespace {
 
 SkinMesh tessellate_evenly(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job) {
   View everywhere;
-  everywhere.focal_pixels = 1e12f;  // every edge wants more than the largest rate
+  everywhere.focal_pixels = 1e12f;  // so that every edge exceeds the max rate
   TessellationOptions options;
-  // About a hundred thousand quads, whatever the cage.
+  // About a hundred thousand quads for any cage.
   const double faces = std::max(1.0, static_cast<double>(rest.topology().face_count()));
   options.max_rate =
       rest.topology().is_flat() ? 1 : std::clamp(static_cast<int>(std::sqrt(1e5 / faces)), 2, 16);
-  constexpr double kBytesPerQuad = 300;  // its vertex, two triangles and the tree over them
+  constexpr double kBytesPerQuad = 300;  // a vertex, two triangles and the tree over them
   require_room(job.ledger, static_cast<int64_t>(faces * options.max_rate * options.max_rate * kBytesPerQuad),
                "finding the roots of " + strands.string() + " on its skin");
   job.check_stop();

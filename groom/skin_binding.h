@@ -11,19 +11,19 @@ namespace pelage {
 
 struct Job;
 
-/// Finds the place of the rest skin nearest to a point, for what was made elsewhere: guides and imported
-/// strands. By an even tessellation, so addresses are exact to its triangles. Immutable. Thread safety: const
-/// members may be called from any thread.
+/// Finds the point of the rest skin nearest to a given point, for guides and imported strands. Uses a uniform
+/// tessellation, so addresses are accurate to its triangles. Immutable. Thread safety: const members may be
+/// called from any thread.
 class SkinBinding {
  public:
-  /// Charged to the ledger for as long as it lives. Throws Error (kMemory), which names the file whose
-  /// strands are to be bound, Error (kStopped).
+  /// Charged to the ledger for its lifetime. Throws Error (kMemory), which names the file whose strands are
+  /// to be bound, Error (kStopped).
   SkinBinding(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job);
   ~SkinBinding();
 
-  /// Whether there is no place to be near to: every face of the skin is a hole.
+  /// Whether the skin has no surface: every face is a hole.
   bool empty() const;
-  /// Ptex address of the nearest place. Not of an empty skin.
+  /// Ptex address of the nearest point. The skin must not be empty.
   RootAddress nearest(const V3f& point) const;
 
  private:

@@ -6,20 +6,20 @@
 #include <cstdint>
 #include <optional>
 
-// Numbers from 0 to a million in 16 bits: zero, or 10 bits of mantissa below 6 of exponent. The nearest one
-// is off by at most 2^-11 of a number; powers of two are kept exactly.
+// Numbers from 0 to a million in 16 bits: zero, or 6 bits of exponent and 10 bits of mantissa. Rounding to
+// nearest has a relative error of at most 2^-11; powers of two are exact.
 namespace pelage::small_float {
 
-inline constexpr uint32_t kBias = 83u << 10;   // the least positive number is a bit more than 2^-44
-inline constexpr uint32_t kMantissaBits = 13;  // that are left out
+inline constexpr uint32_t kBias = 83u << 10;   // the smallest positive number is slightly above 2^-44
+inline constexpr uint32_t kMantissaBits = 13;  // mantissa bits that are dropped
 
 inline float decode(uint16_t code) {
   const uint32_t bits = (code + kBias) << kMantissaBits;
   return code == 0 ? 0.0f : std::bit_cast<float>(bits);
 }
 
-/// With `round_up` 0: the largest that is not above `value`; with all mantissa bits that are left out set:
-/// the least that is not below. Nothing for what is negative, too large or no number.
+/// With `round_up` 0: the largest number not above `value`; with all dropped mantissa bits set: the smallest
+/// not below. Empty for negative, too large and NaN values.
 inline std::optional<uint16_t> encode(float value, uint32_t round_up) {
   if (value == 0) return uint16_t{0};
   if (!(value > 0) || !std::isfinite(value)) return {};

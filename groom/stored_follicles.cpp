@@ -12,9 +12,9 @@ namespace {
 
 constexpr const char* kKind = "follicles";
 
-// Sections: leaves; ids; faces; u and v. Ids ascend within a leaf: where none is more than 65535 above the
-// one before, those differences stand for them, 0 for the first of a leaf. Faces take 16 bits where the skin
-// has no more. What of it holds shows in the size of a section.
+// Sections: leaves; ids; faces; u and v. Ids ascend within a leaf: when no difference exceeds 65535,
+// differences are stored instead, 0 for the first of a leaf. Faces take 16 bits when the skin has no more.
+// The size of a section shows which form it has.
 struct StoredLeaf {
   uint32_t begin, end;
   uint32_t first_id;

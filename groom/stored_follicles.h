@@ -11,11 +11,11 @@ namespace pelage {
 class SurfaceTopology;
 
 std::filesystem::path follicle_file(const ContentStore& store, const ContentHash& key);
-/// Whether the follicles now stand in the store.
+/// Returns whether the follicles are now in the store.
 bool store_follicles(const ContentStore& store, const ContentHash& key, const FollicleTree& follicles,
                      const WarningSink& warn);
-/// Nothing when they are not there, or when what is there are no follicles of such a skin. `topology` is null
-/// for strands that stand free.
+/// Empty when the entry is missing or does not hold follicles of this skin. `topology`: null for strands
+/// without a skin.
 std::optional<FollicleTree> stored_follicles(const ContentStore& store, const ContentHash& key,
                                              const SurfaceTopology* topology, const WarningSink& warn);
 

@@ -49,7 +49,7 @@ void scale_radii(StrandBatch& batch, float scale) {
 void carry_to_pose(StrandBatch& batch, float scale) {
   batch.scale = scale;
   batch.posed = true;
-  // Rotation of each root, here * transposed rest, times the scale.
+  // Rotation of each root, current * transposed rest, times the scale.
   std::array<VectorRow, 3> matrix;
   for (size_t row = 0; row < 3; ++row) {
     for (size_t column = 0; column < 3; ++column) {

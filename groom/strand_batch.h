@@ -12,7 +12,7 @@ namespace pelage {
 
 class ClosestPointTree;
 
-/// Strands that operators work on together: small enough for the second cache level, long enough for SIMD.
+/// Number of strands that operators process together: small enough for the L2 cache, large enough for SIMD.
 inline constexpr size_t kBlockStrands = 256;
 /// One number per strand of a batch; vectors are three rows.
 using StrandRow = std::array<float, kBlockStrands>;
@@ -27,7 +27,7 @@ inline void set_vector(VectorRow& row, size_t strand, const V3f& value) {
   row[2][strand] = value.z;
 }
 
-/// Where strands stand on a skin.
+/// Roots of strands on a skin.
 struct RootRows {
   VectorRow position;
   VectorRow tangent, bitangent, normal;  ///< orthonormal follicle frames
@@ -38,12 +38,12 @@ struct RootRows {
   }
 };
 
-/// A few strands on their way through the operators, as rows over strands: [point][strand].
+/// A block of strands during the evaluation of the operators, as rows over strands: [point][strand].
 ///
 /// Points are offsets from the root along the axes of the batch's space: rest space for frozen operators, the
 /// posed space of one motion key for live ones. All strands of a batch have the same number of points. Point
-/// 0 is the base of the strand: zero for grown strands, the gap to the skin for imported ones; operators
-/// leave it.
+/// 0 is the base of the strand: zero for grown strands, the gap to the skin for imported ones; operators must
+/// not move it.
 struct StrandBatch {
   struct PointRows {
     VectorRow offset;
@@ -52,18 +52,17 @@ struct StrandBatch {
 
   size_t count = 0;
   std::vector<PointRows> points;
-  std::vector<VectorRow>
-      colors;  ///< one per point, one for whole strands, or none when nothing asks for colour
+  std::vector<VectorRow> colors;  ///< one per point, one for whole strands, or none when nothing needs colour
   std::array<uint64_t, kBlockStrands> ids;
-  RootRows rest;     ///< in rest space
-  RootRows current;  ///< in the batch's space
-  StrandRow u, v;    ///< texture coordinates of the roots
-  StrandRow clump;   ///< random number of the clump that a strand belongs to, or of the strand itself
-  const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that ask for it
-  float scale = 1;     ///< of the character: what a scene unit of an operator measures here
+  RootRows rest;                           ///< in rest space
+  RootRows current;                        ///< in the batch's space
+  StrandRow u, v;                          ///< texture coordinates of the roots
+  StrandRow clump;                         ///< random number of the strand's clump, or of the strand itself
+  const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that need it
+  float scale = 1;     ///< of the character: length of an operator's scene unit in this space
   bool posed = false;  ///< whether the batch's space is that of a pose
 
-  /// What a batch of strands of so many points takes.
+  /// Memory of a batch of strands with this number of points.
   static int64_t bytes(int points, bool colored) {
     return static_cast<int64_t>(sizeof(StrandBatch)) +
            static_cast<int64_t>(sizeof(PointRows) + (colored ? sizeof(VectorRow) : 0)) * points;
@@ -76,23 +75,23 @@ struct StrandBatch {
   void set_offset(int point, size_t strand, const V3f& value) {
     set_vector(points[static_cast<size_t>(point)].offset, strand, value);
   }
-  /// Position along a strand by point number: 0 at the root, 1 at the tip.
+  /// Position along a strand by point index: 0 at the root, 1 at the tip.
   float along(int point) const { return static_cast<float>(point) / static_cast<float>(segment_count()); }
-  /// A direction of rest space in the batch's space, carried by the follicle frames.
+  /// Transforms a direction from rest space to the batch's space, using the follicle frames.
   V3f from_rest(size_t strand, const V3f& direction) const {
     return posed ? current.frame(strand).to_world(rest.frame(strand).to_local(direction)) : direction;
   }
 };
 
-/// Makes straight strands of unit length along the root normals of `batch.rest`, without width; copies the
-/// rest frames to `here`.
+/// Makes straight strands of unit length along the root normals of `batch.rest`, with zero width; copies the
+/// rest frames to `current`.
 void start_strands(StrandBatch& batch, int points);
 
-/// Takes away widths and makes colours white, as before the first operator.
+/// Resets widths and sets colours to white, as before the first operator.
 void clear_attributes(StrandBatch& batch);
 void scale_radii(StrandBatch& batch, float scale);
 
-/// Turns rest offsets into those of a pose, whose roots stand in batch.here, and scales offsets and radii.
+/// Transforms rest offsets to a pose with the roots batch.current, and scales offsets and radii.
 void carry_to_pose(StrandBatch& batch, float scale);
 
 /// Arc length of each strand's control polygon.

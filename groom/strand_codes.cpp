@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-constexpr float kWidthsPerError = 20.0f;  // no point is off by more than this part of the strand's width
+constexpr float kWidthsPerError = 20.0f;  // max error of a point, as a fraction of the strand's width
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
@@ -21,7 +21,7 @@ void append(std::vector<std::byte>& bytes, const T& value) {
   bytes.insert(bytes.end(), from.begin(), from.end());
 }
 
-/// The number that `append` has put at place `i`.
+/// The number at index `i` of those written by `append`.
 template <class T>
 T at(const std::vector<std::byte>& bytes, size_t i) {
   T value;
@@ -29,7 +29,7 @@ T at(const std::vector<std::byte>& bytes, size_t i) {
   return value;
 }
 
-/// `part` of `whole` in whole numbers up to `max`.
+/// `part` of `whole` as an integer up to `max`.
 float levels(float part, float whole, float max) { return whole > 0 ? std::round(part / whole * max) : 0.0f; }
 
 }  // namespace

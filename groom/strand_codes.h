@@ -10,62 +10,62 @@
 
 namespace pelage {
 
-/// How widths and colours of a coat are coded. A function of its operators.
+/// Coding options for widths and colours of a coat, determined by its operators.
 struct CodeOptions {
-  /// Strands share the profile of their widths, which then may have 16 bits a point; else 8.
+  /// Strands share one width profile, which then may use 16 bits per point; else 8.
   bool one_width_profile = false;
 };
 
-/// What a cache keeps of the strands of a batch, as whole numbers; what each means is in namespace codes
-/// below.
+/// The integers that a cache stores for the strands of a batch; namespace codes below defines their meaning.
 ///
-/// Every number is a function of the strand alone: not of the batch, the leaf, or the other strands in it. So
-/// a strand comes out of the cache the same however a coat is cut into leaves.
+/// Every number is a function of its strand alone, independent of the batch, the leaf, and the other strands
+/// in it. A strand is therefore restored identically however a coat is divided into leaves.
 class StrandCodes {
  public:
   enum Column : size_t { kClump, kWidthScale, kWidthProfile, kColorScale, kColorHue, kColorProfile };
   static constexpr size_t kColumns = 6;
 
-  /// Of a batch in rest space after the frozen operators.
+  /// From a batch in rest space after the frozen operators.
   StrandCodes(const StrandBatch& batch, const CodeOptions& options);
 
   size_t count = 0, points = 0;
-  size_t color_rows = 0;  ///< 0, 1 or as many as points
-  bool has_base = false;  ///< some strand does not begin at its root
-  bool clumped = false;   ///< some number is not that of a strand in no clump
-  /// Some strand does not fit into the codes. Then the batch is kept in floats: those of the strands that do
-  /// fit are what their codes would decode to.
+  size_t color_rows = 0;  ///< 0, 1 or the number of points
+  bool has_base = false;  ///< some strand does not start at its root
+  bool clumped = false;   ///< some strand belongs to a clump
+  /// Some strand cannot be represented by the codes. The batch is then stored as floats, which for the other
+  /// strands are their decoded codes.
   bool plain = false;
 
   std::vector<uint16_t> steps;  ///< small floats, [strand]
-  std::vector<int16_t> shape;   ///< in steps from the decoded point before, [point][axis][strand]
-  /// Codes of each strand after the other; but for clumps none of plain batches.
+  std::vector<int16_t> shape;   ///< in steps relative to the previous decoded point, [point][axis][strand]
+  /// Codes strand by strand; for plain batches only those of clumps.
   std::array<std::vector<std::byte>, kColumns> columns;
-  std::vector<float> floats;  ///< of plain batches: rows [point][axis], [point] of radii, [row][channel]
+  std::vector<float> floats;  ///< plain batches: rows [point][axis], [point] of radii, [row][channel]
 
  private:
   float* shape_row(size_t r) { return &floats[r * count]; }
   float* radius_row(size_t p) { return shape_row(points * 3 + p); }
   float* color_row(size_t r) { return shape_row(points * 4 + r); }
   void take_floats(const StrandBatch& batch);
-  // Each says whether the strand fits.
+  // Each returns whether the strand can be represented.
   bool code_shape(size_t s);
   bool code_widths(size_t s, const CodeOptions& options);
   bool code_colors(size_t s);
-  /// Puts what its codes mean in place of a strand's floats.
+  /// Replaces a strand's floats by its decoded codes.
   void decode(size_t s, const CodeOptions& options);
 };
 
-/// What the codes mean.
+/// Definition of the codes.
 namespace codes {
 
-inline constexpr float kLargestStep = 32766.0f;  // one less than 16 bits hold: rounding of the point before
+inline constexpr float kLargestStep =
+    32766.0f;  // one less than 16 bits hold, because the previous point is rounded
 
 inline float clump(uint16_t code) { return (code + 0.5f) * 0x1p-16f; }
 inline uint16_t clump_code(float clump) { return static_cast<uint16_t>(clump * 65536.0f); }
 inline float width_ratio(uint8_t code) { return code / 255.0f; }
 inline float width_ratio(uint16_t code) { return code / 65535.0f; }
-/// Of the channel's largest, relative to the strand's: ten bits each, of the root.
+/// Each channel's max relative to the strand's max: ten bits each, of the square root.
 inline float hue(uint32_t code, int channel) {
   const float root = static_cast<float>(code >> (10 * channel) & 1023u) / 1023.0f;
   return root * root;

@@ -9,7 +9,8 @@
 namespace pelage {
 namespace {
 
-/// Calls `store(strand, point)` with the place of each strand; `attributes` of the point are valid meanwhile.
+/// Calls `store(strand, point)` with the position of each strand; `attributes` of the point are valid during
+/// the call.
 template <class Store>
 void visit(const FieldDependence& needs, const StrandBatch& batch, float along, int point,
            const Store& store) {
@@ -42,7 +43,7 @@ bool changes_by_strand(const Field& field) {
 bool changes_along(const Field& field) {
   const FieldDependence needs = field.dependence();
   if (needs.along) return true;
-  // The colour that a strand has already may change along it.
+  // The current colour of a strand may change along it.
   const std::vector<std::string> names =
       needs.attributes ? field.attribute_names() : std::vector<std::string>();
   return std::find(names.begin(), names.end(), "color") != names.end();
@@ -107,7 +108,7 @@ const StrandRow& StrandField::at(float along) {
     evaluate(factors_.list[0].field, batch_, along, row_);
     return row_;
   }
-  // In the order of the product: the result is that of Field::value to the last bit.
+  // In the order of the product: the result is bit-identical to Field::value.
   std::fill_n(row_.begin(), count, 1.0f);
   StrandRow value;
   for (const Factor<StrandRow>& factor : factors_.list) {

@@ -8,19 +8,19 @@
 
 namespace pelage {
 
-// How operators evaluate their fields over a batch. Fields may ask for the attributes
-//   random  a number in [0, 1) of the strand's own,
+// Evaluation of operator fields over a batch. Fields may read the attributes
+//   random  a number in [0, 1) per strand,
 //   clump   the same for all strands of a clump (set by the operator clump),
-//   color   what operators before have coloured the strand (1 before any has).
+//   color   the strand's colour so far (1 before any operator has set it).
 
-/// First channel of a field at each strand, at `along` (0 root, 1 tip) of it.
+/// First channel of a field for each strand, at `along` (0 root, 1 tip).
 void evaluate(const Field& field, const StrandBatch& batch, float along, StrandRow& out);
-/// All three channels; `point` says whose colour the attribute "color" means.
+/// All three channels; `point`: the point whose colour the attribute "color" returns.
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
-/// A field over a batch at one place of the strands after the other: a factor of a product (and any other
-/// field) that does not change along strands is evaluated once per strand, one that changes along them alone
-/// once per place.
+/// Evaluates a field over a batch at successive positions along the strands. A factor of a product (and any
+/// other field) that does not change along strands is evaluated once per strand; one that only changes along
+/// them, once per position.
 class StrandField {
  public:
   StrandField(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}

@@ -39,7 +39,7 @@ void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes) {
   const auto from = std::as_bytes(std::span(&header, 1));
   bytes.insert(bytes.end(), from.begin(), from.end());
   append(batch.clump, n, bytes);
-  // Operators leave point 0 where it is.
+  // Operators do not move point 0.
   for (size_t p = 1; p < batch.points.size(); ++p) {
     for (const StrandRow& axis : batch.points[p].offset) append(axis, n, bytes);
   }

@@ -9,14 +9,14 @@
 
 namespace pelage {
 
-// The state of strands between two frozen operators, to the last bit, in rest space: what lets a coat be
-// grown again from the middle of its operators. Widths that nothing has set and colours that are still white
-// take no room.
+// Lossless state of strands between two frozen operators, in rest space, which allows a coat to be grown
+// again from the middle of its operators. Widths that are not set and colours that are still white take no
+// space.
 
 /// Appends a batch.
 void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes);
-/// Reads the batch that stands at `at` into one that has been started, with the same strands, and moves `at`
-/// behind it. False, with the batch in any state, when what stands there is something else.
+/// Reads the batch at `at` into one that has been started with the same strands, and advances `at` past it.
+/// Returns false, with the batch in an unspecified state, when the bytes there are not this batch.
 bool read_layer(std::span<const std::byte> bytes, size_t& at, StrandBatch& batch);
 
 }  // namespace pelage

@@ -45,8 +45,8 @@ size_t StrandWriter::color_rows(int points) const {
   return *colors_ == AttributeClass::kPerPoint ? static_cast<size_t>(points) : 1;
 }
 
-/// Calls `use` with each strand of the batch that is written, its number in the arrays, and the factors on
-/// its width and colour.
+/// Calls `use` with each strand of the batch that is written, its index in the arrays, and the factors on its
+/// width and colour.
 template <class Use>
 void StrandWriter::each(const StrandBatch& batch, size_t first, const Use& use) const {
   if (!chosen_) {

@@ -9,34 +9,34 @@
 
 namespace pelage {
 
-/// Collects finished batches into the arrays of a Strands, which it reserves exactly: all of their strands,
-/// or some of them with other widths and colours.
+/// Collects finished batches into the arrays of a Strands, reserved exactly: all of their strands, or some of
+/// them with modified widths and colours.
 class StrandWriter {
  public:
-  /// Which strands are written: by number, ascending, each with a factor on its width and one on its colours.
+  /// The strands to write, as ascending indices, each with a factor on its width and one on its colours.
   struct Chosen {
     std::span<const uint32_t> strands;
     std::span<const float> width;
-    std::vector<float> color;  ///< or none
+    std::vector<float> color;  ///< may be empty
   };
 
   StrandWriter(size_t strands, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
   StrandWriter(Chosen chosen, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
 
-  /// How many of `count` strands from `first` on need to be made so that all that are written are: 0, or up
-  /// to the last of them.
+  /// How many of `count` strands from `first` on must be made to cover all that are written: 0, or up to the
+  /// last of them.
   size_t needed(size_t first, size_t count) const;
 
-  /// Point count of the next strand, before anything is written / of all strands.
+  /// Sets the point count of the next strand / of all strands; call before writing.
   void expect(int points);
   void expect_all(int points);
-  /// Rows of colour that batches of strands with `points` points must carry.
+  /// Number of colour rows that batches of strands with `points` points must have.
   size_t color_rows(int points) const;
 
-  /// Writes a batch whose strands come from number `first` on, scaled by `length` about their roots, widths
-  /// apart; colours with key 0.
+  /// Writes a batch whose strands start at number `first`. Scales them by `length` about their roots, except
+  /// for widths. Colours are written with key 0.
   void write(const StrandBatch& batch, size_t first, size_t key, float length);
-  /// Ids and roots of the same, which are follicles [begin, ...).
+  /// Writes ids and roots of the same strands, which are follicles [begin, ...).
   void write_roots(const StrandBatch& batch, size_t first, const FollicleTree& follicles, size_t begin);
   StrandArrays take();
 

@@ -49,13 +49,12 @@ void TransportedFrame::advance(const StrandBatch& batch) {
     dx = moves ? dx * inverse : ax[s];
     dy = moves ? dy * inverse : ay[s];
     dz = moves ? dz * inverse : az[s];
-    // The smallest rotation from a to d takes f, perpendicular to a, to f - (f.d) / (1 + a.d) (a + d).
+    // The smallest rotation from a to d maps f, perpendicular to a, to f - (f.d) / (1 + a.d) (a + d).
     const float cosine = 1.0f + ax[s] * dx + ay[s] * dy + az[s] * dz;
     const float along = fx[s] * dx + fy[s] * dy + fz[s] * dz;
     const float k = cosine > 1e-4f ? along / cosine : 0.0f;
     const float gx = fx[s] - k * (ax[s] + dx), gy = fy[s] - k * (ay[s] + dy), gz = fz[s] - k * (az[s] + dz);
-    // Rounding drifts and, where a strand turns right back, there is no smallest rotation: make it
-    // perpendicular.
+    // Rounding drifts, and where a strand reverses there is no smallest rotation: orthogonalise.
     const float rest = gx * dx + gy * dy + gz * dz;
     const float hx = gx - rest * dx, hy = gy - rest * dy, hz = gz - rest * dz;
     const float scale = 1.0f / std::sqrt(std::max(hx * hx + hy * hy + hz * hz, 1e-12f));

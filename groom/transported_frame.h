@@ -6,15 +6,14 @@
 namespace pelage {
 
 /// Rotation-minimising frames along the control polygons of a batch, one point after the other: the direction
-/// of the polygon, and two perpendiculars that turn about it no more than they must (parallel transport;
-/// [Wang08] compares methods). The frames begin at the follicle's tangent, so they follow the skin into any
-/// pose.
+/// of the polygon, and two perpendiculars with the least rotation about it (parallel transport; [Wang08]
+/// compares methods). The frames start at the follicle's tangent, so they follow the skin into any pose.
 class TransportedFrame {
  public:
   explicit TransportedFrame(const StrandBatch& batch);
 
-  /// Moves on to the next point, whose offsets must still be those the frame was made for; operators displace
-  /// a point after the frame has moved on to it.
+  /// Advances to the next point, whose offsets must still be unmodified; operators displace a point after the
+  /// frame has advanced to it.
   void advance(const StrandBatch& batch);
 
   const VectorRow& along() const { return along_; }
@@ -27,7 +26,7 @@ class TransportedFrame {
  private:
   VectorRow along_;
   VectorRow first_;
-  VectorRow previous_;  // offsets of the point before
+  VectorRow previous_;  // offsets of the previous point
   int point_ = 0;
 };
 

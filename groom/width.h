@@ -16,7 +16,7 @@ struct WidthParams {
   static const Schema<WidthParams>& schema();
 };
 
-/// Sets the thickness of strands from root to tip.
+/// Sets the width of strands from root to tip.
 class Width final : public OperatorOf<WidthParams> {
  public:
   static constexpr const char* kName = "width";

@@ -20,8 +20,7 @@
 namespace pelage {
 namespace {
 
-/// Rows of a picture that are made and written at a time, for each thread: as many as are compressed
-/// together.
+/// Number of rows per thread that are made and written at once: as many as are compressed together.
 constexpr int kRowsPerThread = 16;
 
 std::vector<ExrChannelInfo> described(const std::vector<ExrChannel>& channels) {
@@ -30,7 +29,7 @@ std::vector<ExrChannelInfo> described(const std::vector<ExrChannel>& channels) {
   return result;
 }
 
-/// What one pixel takes as a row source gives it, and rounded.
+/// Memory of one pixel as provided by a row source, and rounded.
 int64_t bytes_of_pixel(const std::vector<ExrChannel>& channels) {
   int64_t bytes = 0;
   for (const ExrChannel& channel : channels)
@@ -38,7 +37,7 @@ int64_t bytes_of_pixel(const std::vector<ExrChannel>& channels) {
   return bytes;
 }
 
-/// Where the writer finds the rows of every channel.
+/// Locations of all channels' rows, for the writer.
 std::vector<ExrRows> rows_of(std::vector<ExrChannel>& channels, size_t width, size_t count) {
   std::vector<ExrRows> rows;
   for (size_t i = 0; i < channels.size(); ++i) {
@@ -63,8 +62,8 @@ void read_header(const Imf::Header& header, const std::filesystem::path& path, E
   image.attributes = read_attributes(header);
 }
 
-/// Rows that are read at a time. Memory grows as they arrive: a header may claim rows that the file does not
-/// hold.
+/// Number of rows read at once. Memory grows as they are read, because a header may claim rows that the file
+/// does not contain.
 constexpr int kStripRows = 256;
 
 void read_rows(Imf::InputFile& file, ExrImage& image) {
@@ -138,7 +137,7 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
   for (const ExrChannel& channel : image.channels) {
     PELAGE_CHECK((channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size()) == pixels);
   }
-  MemoryLedger none;  // what is written is there already
+  MemoryLedger none;  // the picture is already in memory
   write_exr(path, image.width, image.height, image.attributes, rows, Workers::alone(), none);
 }
 

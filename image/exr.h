@@ -31,10 +31,10 @@ using ExrAttribute = std::variant<int, float, std::string, V2f, V3f, M44f>;
 
 using ExrAttributes = std::map<std::string, ExrAttribute>;
 
-/// Makes rows y0 .. y1-1 of a picture: the same channels, in the same order, whichever rows they are.
+/// Produces rows y0 .. y1-1 of a picture. Every call must return the same channels in the same order.
 using ExrRowSource = std::function<std::vector<ExrChannel>(int y0, int y1)>;
 
-/// The whole of a single-part scan-line EXR.
+/// A complete single-part scan-line EXR.
 struct ExrImage {
   int width = 0;
   int height = 0;
@@ -44,16 +44,16 @@ struct ExrImage {
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes a picture as ExrWriter does, asking `rows` for a few at a time: that, and what writing takes
-/// besides, is charged as film meanwhile. `rows` gives what the first call gave, of other rows. Throws Error
-/// (kFailed) naming the path.
+/// Writes a picture as ExrWriter does, requesting a few rows at a time from `rows`. Those rows and the memory
+/// needed for writing are charged as film until the call returns. Every call of `rows` must return the
+/// channels of the first one. Throws Error (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
                const ExrRowSource& rows, const Workers& workers, MemoryLedger& ledger);
-/// The same of a picture that is there already.
+/// The same for a picture that is already in memory.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 
-/// Reads every channel of the first part (scan lines or tiles) over its data window, and those attributes
-/// that ExrAttribute can hold. Throws Error (kInput) naming the file when it is missing or damaged.
+/// Reads every channel of the first part (scan lines or tiles) over its data window, and the attributes that
+/// ExrAttribute can hold. Throws Error (kInput) naming the file when it is missing or damaged.
 ExrImage read_exr(const std::filesystem::path& path);
 
 }  // namespace pelage

@@ -19,16 +19,16 @@ constexpr uint32_t kMagic = 20000630;
 constexpr uint32_t kLongNames = 0x400, kMultiPart = 0x1000;
 constexpr int64_t kLargestSide = 1 << 16;
 constexpr int64_t kMaxBlockBytes = int64_t(1) << 29;
-/// Blocks beyond this must be in proportion to the file.
+/// Blocks larger than this must be in proportion to the file.
 constexpr int64_t kAnyBlockBytes = int64_t(1) << 26;
 constexpr int64_t kMaxExpansion = 4096;
 constexpr int kMaxParts = 1024;
 
-/// Rows that are compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
+/// Number of rows compressed together, by compression number (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A,
 /// DWAA, DWAB).
 constexpr int64_t kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
 
-/// Bytes of the values that the library reads without a look at the length that the file claims.
+/// Sizes of the values that the library reads without checking the length claimed by the file.
 struct TypeBytes {
   std::string_view type;
   int64_t bytes;
@@ -109,7 +109,7 @@ class HeaderWalk {
     return text;
   }
 
-  /// One header; false for the empty one that ends the list of a multi-part file.
+  /// Reads one header; false for the empty one that ends the list of a multi-part file.
   bool header() {
     int64_t width = 1, height = 1, pixel_bytes = 0, rows = 1;
     bool is_empty = true;

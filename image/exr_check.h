@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-/// Walks the headers of an EXR file and refuses what would make a reader allocate more than the file can
-/// account for: attributes longer than the file or not as long as they claim, pictures beyond 65536 pixels a
-/// side, blocks of rows beyond half a GiB. OpenEXR itself believes those numbers. Throws Error (kInput)
+/// Reads the headers of an EXR file and rejects those that would make a reader allocate more than the file
+/// can contain: attributes that exceed the file or have inconsistent lengths, pictures beyond 65536 pixels
+/// per side, blocks of rows beyond half a GiB. OpenEXR itself trusts those numbers. Throws Error (kInput)
 /// naming the file.
 void check_exr_headers(const std::filesystem::path& path);
 

@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-/// The library's message in one line, without the path that it repeats.
+/// The library's message on one line, without the path.
 std::string text_of(const std::exception& error, const std::filesystem::path& path) {
   std::string text = error.what();
   if (const size_t named = text.find(path.string() + "\". "); named != std::string::npos) {

@@ -6,18 +6,18 @@
 
 #include "base/error.h"
 
-// What is wrong with an EXR file, in our words; for the sources of image/ alone.
+// Errors of EXR files in our own words; only for the sources of image/.
 
 namespace pelage {
 
 /// Throws Error (kInput).
 [[noreturn]] void refuse_exr(const std::filesystem::path& path, const std::string& why);
 
-/// In a handler: throws what it handles as an Error. What OpenEXR throws becomes one of `kind`: kInput where
-/// a file is read, kFailed where it is written.
+/// Call in an exception handler: converts the current exception to an Error. Exceptions of OpenEXR become
+/// errors of `kind`: kInput for reading, kFailed for writing.
 [[noreturn]] void rethrow_exr(const std::filesystem::path& path, ErrorKind kind);
 
-/// Runs what may throw anything; throws nothing but Error, as rethrow_exr().
+/// Runs `work` and converts all its exceptions with rethrow_exr().
 template <class Work>
 auto guarded_exr(const std::filesystem::path& path, ErrorKind kind, Work&& work) {
   try {

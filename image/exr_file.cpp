@@ -27,7 +27,7 @@
 namespace pelage {
 namespace {
 
-/// OpenEXR's own threads, of which a process has one team. Under the thread sanitizer none: they are not
+/// OpenEXR's own threads, one pool per process. None under the thread sanitizer, because they are not
 /// instrumented.
 int library_threads(int threads) {
 #ifdef PELAGE_STD_THREADS
@@ -61,14 +61,13 @@ ExrPart describe(const Imf::Header& header, const std::filesystem::path& path) {
   return part;
 }
 
-/// Rows that are compressed together, by compression (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA,
+/// Number of rows compressed together, by compression (none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA,
 /// DWAB).
 constexpr int kBlockRows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
-/// A block is held as it is in the file, as pixels, and once between.
+/// A block is stored as in the file, as pixels, and once in between.
 constexpr int64_t kCopiesOfBlock = 3;
 
-/// What the library holds while it reads or writes a part with a team of `team` threads: blocks of rows, two
-/// for each.
+/// Memory of the library while it reads or writes a part with `team` threads: two blocks of rows each.
 int64_t bytes_of_blocks(const Imf::Header& header, const ExrPart& part, int team) {
   const auto compression = static_cast<size_t>(header.compression());
   int64_t rows = compression < std::size(kBlockRows) ? kBlockRows[compression] : 256;
@@ -84,11 +83,12 @@ bool loses(Imf::Compression compression) {
          compression != Imf::PIZ_COMPRESSION;
 }
 
-/// Attributes that say how the pixels of a file lie in it, and those that would no longer be true.
+/// Attributes about the layout of pixels in the file, and those that would no longer be true.
 constexpr const char* kOfTheFile[] = {"tiles",   "chunkCount", "maxSamplesPerPixel",
                                       "preview", "version",    "type"};
 
-/// The library cuts names at their first zero byte and at its longest, and keeps one channel of each name.
+/// The library truncates names at their first zero byte and at its max length, and keeps one channel per
+/// name.
 void check_names(const std::vector<ExrChannelInfo>& channels) {
   std::set<std::string_view> names;
   for (const ExrChannelInfo& channel : channels) {
@@ -104,7 +104,7 @@ void check_names(const std::vector<ExrChannelInfo>& channels) {
 
 Imf::Header header_for(const Imf::Header& like, const ExrPart& part) {
   check_names(part.channels);
-  // Built up rather than cut down: the library's erase() loses what it erases.
+  // Built from scratch rather than reduced: the library's erase() leaks what it erases.
   Imf::Header header;
   for (auto a = like.begin(); a != like.end(); ++a) {
     const std::string_view name = a.name();

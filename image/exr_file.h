@@ -21,7 +21,7 @@ struct PixelBox {
   bool operator==(const PixelBox&) const = default;
 };
 
-/// Bytes in the name of a channel or attribute, at most.
+/// Max length of the name of a channel or attribute, in bytes.
 inline constexpr size_t kLongestExrName = 255;
 
 struct ExrChannelInfo {
@@ -30,19 +30,19 @@ struct ExrChannelInfo {
   bool operator==(const ExrChannelInfo&) const = default;
 };
 
-/// What the header of one part says. A file of one part may have no name.
+/// Contents of a part's header. A single part may have no name.
 struct ExrPart {
   std::string name;
   std::string view;
-  PixelBox data;     ///< where pixels are given
+  PixelBox data;     ///< where pixels exist
   PixelBox display;  ///< the frame of the picture
   std::vector<ExrChannelInfo> channels;
   ExrAttributes attributes;             ///< those that ExrAttribute can hold
-  std::vector<std::string> multi_view;  ///< views of a part that holds several, the default first
+  std::vector<std::string> multi_view;  ///< views of a multi-view part, the default first
 };
 
-/// Where rows of one channel are: each pixel is a word of 4 bytes, a float or, in a channel of kUint, the
-/// bits of the number. `words` is the first pixel of the first row that is moved.
+/// Location of one channel's rows: each pixel is a 4-byte word, a float or, for kUint, the bits of the
+/// integer. `words`: the first pixel of the first row to be transferred.
 struct ExrRows {
   size_t channel = 0;
   float* words = nullptr;
@@ -53,8 +53,8 @@ struct ExrRows {
 /// time.
 class ExrReader {
  public:
-  /// Throws Error (kInput) naming the file when it is missing, damaged, deep or subsampled. `threads`: how
-  /// many may decode.
+  /// Throws Error (kInput) naming the file when it is missing, damaged, deep or subsampled. `threads`: number
+  /// of decoding threads.
   explicit ExrReader(std::filesystem::path path, int threads = 0);
   ~ExrReader();
   ExrReader(const ExrReader&) = delete;
@@ -63,12 +63,12 @@ class ExrReader {
   const std::filesystem::path& path() const { return path_; }
   const std::vector<ExrPart>& parts() const { return parts_; }
 
-  /// What the library holds, at most, while it decodes with these threads, or encodes the same again: blocks
-  /// of rows, several for each thread.
+  /// Max memory of the library while it decodes with these threads, or encodes the same data: blocks of rows,
+  /// several per thread.
   int64_t buffer_bytes() const { return buffer_bytes_; }
 
-  /// Rows y0 <= y < y1 of a part, which must lie in its data window; `rows` begin at column data.x0. Throws
-  /// Error (kInput) where the file is damaged.
+  /// Reads rows y0 <= y < y1 of a part, which must lie in its data window; `rows` start at column data.x0.
+  /// Throws Error (kInput) for a damaged file.
   void read(size_t part, int y0, int y1, std::span<const ExrRows> rows);
 
  private:
@@ -80,34 +80,34 @@ class ExrReader {
   int64_t buffer_bytes_ = 0;
 };
 
-/// A part to write: everything in the header of part `like` of the file that was read, known to us or not,
-/// but with this name, view, data window, channels and, beside its own, these attributes.
+/// A part to write: everything in the header of part `like` of the input file, known to us or not, but with
+/// this name, view, data window and channels, and these additional attributes.
 struct ExrOutputPart {
   size_t like = 0;
   ExrPart header;
 };
 
-/// Writes a file by rows from the top, whole or not at all (law 6). Half channels are rounded to nearest;
-/// what is beyond their range becomes their largest number, infinity stays. `threads`: how many may encode.
-/// Throws Error (kFailed) naming the path, also for channels whose names a file cannot hold apart. Thread
-/// safety: one thread at a time.
+/// Writes a file by rows from the top, completely or not at all (law 6). Half channels are rounded to
+/// nearest; values beyond their range become the largest finite half, infinity stays. `threads`: number of
+/// encoding threads. Throws Error (kFailed) naming the path, also for channel names that a file cannot
+/// distinguish. Thread safety: one thread at a time.
 class ExrWriter {
  public:
   /// A new picture, ZIP compressed, with Rec. 709 chromaticities.
   ExrWriter(std::filesystem::path path, ExrPart part, int threads = 0);
-  /// Parts like those of another file. Compression is kept where it is lossless, and is ZIP where it was not.
+  /// Parts like those of another file. Keeps lossless compression; replaces lossy compression by ZIP.
   ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
             int threads = 0);
   ~ExrWriter();
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
 
-  /// What the library holds, at most, while it encodes.
+  /// Max memory of the library while it encodes.
   int64_t buffer_bytes() const;
 
-  /// The next `count` rows of a part, all its channels in order. `workers` round floats to halves.
+  /// Writes the next `count` rows of a part, all its channels in order. `workers` convert floats to halves.
   void write(size_t part, int count, std::span<const ExrRows> rows, const Workers& workers);
-  /// Ends the file, once every part has all its rows, and puts it where it belongs.
+  /// Finishes the file, once every part has all its rows, and moves it to its path.
   void commit();
 
  private:

@@ -15,7 +15,7 @@
 namespace pelage {
 namespace {
 
-/// Attributes that are the image's own shape: set by the writer, not carried in `attributes`.
+/// Attributes that define the shape of the image: set by the writer, not included in `attributes`.
 constexpr std::array kStructure = {"channels",   "compression",   "dataWindow", "displayWindow",
                                    "lineOrder",  "tiles",         "type",       "version",
                                    "chunkCount", "chromaticities"};
@@ -25,7 +25,7 @@ struct AttributeWriter {
   const char* name;
   void operator()(int v) const { header.insert(name, Imf::IntAttribute(v)); }
   void operator()(float v) const {
-    if (std::string_view(name) == "framesPerSecond") {  // a standard attribute, of a type of its own
+    if (std::string_view(name) == "framesPerSecond") {  // a standard attribute with its own type
       header.insert(name, Imf::RationalAttribute(Imf::Rational(static_cast<double>(v))));
     } else {
       header.insert(name, Imf::FloatAttribute(v));

@@ -8,11 +8,11 @@
 
 #include "base/file.h"
 
-// For the sources of image/ alone.
+// Only for the sources of image/.
 
 namespace pelage {
 
-/// Lets OpenEXR write into an AtomicFile without a buffer between, and remembers a failure: the library
+/// Lets OpenEXR write to an AtomicFile without an intermediate buffer, and records failures: the library
 /// writes its table of rows in a destructor, which swallows exceptions.
 class ExrStream final : public Imf::OStream {
  public:
@@ -22,7 +22,7 @@ class ExrStream final : public Imf::OStream {
   uint64_t tellp() override { return place_; }
   void seekp(uint64_t place) override { place_ = place; }
 
-  /// Throws what the first failed write threw.
+  /// Throws the exception of the first failed write, if any.
   void check() const;
 
  private:

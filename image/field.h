@@ -13,7 +13,8 @@ namespace pelage {
 
 class TextureLibrary;
 
-/// A named per-strand or per-point value that a field may ask for; three equal channels when it has only one.
+/// A named per-strand or per-point value that a field may read; a single number is repeated for three
+/// channels.
 struct FieldAttribute {
   std::string_view name;
   Rgb value;
@@ -27,7 +28,7 @@ struct FieldPoint {
   std::span<const FieldAttribute> attributes;
 };
 
-/// What kind of input a field depends on, so that callers evaluate it no more often than needed.
+/// Which inputs a field depends on, so that callers evaluate it no more often than needed.
 struct FieldDependence {
   bool along = false;       ///< changes along a strand
   bool surface = false;     ///< changes over the skin
@@ -39,14 +40,14 @@ struct FieldDependence {
 /// attribute or a product of those. docs/MANUAL.md has the keys. An immutable value, cheap to copy.
 ///
 ///   0.5 | [r, g, b]
-///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}   // without channel: colour
-///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  // piecewise linear; values may be
-///   colours {noise: {frequency, amplitude, offset, seed}}                       // offset + amplitude *
-///   noise(rest * frequency) {attribute: name}                                                   // 0 where
-///   strands do not carry it {product: [field, field, ...]}
+///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}    # without channel: colour
+///   {ramp: {along: strand|x|y|z|u|v, knots: [[0, value], [1, value]]}}  # linear; values may be colours
+///   {noise: {frequency, amplitude, offset, seed}}    # offset + amplitude * noise(rest * frequency)
+///   {attribute: name}                                # 0 where strands do not have it
+///   {product: [field, field, ...]}
 ///
-/// A map with a channel is data: `space: auto` takes it as stored. A map without one is a colour: auto
-/// decodes integer formats from sRGB and leaves floating-point formats alone.
+/// A map with a channel is data: `space: auto` uses it as stored. A map without one is a colour: auto decodes
+/// integer formats from sRGB and leaves floating-point formats unchanged.
 class Field {
  public:
   struct Node;
@@ -55,25 +56,26 @@ class Field {
   explicit Field(Rgb constant);
   explicit Field(std::shared_ptr<const Node> node);
 
-  /// First channel / all three. Maps must have been read (with_textures).
+  /// First channel / all three. Maps must have been loaded (with_textures).
   float value(const FieldPoint& point) const;
   Rgb color(const FieldPoint& point) const;
 
   FieldDependence dependence() const;
   bool is_constant() const;
-  /// Bounds of the values that the field can take in the first channel. Maps: of what they hold, or of their
-  /// `range` until they are read. Attributes have none: infinite, but for the limits of the key; `random` and
-  /// `clump` are numbers in [0, 1] wherever they are given.
+  /// Bounds of the values of the first channel. Maps: bounds of their contents, or of their `range` until
+  /// they are loaded. Attributes are unbounded except for the limits of the key; `random` and `clump` are in
+  /// [0, 1] wherever they are set.
   std::pair<float, float> value_range() const;
   /// Names of the attributes it reads.
   std::vector<std::string> attribute_names() const;
 
-  /// What a product multiplies, in order; nothing of other fields.
+  /// The factors of a product, in order; empty for other fields.
   std::span<const Field> factors() const;
-  /// Its maps, which are looked up by texture coordinates, each with its place in the scene.
+  /// The maps that are looked up by texture coordinates, each with its position in the scene.
   std::vector<AssetPath> maps() const;
 
-  /// The same field with its maps read. Throws Error (kInput) at the place in the scene where a map is named.
+  /// The same field with its maps loaded. Throws Error (kInput) at the position in the scene that names the
+  /// map.
   Field with_textures(TextureLibrary& textures) const;
 
   const Node& node() const { return *node_; }
@@ -82,8 +84,8 @@ class Field {
   std::shared_ptr<const Node> node_;
 };
 
-/// The limits of the options hold for every value of a field: numbers that a scene states outside them are
-/// refused; what maps, noise, attributes and products come to is kept within them.
+/// The limits of the options hold for every value of a field: constants outside them are refused; the results
+/// of maps, noise, attributes and products are clamped to them.
 template <>
 struct ValueReader<Field> {
   static bool read(const Value&, const KeyOptions&, Field& out, Problems&);

@@ -49,10 +49,12 @@ struct MapNode final : Field::Node {
   MapForm form;
   std::shared_ptr<const Texture> texture;
   int channel = 0;
-  float lowest = 0, highest = 1;  ///< of the stored values; before the map is read, what they should be
+  float lowest = 0,
+        highest = 1;  ///< of the stored values; until the map is loaded, of the values it should have
 };
 
-/// Index of a named channel in an image of `count` channels, -1 when it has none. Grey stands for r, g and b.
+/// Index of a named channel in an image of `count` channels, -1 when there is none. Grey is used for r, g and
+/// b.
 int channel_index(MapChannel channel, int count) {
   const bool grey = count < 3;
   if (channel == MapChannel::kA) return count == 2 || count == 4 ? count - 1 : -1;
@@ -61,7 +63,7 @@ int channel_index(MapChannel channel, int count) {
 
 std::shared_ptr<const Field::Node> MapNode::with_textures(TextureLibrary& textures) const {
   auto loaded = std::make_shared<MapNode>(form);
-  // A single channel is data (lengths, masks), which nobody stores with a display's curve.
+  // A single channel is data (lengths, masks), which is not stored with a display's transfer curve.
   const bool is_data = form.channel && form.space == ColorSpace::kAuto;
   loaded->texture = textures.load(form.map, is_data ? ColorSpace::kLinear : form.space);
   const int channels = loaded->texture->channels();

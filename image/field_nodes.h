@@ -11,7 +11,7 @@
 #include "image/field.h"
 #include "image/texture_library.h"
 
-// The forms of a field behind image/field.h, and the blocks of the scene file that state them.
+// The kinds of fields behind image/field.h, and the scene blocks that describe them.
 
 namespace pelage {
 
@@ -25,9 +25,9 @@ struct Field::Node {
   virtual void collect_attributes(std::vector<std::string>&) const {}
   virtual std::span<const Field> factors_of() const { return {}; }
   virtual void collect_maps(std::vector<AssetPath>&) const {}
-  /// The node with its maps read, or nullptr when it has none to read.
+  /// The node with its maps loaded, or nullptr when it has none to load.
   virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
-  /// Where the scene names an attribute that the field reads; nullptr when it reads none of this name.
+  /// Where the scene names an attribute that the field reads; nullptr when it does not read this one.
   virtual const SourcePosition* place_of_attribute(std::string_view name) const {
     for (const Field& factor : factors_of()) {
       if (const SourcePosition* place = factor.node().place_of_attribute(name)) return place;
@@ -70,7 +70,7 @@ struct ValueReader<RampKnot> {
 
 struct Ramp {
   RampAxis along = RampAxis::kStrand;
-  std::vector<RampKnot> knots;  ///< by rising `at`; two of equal `at` make a step
+  std::vector<RampKnot> knots;  ///< by increasing `at`; two with equal `at` make a step
   static const Schema<Ramp>& schema();
 };
 
@@ -87,7 +87,7 @@ Field ramp_field(Ramp ramp);
 Field noise_field(Noise noise);
 Field attribute_field(std::string name, SourcePosition named_at = {});
 Field product_field(std::vector<Field> factors);
-/// `field`, every channel of which is kept within [low, high].
+/// `field` with every channel clamped to [low, high].
 Field clamped_field(Field field, float low, float high);
 
 }  // namespace pelage

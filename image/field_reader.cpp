@@ -11,8 +11,7 @@
 namespace pelage {
 namespace {
 
-// What stands beside the blocks' own keys: {ramp: {...}}, {noise: {...}}, {attribute: name}, {product:
-// [...]}.
+// The values of the blocks' own keys: {ramp: {...}}, {noise: {...}}, {attribute: name}, {product: [...]}.
 struct RampForm {
   Ramp ramp;
   static const Schema<RampForm>& schema();
@@ -35,7 +34,7 @@ struct ProductForm {
 
 }  // namespace
 
-// Names no blocks: a field's blocks include this one, and the table would be asked for while it is made.
+// Lists no blocks: a field's blocks include this one, whose table would be requested while it is constructed.
 template <>
 struct ValueReader<Factors> {
   static bool read(const Value& value, const KeyOptions& options, Factors& out, Problems& problems) {
@@ -120,7 +119,7 @@ const Schema<ProductForm>& ProductForm::schema() {
   return table;
 }
 
-/// Adds a problem for a value outside the limits of the key, at its own place.
+/// Adds a problem for a value outside the limits of the key, at its own position.
 bool within_limits(const Value& value, const KeyOptions& options, Problems& problems) {
   Rgb ignored;
   return ValueReader<Rgb>::read(value, options, ignored, problems);
@@ -201,7 +200,7 @@ constexpr Form kForms[] = {{"map", read_map},
                            {"attribute", read_attribute},
                            {"product", read_product}};
 
-/// What the key's limits allow, as floats within them.
+/// The limits of the key, as floats inside them.
 std::pair<float, float> float_limits(const KeyOptions& options) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float low = static_cast<float>(options.min);

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// Floating-point pixels, linear, rows from the top, channels interleaved.
+/// Linear floating-point pixels, rows from the top, channels interleaved.
 struct Image {
   int width = 0;
   int height = 0;

@@ -8,10 +8,12 @@
 
 namespace pelage {
 
-/// An Error (kInput) at the place in the scene that names a file, which the message begins with.
+/// Throws an Error (kInput) at the place in the scene that names a file; the message starts with the file
+/// name.
 [[noreturn]] void fail_image(const AssetPath& asset, const std::string& reason);
 
-/// Throws what no image library says clearly: a missing, empty or truncated file, damaged EXR headers.
+/// Throws clear errors for problems that image libraries report poorly: a missing, empty or truncated file,
+/// damaged EXR headers.
 void check_image_file(const AssetPath& asset);
 
 }  // namespace pelage

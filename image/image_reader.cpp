@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-/// A sink behind the C border: exceptions wait on this side until the module has returned.
+/// A sink behind the C interface: stores exceptions until the module has returned.
 struct GuardedSink {
   ImageSink& sink;
   std::exception_ptr error;
@@ -59,7 +59,7 @@ std::string ImageReader::read(const std::filesystem::path& file, ImageSink& sink
   return message[0] ? message : "cannot be decoded";
 }
 
-/// Keeps the cache, and the file that the cache reads, for as long as it lives.
+/// Keeps the cache and its file alive.
 class TileCache::Store final : public TexelStore {
  public:
   Store(std::shared_ptr<const TileCache> cache, std::string name, const TexelLayout& layout,

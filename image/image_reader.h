@@ -13,14 +13,14 @@
 
 namespace pelage {
 
-/// What the header of an image file says.
+/// Header of an image file.
 struct ImageHeader {
   TexelLayout layout;
-  bool is_integer = false;    ///< stored as whole numbers
-  int64_t working_bytes = 0;  ///< estimate of what reading takes while it lasts
+  bool is_integer = false;    ///< stored as integers
+  int64_t working_bytes = 0;  ///< estimated temporary memory of reading
 };
 
-/// Receives an image in strips of rows from the top. Either function may throw, which ends reading.
+/// Receives an image in strips of rows from the top. Both functions may throw, which ends reading.
 class ImageSink {
  public:
   virtual ~ImageSink() = default;
@@ -28,15 +28,15 @@ class ImageSink {
   virtual void rows(const std::byte* rows, int count) = 0;
 };
 
-/// The module that reads images (image/reader_module.h) as C++ sees it. Thread safety: const members may be
+/// C++ interface of the module that reads images (image/reader_module.h). Thread safety: const members may be
 /// called from any thread.
 class ImageReader {
  public:
   /// Loads the module. Throws Error (kFailed).
   ImageReader();
 
-  /// Reads the first image of a file. Returns what is wrong with the file, or nothing; exceptions of the sink
-  /// pass.
+  /// Reads the first image of a file. Returns the problem with the file, or an empty string; exceptions of
+  /// the sink propagate.
   std::string read(const std::filesystem::path& file, ImageSink& sink) const;
 
  private:
@@ -50,8 +50,8 @@ class ImageReader {
   decltype(&pelage_read_image) read_ = nullptr;
 };
 
-/// Tiles of images that were read lately, in a fixed amount of memory. Thread safety: all members may be
-/// called from any thread.
+/// Recently used tiles of images, in a fixed amount of memory. Thread safety: all members may be called from
+/// any thread.
 class TileCache : public std::enable_shared_from_this<TileCache> {
  public:
   /// Throws Error (kFailed).
@@ -60,7 +60,7 @@ class TileCache : public std::enable_shared_from_this<TileCache> {
   TileCache(const TileCache&) = delete;
   TileCache& operator=(const TileCache&) = delete;
 
-  /// An image whose texels are those of `tiles`, which are complete. `name` is for messages. Throws Error
+  /// An image with the texels of `tiles`, which must be complete. `name`: for messages. Throws Error
   /// (kFailed).
   std::unique_ptr<TexelStore> store(std::string name, const TexelLayout& layout,
                                     std::vector<NumberRange> ranges, std::unique_ptr<TileFile> tiles);

@@ -7,8 +7,8 @@
 namespace pelage {
 namespace {
 
-// Perlin's fade curve and twelve edge gradients [Perlin02, sections 2 and 3]; the lattice is hashed instead
-// of looked up in a permutation, so that it does not repeat every 256 cells.
+// Perlin's fade curve and twelve edge gradients [Perlin02, sections 2 and 3]; lattice points are hashed
+// instead of looked up in a permutation, so that the noise does not repeat every 256 cells.
 
 /// A bijection on 32 bits whose output bits all depend on all input bits.
 uint32_t mix32(uint32_t x) {
@@ -21,7 +21,7 @@ uint32_t mix32(uint32_t x) {
 
 float fade(float t) { return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f); }
 
-/// Dot product of (x, y, z) with one of the twelve directions to the edges of a cube (four stand twice).
+/// Dot product of (x, y, z) with one of the twelve directions to the edges of a cube (four appear twice).
 float gradient(uint32_t hash, float x, float y, float z) {
   const uint32_t h = hash & 15u;
   const float a = h < 8 ? x : y;
@@ -31,10 +31,10 @@ float gradient(uint32_t hash, float x, float y, float z) {
 
 float lerp(float t, float a, float b) { return a + t * (b - a); }
 
-/// The sum of edge gradients reaches 1.0363538 at most, a little off the middle of a cell.
+/// The sum of edge gradients is at most 1.0363538, slightly off the centre of a cell.
 constexpr float kToUnit = 1.0f / 1.036354f;
 
-/// Beyond this neighbouring floats are lattice points: all noise is zero there.
+/// Beyond this, neighbouring floats are lattice points: noise is zero there.
 constexpr float kFarthest = 0x1p23f;
 
 /// `Channels` values of gradient noise that share their lattice.

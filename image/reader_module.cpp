@@ -26,9 +26,9 @@ std::string one_line(std::string text) {
   return text.empty() ? "cannot be decoded" : text;
 }
 
-/// Once per process: no threads of its own, which would compete with a renderer's, bounded memory, and only
-/// the format that the name states (a damaged file is else offered to readers of movies and camera raws, at
-/// 200 MB each time).
+/// Once per process: no threads, which would compete with the renderer's; bounded memory; and only the format
+/// that the name states (otherwise a damaged file is passed to readers of movies and camera raws, at 200 MB
+/// each).
 void configure() {
   static const bool done = [] {
     OIIO::attribute("exr_threads", 1);
@@ -52,7 +52,7 @@ class Source {
     configuration["oiio:UnassociatedAlpha"] = 1;
     input_ = OIIO::ImageInput::open(path, &configuration);
     if (!input_) throw std::runtime_error(one_line(OIIO::geterror()));
-    // Asked of the library as a whole, this would start the very threads that it is to do without.
+    // Setting this for the library as a whole would start the very threads that should be avoided.
     input_->threads(1);
   }
 
@@ -76,7 +76,7 @@ class Source {
     return info;
   }
 
-  /// Hands over strips of rows; false when the sink has had enough.
+  /// Passes strips of rows to the sink; false when the sink stops.
   bool read(const PelageImageInfo& info, const PelageImageSink& sink) {
     const OIIO::ImageSpec& spec = input_->spec();
     const size_t row = static_cast<size_t>(info.width) * static_cast<size_t>(info.channels);
@@ -102,7 +102,7 @@ class Source {
   }
 
  private:
-  /// The type that values are handed over in: the stored one where that is among those of the border.
+  /// The type of the passed values: the stored one if the C interface supports it.
   OIIO::TypeDesc type() const {
     const OIIO::ImageSpec& spec = input_->spec();
     const bool is_known = spec.format == OIIO::TypeDesc::UINT8 || spec.format == OIIO::TypeDesc::UINT16 ||
@@ -120,12 +120,12 @@ class Source {
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.tile_width > 0) return spec.tile_height;
     int rows = static_cast<int>(std::max<size_t>(kStripValues / row, 1));
-    // OpenEXR decodes blocks of rows; a strip that ends within one makes it decode the block again.
+    // OpenEXR decodes blocks of rows; a strip that ends within a block makes it decode the block again.
     if (is_format("openexr")) rows = (rows + exr_block_rows() - 1) / exr_block_rows() * exr_block_rows();
     return std::min(rows, info.height);
   }
 
-  /// What the library and those behind it allocate while they decode. Few formats are read row by row.
+  /// Memory that the library and its dependencies allocate while decoding. Few formats are read row by row.
   int64_t decoder_bytes() const {
     const OIIO::ImageSpec& spec = input_->spec();
     const auto row = static_cast<int64_t>(spec.scanline_bytes(true));

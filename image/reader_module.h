@@ -4,8 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The C border between the texture library and the module that holds OpenImageIO (image/reader_module.cpp,
- * image/tile_cache_module.cpp). Neither exceptions nor types of C++ cross it. */
+/* The C interface between the texture library and the module that contains OpenImageIO
+ * (image/reader_module.cpp, image/tile_cache_module.cpp). No exceptions or C++ types cross it. */
 
 #define PELAGE_IMAGE_READER_VERSION 2
 #define PELAGE_EXPORT __attribute__((visibility("default")))
@@ -21,13 +21,13 @@ typedef struct PelageImageInfo {
   int height;
   int channels;          /* 1 .. 4; further ones are not read */
   int kind;              /* PELAGE_TEXEL_...: of the values that rows() receives */
-  int is_integer;        /* stored as whole numbers */
-  int64_t working_bytes; /* estimate of what reading takes while it lasts */
+  int is_integer;        /* stored as integers */
+  int64_t working_bytes; /* estimated temporary memory of reading */
 } PelageImageInfo;
 
-/* Receives an image in the order of its rows, so that nobody allocates what a damaged file only claims to
- * hold. begin() has the header alone. Both return 0 to go on. rows() receives `count` whole rows from the
- * top, channels interleaved, alpha not multiplied in. */
+/* Receives an image row by row, so that memory is not allocated for rows that a damaged file only claims to
+ * contain. begin() receives the header. Both return 0 to continue. rows() receives `count` whole rows from
+ * the top, channels interleaved, colours not premultiplied by alpha. */
 typedef struct PelageImageSink {
   void* context;
   int (*begin)(void* context, const PelageImageInfo* info);
@@ -40,20 +40,20 @@ PELAGE_EXPORT int pelage_image_reader_version(void);
 PELAGE_EXPORT int pelage_read_image(const char* path, const PelageImageSink* sink, char* message,
                                     size_t message_size);
 
-/* A bounded store of tiles in memory, in front of files of tiles (see PelageTiles). Thread safe. */
+/* A cache of tiles in a bounded amount of memory, for files of tiles (see PelageTiles). Thread safe. */
 typedef struct PelageTileCache PelageTileCache;
 typedef struct PelageTileImage PelageTileImage;
 
-/* A file of square tiles: row after row of tiles, each complete (those at the right and lower edges are
- * filled up), a tile being row after row of texels. */
+/* A file of square tiles, stored row by row; each tile is complete (those at the right and lower edges are
+ * padded) and contains its texels row by row. */
 typedef struct PelageTiles {
-  int descriptor; /* open for as long as the cache is read */
+  int descriptor; /* must stay open while the cache is in use */
   int width, height;
   int side; /* of a tile, in texels */
   int texel_bytes;
 } PelageTiles;
 
-/* Smallest size that a cache keeps to. */
+/* Smallest size limit that a cache respects. */
 #define PELAGE_SMALLEST_TILE_CACHE (10 << 20)
 
 PELAGE_EXPORT PelageTileCache* pelage_tile_cache_create(int64_t bytes);

@@ -11,14 +11,14 @@
 
 namespace pelage {
 
-/// Linear value of one encoded in sRGB [IEC 61966-2-1].
+/// Linear value of an sRGB-encoded one [IEC 61966-2-1].
 float from_srgb(float v);
 
-/// A stored value as a number: whole numbers become 0 .. 1.
+/// A stored value as a number: integers are mapped to 0 .. 1.
 float stored_number(const std::byte* value, TexelKind kind);
 
-/// Stored values to linear ones. The last channel of two or four is alpha, which is linear already. Values of
-/// one or two bytes come from a table. Immutable; thread safe.
+/// Converts stored values to linear ones. The last channel of two or four is alpha, which is already linear.
+/// Values of one or two bytes are looked up in a table. Immutable; thread safe.
 class TexelDecoder {
  public:
   TexelDecoder(const TexelLayout& layout, bool srgb);
@@ -37,7 +37,7 @@ class TexelDecoder {
     std::memcpy(&v, texel + c * sizeof v, sizeof v);
     return table[v];
   }
-  /// The linear value of a number (see stored_number) of a channel. Rises with it.
+  /// The linear value of a number (see stored_number) of a channel. Monotonic.
   float linear(float number, int channel) const { return is_color(channel) ? from_srgb(number) : number; }
   size_t bytes() const { return (color_.size() + linear_.size()) * sizeof(float); }
 
@@ -45,7 +45,7 @@ class TexelDecoder {
   bool is_color(int channel) const { return channel < colors_; }
 
   TexelKind kind_;
-  int colors_;  // the first so many channels are encoded in sRGB
+  int colors_;  // the first channels, this many, are sRGB-encoded
   std::vector<float> color_, linear_;
 };
 

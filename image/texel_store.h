@@ -10,20 +10,20 @@
 
 namespace pelage {
 
-/// The lowest and highest number of a channel (stored_number).
+/// Min and max of a channel (stored_number).
 using NumberRange = std::pair<float, float>;
 
-/// The texels of one image as its file stores them, in memory or in tiles of which only some are. Immutable.
-/// Thread safety: const members may be called from any thread.
+/// The texels of one image as its file stores them, in memory or in tiles of which only some are resident.
+/// Immutable. Thread safety: const members may be called from any thread.
 class TexelStore {
  public:
   virtual ~TexelStore() = default;
   const TexelLayout& layout() const { return layout_; }
   const NumberRange& range(int channel) const { return ranges_[static_cast<size_t>(channel)]; }
-  /// All texels, row after row from the top; null for tiles.
+  /// All texels, row by row from the top; null for tiles.
   const std::byte* in_memory() const { return in_memory_; }
-  /// Copies a rectangle that lies inside the image to `to`, row after row. Throws Error (kFailed) when tiles
-  /// cannot be read back.
+  /// Copies a rectangle inside the image to `to`, row by row. Throws Error (kFailed) when tiles cannot be
+  /// read back.
   virtual void read(int x, int y, int width, int height, std::byte* to) const = 0;
 
  protected:
@@ -37,7 +37,7 @@ class TexelStore {
   const std::byte* in_memory_ = nullptr;
 };
 
-/// Every texel in memory.
+/// All texels in memory.
 class TexelsInMemory final : public TexelStore {
  public:
   TexelsInMemory(const TexelLayout& layout, std::vector<NumberRange> ranges, std::vector<std::byte> texels);

@@ -42,7 +42,7 @@ Texture::Tap Texture::tap(float coordinate, int size) {
   return {(i + size) % size, (i + 1) % size, x - std::floor(x)};
 }
 
-/// The four texels of a bilinear lookup: where they are in memory, or copies of them.
+/// The four texels of a bilinear lookup: pointers into memory, or copies.
 class Texture::Corners {
  public:
   Corners(const TexelStore& texels, const Tap& x, const Tap& y) : x_(x.t), y_(y.t) {

@@ -16,26 +16,26 @@ namespace pelage {
 /// tiles cannot be read back. Immutable. Thread safety: const members may be called from any thread.
 class Texture {
  public:
-  /// With `srgb`, all channels but alpha are decoded, before they are filtered.
+  /// With `srgb`, all channels except alpha are decoded before filtering.
   Texture(std::shared_ptr<const TexelStore> texels, bool srgb);
-  /// Floats, taken as they are.
+  /// Float texels, used as they are.
   explicit Texture(const Image& image);
 
   int width() const { return texels_->layout().width; }
   int height() const { return texels_->layout().height; }
   int channels() const { return texels_->layout().channels; }
-  /// Lowest and highest value of a channel.
+  /// Min and max of a channel.
   std::pair<float, float> range(int channel) const;
 
-  /// Bilinear lookup of one channel / of the first three (one channel is spread to three).
+  /// Bilinear lookup of one channel / of the first three (a single channel is repeated).
   float channel(float u, float v, int channel) const;
   Rgb color(float u, float v) const;
 
-  /// The colours of a rectangle of texels inside the image, row after row from the top.
+  /// The colours of a rectangle of texels inside the image, row by row from the top.
   void colors(int x, int y, int width, int height, Rgb* to) const;
   Rgb texel(int x, int y) const;
 
-  /// Beside the texels, which several textures may share.
+  /// Without the texels, which several textures may share.
   size_t bytes() const { return decode_.bytes(); }
 
  private:

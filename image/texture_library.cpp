@@ -19,26 +19,26 @@
 namespace pelage {
 namespace {
 
-/// Shares of the ledger's limit.
+/// Fractions of the ledger's limit.
 constexpr int64_t kInMemoryShare = 4, kTileCacheShare = 8;
-/// Reading a larger image may take a second, and is shown.
+/// Reading a larger image may take a second; shows progress.
 constexpr int64_t kLargeImage = int64_t(16) << 20;
-/// What an image claims up to here is reserved at once, more only when it is there.
+/// Up to this size, the claimed size of an image is reserved at once; larger ones grow as they are read.
 constexpr size_t kReservedAtOnce = size_t(1) << 24;
 
 bool has_room(const MemoryLedger& ledger, int64_t bytes) {
   return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
 }
 
-/// An error of the ledger or the disk, at the place in the scene that names the file.
+/// Rethrows an error of the ledger or the disk at the place in the scene that names the file.
 [[noreturn]] void rethrow_at(const AssetPath& asset, const Error& error) {
   const std::string& message = error.problems().front().message;
   const std::string file = asset.path.string();
   throw Error(error.kind(), asset.position, message.starts_with(file) ? message : file + ": " + message);
 }
 
-/// Widens `range` by the values of one channel, `count` texels from `values` on. Returns the first texel
-/// whose value is not finite, or `count`.
+/// Extends `range` by the values of one channel of `count` texels starting at `values`. Returns the first
+/// texel with a non-finite value, or `count`.
 template <class Value, class IsFinite>
 size_t scan_channel(const std::byte* values, size_t count, size_t step, TexelKind kind, IsFinite is_finite,
                     NumberRange& range) {
@@ -59,7 +59,7 @@ size_t scan_channel(const std::byte* values, size_t count, size_t step, TexelKin
   return count;
 }
 
-/// Number of the first texel with a value that is not finite, or `count`. Widens the ranges of the channels.
+/// Index of the first texel with a non-finite value, or `count`. Extends the ranges of the channels.
 size_t scan(const std::byte* texels, size_t count, const TexelLayout& layout,
             std::vector<NumberRange>& ranges) {
   const size_t step = layout.texel_bytes();
@@ -87,7 +87,7 @@ size_t scan(const std::byte* texels, size_t count, const TexelLayout& layout,
 
 }  // namespace
 
-/// One image on its way in: decides where it will be, checks its values, keeps its rows.
+/// Receives one image: chooses its storage, checks its values, stores its rows.
 class TextureLibrary::TextureSink final : public ImageSink {
  public:
   TextureSink(TextureLibrary& library, const AssetPath& asset) : library_(library), asset_(asset) {}
@@ -180,7 +180,7 @@ void TextureLibrary::check_stop() const {
 
 const ImageReader& TextureLibrary::reader() {
   if (!reader_) {
-    // Pages of the files themselves are shared and can be dropped: no ledger counts them.
+    // Pages of the files themselves are shared and can be dropped, so they are not charged.
     const int64_t before = resident_memory().anonymous;
     reader_ = std::make_unique<ImageReader>();
     const int64_t cost = std::max<int64_t>(resident_memory().anonymous - before, 0);
@@ -206,7 +206,7 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
   check_image_file(asset);
   TextureSink intake(*this, asset);
   try {
-    // Before the file is opened: a progressive JPEG is decoded then.
+    // Before the file is opened, because a progressive JPEG is decoded then.
     std::ifstream stream(asset.path, std::ios::binary);
     const MemoryCharge whole =
         reserve(ledger_, MemoryTag::kTextures, interlaced_bytes(stream),

@@ -17,30 +17,29 @@ namespace pelage {
 class ImageReader;
 class TileCache;
 
-/// How stored values become linear ones.
+/// How stored values are converted to linear ones.
 enum class ColorSpace { kAuto, kLinear, kSrgb };
 template <>
 struct EnumNames<ColorSpace> {
   static constexpr const char* names[] = {"auto", "linear", "srgb"};
 };
 
-/// Reads images of any format that OpenImageIO knows, through a module that is loaded when the first image is
-/// asked for (linking it would cost every start 0.3 s and 130 MB). One copy of the texels per file, in the
+/// Reads images of any format that OpenImageIO supports, using a module that is loaded for the first image
+/// (linking it would cost 0.3 s and 130 MB at every start). Keeps one copy of the texels per file, in the
 /// type that the file stores.
 ///
-/// Under the ledger's limit, images are kept in memory while all of them together take at most a quarter of
-/// it. Others become a temporary file of tiles, of which a cache of an eighth of the limit holds those that
-/// were looked up lately. Both give the same values. Thread safety: all members may be called from any
-/// thread.
+/// With a ledger limit, images stay in memory while all of them together take at most a quarter of it. Others
+/// become a temporary file of tiles; a cache of an eighth of the limit holds the recently used ones. Both
+/// give the same values. Thread safety: all members may be called from any thread.
 class TextureLibrary {
  public:
-  /// `progress` shows the reading of large images and may stop it. Both outlive the library.
+  /// `progress` shows the reading of large images and may stop it. Both arguments must outlive the library.
   explicit TextureLibrary(MemoryLedger& ledger, Progress* progress = nullptr);
   ~TextureLibrary();
 
-  /// Throws at `asset.position`, naming the file: Error (kInput) when it is missing or cannot be read (never
-  /// black), Error (kMemory) before anything is read when it does not fit into the ledger's limit; Error
-  /// (kStopped) once the user has asked to stop.
+  /// Throws at `asset.position`, naming the file: Error (kInput) when it is missing or unreadable (a missing
+  /// texture is never black), Error (kMemory) before reading anything when it does not fit the ledger's
+  /// limit, Error (kStopped) once the user has asked to stop.
   std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
 
   /// Throws Error (kStopped) once the user has asked to stop.
@@ -68,7 +67,7 @@ class TextureLibrary {
   MemoryCharge library_charge_;
   std::shared_ptr<TileCache> tiles_;
   MemoryCharge tiles_charge_;
-  int64_t in_memory_ = 0;  // bytes of all images that are whole in memory
+  int64_t in_memory_ = 0;  // total bytes of the images that are in memory
   std::map<std::filesystem::path, Stored> stored_;
   std::map<std::pair<std::filesystem::path, bool>, Entry> entries_;  // by file and whether sRGB is decoded
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles in OpenImageIO's image cache, which keeps the ones that were read lately within a limit of memory.
+// Tiles in OpenImageIO's image cache, which keeps recently used ones within a memory limit.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -17,8 +17,8 @@
 
 namespace {
 
-/// Serves a file of tiles (PelageTiles) to the image cache, each texel as so many channels of one byte: the
-/// cache passes bytes on as they are.
+/// Provides a file of tiles (PelageTiles) to the image cache, with each texel as one-byte channels, because
+/// the cache passes bytes unchanged.
 class TileInput final : public OIIO::ImageInput {
  public:
   static OIIO::ImageInput* create() { return new TileInput; }
@@ -84,8 +84,8 @@ struct PelageTileImage {
   OIIO::ImageCache::ImageHandle* handle;
   int side;
   size_t texel_bytes;
-  /// A tile could not be read. The cache keeps such tiles, and gives the thread that asked first an empty one
-  /// when it asks again.
+  /// A tile could not be read. The cache stores such tiles, and returns an empty one when the same thread
+  /// asks again.
   std::atomic<bool> broken{false};
 
   PelageTileImage(OIIO::ImageCache* c, OIIO::ImageCache::ImageHandle* h, const PelageTiles& tiles)
@@ -94,7 +94,7 @@ struct PelageTileImage {
 
 struct PelageTileCache {
   std::unique_ptr<OIIO::ImageCache, DestroyCache> cache;
-  std::mutex mutex;  // guards what follows
+  std::mutex mutex;  // guards the following
   std::vector<std::unique_ptr<PelageTileImage>> images;
 };
 
@@ -116,7 +116,7 @@ void pelage_tile_cache_destroy(PelageTileCache* cache) { delete cache; }
 PelageTileImage* pelage_tile_cache_add(PelageTileCache* cache, const PelageTiles* tiles) {
   try {
     const std::lock_guard lock(cache->mutex);
-    // The cache knows files by name alone; nothing is opened by this one.
+    // The cache identifies files by name only; no file of this name is opened.
     const OIIO::ustring name("pelage tiles " + std::to_string(cache->images.size()));
     const OIIO::ImageSpec config = TileInput::configuration(*tiles);
     if (!cache->cache->add_file(name, TileInput::create, &config)) return nullptr;

@@ -8,25 +8,26 @@
 
 namespace pelage {
 
-/// Texels of a side of a tile.
+/// Side length of a tile in texels.
 constexpr int kTileSide = 64;
 
-/// An image as square tiles in a file without a name in the folder for temporary files (TMPDIR): it is gone
-/// with this value, or with the process, however that ends. Layout: PelageTiles in image/reader_module.h.
+/// An image as square tiles in an unnamed file in the folder for temporary files (TMPDIR). The file
+/// disappears with this value, or with the process, however it ends. Layout: PelageTiles in
+/// image/reader_module.h.
 class TileFile {
  public:
-  /// Throws Error (kFailed) when no file can be made.
+  /// Throws Error (kFailed) when the file cannot be created.
   explicit TileFile(const TexelLayout& layout);
   ~TileFile();
   TileFile(const TileFile&) = delete;
   TileFile& operator=(const TileFile&) = delete;
 
-  /// Takes the next rows from the top. Throws Error (kFailed) when the disk is full.
+  /// Appends the next rows from the top. Throws Error (kFailed) when the disk is full.
   void add_rows(const std::byte* rows, int count);
 
-  /// Complete once all rows were added.
+  /// The file is complete once all rows were added.
   int descriptor() const { return descriptor_; }
-  /// What a file that is being filled has in memory.
+  /// Memory used while a file is filled.
   static size_t buffer_bytes(const TexelLayout& layout);
 
  private:

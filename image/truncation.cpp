@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// The bytes of a stream by their place, of which a window is in memory.
+/// Random access to the bytes of a stream, of which a window is in memory.
 class Bytes {
  public:
   explicit Bytes(std::istream& file) : file_(file) {
@@ -23,7 +23,7 @@ class Bytes {
   }
 
   uint64_t size() const { return size_; }
-  /// 0 where the stream cannot be read any more.
+  /// 0 once the stream cannot be read.
   uint32_t at(uint64_t place) {
     if (place - begin_ >= window_.size()) {
       window_.assign(kWindow, '\0');
@@ -53,7 +53,7 @@ class Bytes {
 bool is_png(Bytes& file) { return file.has(0, "\x89PNG\r\n\x1a\n"sv); }
 bool is_jpeg(Bytes& file) { return file.has(0, "\xff\xd8\xff"sv); }
 
-/// Chunks of length, type, data and checksum, up to one of type IEND.
+/// Reads chunks of length, type, data and checksum, up to one of type IEND.
 bool png_is_cut(Bytes& file) {
   for (uint64_t at = 8; at + 12 <= file.size();) {
     const uint64_t length =
@@ -66,15 +66,15 @@ bool png_is_cut(Bytes& file) {
 
 constexpr uint32_t kEndOfImage = 0xd9, kProgressiveFrame = 0xc2;
 
-/// Walks the marker segments of a JPEG, the entropy-coded data after a start of scan being passed over, to
-/// the first one of type `wanted`. Returns its place, or 0 where the end of image comes first or never.
+/// Searches the marker segments of a JPEG, skipping the entropy-coded data after a start of scan, for the
+/// first one of type `wanted`. Returns its position, or 0 when the end of the image or file comes first.
 uint64_t find_marker(Bytes& file, uint32_t wanted) {
   for (uint64_t at = 2; at + 1 < file.size();) {
     const uint32_t marker = file.at(at + 1);
     const bool is_marker = file.at(at) == 0xff && marker != 0 && marker != 0xff;
     const bool stands_alone = marker == 1 || (marker >= 0xd0 && marker <= 0xd8);
     if (!is_marker) {
-      ++at;  // coded data or filling
+      ++at;  // coded data or padding
     } else if (marker == wanted) {
       return at;
     } else if (marker == kEndOfImage) {
@@ -100,7 +100,7 @@ bool is_cut_short(std::istream& stream) {
 
 int64_t interlaced_bytes(std::istream& stream) {
   constexpr uint64_t kPngInterlace = 28;
-  constexpr int64_t kPngTexel = 8;  // the widest: four channels of two bytes
+  constexpr int64_t kPngTexel = 8;  // the largest: four channels of two bytes
   Bytes file(stream);
   const auto number = [&](uint64_t at, int bytes) {
     int64_t value = 0;
@@ -112,7 +112,7 @@ int64_t interlaced_bytes(std::istream& stream) {
     return number(16, 4) * number(20, 4) * kPngTexel;
   }
   if (!is_jpeg(file)) return 0;
-  // Marker, length, precision, height, width, number of components; two bytes for each coefficient.
+  // Marker, length, precision, height, width, number of components; two bytes per coefficient.
   const uint64_t frame = find_marker(file, kProgressiveFrame);
   if (frame == 0 || frame + 10 > file.size()) return 0;
   return number(frame + 5, 2) * number(frame + 7, 2) * number(frame + 9, 1) * 2;

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// How skin of this unit normal at a point faces the camera when the shutter opens: the cosine of the angle
-/// between the normal and the way to the eye, -1 where it is turned away. 1 where the normal is 0: not known.
+/// How skin with this unit normal faces the camera when the shutter opens: the cosine of the angle between
+/// the normal and the direction to the eye; -1 faces away. 1 where the normal is 0 (unknown).
 float facing(const LodView& view, const V3f& point, const V3f& normal);
 
 }  // namespace pelage

@@ -21,7 +21,7 @@ bool stays_within(const PointFit& fit, const Strands& strands, size_t strand, fl
   return true;
 }
 
-/// Which number of points each strand gets.
+/// Selects the number of points of each strand.
 class Choice {
  public:
   const PointFit* fit(const Strands& strands, size_t strand, float tolerance) {
@@ -47,9 +47,9 @@ void combine(std::span<const float> weights, const float* rows, size_t width, fl
   }
 }
 
-/// Values at points of one strand, `width` at each, that may have overshot those that they were fitted to:
-/// draws all of them to their means over the strand, by the same share, until each lies within what it was
-/// fitted to. Colours keep their mean and their hue; cut off one by one, bright bands would lose their
+/// Limits overshoot of values fitted at the points of one strand, `width` per point: moves all of them
+/// towards their mean over the strand, by a common factor, until each lies within the range of the values
+/// they were fitted to. Colours keep their mean and hue; clamped one by one, bright bands would lose their
 /// strongest channel.
 void limit(std::span<float> values, std::span<const float> fitted_to, size_t width) {
   const size_t points = values.size() / width;

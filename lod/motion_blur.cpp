@@ -11,10 +11,10 @@ V3f turned(const LodPose& pose, const V3f& d) {
   return {d.dot(pose.right), d.dot(pose.up), d.dot(pose.forward)};
 }
 
-/// As the camera sees it when the shutter opens: the motion, and the direction to the point.
+/// Relative to the camera at shutter open: the motion, and the direction to the point.
 struct Seen {
   V3f motion{0};  // across the line of sight
-  V3f sight{0};   // unit, or 0 in the eye
+  V3f sight{0};   // unit, or 0 at the eye
 };
 
 Seen seen(const LodView& view, const V3f& at_open, const V3f& at_close) {

@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-// The product of few points with a dense matrix is quick; its bytes grow with the square of their number.
+// For few points, multiplying with a dense matrix is fast; its size is quadratic in their number.
 constexpr size_t kMatrixPoints = 64;
 
 using Row = std::vector<double>;
@@ -35,7 +35,7 @@ Weights spline_weights(size_t n, double t) {
   weights.count = std::min(segment + 3, n) - weights.first;
   const auto at = [&](size_t point) -> double& { return weights.value[point - weights.first]; };
   for (size_t i = 0; i < 4; ++i) {
-    const size_t point = segment + i;  // counted from the phantom before the first
+    const size_t point = segment + i;  // counted from the phantom point before the first
     if (point == 0) {
       at(0) += 2 * basis[i];
       at(1) -= basis[i];
@@ -56,7 +56,7 @@ Weights hat_weights(size_t n, double t) {
   return {segment, 2, {1 - u, u}};
 }
 
-/// Solves a x = b for many right sides in place, b row by row; a is symmetric and positive.
+/// Solves a x = b for many right-hand sides in place, b row by row; a is symmetric and positive definite.
 void solve(Matrix a, Matrix& b) {
   for (size_t i = 0; i < a.size(); ++i) {
     const double pivot = a[i][i];
@@ -71,7 +71,7 @@ void solve(Matrix a, Matrix& b) {
   }
 }
 
-/// Least squares over `samples` even parameters; with `pinned`, the ends are those of before.
+/// Least squares over `samples` evenly spaced parameters; with `pinned`, the end points are kept.
 Matrix fit(size_t from, size_t to, size_t samples, WeightsAt weights, bool pinned) {
   const size_t first = pinned ? 1 : 0, count = to - 2 * first;
   Matrix normal(count, Row(count, 0.0)), right(count, Row(from, 0.0));

@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// The linear map from the points of a pinned B-spline to those of another with fewer points that comes
-/// closest to it, in the mean over the parameter. What it holds and takes to make grows with the number of
-/// points, not with its square. Immutable.
+/// The linear map from the points of a pinned B-spline to those of one with fewer points that is closest to
+/// it, in the mean over the parameter. Memory and construction time are linear in the number of points.
+/// Immutable.
 class PointFit {
  public:
   /// 4 <= to < from.
@@ -17,14 +17,14 @@ class PointFit {
 
   size_t to() const { return to_; }
 
-  /// New points: sums over the old ones with these weights, row by row. The first and the last are kept.
+  /// Weights of the old points for each new point, row by row. The first and the last point are kept.
   std::span<const float> curve(size_t row) const { return std::span(curve_).subspan(row * from_, from_); }
   /// The same for values that are linear between points.
   std::span<const float> values(size_t row) const { return std::span(values_).subspan(row * from_, from_); }
-  /// Whether the new curve is nowhere, at even parameters, farther than `tolerance` from the old one, whose
-  /// points are `points`: 4 floats each, of which the first 3 count.
+  /// Whether the new curve, at evenly spaced parameters, stays within `tolerance` of the old one. `points`: 4
+  /// floats each, of which the first 3 are used.
   bool stays_within(const float* points, float tolerance) const;
-  /// Of the heap.
+  /// Heap memory.
   size_t bytes() const { return (curve_.size() + values_.size() + error_.size()) * sizeof(float); }
 
  private:
@@ -33,7 +33,7 @@ class PointFit {
 
   size_t from_, to_;
   std::vector<float> curve_, values_;
-  std::vector<float> error_;  // of few points: new minus old curve, as sums over the old points
+  std::vector<float> error_;  // for few points: new minus old curve, as weights of the old points
 };
 
 }  // namespace pelage

@@ -13,33 +13,33 @@
 namespace pelage {
 namespace {
 
-// Of the size at which half of the strands are kept, relative to that where thinning begins, by area.
+// Size at which half of the strands are kept, relative to the size where thinning begins, by area.
 constexpr float kHalf = 0.4f;
 constexpr float kMaxFade = 0.1f;
-constexpr float kMinFade = 1e-3f;  // what is thinner than this part of itself does not exist
+constexpr float kMinFade = 1e-3f;  // strands thinner than this fraction of their width are omitted
 constexpr float kMinAreaShare = 1e-7f;
 constexpr float kTolerancePixels = 0.1f;
-// Least distance of roots from each other on a line through them, times the root of their density: of the
+// Min distance of roots along a line through them, times the square root of their density, for the
 // progressive order of follicles.
 constexpr double kMinRootDistance = 0.6;
-// How far light starts from the strand that was hit, relative to the disc of skin that the strand stands for:
-// far enough that what the line of sight found clear does not count for the light too. And in widths.
+// Distance from the strand that was hit at which light starts, relative to the disc of skin that the strand
+// represents: far enough that the free line of sight does not imply a free path for the light. Also in
+// widths.
 constexpr float kSpread = 1.5f;
 constexpr float kMaxSpread = 4;
-// Strands turned away: all of them down to the first cosine, kMinBackFacing from the second one on. What is
-// between them is seen past the edge of an animal, at a grazing angle, where many strands lie over each
-// other.
+// Back-facing strands: all are kept up to the first cosine, kMinBackFacing of them beyond the second one.
+// Those in between are seen at a grazing angle beyond the silhouette, where many strands overlap.
 constexpr float kBackFacingBegin = -0.1f, kBackFacingEnd = -0.5f;
 constexpr float kMinBackFacing = 0.2f;
-// How wide a strand may be relative to the blur across it. What a blurred pixel collects varies by
-// s^2 / (lambda N) however it is blurred: with more, fur looks streaked.
+// Max width of a strand relative to the blur across it. The variance of a blurred pixel is s^2 / (lambda N)
+// for any blur: with wider strands, fur looks streaked.
 constexpr float kHidden = 0.1f;
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kMeanSine = 2 / kPi;  // of lines in all directions
+constexpr float kMeanSine = 2 / kPi;  // of lines in random directions
 
-/// How many times as many strands contribute to a pixel as without blur: ratio of the areas of a strand of
-/// `length` pixels swept by what a pixel collects, a disc of 1 pixel that moves by `motion`, by `across`
-/// across the strand, or a disc of confusion.
+/// Factor by which blur increases the number of strands that contribute to a pixel: the ratio of the areas of
+/// a strand of `length` pixels, swept by the footprint of a pixel: a disc of 1 pixel that moves by `motion`,
+/// by `across` across the strand, or a disc of confusion.
 float blur_ratio(float length, float motion, float across, float confusion) {
   const float still = kPi / 4 + length;
   const float moving = still + motion + length * across;
@@ -48,14 +48,14 @@ float blur_ratio(float length, float motion, float across, float confusion) {
   return (moving / still) * (blurred / still);
 }
 
-/// What is left of a share where skin faces the camera like this.
+/// Factor on a share where skin faces the camera with this cosine.
 float back_facing_share(float facing) {
   const float t = std::clamp((facing - kBackFacingEnd) / (kBackFacingBegin - kBackFacingEnd), 0.0f, 1.0f);
   return kMinBackFacing + (1 - kMinBackFacing) * t * t * (3 - 2 * t);
 }
 
-/// Minus the logarithm of what is bare, of a coat of which `depth` strands stand over a point on average and
-/// keep a distance, of the part `room` of the line along which they do.
+/// Minus the logarithm of the uncovered fraction of a coat with `depth` strands over a point on average,
+/// whose minimum distances take up the fraction `room` of the line.
 double covering_depth(double depth, double room) {
   room = std::min(room, 0.98);
   if (depth <= room) return -std::log1p(-depth);  // never two
@@ -90,7 +90,7 @@ void Simplification::tabulate_area() {
 
 float Simplification::share(float pixels, float motion, float across, float confusion) const {
   const float width = stats_.width * pixels, length = stats_.length * pixels;
-  if (!(width > 0) || !(length > 0)) return 1;  // nothing is seen of them: nothing is to be gained
+  if (!(width > 0) || !(length > 0)) return 1;  // nothing of them is visible, so nothing can be saved
   float share = 1;
   if (params_.size && width < 1) share = std::pow(width, 2 * std::log(0.5f) / std::log(kHalf));
   if (motion > 0 || confusion > 0)
@@ -120,7 +120,7 @@ float Simplification::share(const RootPlace& root) const {
 }
 
 float Simplification::max_share(float distance) const {
-  // Shares grow with the size and shrink with every blur. Roots may be off by some rounding.
+  // Shares increase with the size and decrease with every blur. Allow for rounding of the roots.
   const float pixels = params_.quality * pixels_per_unit(view_, distance);
   return std::min(1.0f, share(pixels, 0, 0, 0) * (1 + 1e-4f));
 }
@@ -152,8 +152,8 @@ float Simplification::spread(float share) const {
 float Simplification::own_shadow(float share) const {
   const float max = spread(share);
   if (!stats_.even || !params_.width_gain || !(max > 0)) return 0;
-  // In a disc of skin of which the strand is the only one, light that starts anywhere meets it with
-  // probability width / (pi radius); those strands have such a disc too that full detail leaves in place.
+  // In a disc of skin that contains only this strand, light from a random point hits it with probability
+  // width / (pi radius); strands kept at full detail also have such a disc.
   const float disc = std::sqrt((1 / share - 1) / (kPi * stats_.density));
   return std::max(0.0f, 1 - kSpread * std::sqrt(share)) * std::sqrt(1 - share) * (max / (kSpread * disc));
 }
@@ -168,7 +168,7 @@ float Simplification::max_width_factor(float distance) const {
   const float pixels = params_.quality * pixels_per_unit(view_, distance);
   const float width = stats_.width * pixels, length = stats_.length * pixels;
   if (!(width > 0) || !(length > 0)) return 1;
-  // What the share is at least, whatever the blur; without blur, what it is at this distance.
+  // Lower bound of the share for any blur; without blur, the share at this distance.
   float min = min_kept(4 * width / length);
   if (!params_.motion_blur && !params_.depth_of_field) min = std::max(min, share(pixels, 0, 0, 0));
   min = std::min(min, 1.0f) * (params_.back_facing ? kMinBackFacing : 1.0f);

@@ -10,91 +10,91 @@
 
 namespace pelage {
 
-/// What the strands of a coat are like on average. Scene units of the coat where it stands.
+/// Average properties of the strands of a coat, in scene units of the posed coat.
 struct CoatStats {
   float width = 0;
   float length = 0;
-  float area_share = 0;  ///< width * length over the area of the skin that they cover; 0 when not known
-  float density = 0;     ///< strands per unit of skin, where they stand; 0 when not known
+  float area_share = 0;  ///< width * length over the skin area that they cover; 0 when unknown
+  float density = 0;     ///< strands per unit of skin area; 0 when unknown
   bool even = true;      ///< whether every prefix of their order is blue noise
 };
 
-/// Where a strand has its root, by which detail is decided. World space.
+/// The root of a strand, which determines its level of detail. World space.
 struct RootPlace {
   V3f open{0}, close{0};  ///< when the shutter opens and closes
-  V3f normal{0};          ///< of the skin when the shutter opens; 0: not known
-  V3f direction{0};       ///< how strands lie there then: unit, shorter where they lie anyhow
+  V3f normal{0};          ///< of the skin when the shutter opens; 0: unknown
+  V3f direction{0};       ///< of the strands there at that time: unit, shorter where they vary
 };
 
-/// Stochastic simplification of one coat: how many strands are enough at a place, and how wide those must be
-/// that stay [Cook07, Ryu07].
+/// Stochastic simplification of one coat: the fraction of the strands that suffices at a place, and the width
+/// of those that remain [Cook07, Ryu07].
 ///
-/// Every strand has a fixed priority x, evenly spread over [0, 1) and independent of everything else. At a
-/// place where the share lambda of the strands is enough, those with x < lambda - t keep their place, those
-/// up to lambda + t fade out by width, and the others do not exist: what stays at one share is among what
-/// stays at every larger one. All is a continuous function of the root's place, so nothing pops and nothing
-/// shows where one chunk ends and the next begins.
+/// Every strand has a fixed priority x, uniformly distributed over [0, 1) and independent of everything else.
+/// Where the fraction (share) lambda suffices, strands with x < lambda - t are kept, those up to lambda + t
+/// fade out by width, and the others do not exist: the strands kept at one share are a subset of those kept
+/// at every larger one. Everything is a continuous function of the root's position, so nothing pops and no
+/// boundary between chunks is visible.
 ///
 /// A value. Thread safety: const members may be called from any thread.
 class Simplification {
  public:
-  /// `budget`: factor on the share, of the role of the coat.
+  /// `budget`: factor on the share, from the role of the coat.
   Simplification(const SimplificationParams& params, const LodView& view, const CoatStats& stats,
                  float budget);
 
   const LodView& view() const { return view_; }
-  /// Strands over a point of the skin, on average; 0 when not known.
+  /// Mean number of strands over a point of the skin; 0 when unknown.
   float depth() const { return stats_.density * stats_.width * stats_.length; }
 
-  /// The share lambda in (0, 1] of the strands with their root here.
+  /// The share lambda in (0, 1] of the strands with this root.
   ///
-  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but no less than what keeps a widened strand under
-  /// hypot(1, a tenth of the blur across it) pixels, and under a quarter of its own
-  /// length: else widths would grow without bound where a coat shrinks. lambda_size = w^(2 ln(1/2) / ln h)
-  /// for a width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur keeps the number of strands that
-  /// contribute to a pixel (to the power blur_strength). Where the skin is turned away, less, down to a fifth
-  /// of that; there strands may be as much wider.
+  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but at least large enough that a widened strand
+  /// stays below hypot(1, a tenth of the blur across it) pixels and a quarter of its own length: otherwise
+  /// widths would grow without bound where a coat becomes small. lambda_size = w^(2 ln(1/2) / ln h) for a
+  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur keeps the number of strands that contribute
+  /// to a pixel (to the power blur_strength). Back-facing skin keeps less, down to a fifth; its strands may
+  /// be wider accordingly.
   float share(const RootPlace& root) const;
-  /// No root at this distance from the camera, or further away, has a larger share.
+  /// Upper bound of share() for roots at this distance from the camera or farther away.
   float max_share(float distance) const;
   /// Half the width of the fade: min(0.1, lambda / 4, 1 - lambda), so that the mean of fade() over all x is
   /// lambda.
   static float fade_half_width(float share);
-  /// 1 before the fade, 0 behind it.
+  /// 1 before the fade, 0 after it.
   static float fade(float share, float priority);
 
-  /// What the width of a strand is multiplied by; 0: it does not exist. 1 at share 1. The part of the skin
-  /// that a coat covers stays.
+  /// Factor on the width of a strand; 0: it does not exist. 1 at share 1. Preserves the fraction of the skin
+  /// that a coat covers.
   ///
-  /// For strands anywhere that is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], r the area_share. Where
-  /// they stand evenly, wide ones overlap less than thin ones. What stands over a point of the skin are roots
-  /// in a strip of one strand's width and length, and for strips narrower than the distance between roots
-  /// these are intervals on a line that keep some distance: with mu of them on average and a part x of the
-  /// line taken up by the distances, none is there with probability (1 - x) exp(-(mu - x) / (1 - x)). As x
-  /// grows with the width, mu must shrink.
+  /// For strands at random positions the factor is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], with r the
+  /// area_share. When positions are evenly spread, wide strands overlap less than thin ones. The strands over
+  /// a point of the skin have their roots in a strip of one strand's width and length. For strips narrower
+  /// than the distance between roots, these are intervals on a line with a minimum distance: with mean number
+  /// mu and a fraction x of the line taken up by the distances, the probability of none is (1 - x) exp(-(mu -
+  /// x) / (1 - x)). As x grows with the width, mu must shrink.
   float width_factor(float share, float priority) const;
-  /// The same of strands that do not fade.
+  /// The same for strands that do not fade.
   float gain(float share) const;
-  /// No width_factor() of roots up to this distance is larger.
+  /// Upper bound of width_factor() for roots up to this distance.
   float max_width_factor(float distance) const;
-  /// A strand that is kept stands for others beside it. Light leaves one of them: it is as far along its
-  /// length, and its root is up to this distance away on the skin. 0 at share 1.
+  /// A strand that is kept represents others beside it. Light continues from one of these: at the same
+  /// position along its length, with a root up to this distance away on the skin. 0 at share 1.
   float spread(float share) const;
-  /// With which probability the strand itself counts among what light meets that leaves one of those that it
-  /// stands for. Strands that stand evenly have room around them, the more the fewer there are; that light
-  /// does not cross it unhindered is due to the others that are not there. 0 at share 1.
+  /// Probability that light leaving a represented strand may hit the strand that represents it. Evenly spread
+  /// strands have free space around them, more so the fewer there are, in which the omitted strands would
+  /// have blocked light. 0 at share 1.
   float own_shadow(float share) const;
-  /// What the deviation of a strand's colour from the mean is multiplied by [Cook07, eq. 22].
+  /// Factor on the deviation of a strand's colour from the mean [Cook07, eq. 22].
   float contrast(float share) const;
-  /// How far fewer control points may move a strand, in scene units; 0: not at all.
+  /// How far fewer control points may move a strand, in scene units; 0: not allowed.
   float tolerance(const V3f& root_at_open) const;
 
-  /// Of all that decides.
+  /// Hash of everything that affects the result.
   ContentHash hash() const;
 
  private:
   float share(float pixels, float motion, float across, float confusion) const;
-  /// A share that widths or the scene ask for at least: more where a budget gives more, never less.
+  /// The minimum share that widths or the scene require; a budget may increase it, never decrease it.
   float min_kept(float share) const;
   void tabulate_area();
 
@@ -103,7 +103,8 @@ class Simplification {
   LodView view_;
   CoatStats stats_;
   float budget_;
-  std::array<float, kAreaSteps + 1> area_;  // that is left of the strands' area, by the root of the share
+  std::array<float, kAreaSteps + 1>
+      area_;  // fraction of the strands' area that remains, by the square root of the share
 };
 
 }  // namespace pelage

@@ -6,7 +6,8 @@
 
 namespace pelage {
 
-/// How many strands of a coat are enough: keys of `render.lod`. Each idea has a switch of its own.
+/// Keys of `render.lod`, which control how many strands of a coat are kept. Each criterion has its own
+/// switch.
 struct SimplificationParams {
   float quality = 1;
   bool size = true, motion_blur = true, depth_of_field = true, back_facing = true;

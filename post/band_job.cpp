@@ -12,12 +12,12 @@ namespace pelage {
 namespace {
 
 constexpr int kFewestRows = 16;
-/// Larger bands gain nothing, and their memory has to be fetched from the system first.
+/// Larger bands are not faster, and their memory has to be allocated first.
 constexpr int64_t kEnoughBytes = int64_t{256} << 20;
 
 constexpr int64_t kMebibyte = int64_t{1} << 20;
 
-/// `needed` says how much, rounded up so that it is enough.
+/// `needed`: bytes, rounded up so that it is enough.
 [[noreturn]] void fail_memory(const std::filesystem::path& path, const char* needs, int64_t needed,
                               int64_t budget) {
   throw Error(ErrorKind::kMemory, {path.string(), 0, 0},
@@ -88,7 +88,7 @@ int64_t BandJob::field_bytes() const {
 
 int64_t BandJob::band_bytes(Band band) const {
   const int64_t planes = static_cast<int64_t>(channels->size() + extra_planes);
-  // A result of floats, and halves while it is written.
+  // A result in floats, and in halves while it is written.
   int64_t bytes = planes * window.width() * (band.last - band.first) * 6;
   int64_t max_source = 0;  // one view at a time
   for (const MovingView& view : views) {
@@ -165,7 +165,7 @@ void BandJob::write_band(ExrWriter& writer, Band band, const Workers& workers) {
 void BandJob::run(const std::filesystem::path& output, const Job& job, PostReport& report) {
   std::vector<ExrOutputPart> headers;
   for (const Part& part : parts) headers.push_back(part.part);
-  next_band(0);  // refuses a budget that is too small before anything is written
+  next_band(0);  // rejects a budget that is too small before writing anything
   ExrWriter writer(output, *reader, std::move(headers), job.workers.thread_count());
   const MemoryCharge fixed(job.ledger, MemoryTag::kFilm, fixed_bytes());
   report.bands = 0;

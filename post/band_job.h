@@ -13,24 +13,24 @@
 
 namespace pelage {
 
-/// What a tool came to do with a file.
+/// Result of processing a file.
 struct PostReport {
   bool cancelled = false;  ///< nothing was written
   PixelBox window;         ///< of all that was written
   int steps = 1;
-  int bands = 1;                      ///< pieces in which the file went through memory
-  float longest = 0;                  ///< motion or parallax, pixels
+  int bands = 1;                      ///< number of bands in which the file was processed
+  float longest = 0;                  ///< max motion or parallax, in pixels
   std::vector<std::string> notes;     ///< for the user, one line each
-  std::vector<std::string> warnings;  ///< the same, of what is probably a mistake
+  std::vector<std::string> warnings;  ///< the same, for probable mistakes
 };
 
-/// What both tools need to know.
+/// Parameters that both tools share.
 struct PostFileParams {
   LayerChoice layers;
   VectorParams vectors;
   int scale = 4;                      ///< samples per pixel and side, 1 to 8
-  std::optional<int> longest_fill;    ///< pixels of a gap that are filled; each tool has its default
-  int64_t memory = int64_t{4} << 30;  ///< bytes: pixels, vectors and work buffers stay below
+  std::optional<int> longest_fill;    ///< max number of pixels to fill in a gap; each tool has its default
+  int64_t memory = int64_t{4} << 30;  ///< max bytes of pixels, vectors and work buffers
 };
 
 /// A view whose pixels move; without a field they are copied.
@@ -39,9 +39,9 @@ struct MovingView {
   std::unique_ptr<FlowField> field;
 };
 
-/// Takes a file through memory band by band: reads the rows of the source that a band needs, lets `process`
-/// make the band, writes it. Memory: the fields, `scratch_bytes`, the blocks of rows that the library
-/// decodes and encodes, and as many rows as the budget leaves room for.
+/// Processes a file band by band: reads the source rows that a band needs, calls `process` to make the band,
+/// and writes it. Memory: the fields, `scratch_bytes`, the blocks of rows that the library decodes and
+/// encodes, and as many rows as the budget allows.
 class BandJob {
  public:
   struct Band {
@@ -53,8 +53,8 @@ class BandJob {
   /// Rows of the view's canvas that the band needs.
   using Reach = std::function<RowRange(const MovingView& view, const WarpTarget& target, Band band)>;
 
-  /// A part to write and, for each of its channels, the number of its plane: of a channel of the file, or
-  /// that number plus the count of channels for planes that `process` fills beside.
+  /// A part to write, with the plane number of each of its channels: a channel number of the file, or that
+  /// number plus the count of channels for additional planes that `process` fills.
   struct Part {
     ExrOutputPart part;
     std::vector<size_t> planes;
@@ -64,30 +64,30 @@ class BandJob {
   const std::vector<NamedChannel>* channels = nullptr;
   std::vector<MovingView> views;
   std::vector<Part> parts;
-  PixelBox window;  ///< of the result; encloses all its parts
+  PixelBox window;  ///< of the result; contains all its parts
   size_t extra_planes = 0;
   int scale = 4;
-  int longest_fill = 0;  ///< pixels of a gap that are filled
+  int longest_fill = 0;  ///< max number of pixels to fill in a gap
   int64_t memory = 0;
   int64_t scratch_bytes = 0;
   Process process;
   Reach reach;
 
-  /// Plane `extra` of the band at hand, for `process`.
+  /// Plane `extra` of the current band, for `process`.
   Plane extra_plane(size_t extra) const;
 
-  /// Throws Error: kInput and kFailed as the reader and the writer do, kMemory when the budget does not hold
-  /// the narrowest band. Fills `cancelled`, `window` and `bands` of the report.
+  /// Throws Error: kInput and kFailed like reader and writer, kMemory when the budget does not hold the
+  /// narrowest band. Sets `cancelled`, `window` and `bands` of the report.
   void run(const std::filesystem::path& output, const Job& job, PostReport& report);
 
-  /// What the fields of the views hold.
+  /// Memory of the views' fields.
   int64_t field_bytes() const;
 
-  /// Where the view lies in the window.
+  /// Position of the view in the window.
   WarpTarget target(const MovingView& view) const;
 
  private:
-  /// All but the bands.
+  /// Memory except for the bands.
   int64_t fixed_bytes() const;
   int64_t band_bytes(Band band) const;
   Band next_band(int first) const;
@@ -103,17 +103,17 @@ class BandJob {
 /// of others exceed the budget.
 void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
-/// Throws Error (kInput) naming a layer that was said to be data or colours and that none of the views finds.
+/// Throws Error (kInput) naming a layer that was declared as data or colours but is found in no view.
 void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
 
-/// Adds what a survey of vectors found to the report. `where` names the view, or is empty.
+/// Adds the findings of a survey of vectors to the report. `where` names the view, or is empty.
 void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
                     const std::string& flag, const std::string& where, PostReport& report);
 
-/// "depth", or "depth 'far'" where it was named.
+/// "depth", or "depth 'far'" if it was named.
 std::string layer_label(const std::string& what, const std::string& name);
 
-/// Throws Error (kInput) saying what is missing, what to do, and what there is.
+/// Throws Error (kInput) with what is missing, what to do, and what is available.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

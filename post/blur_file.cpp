@@ -35,7 +35,7 @@ float longest_of(const FlowField& field) {
   return std::hypot(x, y);
 }
 
-/// Warns where the header says that the picture is blurred already. Files of other programs say nothing.
+/// Warns if the header states that the picture is already blurred. Other programs' files do not state it.
 void check_sharp(const ExrPart& part, PostReport& report) {
   const auto found = part.attributes.find("pelage:shutter");
   const V2f* shutter = found == part.attributes.end() ? nullptr : std::get_if<V2f>(&found->second);
@@ -49,7 +49,8 @@ void check_sharp(const ExrPart& part, PostReport& report) {
   }
 }
 
-/// The field of a view, or none where it has no vectors or nothing to blur. `held`: bytes of those before.
+/// The field of a view, or null when it has no vectors or there is nothing to blur. `held`: bytes of previous
+/// ones.
 std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFileParams& params,
                                       const std::string& view, int64_t held, const Workers& workers,
                                       PostReport& report) {

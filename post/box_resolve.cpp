@@ -13,7 +13,7 @@ namespace {
 int source_x(uint32_t pixel) { return static_cast<int>(pixel & 0xffff); }
 int source_y(uint32_t pixel) { return static_cast<int>(pixel >> 16); }
 
-/// The distinct pixels among the samples of one pixel, in the order in which they are first met.
+/// The distinct source pixels among the samples of one pixel, in order of first occurrence.
 class Sources {
  public:
   void count(const Sample& sample) {

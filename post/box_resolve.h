@@ -10,26 +10,26 @@
 
 namespace pelage {
 
-/// Turns work buffers into pixels: every sample counts alike. Counts are whole numbers, so a pixel that sees
-/// one pixel of the source and nothing else becomes a copy of it, to the bit, however often it is looked at.
-/// Colours that are not numbers count as zero where they are averaged.
+/// Converts work buffers to pixels with equal weights for all samples. Counts are integers, so a pixel that
+/// sees a single pixel of the source becomes an exact copy of it, however often it is sampled. NaN colours
+/// count as zero in averages.
 ///
-/// Colours are fetched once for each run of steps in which a pixel sees the same thing. Thread safety: one
+/// Colours are read once for each run of steps in which a pixel sees the same thing. Thread safety: one
 /// thread at a time; use one per worker.
 class BoxResolve {
  public:
-  /// `with_colors`: otherwise channels of role kColor are left alone.
+  /// `with_colors`: otherwise channels of role kColor are not written.
   explicit BoxResolve(const PostLayers& layers, bool with_colors = true)
       : layers_(layers), with_colors_(with_colors) {}
 
-  /// Begins with pixels `box` of the result.
+  /// Starts pixels `box` of the result.
   void begin(const PixelBox& box, int scale);
-  /// What is seen at one step, or at `steps` steps that are alike. `buffer` holds at least the box.
+  /// Adds the samples of one step, or of `steps` equal steps. `buffer` must cover the box.
   void add(const WorkBuffer& buffer, int steps = 1);
-  /// Writes the box.
+  /// Writes the pixels of the box.
   void finish();
 
-  /// What it holds for a pixel of the box while it works.
+  /// Temporary memory per pixel of the box.
   static size_t bytes_per_pixel(const PostLayers& layers) {
     return layers.channels.size() * sizeof(float) + sizeof(State) + 2 * sizeof(Entry);
   }
@@ -43,8 +43,8 @@ class BoxResolve {
   struct State {
     Sample front;  // nearest of all samples
     uint32_t source = 0;
-    uint32_t count = 0;     // samples of `source` that are not in the sums yet
-    bool is_mixed = false;  // something is in the sums
+    uint32_t count = 0;     // samples of `source` that are not yet in the sums
+    bool is_mixed = false;  // the sums are not empty
   };
   static constexpr size_t kMaxEntries = 1 << 14;
 
@@ -58,10 +58,10 @@ class BoxResolve {
   bool with_colors_;
   PixelBox box_;
   int scale_ = 1;
-  uint32_t samples_ = 0;  // of a pixel, over all steps so far
+  uint32_t samples_ = 0;  // per pixel, over all steps so far
   std::vector<State> states_;
   std::vector<Entry> entries_;
-  std::vector<float> sums_;  // channel by channel
+  std::vector<float> sums_;  // by channel
   std::vector<std::vector<std::pair<uint32_t, float>>>
       matte_sums_;  // by matte and pixel: bits of the id, sum
 };

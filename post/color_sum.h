@@ -7,15 +7,15 @@
 
 namespace pelage {
 
-/// Sums of colours are made of colours divided by a power of two, so that the largest floats stay finite with
-/// the weights of the longest shutter (4096 steps of 8 x 8 samples). No other bit of a result changes, but
-/// for colours below 1e-32.
+/// Sums of colours use colours divided by a power of two, so that the largest floats stay finite with the
+/// weights of the longest shutter (4096 steps of 8 x 8 samples). Results are unaffected except for colours
+/// below 1e-32.
 inline constexpr float kColorSumScale = 0x1p-20f;
 
-/// Colours that are not numbers count as zero.
+/// NaN counts as zero.
 inline float color_to_sum(float color) { return color == color ? color * kColorSumScale : 0; }
 
-/// A mean of what color_to_sum made. Finite for finite colours; zero where infinities cancel.
+/// Converts a mean of color_to_sum() values back. Finite for finite colours; zero where infinities cancel.
 inline float color_of_mean(float mean) {
   if (mean != mean) return 0;
   if (std::isinf(mean)) return mean;

@@ -26,7 +26,7 @@ void fill_from(std::span<Sample> row, std::span<uint8_t> filled, ptrdiff_t gap, 
     const auto i = static_cast<size_t>(at);
     return !is_gap(row[i]) && filled[i] != kFilled && !is_nearer(row[i], border);
   };
-  // What lies further away than twice the gap is not its background.
+  // Anything farther away than twice the gap is not its background.
   const ptrdiff_t reach = 2 * ptrdiff_t{count};
   const auto is_within = [&](ptrdiff_t at) { return at >= 0 && at < size && std::abs(gap - at) <= reach; };
   ptrdiff_t mirrored = gap - step;

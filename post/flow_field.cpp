@@ -29,7 +29,7 @@ FlowField::FlowField(int width, int height, std::vector<Flow> motion, std::vecto
     for (int x = 0; x < width_; ++x) clean(at(x, y));
   });
   rows([&](int y) { link_row(y, limits); });
-  // Marks are gathered apart from the links, which other rows read meanwhile.
+  // Marks are collected separately from the links, which other rows read meanwhile.
   std::vector<uint8_t> marks(pixels);
   const auto mark = [&](auto&& find) {
     rows([&](int y) {
@@ -81,7 +81,7 @@ bool FlowField::are_four_linked(int x, int y) const {
 }
 
 Flow FlowField::torn_corner(int x, int y, int right, int bottom) const {
-  // The four pixels around the corner: a b over c d. Beyond the picture there are none, and no links.
+  // The four pixels around the corner: a b over c d. Outside of the picture there are no pixels and no links.
   const int left = x + right - 1, top = y + bottom - 1;
   const bool in_l = left >= 0, in_r = left + 1 < width_, in_t = top >= 0, in_b = top + 1 < height_;
   const size_t a = static_cast<size_t>(static_cast<int64_t>(top) * width_ + left);
@@ -91,7 +91,7 @@ Flow FlowField::torn_corner(int x, int y, int right, int bottom) const {
   const bool ac = in_l && in_t && in_b && (links_[a] & kDown);
   const bool bd = in_r && in_t && in_b && (links_[a + 1] & kDown);
 
-  // Which of them hang together with this pixel, by at most three links.
+  // Which of them are connected with this pixel, by at most three links.
   const int self = (bottom ? 0 : 2) + (right ? 0 : 1);
   bool in[4] = {self == 0, self == 1, self == 2, self == 3};
   for (int step = 0; step < 3; ++step) {
@@ -100,7 +100,7 @@ Flow FlowField::torn_corner(int x, int y, int right, int bottom) const {
     if (ac) in[0] = in[2] = in[0] || in[2];
     if (bd) in[1] = in[3] = in[1] || in[3];
   }
-  // In one order, as differences to one of them.
+  // In a fixed order, as differences to one of them.
   const size_t pixels[4] = {a, a + 1, a + w, a + w + 1};
   int count = 0;
   Flow first, sum;

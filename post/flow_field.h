@@ -17,31 +17,31 @@ struct Flow {
   bool operator==(const Flow&) const = default;
 };
 
-/// What decides that two neighbours are one surface.
+/// Criteria for two neighbours to belong to one surface.
 struct LinkLimits {
-  float largest_time = 1;    ///< of all the times that the field will be warped to, by magnitude
-  float tear = 1.5f;         ///< pixels by which neighbours may come to lie further apart, or closer
+  float largest_time = 1;    ///< max magnitude of all times that the field will be warped to
+  float tear = 1.5f;         ///< max change of the distance of neighbours, in pixels
   float depth_step = 0.05f;  ///< step of 1 / depth, as a fraction of the nearer one's
 };
 
-/// Where every pixel of a picture moves, how far away it is, and which neighbours it is one surface with (the
-/// motion-gradient image, reduced to what it decides). Thread safety: immutable once made.
+/// Motion and depth of every pixel of a picture, and which neighbours belong to the same surface (the
+/// decisions of the motion-gradient image). Thread safety: immutable once made.
 ///
-/// Memory: kBytesPerPixel for each pixel, and one more while it is made.
+/// Memory: kBytesPerPixel per pixel, and one more byte while it is made.
 class FlowField {
  public:
   static constexpr size_t kBytesPerPixel = 13;
-  /// Pictures may be this wide and high: a pixel's place is a pair of 16-bit numbers.
+  /// Max width and height: a pixel's position is a pair of 16-bit numbers.
   static constexpr int kLargestSide = 65535;
-  /// Vectors are cut to this length: far enough to leave any picture.
+  /// Vectors are clamped to this length: enough to leave any picture.
   static constexpr float kLongest = 1 << 18;
   static Flow cut(Flow m) {
     return {std::clamp(m.x, -kLongest, kLongest), std::clamp(m.y, -kLongest, kLongest)};
   }
 
-  /// `motion`, `depth`: width * height, rows from the top. Vectors that are not finite count as none. Depth
-  /// is a distance; its sign is ignored, and what is not a distance (zero, infinity, not a number) is
-  /// infinitely far away. Pixels for which `is_thin` is not 0 get no seams.
+  /// `motion`, `depth`: width * height, rows from the top. Non-finite vectors count as zero. Depth is a
+  /// distance; its sign is ignored, and invalid values (zero, infinity, NaN) are infinitely far away. Pixels
+  /// for which `is_thin` is not 0 get no seams.
   FlowField(int width, int height, std::vector<Flow> motion, std::vector<float> depth,
             const LinkLimits& limits, const Workers& workers, const std::vector<uint8_t>* is_thin = nullptr);
 
@@ -52,17 +52,17 @@ class FlowField {
   bool linked_right(int x, int y) const { return links_[at(x, y)] & kRight; }
   bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
 
-  /// Whether a neighbour on another, nearer surface may come away from this pixel. Neither is infinitely far
-  /// away: what is nothing, or a sky, does not end where it is hidden. Nor is it thin: beside a strand, the
-  /// background is seen.
+  /// Whether a neighbour on another, nearer surface may separate from this pixel. Neither may be infinitely
+  /// far away: an empty pixel or a sky does not end where it is occluded. Nor may the pixel be thin: the
+  /// background is visible beside a strand.
   bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
-  /// Whether the first of two neighbours is the one behind; of equally far ones, the later one is.
+  /// Whether the first of two neighbours is the farther one; the later one if both are equally far.
   bool is_behind(int x, int y, int other_x, int other_y) const;
 
-  /// Whether all four corners move as the pixel does, so that it stays a unit square.
+  /// Whether all four corners move like the pixel, so that it stays a unit square.
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
-  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean of those of the four pixels around it
-  /// that are one surface with this one. They all get the same bits, so that a surface has no cracks.
+  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean over those of the four adjacent pixels
+  /// that belong to the same surface. They all get the same bits, so that a surface has no cracks.
   Flow corner(int x, int y, int right, int bottom) const {
     const int left = x + right - 1, top = y + bottom - 1;
     if (left < 0 || top < 0 || !(links_[at(left, top)] & kFour)) return torn_corner(x, y, right, bottom);
@@ -78,10 +78,10 @@ class FlowField {
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.
   const std::vector<Block>& blocks() const { return blocks_; }
-  /// One for each row of blocks, around all of them.
+  /// One for each row of blocks, bounding all of them.
   const std::vector<Block>& block_rows() const { return block_rows_; }
   int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
-  /// By how much a corner may move further than any pixel of its block.
+  /// By how much a corner may move farther than any pixel of its block.
   float slack() const { return slack_; }
   /// Bounds of all vectors.
   Flow low() const { return low_; }
@@ -89,10 +89,10 @@ class FlowField {
 
  private:
   static constexpr uint8_t kRight = 1, kDown = 2, kRigid = 4;
-  /// The four pixels of which this is the upper left one hang together.
+  /// The four pixels of which this is the upper left one belong to one surface.
   static constexpr uint8_t kFour = 8;
   static constexpr uint8_t kSeam = 16;
-  /// As differences to the first: equal vectors have exactly themselves as mean.
+  /// Computed from differences to the first: the mean of equal vectors is exact.
   static Flow mean_of_four(Flow a, Flow b, Flow c, Flow d) {
     return {a.x + ((b.x - a.x) + (c.x - a.x) + (d.x - a.x)) * 0.25f,
             a.y + ((b.y - a.y) + (c.y - a.y) + (d.y - a.y)) * 0.25f};

@@ -21,7 +21,7 @@ double lanczos(double t) {
   return std::abs(t) < lobes ? sinc(t) * sinc(t / lobes) : 0;
 }
 
-// More than a segment's sources: enough of them, and then those of one more pixel, 56 x 56 at most.
+// More than a segment's sources: kEnoughSources, plus those of one more pixel, 56 x 56 at most.
 constexpr int kSlotBits = 14;
 constexpr size_t kSlots = size_t{1} << kSlotBits;
 
@@ -56,7 +56,7 @@ size_t LanczosResolve::bytes_needed(int width, size_t channels, int scale) {
 void LanczosResolve::find_runs(const WorkBuffer& buffer, int y) {
   const PixelBox& box = buffer.samples();
   const int first = std::max(box.y0, y * scale_ - reach_), last = std::min(box.y1, (y + 1) * scale_ + reach_);
-  // The rows of the pixels above are kept from the last call.
+  // The rows of the pixels above are kept from the previous call.
   const int kept_end = runs_row_ + static_cast<int>(runs_.size());
   if (first < runs_row_ || first > kept_end) {
     runs_.clear();
@@ -79,7 +79,7 @@ void LanczosResolve::find_runs(const WorkBuffer& buffer, int y) {
   first_run_.assign(runs_.size(), 0);
 }
 
-/// Whether the next row has the same runs between two samples, and belongs to the same pixels.
+/// Whether the next row has the same runs between two samples and contributes to the same pixels.
 bool LanczosResolve::is_repeated(size_t row, int begin, int end) {
   if (row + 1 >= runs_.size() || (runs_row_ + static_cast<int>(row) + 1) % scale_ == 0) return false;
   const std::vector<Run>&a = runs_[row], &b = runs_[row + 1];
@@ -170,7 +170,7 @@ void LanczosResolve::resolve(const Gathered& pixel, int x, int y) const {
   const size_t stride = channels_.size();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (size_t c0 = 0; c0 < stride; c0 += kLanes) {
-    // In loops of their own, so that each keeps its lanes in registers.
+    // In separate loops, so that each keeps its lanes in registers.
     const float* const colors = colors_.data() + c0;
     float sum[kLanes] = {}, low[kLanes], high[kLanes];
     for (size_t i = pixel.first; i < pixel.last; ++i) {
@@ -190,7 +190,7 @@ void LanczosResolve::resolve(const Gathered& pixel, int x, int y) const {
     }
     for (size_t c = 0; c < std::min(kLanes, color_count_ - c0); ++c) {
       const float value = sum[c] / pixel.weight;
-      // Infinite colours make the sum meaningless; the limits are still true.
+      // Infinite colours make the sum meaningless, but the limits are still valid.
       channels_[c0 + c].target.at(x, y) =
           color_of_mean(value == value ? std::clamp(value, low[c], high[c]) : high[c]);
     }

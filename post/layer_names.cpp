@@ -23,7 +23,7 @@ std::string last_segment(const std::string& layer) {
   return dot == std::string::npos ? layer : layer.substr(dot + 1);
 }
 
-/// Takes the first occurrence of `what` out of `text`, with the punctuation around it.
+/// Removes the first occurrence of `what` from `text`, with the surrounding punctuation.
 std::string without(const std::string& text, const std::string& what) {
   const std::string from = plain(text), piece = plain(what);
   const size_t at = piece.empty() ? std::string::npos : from.find(piece);
@@ -34,10 +34,10 @@ const char* const kMotionLayers[] = {"forward",       "motion",  "motionvector",
                                      "motionforward", "vectors", "vector",       "velocity",      "mv"};
 const char* const kDepthLayers[] = {"depth", "z", "zdepth", "depthz"};
 
-/// Layers that hold the picture itself, where it has no bare names.
+/// Layers that contain the picture itself, if it has no channels without a layer.
 const char* const kBeautyLayers[] = {"combined", "beauty", "rgba"};
 
-/// Layers of which no mean makes sense, and beginnings of such names.
+/// Layers that must not be averaged, and prefixes of such names.
 const std::set<std::string> kDataLayers = {
     "n",      "nn",       "ng",       "ns",         "normal",  "normals", "p",        "pos",      "position",
     "pworld", "pref",     "point",    "tangent",    "uv",      "st",      "texcoord", "root",     "id",
@@ -68,7 +68,8 @@ NamedChannel name_channel(const ExrPart& part, const std::string& name) {
   result.view = part.view;
   std::vector<std::string> pieces = split(name, '.');
   if (part.view.empty() && !part.multi_view.empty()) {
-    // Of several views, a bare name is of the default one; else the view stands before the last piece.
+    // With several views, a name without a view belongs to the default one; otherwise the view precedes the
+    // last piece.
     if (pieces.size() == 1) {
       result.view = part.multi_view.front();
     } else {
@@ -129,7 +130,7 @@ LayerFinder::LayerFinder(const std::vector<NamedChannel>& channels, const std::v
 
 bool LayerFinder::is_called(const NamedChannel& channel, const std::string& plain_layer) const {
   if (plain(channel.layer) == plain_layer || plain(last_segment(channel.layer)) == plain_layer) return true;
-  // Bare names in a part of their own, and "forward_left" in a part of the left view.
+  // Names without a layer in a part of their own, and "forward_left" in a part of the left view.
   const ExrPart& part = parts_[channel.part];
   if (!channel.layer.empty() || part.name.empty()) return false;
   return plain(part.name) == plain_layer || plain(last_segment(part.name)) == plain_layer ||
@@ -142,7 +143,7 @@ std::string LayerFinder::name_in_file(const NamedChannel& channel) const {
   return needs_part ? part + "." + channel.component : channel.name();
 }
 
-/// By its name, or else by that with its part's, the view taken out or not.
+/// By its name, otherwise by its name with that of its part, with or without the view.
 std::optional<size_t> LayerFinder::find_channel(const std::string& view, const std::string& name) const {
   std::optional<size_t> in_part;
   for (size_t i = 0; i < channels_.size(); ++i) {
@@ -203,7 +204,7 @@ std::optional<size_t> LayerFinder::depth_in(const std::string& view) const {
     const auto channel = find_channel(view, choice_.depth);
     return channel ? channel : find(view, plain(choice_.depth), components);
   }
-  // A bare Z, unless it stands beside X and Y: then it is the third number of a vector.
+  // A Z without a layer, unless there are X and Y too: then it is the third component of a vector.
   for (size_t i = 0; i < channels_.size(); ++i) {
     if (channels_[i].view != view || !channels_[i].layer.empty()) continue;
     const std::string name = plain(channels_[i].component);
@@ -279,7 +280,7 @@ std::vector<RankedMatte> LayerFinder::find_mattes() const {
   }
   std::vector<RankedMatte> mattes;
   for (const std::string& name : names) {
-    // Layers name00, name01 ... hold two ranks each: id and coverage in R and G, then in B and A.
+    // Layers name00, name01 ... contain two ranks each: id and coverage in R and G, then in B and A.
     std::map<std::string, std::map<char, size_t>> layers;
     for (size_t i = 0; i < channels_.size(); ++i) {
       const NamedChannel& c = channels_[i];

@@ -12,11 +12,11 @@
 
 namespace pelage {
 
-/// A channel of a file and what its name says. In a part of its own a layer's channels often have bare names;
-/// the layer is then the name of the part.
+/// A channel of a file and the meaning of its name. In a part of its own, a layer's channels often have names
+/// without a layer; the layer is then the name of the part.
 struct NamedChannel {
   size_t part = 0, channel = 0;  ///< of ExrReader::parts()
-  std::string view;              ///< empty where the file has no views, or the channel belongs to none
+  std::string view;              ///< empty when the file has no views, or the channel belongs to none
   std::string layer;             ///< "key.diffuse" of "key.diffuse.R"; empty for a bare name
   std::string component;         ///< "R"
   ChannelType type = ChannelType::kHalf;
@@ -24,7 +24,7 @@ struct NamedChannel {
   std::string name() const { return layer.empty() ? component : layer + "." + component; }
 };
 
-/// All channels of a file, in order, with the views of multi-view files taken out of their names: from the
+/// All channels of a file, in order, with the views of multi-view files removed from their names: from the
 /// part's `view`, or from "left.R" and "forward.left.u" where the header lists the views.
 std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
 
@@ -32,43 +32,43 @@ std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
 std::vector<std::string> views_of(const std::vector<NamedChannel>& channels,
                                   const std::vector<ExrPart>& parts);
 
-/// How the layers of a file are found, where the names alone do not say it.
+/// User's choice of layers whose names are not standard.
 struct LayerChoice {
-  std::string motion;               ///< "forward", a part's name, or two channels: "mv.R,mv.G"
-  std::string depth;                ///< a layer, a part or a channel; "none": everything is equally far away
-  std::vector<std::string> data;    ///< layers that are not averaged
-  std::vector<std::string> colors;  ///< layers that are, whatever their names suggest
+  std::string motion;             ///< "forward", a part's name, or two channels: "mv.R,mv.G"
+  std::string depth;              ///< a layer, a part or a channel; "none": everything has the same distance
+  std::vector<std::string> data;  ///< layers that are not averaged
+  std::vector<std::string> colors;  ///< layers that are averaged, whatever their names suggest
 };
 
-/// Finds what the tools need among the channels of one view. Names are compared without regard to case and
+/// Finds the layers that the tools need among the channels of one view. Names are compared ignoring case and
 /// punctuation. Numbers are indices of `channels`.
 class LayerFinder {
  public:
   LayerFinder(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts, std::string view,
               const LayerChoice& choice);
 
-  /// Both channels of the vectors: u and v, x and y, or r and g of the layer that was chosen, or else of
-  /// "forward", "motion" and what else such layers are called.
+  /// Both channels of the vectors: u and v, x and y, or r and g of the chosen layer, otherwise of "forward",
+  /// "motion" and other usual names.
   std::optional<std::pair<size_t, size_t>> motion() const { return motion_; }
-  /// The same in a layer of this name. What the view lacks may belong to no view.
+  /// The same for a layer with this name. Falls back to channels that belong to no view.
   std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
   std::optional<size_t> depth() const { return depth_; }
-  /// The bare one, or that of a layer "combined", "beauty" or "rgba".
+  /// Alpha without a layer, or that of a layer "combined", "beauty" or "rgba".
   std::optional<size_t> alpha() const;
   LayerRole role(size_t channel) const;
-  /// Cryptomattes that the attributes announce, as indices of channels.
+  /// Cryptomattes declared by the attributes, as indices of channels.
   const std::vector<RankedMatte>& mattes() const { return mattes_; }
   bool has_colors() const;
-  /// Whether any channel of the file goes by this name of a channel, layer or part.
+  /// Whether any channel of the file has this name as channel, layer or part.
   bool has(const std::string& name) const;
 
-  /// What there is to choose from, for messages: "R, G, B, A, key.diffuse.R and 12 more". Of several parts, a
-  /// bare name stands behind that of its part: "mv.R".
+  /// The available channels, for messages: "R, G, B, A, key.diffuse.R and 12 more". With several parts, names
+  /// without a layer follow the name of their part: "mv.R".
   std::string listing() const;
 
  private:
   bool is_here(size_t channel) const { return channels_[channel].view == view_; }
-  /// Calls `search` for this view and, if that finds nothing, for what belongs to no view.
+  /// Calls `search` for this view and, if that finds nothing, for channels that belong to no view.
   template <class Search>
   auto in_view_or_none(Search&& search) const {
     const auto found = search(view_);

@@ -7,16 +7,16 @@
 
 namespace pelage {
 
-/// What becomes of a channel where several pixels of the source meet in one of the result.
+/// How a channel is resolved where several pixels of the source meet in one of the result.
 enum class LayerRole {
   kColor,  ///< premultiplied light or coverage: averaged
-  kData,   ///< normals, ids, vectors ...: of the front-most pixel that is seen, and zero where none is
-  kDepth,  ///< the same, but infinite where none is
+  kData,   ///< normals, ids, vectors ...: from the front-most visible pixel, zero where there is none
+  kDepth,  ///< the same, but infinite where there is none
   kMatte,  ///< part of a ranked matte: averaged by id, then ranked again
 };
 
-/// Words of 4 bytes somewhere in memory: floats, or the bits of other numbers where they are only copied.
-/// Pixel (x, y) is words[(y - first_row) * row_stride + x * pixel_stride].
+/// Words of 4 bytes in memory: floats, or the bits of other numbers when they are only copied. Pixel (x, y)
+/// is words[(y - first_row) * row_stride + x * pixel_stride].
 struct Plane {
   float* words = nullptr;
   ptrdiff_t pixel_stride = 1;
@@ -29,7 +29,7 @@ struct Plane {
   }
 };
 
-/// One channel on its way. `source` is only read.
+/// One channel to process. `source` is read-only.
 struct PostChannel {
   LayerRole role = LayerRole::kColor;
   Plane source;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFewestSteps = 8, kMaxSteps = 64;
 
-/// What a worker keeps between pieces.
+/// State of a worker between tiles.
 struct Scratch {
   explicit Scratch(const PostLayers& layers) : resolve(layers) {}
   WorkBuffer buffer{PixelBox{}, 1};
@@ -32,7 +32,7 @@ void blur_piece(const BlurJob& job, const Warp& warp, const PixelBox& box, Scrat
   scratch.resolve.begin(box, job.target.scale);
   const PixelBox samples = scratch.buffer.samples();
   std::vector<const FlowField::Block*> blocks = warp.reaching(samples, *first, *last);
-  // Corners may take up motion from beyond a block, but none from where all links hold no motion.
+  // Corners may get motion from outside a block, but not if all links contain no motion.
   const bool still = is_still(blocks);
   const size_t steps = still ? 1 : job.times.size();
   if (!still) scratch.lists.gather(warp, job.times, samples, blocks);

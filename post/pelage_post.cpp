@@ -13,7 +13,7 @@
 namespace pelage {
 namespace {
 
-/// What a caller did wrong; never leaves this file.
+/// A mistake of the caller; never leaves this file.
 struct BadArgument {
   const char* message;
 };
@@ -68,7 +68,7 @@ PostLayers layers_of(const pelage_post_image& image) {
   for (size_t i = 0; i < image.channel_count; ++i) {
     const pelage_post_channel& c = image.channels[i];
     const LayerRole roles[] = {LayerRole::kColor, LayerRole::kData, LayerRole::kDepth};
-    // Sources are only read; Plane does not say so.
+    // Sources are read-only, which Plane does not express.
     layers.channels.push_back(
         {roles[c.role],
          {const_cast<float*>(c.source.words), c.source.pixel_stride, c.source.row_stride, 0},
@@ -77,7 +77,7 @@ PostLayers layers_of(const pelage_post_image& image) {
   return layers;
 }
 
-/// Depth of every pixel; soft edges are joined to their surfaces, and so are their vectors if there are any.
+/// Depth of every pixel; soft edges get the depth of their surfaces, and their vectors if there are any.
 std::vector<float> depth_of(const pelage_post_image& image, std::vector<Flow>& motion,
                             std::vector<uint8_t>& edges) {
   std::vector<float> depth;
@@ -165,7 +165,7 @@ pelage_post_result guarded(const pelage_post_image* image, pelage_post_options* 
       options->message[sizeof options->message - 1] = '\0';
     }
     return PELAGE_POST_BAD_ARGUMENT;
-  } catch (...) {  // nothing else is thrown but by allocations
+  } catch (...) {  // only allocations throw anything else
     return PELAGE_POST_NO_MEMORY;
   }
 }

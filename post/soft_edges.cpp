@@ -14,7 +14,7 @@ void join_soft_edges(int width, int height, const std::vector<uint8_t>& edges, s
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       if (!(edges[at(x, y)] & kSoftEdge)) continue;
-      // Soft pixels are skipped as givers, so the order in which they are joined does not matter.
+      // Soft pixels are not used as sources, so the order in which they are joined does not matter.
       float nearest = std::numeric_limits<float>::infinity();
       size_t giver = at(x, y);
       for (int j = std::max(0, y - kSoftEdgeReach); j <= std::min(height - 1, y + kSoftEdgeReach); ++j) {

@@ -9,12 +9,12 @@
 
 namespace pelage {
 
-/// What alpha says of a pixel, as bits.
+/// Classification of a pixel by its alpha, as bits.
 inline constexpr uint8_t kPartlyCovered = 1;  ///< alpha between 0 and 1: an edge, or something thin
 inline constexpr uint8_t kSoftEdge = 2;       ///< partly covered, and without a depth
 
-/// Soft edges are pixels that a filter gave some coverage, but in which no surface was met. They have no
-/// depth and no vector of their own: left alone they would stay behind when their surface moves.
+/// Soft edges are pixels to which a filter gave some coverage, although no surface was hit there. They have
+/// no depth and no vector of their own: unchanged, they would stay behind when their surface moves.
 inline uint8_t edge_bits(float alpha, float depth) {
   if (!(alpha > 0 && alpha < 1)) return 0;
   const float distance = depth < 0 ? -depth : depth;
@@ -24,8 +24,8 @@ inline uint8_t edge_bits(float alpha, float depth) {
 
 inline constexpr int kSoftEdgeReach = 2;
 
-/// Gives each soft edge depth and vector of the nearest surface within kSoftEdgeReach pixels, if there is
-/// one. `motion` may be empty. Equal depths: the one that comes first.
+/// Gives each soft edge the depth and vector of the nearest surface within kSoftEdgeReach pixels, if there is
+/// one; in case of a tie, of the first. `motion` may be empty.
 void join_soft_edges(int width, int height, const std::vector<uint8_t>& edges, std::vector<float>& depth,
                      std::vector<Flow>& motion);
 

@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// Which pixels reach a piece of the picture at each step, where vectors differ so much within blocks of the
-/// field that the blocks' bounds tell nothing: every block would reach every piece at every step, and the
-/// cost would be pixels * pieces * steps. With the lists it is pixels * pieces. Changes no pixel.
+/// Lists of the pixels that reach a tile of the picture at each step, for blocks of the field whose vectors
+/// differ so much that the blocks' bounds are useless: every block would reach every tile at every step, at a
+/// cost of pixels * tiles * steps. With the lists the cost is pixels * tiles. Does not affect pixels.
 ///
 /// Thread safety: one thread at a time; use one per worker.
 class StepLists {
@@ -20,18 +20,18 @@ class StepLists {
     uint16_t x, y;
   };
 
-  /// Takes out of `blocks` those whose vectors part by more than kWild pixels between two times, and lists
+  /// Removes from `blocks` those whose vectors diverge by more than kWild pixels between two times, and lists
   /// their pixels instead. When the lists are full, the other blocks stay. `times` in any order; only those
   /// in ascending order are listed.
   void gather(const Warp& warp, const std::vector<float>& times, const PixelBox& samples,
               std::vector<const FlowField::Block*>& blocks);
   const std::vector<Pixel>& at(size_t step) const { return by_step_[step]; }
 
-  /// Whether any block of the field may be listed at times up to `largest`.
+  /// Whether any block of the field may need lists at times up to `largest`.
   static bool is_needed(const FlowField& field, float largest) {
     return spread(field.low(), field.high()) * largest > kWild;
   }
-  /// Room for kMaxPixels pixels, twice that while a list grows.
+  /// Capacity of kMaxPixels pixels, twice that while a list grows.
   static constexpr size_t kMaxPixels = 1 << 19;
   static constexpr size_t bytes_needed() { return 2 * kMaxPixels * sizeof(Pixel); }
 

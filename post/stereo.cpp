@@ -25,11 +25,11 @@ struct Scratch {
   LanczosResolve lanczos;
 };
 
-/// Fills the gaps of all rows of the buffer, and counts samples by pixel in the rows of the strip.
+/// Fills the gaps of all rows of the buffer, and counts samples per pixel in the rows of the strip.
 void fill_strip(const StereoJob& job, int y0, int y1, Scratch& scratch) {
   const int s = job.target.scale;
   const auto width = static_cast<size_t>(job.width);
-  // Nothing moves into the picture from further away.
+  // Nothing moves into the picture from farther away.
   const Flow low = job.field->low(), high = job.field->high();
   const float longest = std::ceil(std::max(std::abs(low.x), std::abs(high.x)));
   const int beyond = std::min(job.longest_fill, static_cast<int>(longest));
@@ -40,7 +40,7 @@ void fill_strip(const StereoJob& job, int y0, int y1, Scratch& scratch) {
     const std::span<Sample> line(scratch.buffer.row(row), static_cast<size_t>(samples.width()));
     scratch.invented.assign(line.size(), 0);
     extend_sides(*job.field, job.target, job.ends, beyond, row, line, scratch.invented);
-    // With a limit, no more is added to the sides.
+    // With a limit, the sides are not extended.
     const RowEnds ends = job.longest_fill < kFillEverything ? RowEnds{false, false} : job.ends;
     fill_gaps(line, scratch.invented, job.longest_fill * s, ends);
     const int y = row / s;

@@ -13,8 +13,8 @@
 
 namespace pelage {
 
-/// Two parallel cameras whose pictures are shifted against each other, so that what lies at the distance of
-/// convergence is at the same place in both.
+/// Two parallel cameras whose pictures are shifted horizontally, so that points at the convergence distance
+/// coincide.
 struct StereoCamera {
   float focal_pixels = 0;  ///< focal length, in pixels of the picture's width
   float eye_separation =
@@ -22,43 +22,43 @@ struct StereoCamera {
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units along the camera axis
 };
 
-/// Where a point at `depth` lies in the other eye: pixels to the right of where it is. Infinite depth and
-/// infinite convergence are meant.
+/// Horizontal offset, in pixels to the right, of a point at `depth` in the other eye. Infinite depth and
+/// infinite convergence are allowed.
 inline float parallax(const StereoCamera& camera, float depth) {
   return camera.focal_pixels * camera.eye_separation * (1 / camera.convergence - 1 / depth);
 }
 
-/// The same for every pixel, as a field's vectors; depth as FlowField takes it.
+/// The same for every pixel, as a field's vectors; depth as in FlowField.
 std::vector<Flow> parallax_field(const std::vector<float>& depth, const StereoCamera& camera);
 
-/// Pixels of a gap that are filled by default: every gap is filled.
+/// Default max size of gaps to fill, in pixels: every gap is filled.
 inline constexpr int kFillEverything = FlowField::kLargestSide;
 
-/// Rows of the strips that are held at a time unless somebody says otherwise.
+/// Default number of rows in a strip.
 inline constexpr int kStripRows = 16;
 
 enum class StereoFilter { kLanczos, kBox };
 
-/// The field holds the parallax (time 1 is the other eye). Rows and columns are those of BlurJob. `invented`
-/// and `missing`, where given, get the part of each pixel that was filled, and the part that stayed empty.
+/// The field contains the parallax (time 1 is the other eye). Rows and columns as in BlurJob. `invented` and
+/// `missing`, if given, receive the fraction of each pixel that was filled, and that stayed empty.
 struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};
   StereoFilter filter = StereoFilter::kLanczos;
-  RowEnds ends;               ///< whether the source is cut off at its sides, rather than over
-  int longest_fill = 0;       ///< pixels of a gap that are filled
+  RowEnds ends;               ///< whether the source is cut off at its sides, rather than complete
+  int longest_fill = 0;       ///< max number of pixels to fill in a gap
   int width = 0, height = 0;  ///< of the whole result
   int first_row = 0, last_row = 0;
   std::optional<Plane> invented, missing;
 };
 
-/// Pixstereo [Neulander13]: warps the picture once, to the other eye, fills what that eye sees and the first
-/// one did not, and resolves. Layers, progress and cancelling as in blur_rows. `strip_rows`: of the strips
-/// that a worker holds at a time; changes no pixel.
+/// Pixstereo [Neulander13]: warps the picture once, to the other eye, fills areas that only that eye sees,
+/// and resolves. Layers, progress and cancelling as in blur_rows. `strip_rows`: rows that a worker processes
+/// at a time; does not affect pixels.
 void stereo_rows(const StereoJob& job, const PostLayers& layers, int strip_rows, const Workers& workers,
                  Progress& progress);
 
-/// Rows beyond first_row .. last_row that the filter looks at.
+/// Number of rows beyond first_row .. last_row that the filter reads.
 int stereo_margin(StereoFilter filter);
 
 }  // namespace pelage

@@ -11,7 +11,7 @@ const M44f* matrix(const ExrPart& part, const char* name) {
   return found == part.attributes.end() ? nullptr : std::get_if<M44f>(&found->second);
 }
 
-/// From camera space to NDC; nothing where a header does not say it.
+/// From camera space to NDC; empty when the header does not contain it.
 std::optional<Imath::M44d> projection(const ExrPart& part) {
   const M44f* camera = matrix(part, "worldToCamera");
   const M44f* ndc = matrix(part, "worldToNDC");
@@ -26,7 +26,7 @@ std::optional<Imath::M44d> projection(const ExrPart& part) {
 std::optional<float> focal_pixels_of(const ExrPart& part) {
   const auto p = projection(part);
   if (!p) return {};
-  // A point moved by 1 across the axis at depth 1 moves by this part of the width.
+  // A point moved by 1 perpendicular to the axis at depth 1 moves by this fraction of the width.
   const double focal = std::abs((*p)[0][0] / (*p)[2][3]) * part.display.width();
   if (!std::isfinite(focal) || focal <= 0) return {};
   return static_cast<float>(focal);
@@ -38,7 +38,7 @@ void move_camera(ExrPart& part, const StereoCamera& camera) {
   Imath::M44d step;
   step.setTranslation(Imath::V3d(-camera.eye_separation, 0, 0));
   const Imath::M44d to_camera = Imath::M44d(*matrix(part, "worldToCamera")) * step;
-  // The picture is shifted so that the distance of convergence stays where it is.
+  // The picture is shifted so that points at the convergence distance do not move.
   Imath::M44d shifted = *p;
   const double shift = static_cast<double>(camera.focal_pixels) * camera.eye_separation / camera.convergence /
                        part.display.width();

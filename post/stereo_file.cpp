@@ -29,7 +29,7 @@ std::string pick_view(const ExrReader& reader, const std::vector<std::string>& v
   if (params.view) {
     if (has(*params.view)) return *params.view;
     std::vector<std::string> named = views;
-    std::erase(named, "");  // what belongs to none
+    std::erase(named, "");  // channels of no view
     refuse(reader, named.empty() ? "has no views"
                                  : "has no view " + quote(*params.view) + suggest(*params.view, named));
   }
@@ -37,7 +37,7 @@ std::string pick_view(const ExrReader& reader, const std::vector<std::string>& v
   return has(usual) ? usual : views.front();
 }
 
-/// The part that says the most about the camera: the first one of the view.
+/// The part that provides the camera: the first one of the view.
 const ExrPart& camera_part(const ViewImage& image) {
   return image.reader().parts()[image.channels()[image.own().front()].part];
 }
@@ -80,11 +80,12 @@ std::string other_view(const std::string& view) {
   return view == "left" ? "right" : view == "right" ? "left" : view;
 }
 
-/// Parts of the result: those with channels of the view, the layer of what was invented with the colours.
+/// Parts of the result: those with channels of the view; the layer `invented` is added to the part with the
+/// colours.
 void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, const StereoCamera& camera) {
   const ExrReader& reader = image.reader();
   const std::vector<NamedChannel>& channels = image.channels();
-  // With the beauty if there is one, or else with whatever colour comes first.
+  // With the beauty if there is one, otherwise with the first colour.
   const auto first = [&](auto&& is_wanted) {
     const auto found = std::find_if(image.own().begin(), image.own().end(), is_wanted);
     return found == image.own().end() ? std::nullopt : std::optional(channels[*found].part);
@@ -98,7 +99,7 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
     header.channels.clear();
     header.multi_view.clear();
     for (size_t i : image.own()) {
-      if (channels[i].part != p || channels[i].layer == "invented") continue;  // made anew
+      if (channels[i].part != p || channels[i].layer == "invented") continue;  // recomputed
       header.channels.push_back({channels[i].name(), channels[i].type});
       out.planes.push_back(i);
     }
@@ -106,7 +107,7 @@ void plan_parts(BandJob& job, const ViewImage& image, const std::string& view, c
     header.name = replaced(header.name, view, other_view(view));
     header.view = header.view.empty() ? "" : other_view(view);
     if (p == colors) {
-      header.data = job.window;  // what was invented may lie anywhere
+      header.data = job.window;  // invented pixels may be anywhere
       header.channels.push_back({"invented.mask", ChannelType::kHalf});
       header.channels.push_back({"invented.hole", ChannelType::kHalf});
       out.planes.push_back(channels.size());
@@ -197,7 +198,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
   const int strip_rows = std::max(1, params.strip_rows);
   const bool is_box = params.filter == StereoFilter::kBox;
   const auto width = static_cast<size_t>(bands.window.width());
-  const size_t counts = 8 + 64 + (is_box ? 4 * channels.size() : 0);  // of a pixel of the strip
+  const size_t counts = 8 + 64 + (is_box ? 4 * channels.size() : 0);  // per pixel of the strip
   bands.scratch_bytes =
       static_cast<int64_t>(
           WorkBuffer::bytes_needed({0, 0, bands.window.width(), strip_rows + 2 * margin}, bands.scale) +
@@ -216,7 +217,7 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
     stereo.field = v.field.get();
     stereo.target = target;
     stereo.filter = params.filter;
-    // What lies beyond a data window within the frame is not unknown: there is nothing.
+    // Outside of a data window but inside the frame, the picture is known to be empty.
     const PixelBox& canvas = v.image->canvas();
     const PixelBox& display = camera_part(*v.image).display;
     stereo.ends = {canvas.x0 <= display.x0, canvas.x1 >= display.x1};

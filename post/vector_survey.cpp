@@ -20,7 +20,7 @@ void VectorSurvey::add(float u, float v, Flow pixels) {
     ++not_finite_;
     return;
   }
-  // A finite word that the unit makes infinite is the longest of vectors.
+  // A finite word that becomes infinite by conversion counts as the longest vector.
   longest_ = std::max(longest_, length);
   moving_ += length > 0;
   too_long_ += length > limit_;

@@ -12,7 +12,7 @@
 namespace pelage {
 namespace {
 
-/// Rows that are read at a time where a whole channel is wanted.
+/// Number of rows read at once when a whole channel is needed.
 constexpr int kRows = 64;
 
 PixelBox enclosing(const PixelBox& a, const PixelBox& b) {
@@ -57,7 +57,7 @@ void ViewImage::read_into(const std::vector<size_t>& wanted, int first, int last
     if (y0 >= y1) continue;
     const int x0 = std::max(data.x0, canvas_.x0), x1 = std::min(data.x1, canvas_.x1);
     if (x0 >= x1) continue;
-    // A part of no view may be wider than this view's canvas: then by way of rows of its own.
+    // A part without a view may be wider than this view's canvas: then it needs separate rows.
     const bool is_inside = x0 == data.x0 && x1 == data.x1;
     const auto own_width = static_cast<size_t>(data.width());
     const auto row_count = static_cast<size_t>(y1 - y0),
@@ -108,7 +108,7 @@ std::vector<float> ViewImage::read_depth(std::optional<size_t> depth, std::optio
     const float* z = depth ? words.data() : nullptr;
     const float* a = alpha ? words.data() + (depth ? count : 0) : nullptr;
     for (size_t i = 0; i < count; ++i) {
-      const bool is_clear = a && a[i] == 0;  // nothing is there, whatever its depth
+      const bool is_clear = a && a[i] == 0;  // empty, whatever its depth
       result.push_back(is_clear ? std::numeric_limits<float>::infinity() : z ? z[i] : 1);
       edges.push_back(a ? edge_bits(a[i], result.back()) : uint8_t{0});
     }

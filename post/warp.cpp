@@ -12,7 +12,7 @@ Warp::Point Warp::seam_reach(float time) const {
 }
 
 Warp::Times Warp::times_near(int x, int y, float largest, const PixelBox& samples) const {
-  // A pixel more than needed: the times are rounded.
+  // One pixel more than needed, because the times are rounded.
   const Point margin = margin_at(largest), from = place(x, y, {}, 0);
   const auto scale = static_cast<float>(target_.scale);
   const Flow m = field_.motion(x, y);
@@ -35,7 +35,7 @@ Warp::Times Warp::times_near(int x, int y, float largest, const PixelBox& sample
 
 bool Warp::reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const {
   const auto scale = static_cast<float>(target_.scale);
-  // A sample more than needed on each side: bounds may round otherwise than corners do.
+  // One sample more than needed on each side, because bounds and corners are rounded differently.
   const float largest_time = std::max(std::abs(first), std::abs(last));
   const Point seam = seam_reach(largest_time);
   const auto reach = [&](int begin, int end, float low, float high, int origin, float longest_seam, int s0,

@@ -11,24 +11,24 @@
 
 namespace pelage {
 
-/// Where a field is drawn to: pixel (x, y) of the picture is pixel (x + origin_x, y + origin_y) of the field,
+/// Destination of a field: pixel (x, y) of the picture is pixel (x + origin_x, y + origin_y) of the field,
 /// which need not exist.
 struct WarpTarget {
   int scale = 4;  ///< samples per pixel and side
   int origin_x = 0, origin_y = 0;
-  /// Gaps between two surfaces that are neighbours in the field are closed up to this many pixels.
+  /// Gaps between two surfaces that are adjacent in the field are closed up to this size, in pixels.
   float longest_seam = 0;
 };
 
-/// Draws the pixels of a field as they lie at some time into pieces of a picture. A pixel is a square whose
-/// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies in it. Neighbours
+/// Draws the pixels of a field, moved to a given time, into tiles of a picture. A pixel is a square whose
+/// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies inside. Neighbours
 /// on one surface share their corners, so that each sample between them belongs to exactly one of them.
 ///
-/// Where neighbours on two surfaces have come apart, the one behind is drawn out to the other one: a seam,
-/// seen only where there is no surface.
+/// Where neighbours on different surfaces have separated, the farther one is extended to the other one. This
+/// is a seam, visible only where there is no surface.
 ///
 /// `Buffer` is WorkBuffer or has its samples() and put(). Thread safety: const, any number of threads with
-/// buffers of their own.
+/// their own buffers.
 class Warp {
  public:
   Warp(const FlowField& field, WarpTarget target) : field_(field), target_(target) {}
@@ -57,7 +57,8 @@ class Warp {
   struct Times {
     float first, last;  ///< empty when last < first
   };
-  /// The times, by magnitude up to `largest`, outside of which the pixel draws nothing into `samples`.
+  /// The range of times, by magnitude up to `largest`, outside of which the pixel draws nothing into
+  /// `samples`.
   Times times_near(int x, int y, float largest, const PixelBox& samples) const;
 
  private:
@@ -66,8 +67,8 @@ class Warp {
   };
 
   bool reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const;
-  /// How far from its own vector's end a pixel may be seen at times up to `time`, in samples: its size, what
-  /// its corners take over from others, and its seams.
+  /// How far from the end of its own vector a pixel may be visible at times up to `time`, in samples: its
+  /// size, the motion of its shared corners, and its seams.
   Point margin_at(float time) const {
     const auto scale = static_cast<float>(target_.scale);
     const float own = 2 + field_.slack() * time;
@@ -85,11 +86,11 @@ class Warp {
       draw_seams(x, y, time, buffer);
     }
   }
-  /// Largest width and height of a seam, in pixels, at times up to `time`: neighbours part by no more than
-  /// all vectors of the picture differ.
+  /// Max width and height of a seam, in pixels, at times up to `time`: bounded by the range of all vectors of
+  /// the picture.
   Point seam_reach(float time) const;
 
-  /// In samples of the picture. The same for everybody who asks for the same corner.
+  /// In samples of the picture. The same for every pixel that shares the corner.
   Point place(int x, int y, Flow motion, float time) const {
     const auto scale = static_cast<float>(target_.scale);
     return {scale * (static_cast<float>(x - target_.origin_x) + time * motion.x),
@@ -103,7 +104,7 @@ class Warp {
   /// The first of the samples low .. high whose centre is not before `edge`.
   static int first_sample(float edge, int low, int high) {
     const float at = std::min(std::max(edge - 0.5f, static_cast<float>(low)), static_cast<float>(high));
-    const int below = static_cast<int>(at);  // pieces have no negative samples
+    const int below = static_cast<int>(at);  // tiles have no negative samples
     return below + (static_cast<float>(below) < at);
   }
 
@@ -119,7 +120,7 @@ class Warp {
     for (int row = y0; row < y1; ++row) buffer.put(row, x0, x1, sample);
   }
 
-  /// A side of a quad, from its upper end: both pixels beside it compute the same crossings from it.
+  /// A side of a quad, from its upper end: both adjacent pixels compute the same crossings from it.
   struct Side {
     float y0, y1, x0, slope;
     Side(Point a, Point b) {
@@ -145,7 +146,7 @@ class Warp {
     fill_quad(p, Sample(field_.depth(x, y), x, y), buffer);
   }
 
-  /// Those of a pixel that has_seam().
+  /// Draws the seams of a pixel with has_seam().
   template <class Buffer>
   void draw_seams(int x, int y, float time, Buffer& buffer) const {
     const Sample sample = Sample::seam(field_.depth(x, y), x, y);
@@ -165,7 +166,7 @@ class Warp {
         draw_seam(p, sample, buffer);
       }
     }
-    // Where seams meet: between the four pixels around a corner, the one behind all others fills it.
+    // Where seams meet: between the four pixels around a corner, the farthest one fills it.
     for (int c = 0; c < 4; ++c) {
       const int left = x + (c & 1) - 1, top = y + (c >> 1) - 1;
       bool is_last = exists(left, top) && exists(left + 1, top + 1);
@@ -188,7 +189,7 @@ class Warp {
     if (apart > 0 && apart <= longest) fill_quad(p, sample, buffer);
   }
 
-  /// Corners are left and right ones of the upper side, then of the lower one.
+  /// Corners: left and right of the upper side, then of the lower one.
   template <class Buffer>
   void fill_quad(const Point (&p)[4], Sample sample, Buffer& buffer) const {
     const PixelBox& box = buffer.samples();
@@ -201,7 +202,8 @@ class Warp {
     if (right <= static_cast<float>(box.x0) || left >= static_cast<float>(box.x1)) return;
     const Side sides[4] = {{p[0], p[1]}, {p[1], p[3]}, {p[2], p[3]}, {p[0], p[2]}};
     for (int row = y0; row < y1; ++row) {
-      // From the leftmost to the rightmost crossing: all of a convex quad; a folded one gets no holes.
+      // From the leftmost to the rightmost crossing: exact for a convex quad, and without holes for a folded
+      // one.
       const float centre = static_cast<float>(row) + 0.5f;
       float low = std::numeric_limits<float>::infinity(), high = -low;
       for (const Side& side : sides) {

@@ -11,18 +11,18 @@
 
 namespace pelage {
 
-/// One sample of the work buffer: which pixel of the source is seen there, as a pair of 16-bit coordinates,
-/// and how far away it is, as a float; 8 bytes, and no colours [Neulander13]. Packed so that the smaller
-/// number is the nearer one, and of equally near ones the pixel that comes first: what a sample ends up with
-/// does not depend on the order in which pixels are drawn. Seams (post/warp.h) are seen where no surface is:
-/// they come behind all that is at a distance, and before what is infinitely far away.
+/// One sample of the work buffer: the visible pixel of the source as a pair of 16-bit coordinates, and its
+/// distance as a float; 8 bytes without colours [Neulander13]. Packed so that the smaller number is the
+/// nearer one and, at equal distance, the pixel that comes first: the final sample does not depend on the
+/// drawing order. Seams (post/warp.h) are visible where there is no surface: they are behind everything at a
+/// finite distance, and in front of everything infinitely far away.
 class Sample {
  public:
   Sample() = default;
   Sample(float depth, int x, int y) : Sample(std::bit_cast<uint32_t>(depth), x, y) {
     if (!(depth < std::numeric_limits<float>::infinity())) bits_ |= kBehind;
   }
-  /// `depth` is finite.
+  /// `depth` must be finite.
   static Sample seam(float depth, int x, int y) {
     Sample sample(std::bit_cast<uint32_t>(depth), x, y);
     sample.bits_ |= kBehind;
@@ -45,18 +45,18 @@ class Sample {
 
   static constexpr uint64_t kBehind = uint64_t{1} << 63;  // the sign of the depth
   static constexpr uint64_t kInfinite = uint64_t{0xff800000} << 32;
-  static constexpr uint64_t kEmpty = ~uint64_t{0};  // farther than infinity, at a place that no picture has
+  static constexpr uint64_t kEmpty = ~uint64_t{0};  // beyond infinity, outside of any picture
   uint64_t bits_ = kEmpty;
 };
 static_assert(sizeof(Sample) == 8);
 
-/// A piece of the picture at `scale` samples per pixel and side. Samples are counted from the upper left
-/// corner of the whole picture; the piece holds those of the pixels in `box`.
+/// A tile of the picture at `scale` samples per pixel and side. Samples are counted from the upper left
+/// corner of the whole picture; the tile contains those of the pixels in `box`.
 class WorkBuffer {
  public:
   WorkBuffer(PixelBox box, int scale) { reset(box, scale); }
 
-  /// Becomes another piece, empty.
+  /// Resets to another, empty tile.
   void reset(PixelBox box, int scale) {
     samples_ = {box.x0 * scale, box.y0 * scale, box.x1 * scale, box.y1 * scale};
     width_ = static_cast<size_t>(samples_.width());
@@ -64,14 +64,14 @@ class WorkBuffer {
   }
   void clear() { std::fill(data_.begin(), data_.end(), Sample()); }
 
-  /// The samples that it holds.
+  /// The range of its samples.
   const PixelBox& samples() const { return samples_; }
   /// Row `y` of samples, from samples().x0 on.
   Sample* row(int y) { return &data_[static_cast<size_t>(y - samples_.y0) * width_]; }
   const Sample* row(int y) const { return const_cast<WorkBuffer*>(this)->row(y); }
 
-  /// Puts `sample` wherever it is nearer than what is there, in columns x0 <= x < x1 of row y, which must lie
-  /// within samples().
+  /// Stores `sample` wherever it is nearer than the current one, in columns x0 <= x < x1 of row y, which must
+  /// lie within samples().
   void put(int y, int x0, int x1, Sample sample) {
     Sample* const to = row(y) - samples_.x0;
     for (int x = x0; x < x1; ++x) to[x] = sample.is_nearer_than(to[x]) ? sample : to[x];

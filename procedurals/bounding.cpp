@@ -12,7 +12,7 @@ Box3f scaled(const Box3f& box, float factor) {
   return {middle - half, middle + half};
 }
 
-/// Boxes that need no strand.
+/// Boxes that need no strands.
 std::vector<ChunkBounds> stated_bounds(const BoundingOptions& options,
                                        std::span<const Procedural* const> chunks, const Job& job) {
   std::vector<ChunkBounds> bounds(chunks.size());

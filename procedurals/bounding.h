@@ -17,32 +17,34 @@ class MemoryLedger;
 struct BoundingOptions {
   BoundingStrategy strategy = BoundingStrategy::kExact;
   float factor = 1;  ///< of kUser, about the centre of each box
-  /// Parts are dropped as soon as a chunk is remembered: for who needs none, they are most of what is made.
+  /// Drops parts as soon as a chunk has been recorded, for callers that do not need them: they are most of
+  /// the data.
   bool in_one_part = false;
 };
 
-/// During which time the boxes of a strategy hold what they hold, for skins too.
+/// Time span for which the boxes of a strategy hold, also those of skins.
 BoundSpan bound_span(BoundingStrategy strategy);
-/// Whether it grows chunks to learn their boxes, which side files remember.
+/// Whether the strategy grows chunks to measure their boxes, which are stored in side files.
 bool measures_strands(BoundingStrategy strategy);
 /// ChunkBounds::keys of all chunks.
 int bound_keys(BoundingStrategy strategy);
 
 struct BoundingCounts {
-  int64_t measured = 0;    ///< chunks that were grown to be measured: the first of two passes
-  int64_t remembered = 0;  ///< chunks whose boxes were found in a side file
-  BoundsArea area;         ///< of all chunks, in all parts that they had
+  int64_t measured = 0;    ///< chunks grown to be measured: the first of two passes
+  int64_t remembered = 0;  ///< chunks whose boxes were read from a side file
+  BoundsArea area;         ///< of all chunks, with all their parts
 };
 
-/// What measuring the strands of a leaf holds: them, and what divides them, but not what growing them takes.
+/// Memory for measuring the strands of a leaf: the strands and their division into parts, but not what
+/// growing them needs.
 size_t measuring_bytes(const StrandCounts& counts);
 
-/// The boxes of all chunks, which are leaves, in their order. What is measured is remembered beside the
-/// caches of the grooms (Procedural::bounds_record); a damaged side file is reported as a warning and written
-/// anew. The result is the same for any number of workers, measured or remembered. Strands that are grown to
-/// be measured are charged to the chunks while they exist; they are few at a time and gone afterwards. kNone
-/// gives no boxes: whoever grows everything knows better ones. Throws what growing throws. Leaves early when
-/// the job is cancelled, with chunks of no box.
+/// The boxes of all chunks, which must be leaves, in their order. Measured boxes are stored beside the caches
+/// of the grooms (Procedural::bounds_record); a damaged side file causes a warning and is rewritten. The
+/// result is the same for any number of workers, measured or read. Strands grown to be measured are charged
+/// to the chunks while they exist, a few at a time. kNone returns no boxes: code that grows everything has
+/// better ones. Throws what growing throws. Returns early when the job is cancelled; unmeasured chunks then
+/// have no box.
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       std::span<const Procedural* const> chunks, const Job& job,
                                       BoundingCounts* counts = nullptr);

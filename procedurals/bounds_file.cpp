@@ -10,7 +10,7 @@ namespace pelage {
 namespace {
 
 const std::string kKind = "boxes";
-// Counts up whenever the same strands would get other boxes, or the file another layout.
+// Incremented whenever the same strands would get different boxes, or the layout of the file changes.
 constexpr uint32_t kVersion = 2;
 
 ContentHash entry_key(const BoundsRecord& record, BoundSpan span, int keys) {
@@ -21,11 +21,11 @@ template <class T>
 std::vector<T> numbers(std::span<const std::byte> section) {
   std::vector<T> values(section.size() / sizeof(T));
   if (!values.empty())
-    std::memcpy(values.data(), section.data(), values.size() * sizeof(T));  // no null to memcpy
+    std::memcpy(values.data(), section.data(), values.size() * sizeof(T));  // memcpy must not get null
   return values;
 }
 
-/// Whether a box is empty, or finite and the right way round.
+/// Whether a box is empty, or finite and not inverted.
 bool is_possible(const Box3f& box) {
   if (box.isEmpty()) return true;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ bool is_possible(const Box3f& box) {
   return true;
 }
 
-/// What is kept of the fine boxes of one chunk beside their sides.
+/// Stored data of the fine boxes of one chunk, except their sides.
 struct FineHeader {
   float corner[3], motion[3], step[3];
   uint32_t count;
@@ -42,7 +42,7 @@ struct FineHeader {
 
 V3f vector(const float* v) { return {v[0], v[1], v[2]}; }
 
-/// Nothing when the numbers do not fit together.
+/// Empty when the numbers are inconsistent.
 std::vector<ChunkBounds> unpack(const StoredFile& file, size_t count, int keys) {
   if (file.section_count() != 4) return {};
   const auto first = numbers<uint32_t>(file.section(0));

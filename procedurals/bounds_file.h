@@ -10,17 +10,17 @@
 
 namespace pelage {
 
-// The side file of boxes: those of all chunks of one coat in one pose, an entry of kind "boxes" of the
-// content store beside the groom's cache. Four sections: where the boxes of each chunk begin (count + 1
-// numbers of 32 bits), the boxes (6 floats each: min, max), for each chunk the grid of its fine boxes (9
-// floats: corner, motion, step) and their number (32 bits), and the groups of their finest level.
+// The side file of boxes: those of all chunks of one coat in one pose, an entry of kind "boxes" in the
+// content store beside the groom's cache. Four sections: the index of each chunk's first box (count + 1
+// numbers of 32 bits); the boxes (6 floats each: min, max); for each chunk the grid of its fine boxes (9
+// floats: corner, motion, step) and their number (32 bits); the groups of their finest level.
 
-/// The boxes of `count` chunks with `keys` keys each; nothing when there is no such entry. A damaged one, or
-/// one that cannot be true, counts as absent, with one warning.
+/// The boxes of `count` chunks with `keys` keys each; empty when the entry is missing. A damaged or
+/// implausible entry counts as missing, with one warning.
 std::vector<ChunkBounds> read_bounds(const BoundsRecord& record, BoundSpan span, int keys,
                                      const WarningSink& warn);
 
-/// Writes an entry; what the file system refuses is told to `warn`.
+/// Writes an entry; reports file system errors to `warn`.
 void write_bounds(const BoundsRecord& record, BoundSpan span, int keys,
                   std::span<const ChunkBounds* const> bounds, const WarningSink& warn);
 

@@ -9,8 +9,8 @@
 namespace pelage {
 namespace {
 
-/// Holds all roots when the shutter opens. Of the coat as a whole: the boxes of its leaves, turned one by
-/// one, would say where it is divided.
+/// Contains all roots at shutter open. Computed for the coat as a whole: transformed boxes of its leaves
+/// would depend on its division.
 Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
   if (groom.grows_on_skin()) return skin.bound(BoundSpan::kShutter);
   const SkinPose pose = skin.pose(BoundSpan::kShutter, {});

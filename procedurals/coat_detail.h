@@ -13,35 +13,35 @@
 
 namespace pelage {
 
-/// Which strands of one coat on one character are worth growing, each decided from where its own root stands
-/// when the shutter opens and closes: a leaf, a box, a ray or a thread has no say in it.
+/// Selects the strands of one coat on one character that are worth growing. The decision for each strand
+/// depends only on its own root at shutter open and close, never on leaves, boxes, rays or threads.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatDetail {
  public:
-  /// `direction` tells blur along strands from blur across them; null: strands lie anyhow.
+  /// `direction` distinguishes blur along strands from blur across them; null: directions are unknown.
   CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
              const Simplification& simplification, std::shared_ptr<const CoatDirection> direction);
 
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
 
-  /// How many strands of a leaf, the first ones, are looked at: no other may be kept.
+  /// Number of strands of a leaf, counted from the first, that are examined: no other strand can be kept.
   size_t candidates(size_t leaf) const;
 
-  /// What is kept of a leaf.
+  /// The strands kept of a leaf.
   struct Choice {
-    std::vector<uint32_t> strands;  ///< by number in the leaf
+    std::vector<uint32_t> strands;  ///< indices in the leaf
     std::vector<float> width;
     std::vector<float> contrast;
     std::vector<RootDetail> detail;
     std::vector<float> tolerance;  ///< for fewer control points
     KeptStrands kept() const { return {strands, width, contrast}; }
   };
-  /// `pose` must hold the faces of the candidates.
+  /// `pose` must contain the faces of the candidates.
   Choice choose(size_t leaf, const SkinPose& pose) const;
 
-  /// No strand is widened by more; none by less that does not fade.
+  /// Upper bound of the width factor of all strands; lower bound for strands that do not fade.
   float max_width_factor() const { return max_width_factor_; }
   float min_width_factor() const { return min_width_factor_; }
 
@@ -49,11 +49,11 @@ class CoatDetail {
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
-  float first_out_ = 1;  // no strand of this priority or behind it is kept
+  float first_out_ = 1;  // no strand with this priority or a larger one is kept
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 
-/// Of a whole coat; `detail` is null where every strand is grown.
+/// Scale of a whole coat; `detail`: null where every strand is grown.
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail);
 
 }  // namespace pelage

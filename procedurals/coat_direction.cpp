@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kSample = 8192;
 constexpr float kCells = 24;  // along the longest side of a skin
-// Of the mean of unit vectors: what is longer is a direction.
+// Length of a mean of unit vectors above which it defines a direction.
 constexpr float kKnown = 0.5f;
 
 }  // namespace

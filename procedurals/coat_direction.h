@@ -11,20 +11,20 @@ namespace pelage {
 
 class Workers;
 
-/// How the strands of a groom lie at rest: the mean direction from root to tip, a continuous function of the
-/// place, from some thousand of them. The same, bit by bit, however the groom is divided into leaves.
+/// Mean direction of a groom's strands at rest, from root to tip, as a continuous function of position,
+/// computed from some thousand strands. Bit-identical however the groom is divided into leaves.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatDirection {
  public:
   CoatDirection(const Groom& groom, std::shared_ptr<const LimitSurface> rest, const Workers& workers);
 
-  /// In the pose in which the skin at `root` is `posed`: a unit vector, shorter where strands lie in many
-  /// directions, zero where none stands.
+  /// The direction in the pose where the skin at `root` is `posed`: a unit vector, shorter where strands
+  /// point in many directions, zero where there are none.
   V3f at(const RootAddress& root, const SurfacePoint& posed) const;
 
  private:
-  /// Calls use(node, weight) with the eight nodes around a place.
+  /// Calls use(node, weight) for the eight nodes around a position.
   template <class Use>
   void visit_nodes(const V3f& place, const Use& use) const;
 
@@ -32,7 +32,7 @@ class CoatDirection {
   V3f origin_{0};
   float cell_ = 1;
   int nodes_[3] = {2, 2, 2};
-  std::vector<V3f> directions_;  // mean of unit vectors, by node
+  std::vector<V3f> directions_;  // mean of unit vectors, per node
 };
 
 }  // namespace pelage

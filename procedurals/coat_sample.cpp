@@ -25,7 +25,7 @@ void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t co
   SkinMesh mesh;
   std::vector<ClosestPointTree> trees;
   if (groom.needs_closest_point()) {
-    const View view;  // from which no face is large
+    const View view;  // so distant that no face is large
     mesh = tessellate(pose.keys, view, {}, workers);
     trees.emplace_back(mesh, 0);
     pose.trees = trees;

@@ -10,10 +10,10 @@ namespace pelage {
 
 class Workers;
 
-/// Grows the strands of a groom whose ids are less than `count` at rest, for a character of scale 1, and
-/// hands them out one by one, by their number in a batch, in the order of their ids: what sums over them in
-/// this order sums the same however the groom is divided into leaves. They stand all over the skin. `rest`:
-/// null for a groom on no skin.
+/// Grows the strands of a groom with ids below `count` at rest, for a character of scale 1, and visits them
+/// one by one in the order of their ids, given as a batch and an index. Sums in this order do not depend on
+/// how the groom is divided into leaves. The strands are spread over the whole skin. `rest`: null for a groom
+/// without a skin.
 void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t count, const Workers& workers,
                        const std::function<void(const Strands&, size_t strand)>& visit);
 

@@ -16,7 +16,7 @@ struct Sums {
   double strands = 0, length = 0, area = 0;
 };
 
-/// Along the control polygon.
+/// Sums along the control polygon.
 void add_strand(const Strands& strands, size_t strand, Sums& sums) {
   const uint32_t first = strands.first_point(strand), count = strands.strand_points(strand);
   sums.strands += 1;
@@ -27,7 +27,7 @@ void add_strand(const Strands& strands, size_t strand, Sums& sums) {
   }
 }
 
-/// By 2 x 2 points per face.
+/// Areas from 2 x 2 points per face.
 std::vector<double> face_areas(const LimitSurface& surface) {
   const SurfaceTopology& topology = surface.topology();
   const float low = 0.5f - 0.5f / std::sqrt(3.0f), high = 1 - low;
@@ -52,7 +52,7 @@ std::vector<double> face_areas(const LimitSurface& surface) {
   return areas;
 }
 
-/// Strands per unit of skin, the mean over the strands.
+/// Strands per unit of skin area, averaged over the strands.
 double density(const FollicleTree& follicles, const std::vector<double>& areas) {
   std::vector<double> strands(areas.size(), 0.0);
   for (const RootAddress& root : follicles.roots()) ++strands[root.face];

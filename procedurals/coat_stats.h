@@ -9,9 +9,9 @@ namespace pelage {
 
 class Workers;
 
-/// What the strands of a groom are like at rest, for a character of scale 1: means over the strands of the
-/// smallest ids, some hundreds that stand all over the skin. Does not depend on how the groom is divided into
-/// leaves. `rest`: null for a groom on no skin.
+/// Average properties of a groom's strands at rest, for a character of scale 1: means over some hundred
+/// strands with the smallest ids, which are spread over the whole skin. Independent of how the groom is
+/// divided into leaves. `rest`: null for a groom without a skin.
 CoatStats coat_stats(const Groom& groom, const LimitSurface* rest, const Workers& workers);
 
 }  // namespace pelage

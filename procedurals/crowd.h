@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-// `crowds:` of a scene, and the animals that one means.
+// `crowds:` of a scene, and the animals of one of them.
 
 struct CrowdHeadingParams {
   float value = 0;        ///< degrees about y
@@ -26,8 +26,8 @@ struct CrowdPhaseParams {
 };
 struct CrowdScaleParams {
   float value = 1;
-  float variation = 0;  ///< of the whole animal, as a share
-  V3f axes{0};          ///< of each axis by itself, as a share
+  float variation = 0;  ///< of the whole animal, as a fraction
+  V3f axes{0};          ///< of each axis separately, as a fraction
   static const Schema<CrowdScaleParams>& schema();
 };
 struct CrowdLengthParams {
@@ -38,7 +38,7 @@ struct CrowdLengthParams {
 struct CrowdColorParams {
   Rgb value{1};
   float variation = 0;  ///< of all channels together
-  float hue = 0;        ///< of each channel by itself
+  float hue = 0;        ///< of each channel separately
   static const Schema<CrowdColorParams>& schema();
 };
 
@@ -56,9 +56,9 @@ struct CrowdParams {
   static const Schema<CrowdParams>& schema();
 };
 
-/// What one animal of a crowd has of its own.
+/// Properties of a single animal of a crowd.
 struct CrowdMember {
-  size_t prototype = 0;  ///< of CrowdParams::of
+  size_t prototype = 0;  ///< index into CrowdParams::of
   V3f position{0};
   float heading = 0;  ///< radians about y, 0 looks along +z
   V3f scale{1};       ///< along the axes of the prototype
@@ -67,22 +67,22 @@ struct CrowdMember {
   Rgb tint{1};       ///< multiplies the colours of its hair and skins
 };
 
-/// The animals of a crowd, a function of the arguments. `footprints`: of each of its prototypes; `obstacles`:
-/// of other crowds. Throws Error (kInput) when they do not fit into their area, Error (kMemory) before any is
-/// placed, Error (kStopped); `named_at` is where the crowd stands in the scene.
+/// The animals of a crowd, a function of the arguments. `footprints`: of its prototypes; `obstacles`: animals
+/// of other crowds; `named_at`: position of the crowd in the scene. Throws Error (kInput) when the animals do
+/// not fit their area, Error (kMemory) before any is placed, Error (kStopped).
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles = {});
 
-/// Upper bound of the bytes that placing a crowd holds at any moment, what it makes included.
+/// Upper bound of the memory in use while a crowd is placed, including the result.
 int64_t crowd_temporary_bytes(const CrowdParams& params, const std::vector<Footprint>& footprints,
                               size_t obstacles);
 
-/// The ground that an animal covers, for the `footprint` of its prototype.
+/// The ground covered by an animal, given the `footprint` of its prototype.
 PlacedFootprint placed_footprint(const CrowdMember& member, const Footprint& footprint);
 
-/// Scales, turns about y and moves, in this order (row vectors: p * M); what a prototype's own transform does
-/// stands between the scale and the turn.
+/// Scale, rotation about y, and translation, applied in this order (row vectors: p * M). The prototype's own
+/// transform is applied between scale and rotation.
 M44f scale_of(const CrowdMember& member);
 M44f placement_of(const CrowdMember& member);
 

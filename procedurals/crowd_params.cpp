@@ -5,7 +5,7 @@ namespace pelage {
 
 namespace {
 
-// A share that an animal may lose without vanishing.
+// Max fraction by which an animal may shrink.
 constexpr double kMaxVariation = 0.95;
 
 }  // namespace

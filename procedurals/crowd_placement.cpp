@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kRounds = 40, kSweepsPerRound = 80;
 constexpr size_t kBodiesPerJump = 100;
-// What keeps a crowd of a million from taking hours: places of others that jumps of a round look at, and
-// animals that sweeps visit in all.
+// Limits that keep a crowd of a million from taking hours: comparisons per round of jumps, and total visits
+// of sweeps.
 constexpr size_t kMaxComparisons = 100'000'000, kMaxVisits = 200'000'000;
 constexpr size_t kMinForProgress = 20'000;       // animals, however they stand
 constexpr size_t kVisitsWorthShowing = 400'000;  // some tenths of a second
@@ -31,13 +31,13 @@ constexpr float kPi = std::numbers::pi_v<float>;
 
 V2f turned(const V2f& v, float s, float c) { return {c * v.x + s * v.y, c * v.y - s * v.x}; }
 
-/// One animal while it is pushed about.
+/// The state of one animal while it is moved.
 struct Body {
   CrowdPlace place;
   std::vector<V3f> discs;  // a point is a disc of radius 0
   float reach = 0;         // farthest point of the footprint from the origin
-  float inertia = 1;       // against turning, for a mass of 1
-  float yields = 1;        // 0: it stands fast
+  float inertia = 1;       // rotational inertia for a mass of 1
+  float yields = 1;        // 0: fixed
   float sine = 0, cosine = 1;
 
   void turn_to(float heading) {
@@ -74,8 +74,8 @@ float distance(const Body& a, const Body& b) {
   return min;
 }
 
-/// Points of the R2 sequence [Roberts18] that fall into the area, each moved at random by part of their
-/// distance: even, but no lattice.
+/// Points of the R2 sequence [Roberts18] that fall into the area, each jittered by a fraction of their
+/// distance: even, but not a lattice.
 std::vector<V2f> spread(const GroundArea& area, size_t count, uint64_t seed, const Job& job) {
   constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
   const double shift_x = unit_float(hash64(seed, random_use("crowd shift x")));
@@ -84,7 +84,7 @@ std::vector<V2f> spread(const GroundArea& area, size_t count, uint64_t seed, con
   const float jitter = 0.4f * std::sqrt(static_cast<float>(area.surface() / static_cast<double>(count)));
   std::vector<V2f> points;
   points.reserve(count);
-  // A sliver of an area would be missed for ever: what is outside then moves to its border.
+  // Points may never fall into the sliver of an area: those outside are then moved to its border.
   const uint64_t patience = 1000 * count + 100000;
   for (uint64_t i = 0; points.size() < count; ++i) {
     if (i % 4096 == 0) job.check_stop();
@@ -133,7 +133,7 @@ class Neighbours {
   std::vector<Cell> cells_;
 };
 
-/// Pushes pairs of discs apart as if they belonged to rigid bodies on ice.
+/// Pushes pairs of discs apart like rigid bodies on ice.
 class Crowd {
  public:
   Crowd(const GroundArea& area, const CrowdRules& rules, std::vector<Body> bodies, const Job& job)
@@ -157,8 +157,8 @@ class Crowd {
     return contacts_.size();
   }
 
-  /// Moves one of each of the pairs that were closest in the last sweep, such as two that are hooked into
-  /// each other, to the place with most room of some that are tried.
+  /// Moves one animal of each pair that was closest in the last sweep, such as two that are interlocked, to
+  /// the roomiest of several random places.
   void jump(uint64_t round) {
     job_.check_stop();
     const V2f size = area_.max() - area_.min();
@@ -191,8 +191,8 @@ class Crowd {
   const std::vector<Body>& bodies() const { return bodies_; }
 
  private:
-  /// Distance from the nearest other footprint if `i` stood at `place`; something less than `enough` where it
-  /// is not more.
+  /// Distance from the nearest other footprint if `i` were at `place`; any value below `enough` if it is not
+  /// larger than that.
   float room_at(uint32_t i, const CrowdPlace& place, float enough) const {
     Body moved = bodies_[i];
     moved.place = place;
@@ -206,7 +206,7 @@ class Crowd {
     return room;
   }
 
-  /// Returns by how much two animals were too close; 0 when they were not.
+  /// Returns by how much two animals were too close; 0 if they were not.
   float separate(uint32_t i, uint32_t j) {
     Body &a = bodies_[i], &b = bodies_[j];
     const float far = a.reach + b.reach + rules_.spacing;
@@ -224,17 +224,17 @@ class Crowd {
     return deepest;
   }
 
-  /// One contact, solved as position based dynamics does [Mueller07]: both bodies give way, in the ratio in
-  /// which they can be moved at this point.
+  /// Solves one contact as in position based dynamics [Mueller07]: both bodies move, in proportion to their
+  /// mobility at this point.
   float separate(Body& a, size_t p, Body& b, size_t q, uint64_t tie) {
     const V2f lever_a = a.lever(p), lever_b = b.lever(q);
     V2f apart = b.place.position + lever_b - a.place.position - lever_a;
     const float wanted = a.discs[p].z + b.discs[q].z + rules_.spacing;
     const float length = apart.length();
     if (length >= wanted) return 0;
-    const float angle = 2 * kPi * unit_float(tie);  // on one point: any direction, always the same
+    const float angle = 2 * kPi * unit_float(tie);  // same point: arbitrary, deterministic
     apart = length > 1e-6f * wanted ? apart / length : V2f(std::sin(angle), std::cos(angle));
-    // d(lever)/d(heading) is the lever turned by a quarter: (z, -x).
+    // d(lever)/d(heading) is the lever rotated by a quarter turn: (z, -x).
     const float turn_a = lever_a.y * apart.x - lever_a.x * apart.y;
     const float turn_b = lever_b.y * apart.x - lever_b.x * apart.y;
     const bool turns = rules_.heading_variation > 0;
@@ -250,7 +250,7 @@ class Crowd {
     return wanted - length;
   }
 
-  /// Back into the area and the allowed headings.
+  /// Moves a body back into the area and the allowed headings.
   void constrain(Body& body) const {
     if (body.yields == 0) return;
     body.place.position = area_.nearest(body.place.position);
@@ -265,15 +265,15 @@ class Crowd {
   const Job& job_;
   struct Contact {
     float depth;
-    uint32_t body;  // one of the two that can move
+    uint32_t body;  // one of the two, not fixed
   };
   std::vector<Contact> contacts_;  // of the last sweep
 };
 
-/// Refuses at once what cannot be: more discs than the area, widened by what may stand over its border, has
-/// room for.
+/// Rejects impossible crowds early: more discs than fit the area, extended by what may overlap its border.
 void require_space(const GroundArea& area, const CrowdRules& rules) {
-  float radius = std::numeric_limits<float>::infinity(), offset = 0;  // of the least of the largest discs
+  float radius = std::numeric_limits<float>::infinity(),
+        offset = 0;  // of the smallest of the bodies' largest discs
   for (const Footprint& footprint : rules.footprints) {
     V3f largest(0);
     for (const V3f& disc : footprint) {
@@ -295,9 +295,9 @@ void require_space(const GroundArea& area, const CrowdRules& rules) {
 }  // namespace
 
 size_t crowd_placement_bytes(size_t discs) {
-  constexpr size_t kHeap = 16;  // of each list of discs, what the heap keeps and rounds
+  constexpr size_t kHeap = 16;  // per list of discs: overhead and rounding of the heap
   const size_t footprint = sizeof(Footprint) + discs * sizeof(V3f) + kHeap;
-  // A few contacts each; while their list grows, the old one is there too.
+  // A few contacts each; while their list grows, the old one still exists.
   constexpr size_t kContacts = 4 * 3 * sizeof(uint64_t) / 2;
   return footprint + sizeof(V2f) + sizeof(Body) + discs * sizeof(V3f) + kHeap + Neighbours::kBytesPerBody +
          kContacts + sizeof(CrowdPlace);
@@ -306,7 +306,7 @@ size_t crowd_placement_bytes(size_t discs) {
 std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules, const Job& job) {
   require_space(area, rules);
   const size_t count = rules.footprints.size();
-  // Sweeps end as soon as nobody touches anybody: how many there are nobody knows before.
+  // Sweeps end as soon as there are no contacts; their number is not known in advance.
   const size_t visited_by_a_sweep = count + rules.obstacles.size();
   const size_t sweeps =
       std::min<size_t>(kRounds * kSweepsPerRound, kMaxVisits / std::max<size_t>(1, visited_by_a_sweep) + 1);

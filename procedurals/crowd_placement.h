@@ -11,37 +11,37 @@ namespace pelage {
 
 struct Job;
 
-/// The ground that an animal covers, as discs (x, z, radius) about its origin, for heading 0.
+/// The ground covered by an animal, as discs (x, z, radius) around its origin, for heading 0.
 using Footprint = std::vector<V3f>;
 
-/// Where one animal of a crowd stands.
+/// Position of one animal of a crowd.
 struct CrowdPlace {
   V2f position{0};    ///< (x, z)
   float heading = 0;  ///< radians about y; 0 looks along +z, a quarter turn along +x
 };
 
-/// An animal that stands already.
+/// An animal that is already placed.
 struct PlacedFootprint {
   Footprint footprint;
   CrowdPlace place;
 };
 
-/// What a placement has to keep to.
+/// Constraints of a placement.
 struct CrowdRules {
-  std::vector<Footprint> footprints;  ///< one per animal; an empty one is the point it stands on
-  float spacing = 0;                  ///< least distance between two footprints
+  std::vector<Footprint> footprints;  ///< one per animal; an empty one is a single point
+  float spacing = 0;                  ///< min distance between two footprints
   float heading = 0;                  ///< middle of the allowed headings, radians
-  float heading_variation = 0;        ///< farthest from it, radians
+  float heading_variation = 0;        ///< max deviation from it, radians
   uint64_t seed = 0;
-  std::vector<PlacedFootprint> obstacles;  ///< keep clear of these by `spacing` too; they do not move
+  std::vector<PlacedFootprint> obstacles;  ///< fixed; `spacing` applies to them too
 };
 
-/// Spreads animals evenly over an area, then pushes and turns those that are too close until none is.
-/// Positions (not footprints) stay inside the area. A function of its arguments alone; on one thread. Throws
-/// Error (kInput) when they do not fit, Error (kStopped).
+/// Spreads animals evenly over an area, then pushes and rotates those that are too close until none are.
+/// Positions (not footprints) stay inside the area. A deterministic function of its arguments,
+/// single-threaded. Throws Error (kInput) when they do not fit, Error (kStopped).
 std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules, const Job& job);
 
-/// What place_crowd() holds at any moment, its rules included, for each body of so many discs.
+/// Max memory that place_crowd() holds, including its rules, per animal with this number of discs.
 size_t crowd_placement_bytes(size_t discs);
 
 /// Distance between two footprints, negative when they overlap.

@@ -17,16 +17,16 @@ namespace pelage {
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// What it divides into, of at most `max_cost` each where its faces allow it (divide_skin). Throws Error
-  /// (kStopped).
+  /// Divides the skin into pieces of at most `max_cost` each where its faces allow it (divide_skin). Throws
+  /// Error (kStopped).
   virtual std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const = 0;
-  /// Holds every triangle of a piece over the span.
+  /// Contains every triangle of a piece over the span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
-  /// Poses of tessellate(), at even times over the shutter.
+  /// Number of poses of tessellate(), at evenly spaced times over the shutter.
   virtual int motion_keys() const = 0;
-  /// The triangles of a piece, the same wherever the skin is divided.
+  /// The triangles of a piece, independent of how the skin is divided.
   virtual SkinMesh tessellate(const SkinPiece& piece, const View& view) const = 0;
-  /// What tessellate() holds at most beside what it gives, but for what is charged already.
+  /// Max temporary memory of tessellate(), without its result and without memory that is already charged.
   virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
 };
 

@@ -11,19 +11,18 @@
 
 namespace pelage {
 
-/// What level of detail makes of the coats of a frame. What it has to know of a groom is measured once,
-/// however many characters wear it.
+/// Level of detail of the coats of a frame. Measures each groom once, however many characters wear it.
 class DetailPolicy {
  public:
-  /// `job` outlives it. `shutter`: when it opens and closes, in frames.
+  /// `job` must outlive it. `shutter`: opening and closing time, in frames.
   DetailPolicy(const SimplificationParams& params, const LodView& view, const V2f& shutter, const Job& job)
       : params_(params), view_(view), blurs_(params.motion_blur && shutter.y > shutter.x), job_(job) {}
 
-  /// Of a groom on the skin of a character. `rest`: null for a groom on no skin. Whiskers, some dozen strands
-  /// that stand alone, are thinned by size only: leaving out more saves nothing and shows.
+  /// Simplification of a groom on the skin of a character. `rest`: null for a groom without a skin. Whiskers,
+  /// a few dozen isolated strands, are thinned by size only: omitting more would save nothing and be visible.
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
-  /// How its strands lie, which motion blur asks for; null where it does not.
+  /// Direction of the groom's strands, for motion blur; null when not needed.
   std::shared_ptr<const CoatDirection> direction(const Groom& groom,
                                                  const std::shared_ptr<const LimitSurface>& rest);
 

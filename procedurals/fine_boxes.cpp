@@ -12,7 +12,7 @@ namespace {
 constexpr int kMaxSteps = 255;
 constexpr float kSmallestStep = 1e-30f;  // a normal number whatever the processor does to others
 
-/// In double precision, so that what is cut off below can be neglected beside the doubt of every ray test.
+/// In double precision, so that rounding is negligible relative to the error bound of every ray test.
 struct Extent {
   double low[3] = {INFINITY, INFINITY, INFINITY};
   double high[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -34,7 +34,7 @@ FineBoxes::Group empty_group() {
   return group;
 }
 
-/// What holds the four boxes of a group.
+/// Computes the box around the four boxes of a group.
 void join(const FineBoxes::Group& group, FineBoxes::Group& into, size_t lane) {
   for (size_t i = 0; i < 3; ++i) {
     into[i][0][lane] = *std::min_element(group[i][0].begin(), group[i][0].end());
@@ -53,8 +53,8 @@ FineBoxes::FineBoxes(std::span<const Box3f> boxes, size_t keys) : count_(uint32_
   }
   grid_.motion = close.min - open.min;
 
-  // What a box holds moves linearly from key to key, and the corner from the first to the last: so the
-  // largest distances between them are met at keys.
+  // Contents move linearly from key to key, and the corner from the first to the last: so the largest
+  // distances between them occur at keys.
   std::vector<Extent> extents(count_);
   Extent all;
   for (size_t b = 0; b < count_; ++b) {

@@ -11,32 +11,31 @@
 
 namespace pelage {
 
-/// Many small boxes around what one chunk holds, in few bytes: each side is a whole number of steps, 0 to
-/// 255, from a corner of the chunk, which moves linearly over the shutter. Over them stands a tree of which
-/// nothing but the boxes is kept: each box of a level above the finest holds four that follow each other in
-/// the level below, so boxes that follow each other should be neighbours.
+/// Many small boxes around the contents of one chunk, in few bytes: each side is an integer number of steps,
+/// 0 to 255, from a corner of the chunk, which moves linearly over the shutter. Above them is an implicit
+/// tree: each box of a coarser level contains four consecutive boxes of the level below, so consecutive boxes
+/// should be neighbours.
 ///
 /// Immutable once made.
 class FineBoxes {
  public:
-  /// By axis, the low and the high sides of four boxes. Those of absent boxes are inside out on every axis.
+  /// Low and high sides of four boxes, by axis. Missing boxes are inverted on every axis.
   using Group = std::array<std::array<std::array<uint8_t, 4>, 2>, 3>;
 
-  /// Where the steps are counted from, at shutter open; how far that moves until shutter close; how long they
-  /// are.
+  /// Origin of the steps at shutter open, its motion until shutter close, and the length of a step.
   struct Grid {
     V3f corner{0}, motion{0}, step{0};
   };
 
-  /// No boxes: nothing is known of the chunk.
+  /// No boxes: nothing is known about the chunk.
   FineBoxes() = default;
-  /// Boxes that hold `boxes`, which are not empty: box b at key k, even times of the shutter, is
-  /// boxes[b * keys + k], and between two keys what it holds moves linearly.
+  /// Boxes that contain `boxes`, which must not be empty: box b at key k (evenly spaced times of the shutter)
+  /// is boxes[b * keys + k]. The contents move linearly between keys.
   FineBoxes(std::span<const Box3f> boxes, size_t keys);
-  /// As they were written: the finest level and its number of boxes.
+  /// As stored: the finest level and its number of boxes.
   FineBoxes(const Grid& grid, std::span<const Group> finest, size_t count);
 
-  /// Of the finest level.
+  /// Number of boxes of the finest level.
   size_t count() const { return count_; }
   const Grid& grid() const { return grid_; }
   /// The groups of a level; 0 is the finest. The highest has one group.
@@ -46,9 +45,9 @@ class FineBoxes {
   size_t levels() const { return levels_; }
   /// Box b of the finest level at a time of the shutter.
   Box3f box(size_t b, float time) const;
-  /// Whether every box is the right way round and the grid finite: false after reading nonsense.
+  /// Whether every box is well-formed and the grid finite: false after reading garbage.
   bool is_possible() const;
-  /// Of the heap.
+  /// Heap memory.
   size_t bytes() const { return groups_.capacity() * sizeof(Group); }
   static size_t groups_of(size_t boxes) { return (boxes + 3) / 4; }
 

@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-/// Strands that are already there, as a procedural.
+/// Existing strands as a procedural.
 class FixedStrands final : public Procedural {
  public:
   explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
@@ -40,7 +40,7 @@ class FixedStrands final : public Procedural {
   Strands strands_;
 };
 
-/// Triangles that are already there, as a skin.
+/// Existing triangles as a skin.
 class FixedSkin final : public DeferredSkin {
  public:
   explicit FixedSkin(SkinMesh mesh) : mesh_(std::move(mesh)) {}

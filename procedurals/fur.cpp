@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-/// Calls `use` with the skin as a leaf needs it.
+/// Calls `use` with the pose of the skin for a leaf.
 template <class Use>
 auto in_pose(const Groom& groom, const PosedCharacterSkin& skin, size_t leaf, BoundSpan span,
              const Use& use) {
@@ -43,7 +43,7 @@ FurProcedural::FurProcedural(std::shared_ptr<const Groom> groom,
 
 Box3f FurProcedural::bound(BoundSpan span) const {
   if (groom_->grows_on_skin()) {
-    // Without posing the skin: a crowd asks this of every animal.
+    // Without posing the skin: a crowd calls this for every animal.
     Box3f box = skin_->bound(span);
     const float wider = detail_ ? 0.5f * groom_->width() * (detail_->max_width_factor() - 1) : 0.0f;
     const V3f out((groom_->reach() * std::max(1.0f, skin_->length()) + wider) * skin_->scale());
@@ -132,7 +132,7 @@ std::optional<BoundsRecord> FurLeafProcedural::bounds_record() const {
   if (!groom_->store()) return {};
   BoundsRecord record;
   record.store = {groom_, groom_->store()};
-  // How boxes are made is code of this room: those of another build of the program are not asked for.
+  // The code that makes boxes is in this room: boxes of other builds of the program are not used.
   record.key = ContentHasher()
                    .add(program_identity())
                    .add(groom_->content_hash())

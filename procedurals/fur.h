@@ -12,15 +12,15 @@ namespace pelage {
 /// The coat of one groom on one character: splits into one leaf per leaf of the groom's follicle hierarchy.
 class FurProcedural final : public Procedural {
  public:
-  /// With `lod`, detail is reduced as that and `direction` (CoatDetail) say, and leaves may go together in
-  /// one chunk.
+  /// With `lod`, reduces detail as described by `lod` and `direction` (CoatDetail); several leaves may then
+  /// form one chunk.
   FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
                 const std::optional<Simplification>& lod = {},
                 std::shared_ptr<const CoatDirection> direction = {});
 
   Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;
-  /// The whole coat at once, leaf after leaf, for tools that want one batch.
+  /// The whole coat at once, leaf by leaf, for tools that need a single batch.
   Strands generate() const override;
   StrandCounts counts() const override;
   StrandScale scale() const override;
@@ -44,7 +44,7 @@ class FurLeafProcedural final : public Procedural {
   StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
   std::optional<ContentHash> content() const override;
-  /// Beside the cache of the groom, for all leaves of the coat in one file.
+  /// Stored beside the cache of the groom, one file for all leaves of the coat.
   std::optional<BoundsRecord> bounds_record() const override;
   size_t bytes() const override { return sizeof(*this); }
 

@@ -112,7 +112,7 @@ GroundArea::GroundArea(const AreaParams& params) {
 
 bool GroundArea::contains(const V2f& point) const {
   if (outline_.empty()) return (point - center_).length2() <= radius_ * radius_;
-  bool inside = false;  // parity of the sides to the right of the point
+  bool inside = false;  // parity of the number of sides to the right of the point
   for (size_t i = 0; i < outline_.size(); ++i) {
     const V2f &a = outline_[i], &b = outline_[(i + 1) % outline_.size()];
     if ((a.y > point.y) != (b.y > point.y) && point.x < a.x + (b.x - a.x) * ((point.y - a.y) / (b.y - a.y))) {

@@ -10,7 +10,7 @@
 
 namespace pelage {
 
-/// Pieces of level ground, as a scene describes them.
+/// Shapes of level ground, as described by a scene.
 struct RectangleAreaParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "rectangle";
@@ -35,7 +35,7 @@ struct PolygonAreaParams {
 };
 using AreaParams = std::variant<RectangleAreaParams, DiscAreaParams, PolygonAreaParams>;
 
-/// An area of any kind, ready to be asked. Points are (x, z). Immutable.
+/// A ground area of any shape, ready for queries. Points are (x, z). Immutable.
 class GroundArea {
  public:
   explicit GroundArea(const AreaParams& params);
@@ -51,7 +51,7 @@ class GroundArea {
   float height() const { return height_; }
 
  private:
-  std::vector<V2f> outline_;  // empty: a disc
+  std::vector<V2f> outline_;  // empty for a disc
   V2f center_{0}, min_{0}, max_{0};
   float radius_ = 0, height_ = 0;
   double surface_ = 0, border_ = 0;

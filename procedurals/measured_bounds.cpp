@@ -43,7 +43,7 @@ void MeasuredBounds::find_groups() {
   for (uint32_t i = 0; i < chunks_.size(); ++i) {
     const std::optional<BoundsRecord> record = chunks_[i]->bounds_record();
     if (!record) continue;
-    // Leaves of a coat come one after the other.
+    // Leaves of a coat are consecutive.
     if (groups_.empty() || groups_.back().record.key != record->key ||
         groups_.back().chunks[record->index] != kNone) {
       groups_.push_back({*record, std::vector<uint32_t>(record->count, kNone)});
@@ -103,7 +103,7 @@ void MeasuredBounds::measure(const Job& job) {
   });
 }
 
-/// A chunk was measured. The last of its family sees what all others have left.
+/// Records a measured chunk. The last one of its group sees the results of all others.
 void MeasuredBounds::mark_known(uint32_t chunk) {
   const uint32_t f = group_of_[chunk];
   if (f == kNone) return drop_parts(chunk);

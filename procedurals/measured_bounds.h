@@ -12,17 +12,17 @@
 
 namespace pelage {
 
-/// The first of two passes (bound_chunks): boxes of chunks that are grown once for that, in this run or in
-/// one before. Call read(), then measure(), then what they found. What a file system refuses to keep is told
-/// of once.
+/// The first of two passes (bound_chunks): boxes of chunks that are grown once to be measured, in this run or
+/// an earlier one. Call read(), then measure(), then use the results. Reports once when side files cannot be
+/// written.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
                  const WarningSink& warn);
 
-  /// Takes what side files remember.
+  /// Reads the boxes in side files.
   void read(const Job& job);
-  /// Measures the rest, and writes each side file when the last of its chunks is known.
+  /// Measures the others, and writes each side file when all of its chunks are known.
   void measure(const Job& job);
 
   BoundingCounts counts() const;
@@ -30,10 +30,10 @@ class MeasuredBounds {
 
  private:
   static constexpr uint32_t kNone = ~0u;
-  /// Chunks whose boxes are remembered in one file: all that the file is about.
+  /// The chunks whose boxes are stored in one file.
   struct BoundsGroup {
     BoundsRecord record;
-    std::vector<uint32_t> chunks;  // by index in the file; kNone where a chunk is not among those bounded
+    std::vector<uint32_t> chunks;  // by index in the file; kNone where a chunk is not being bounded
     bool is_complete() const;
   };
 
@@ -47,15 +47,15 @@ class MeasuredBounds {
   const BoundSpan span_;
   const int keys_;
   const std::span<const Procedural* const> chunks_;
-  const WarningSink warn_;  // by one thread at a time
+  const WarningSink warn_;  // called by one thread at a time
   std::mutex warning_;
-  bool warned_ = false;  // that something cannot be kept; guarded by warning_
+  bool warned_ = false;  // that side files cannot be written; guarded by warning_
   std::vector<ChunkBounds> bounds_;
-  std::vector<BoundsArea> areas_;  // by chunk, so that their sum is the same for any order
+  std::vector<BoundsArea> areas_;  // by chunk, so that their sum does not depend on the order
   std::vector<BoundsGroup> groups_;
-  std::vector<uint32_t> group_of_;           // by chunk; kNone: of none that is complete
-  std::vector<std::atomic<uint32_t>> left_;  // by family: chunks that are not known yet
-  std::vector<char> known_;                  // by chunk: from a file
+  std::vector<uint32_t> group_of_;           // by chunk; kNone: not in a complete group
+  std::vector<std::atomic<uint32_t>> left_;  // by group: chunks that are not known yet
+  std::vector<char> known_;                  // by chunk: read from a file
 };
 
 }  // namespace pelage

@@ -40,7 +40,7 @@ void PoseCache::reserve_for_whole(const SurfaceTopology& topology, size_t keys) 
 }
 
 void PoseCache::keep(std::shared_ptr<const SkinPose> pose) {
-  std::shared_ptr<const SkinPose> dropped;  // freed when nobody waits for it
+  std::shared_ptr<const SkinPose> dropped;  // freed outside of the lock
   const std::lock_guard lock(mutex_);
   const auto known = std::find(recent_.begin(), recent_.end(), pose);
   if (known != recent_.end()) {

@@ -12,13 +12,13 @@
 
 namespace pelage {
 
-/// Answers for the memory of poses. Whole ones with trees are dear: those that were used last are kept alive,
-/// one per thread, so that a run of chunks of one character makes its pose once. The part of a pose that one
-/// leaf stands on is made for it and dropped. Thread safety: all members may be called from any thread.
+/// Owns the memory of poses. Whole poses with trees are expensive: the most recently used ones are kept
+/// alive, one per thread, so that a sequence of chunks of one character makes its pose once. Partial poses
+/// for a single leaf are made for it and freed. Thread safety: all members may be called from any thread.
 ///
-/// Each thread uses at most one whole pose besides those that are kept, so 2 * threads of the largest are
-/// charged to the skins from the start, and one part per thread: a pose that is made later takes nothing from
-/// the budget any more.
+/// Each thread uses at most one whole pose besides those that are kept. Therefore 2 * threads of the largest
+/// pose, and one partial pose per thread, are charged to the skins from the start: poses made later need no
+/// further budget.
 class PoseCache {
  public:
   PoseCache(int threads, MemoryLedger& ledger);
@@ -26,11 +26,12 @@ class PoseCache {
   PoseCache(const PoseCache&) = delete;
   PoseCache& operator=(const PoseCache&) = delete;
 
-  /// Says that whole poses of `bytes` will be made.
+  /// Announces whole poses of `bytes`.
   void reserve(size_t bytes);
-  /// Says that leaves of a groom will grow on their part of poses of `keys` times. Both outlive the cache.
+  /// Announces that leaves of a groom will grow on partial poses with `keys` times. Both must outlive the
+  /// cache.
   void reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
-  /// Says that parts of poses of `keys` times will be made that may hold all faces.
+  /// Announces partial poses with `keys` times that may contain all faces.
   void reserve_for_whole(const SurfaceTopology& topology, size_t keys);
   /// Keeps `pose` alive until as many others as there are threads have been used after it.
   void keep(std::shared_ptr<const SkinPose> pose);
@@ -40,8 +41,8 @@ class PoseCache {
 
   const size_t threads_;
   MemoryLedger& ledger_;
-  std::mutex mutex_;                                     // guards what follows
-  std::vector<std::shared_ptr<const SkinPose>> recent_;  // the last used last
+  std::mutex mutex_;                                     // guards the following
+  std::vector<std::shared_ptr<const SkinPose>> recent_;  // most recently used last
   size_t largest_ = 0, largest_part_ = 0;
   std::set<std::tuple<const Groom*, const SurfaceTopology*, size_t>> expected_;
 };

@@ -8,7 +8,7 @@ namespace pelage {
 
 namespace {
 
-/// Of one time, in order: V3f and M44f are plain floats without padding.
+/// Hash of one time, in order: V3f and M44f are plain floats without padding.
 uint64_t hash_of(const PosedCages& cages) {
   uint64_t hash = cages.cages.size();
   for (const std::vector<V3f>& cage : cages.cages) {
@@ -22,7 +22,7 @@ uint64_t hash_of(const PosedCages& cages) {
 ContentHash hash_of(const CharacterPose& pose) {
   uint64_t words[6] = {pose.topology->hash().low, pose.topology->hash().high,          hash_of(pose.shutter),
                        hash_of(pose.frame_ends),  std::bit_cast<uint32_t>(pose.scale), 0};
-  // Strands that keep clear of the skin see its triangles, which depend on the view.
+  // push_out uses the skin's triangles, which depend on the view.
   if (const auto& view = pose.push_out_view) {
     const float seen[] = {view->position.x, view->position.y, view->position.z, view->focal_pixels,
                           view->near_distance};
@@ -37,8 +37,8 @@ size_t bytes_of(const PosedCages& cages) {
   return sum;
 }
 
-/// Limit points are averages of control points, but patches near extraordinary vertices are off by up to 1e-3
-/// of a face (geom/limit_surface.h).
+/// Limit points are averages of control points, but patches near extraordinary vertices have an error of up
+/// to 1e-3 of a face (geom/limit_surface.h).
 Box3f widened(const Box3f& box) {
   const V3f out(1e-3f * box.size().length());
   return {box.min - out, box.max + out};
@@ -52,7 +52,7 @@ PosedCharacterSkin::PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseC
   PELAGE_CHECK(pose_.shutter.transforms.size() == pose_.shutter.cages.size());
   PELAGE_CHECK(pose_.frame_ends.cages.size() == pose_.frame_ends.transforms.size());
   PELAGE_CHECK(pose_.frame_ends.cages.empty() || pose_.frame_ends.cages.size() == 2);
-  // How large the trees are is known when they are made.
+  // The size of the trees is known only after making them.
   if (pose_.push_out_view) poses_->reserve(make(BoundSpan::kFrame)->bytes());
 }
 
@@ -92,7 +92,7 @@ std::shared_ptr<const SkinPose> PosedCharacterSkin::make(BoundSpan span) const {
   auto made = std::make_shared<SkinPose>();
   add_keys(span, *made, [&](const std::vector<V3f>& cage) { made->keys.emplace_back(pose_.topology, cage); });
   if (pose_.push_out_view) {
-    // The triangles that the shutter's keys ask for, so that hair grows the same over either span.
+    // The triangles are chosen for the shutter's keys, so that hair grows the same over either span.
     const size_t count = made->keys.size();
     TessellationOptions options;
     options.first_rated_key = count > pose_.shutter.cages.size() ? 1 : 0;
@@ -120,7 +120,7 @@ void PosedCharacterSkin::reserve_for_leaves(const Groom& groom, bool together) c
   }
 }
 
-/// Whole, for a moment: not kept where making it again is cheaper than what it would take.
+/// A whole temporary pose: not kept if making it again is cheaper than keeping it.
 std::shared_ptr<const SkinPose> PosedCharacterSkin::temporary_pose() const {
   return pose_.push_out_view ? pose(BoundSpan::kShutter) : make(BoundSpan::kShutter);
 }

@@ -16,29 +16,30 @@
 
 namespace pelage {
 
-/// Control points of one skin of one character, world space, at some times.
+/// Control points of one skin of one character at several times, in world space.
 struct PosedCages {
   std::vector<std::vector<V3f>> cages;  ///< one per time
-  std::vector<M44f> transforms;         ///< of the character, per time: for strands that grow on no skin
+  std::vector<M44f> transforms;         ///< of the character, per time: for strands without a skin
 };
 
-/// What a PosedCharacterSkin is made of.
+/// Input of a PosedCharacterSkin.
 struct CharacterPose {
   std::shared_ptr<const SurfaceTopology> topology;
-  /// At even times over the shutter; one time when nothing moves or the shutter is closed.
+  /// At evenly spaced times over the shutter; a single time when nothing moves or the shutter is closed.
   PosedCages shutter;
   /// At the two ends of the frame's interval [frame - 1/2, frame + 1/2]; empty when `shutter` has one time.
   PosedCages frame_ends;
-  /// Of the character, applied to strands about their roots: the cube root of the determinant where it is
-  /// scaled differently along its axes (frames come from the posed cage).
+  /// Scale of the character, applied to strands about their roots. For a non-uniform scale: the cube root of
+  /// the determinant (frames come from the posed cage).
   float scale = 1;
-  float length = 1;  ///< of its strands, times what the groom makes; their radii stay
-  /// For which view the skin is tessellated from which strands keep clear; none when no groom does.
+  float length = 1;  ///< factor on the length of its strands; their radii are unchanged
+  /// The view for which the skin is tessellated when strands are pushed out of it; empty when no groom does
+  /// that.
   std::optional<View> push_out_view;
 };
 
-/// A skin of one character in a frame. All that is kept are the posed cages, some kilobytes: limit surfaces
-/// and trees are made when something grows; what is dear of it is shared through a PoseCache.
+/// A skin of one character in a frame. Stores only the posed cages, a few kilobytes: limit surfaces and trees
+/// are made when something grows; the expensive parts are shared through a PoseCache.
 class PosedCharacterSkin final : public DeferredSkin {
  public:
   PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseCache> poses);
@@ -49,25 +50,26 @@ class PosedCharacterSkin final : public DeferredSkin {
   float scale() const { return pose_.scale; }
   float length() const { return pose_.length; }
 
-  /// Ready to grow in. kShutter: one key per motion key. kFrame: these keys between those of the ends of the
-  /// frame, in order of time; what the shutter sees is thus never outside what a bound over the frame holds.
+  /// A whole pose for growing strands. kShutter: one key per motion key. kFrame: these keys between those of
+  /// the ends of the frame, in order of time, so that a bound over the frame contains everything visible
+  /// during the shutter.
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
-  /// Ready for strands on `faces` that keep clear of nothing: without trees, for the caller alone.
+  /// A pose for strands on `faces` that need no push_out: without trees, not shared.
   SkinPose pose(BoundSpan span, std::span<const uint32_t> faces) const;
-  /// Says that the leaves of a groom will grow here, each in the pose of its faces, or, `together`, any
-  /// number of them at once.
+  /// Announces that the leaves of a groom will grow here, each in the pose of its own faces or, with
+  /// `together`, any number of leaves at once.
   void reserve_for_leaves(const Groom& groom, bool together = false) const;
 
-  /// The hull of the control points, a little widened.
+  /// The hull of the control points, slightly enlarged.
   Box3f bound(BoundSpan span) const;
   std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const override;
-  /// The hull of the control points that shape the piece, a little widened.
+  /// The hull of the control points that shape the piece, slightly enlarged.
   Box3f bound(const SkinPiece& piece, BoundSpan span) const override;
   SkinMesh tessellate(const SkinPiece& piece, const View& view) const override;
   size_t temporary_bytes(const SkinPiece& piece) const override;
 
-  /// Of all that shapes what grows here, but for its length: topology, control points of all times,
-  /// transforms, scale. Equal poses have equal hashes.
+  /// Hash of everything that affects strands grown here, except `length`: topology, control points of all
+  /// times, transforms, scale. Equal poses have equal hashes.
   ContentHash hash() const { return hash_; }
   size_t bytes() const;
 

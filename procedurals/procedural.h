@@ -17,48 +17,47 @@ namespace pelage {
 
 class ContentStore;
 
-/// During which time a bound holds. A procedural that does not know the shutter must hold the whole interval
-/// of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter both are the same instant.
+/// Time span for which a bound holds. A procedural that does not know the shutter must bound the whole
+/// interval of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter both are the same instant.
 enum class BoundSpan { kFrame, kShutter };
 
-/// Where the exact boxes of a chunk are remembered from run to run: entry `index` of the `count` under one
+/// Where the exact boxes of a chunk are stored between runs: entry `index` of the `count` entries with one
 /// key.
 struct BoundsRecord {
   std::shared_ptr<const ContentStore> store;
-  ContentHash key;  ///< of everything that the boxes of all entries depend on, but for span and keys
+  ContentHash key;  ///< hash of everything that the boxes of all entries depend on, except span and keys
   size_t index = 0;
   size_t count = 0;
 };
 
-/// Geometry that exists only while something needs it: bound, split, generate, as RenderMan's RiProcedural
+/// Geometry that exists only while something needs it: bound, split, generate, like RenderMan's RiProcedural
 /// [RISPEC 3.2, procedural primitives]. World space.
 ///
 /// Thread safety: all members may be called from many threads at once. Same procedural, same bytes.
 class Procedural {
  public:
   virtual ~Procedural() = default;
-  /// Holds every point +- radius of everything that generate() may give, over the span (law 4). No strand is
-  /// grown.
+  /// Contains every point +- radius that generate() can return, over the span (law 4). Does not grow strands.
   virtual Box3f bound(BoundSpan span) const = 0;
-  /// Finer procedurals to use instead; empty for a leaf.
+  /// Smaller procedurals that replace this one; empty for a leaf.
   virtual std::vector<std::unique_ptr<Procedural>> split() const { return {}; }
   /// The strands of a leaf, over the shutter.
   virtual Strands generate() const = 0;
-  /// How much generate() gives: exactly, or an upper bound.
+  /// Size of the result of generate(): exact, or an upper bound.
   virtual StrandCounts counts() const = 0;
-  /// Of the coat: the same for all that it splits into.
+  /// Scale of the coat; the same for all procedurals it is split into.
   virtual StrandScale scale() const = 0;
-  /// What generate() holds beside what it gives and what growing any leaf takes.
+  /// Temporary memory of generate(), without its result and without the memory that growing any leaf needs.
   virtual size_t temporary_bytes() const { return 0; }
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
-  /// drops it. `keys` is 1, or 2 for boxes linear in time over the shutter.
+  /// discards it. `keys`: 1, or 2 for boxes linear in time over the shutter.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;
-  /// Names what generate() gives: equal names, equal strands, in any run of this program. Nothing where
-  /// nobody knows one.
+  /// Identifies the result of generate(): equal hashes, equal strands, in any run of this program. Empty when
+  /// unknown.
   virtual std::optional<ContentHash> content() const { return {}; }
-  /// Nothing where they are not remembered.
+  /// Empty when the boxes are not stored.
   virtual std::optional<BoundsRecord> bounds_record() const { return {}; }
-  /// What it holds itself, on the heap: a frame has hundreds of thousands.
+  /// Its own heap memory; a frame has hundreds of thousands of procedurals.
   virtual size_t bytes() const { return 0; }
 };
 

@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// A segment on its way to its cell.
+/// A segment while cells are built.
 struct SegmentParts::Item {
-  float middle[3];  // twice
+  float middle[3];  // times two
   uint32_t number;
 };
 
@@ -87,7 +87,7 @@ void interpolate_boxes(std::span<const Box3f> boxes, Box3f& open, Box3f& close) 
       above = std::max(above, boxes[k].max[axis] - between(boxes.front().max[axis], boxes.back().max[axis]));
       largest = std::max({largest, std::abs(boxes[k].min[axis]), std::abs(boxes[k].max[axis])});
     }
-    // Whoever interpolates in float rounds three times.
+    // Interpolation in float rounds three times.
     const float rounding = 0x1p-21f * largest;
     for (Box3f* box : {&open, &close}) {
       box->min[axis] -= static_cast<float>(below) + rounding;
@@ -102,7 +102,7 @@ Box3f SegmentParts::exact_box(size_t part, std::span<const int> keys) const {
   Box3f box;
   for (const int key : keys) {
     for (size_t i = 0; i < segments.size(); ++i) {
-      // Most segments lie inside what the first few have spanned.
+      // Most segments lie inside the bounds of the first few.
       const Box3f& hull = this->hull(static_cast<size_t>(key), first + i);
       if (box.intersects(hull.min) && box.intersects(hull.max)) continue;
       box.extendBy(
@@ -130,7 +130,7 @@ ChunkBounds SegmentParts::exact_bounds(int keys) const {
     interpolate_boxes(at_keys, *(bounds.boxes.end() - 2), *(bounds.boxes.end() - 1));
   }
 
-  // Boxes over all keys, or one by one.
+  // One box over all keys, or one per key.
   const size_t boxes_per_cell = keys == 1 ? 1 : motion_keys.size();
   std::vector<Box3f> cells(cells_ * boxes_per_cell);
   for (size_t c = 0; c < cells_; ++c) {

@@ -43,7 +43,7 @@ ThinnedFurProcedural::ThinnedFurProcedural(std::shared_ptr<const CoatDetail> det
       index_(index),
       count_(count) {}
 
-/// Calls `use` with the skin as what may be kept needs it.
+/// Calls `use` with the pose of the skin for the candidates.
 template <class Use>
 auto ThinnedFurProcedural::in_pose(BoundSpan span, const Use& use) const {
   const Groom& groom = detail_->groom();
@@ -103,13 +103,13 @@ StrandScale ThinnedFurProcedural::scale() const {
 }
 
 size_t ThinnedFurProcedural::temporary_bytes() const {
-  // Leaves, before and while they become one batch with fewer points.
+  // The leaves, before and while they are merged to one batch with fewer points.
   const StrandCounts n = counts();
   return (4 * n.points * n.motion_keys + n.attribute_floats) * sizeof(float) +
          n.strands * (sizeof(uint64_t) + sizeof(RootAddress) + (RootDetail::kFloats + 8) * sizeof(float));
 }
 
-/// Of all that is kept of the coat, however it is divided.
+/// Hash of all kept strands of the coat, however it is divided.
 ContentHash ThinnedFurProcedural::coat() const {
   return ContentHasher()
       .add(program_identity())

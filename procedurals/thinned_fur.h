@@ -9,11 +9,11 @@
 
 namespace pelage {
 
-/// A coat with reduced detail in chunks: what is kept of one leaf, or of many that stand beside each other,
-/// up to all of them where the character is far away. What is not kept is never grown.
+/// A coat with reduced detail, in chunks: the strands kept from one leaf, or from many adjacent leaves, up to
+/// all of them for a distant character. Strands that are not kept are never grown.
 class ThinnedFurProcedural final : public Procedural {
  public:
-  /// All leaves of the coat in chunks of about as many strands as its largest leaf has.
+  /// All leaves of the coat, in chunks with about as many strands as its largest leaf.
   static std::vector<std::unique_ptr<Procedural>> divide(std::shared_ptr<const CoatDetail> detail,
                                                          std::shared_ptr<const PosedCharacterSkin> skin);
 

@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// Renders one frame with the integrator of the scene (render.integrator): bounds all chunks, and takes
-/// samples in passes over the whole image (SampleSchedule), so that a picture cancelled at any time is a
-/// valid one of fewer samples.
+/// Renders one frame with the integrator of the scene (render.integrator). Bounds all chunks, then takes
+/// samples in passes over the whole image (SampleSchedule), so that a picture cancelled at any time is valid,
+/// with fewer samples.
 ///
-/// The same scene gives the same film for any number of threads, unless the time limit is met. Adds rays,
-/// strands, rejected samples and stage times to `statistics`. Throws Error; nothing is thrown out of the
-/// render loops.
+/// The same scene gives the same film for any number of threads, unless the time limit is reached. Adds rays,
+/// strands, rejected samples and stage times to `statistics`. Throws Error; exceptions never leave the render
+/// loops directly.
 FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
                          const PathOptions& options = {});
 

@@ -67,7 +67,7 @@ class Loader {
     if (renamed_) rename_old_keys(document, BothNames::kOldNameWins, *renamed_, problems_);
   }
 
-  /// Whether some file could not be read, so that what seems to be missing may stand there.
+  /// Whether some file could not be read, which might contain keys that seem to be missing.
   bool has_holes() const { return has_holes_; }
 
  private:

@@ -17,17 +17,16 @@ struct Override {
   std::string value;
 };
 
-/// "a.b=value" split at its first '='. Throws Error (kArguments) when there is none.
+/// Splits "a.b=value" at its first '='. Throws Error (kArguments) when there is none.
 Override parse_override(const std::string& text);
 
-/// Reads a scene file into a tree of values: `include:` (a file or a list; maps are merged, the including
-/// file wins), then the overrides (they win over all; list items are addressed by index, items that are maps
-/// of one key also by that key: `grooms.under.operators.clump.amount`). Knows no type: what the keys mean is
-/// for schemas.
+/// Reads a scene file into a tree of values. Applies `include:` (a file or a list; maps are merged, the
+/// including file wins), then the overrides, which take precedence over everything. Overrides address list
+/// items by index; items that are maps with one key also by that key: `grooms.under.operators.clump.amount`.
+/// Independent of any types: schemas give keys their meaning.
 ///
-/// Every syntax mistake, duplicate key, anchor, alias and tag is reported with file:line:column, together.
-/// Depth, size and the number of included files are limited; include cycles are errors. Throws Error
-/// (kInput).
+/// Reports every syntax mistake, duplicate key, anchor, alias and tag with file:line:column, together. Depth,
+/// size and the number of included files are limited; include cycles are errors. Throws Error (kInput).
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 /// The keys that had other names before. A document may use the old name; the loader puts the new one in its
@@ -44,12 +43,12 @@ struct RenamedKeys {
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
 
-/// The same from memory; `name` stands for the file in positions, includes are relative to the current
+/// The same from memory; `name` replaces the file name in positions; includes are relative to the current
 /// folder.
 Value parse_document(const std::string& text, const std::string& name);
 
-/// The manual of every key reachable from `root`, or of one table. Throws Error (kArguments) with the nearest
-/// name when there is no such section. Markdown when `markdown`, else plain text.
+/// The manual of every key reachable from `root`, or of one table. Markdown when `markdown`, else plain text.
+/// Throws Error (kArguments) with the nearest name when the section does not exist.
 std::string manual_text(const SchemaInfo& root, const std::string& section = {}, bool markdown = false);
 
 }  // namespace pelage

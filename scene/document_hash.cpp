@@ -7,7 +7,8 @@ namespace pelage {
 
 namespace {
 
-// Every text is preceded by its length, every list and map by its size, so that no two documents read alike.
+// Every text is preceded by its length, every list and map by its size, so that different documents give
+// different texts.
 void append(const std::string& text, std::string& out) { out += std::to_string(text.size()) + ":" + text; }
 
 void append(const Value& value, std::string& out) {

@@ -6,8 +6,8 @@
 
 namespace pelage {
 
-/// Hash of what a document says after includes and overrides: keys and values in their order, without
-/// positions, comments and spelling of white space.
+/// Hash of a document after includes and overrides: keys and values in their order, without positions,
+/// comments and formatting.
 ContentHash document_hash(const Value& document);
 
 }  // namespace pelage

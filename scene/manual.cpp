@@ -20,7 +20,7 @@ void collect(const SchemaInfo& table, Tables& tables) {
   }
 }
 
-// Sections that a name means: tables of that name, else the blocks that stand under keys of that name.
+// Sections for a name: tables of that name, otherwise the blocks under keys of that name.
 Tables find_sections(const Tables& all, const std::string& name) {
   Tables found;
   const auto add = [&](const SchemaInfo* table) {
@@ -61,7 +61,7 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 
 std::string default_of(const KeyInfo& key) { return key.options.required ? "required" : key.default_text; }
 
-// Words of `text` in lines of at most kLineWidth characters that begin with `indent`.
+// Wraps words of `text` to lines of at most kLineWidth characters that start with `indent`.
 std::string wrap(const std::string& text, const std::string& indent) {
   std::string result, line;
   size_t start = 0;
@@ -133,7 +133,7 @@ std::string escape_cell(const std::string& text) {
   return escaped;
 }
 
-// As GitHub makes it from a heading.
+// As GitHub derives it from a heading.
 std::string anchor(std::string name) {
   std::replace(name.begin(), name.end(), ' ', '-');
   return "#" + name;

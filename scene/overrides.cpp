@@ -30,7 +30,7 @@ std::string only_key(const Value& item) {
   return item.is_map() && item.entries().size() == 1 ? item.entries()[0].key : std::string();
 }
 
-// The item of a list that a name means: the item itself for an index, else what stands under its only key.
+// The item of a list for a name: the item itself for an index, otherwise the value under its only key.
 Value* find_item(Value& list, const std::string& name, const SourcePosition& where, Problems& problems) {
   std::vector<Value>& items = list.items();
   size_t index = 0;
@@ -62,7 +62,7 @@ Value* find_item(Value& list, const std::string& name, const SourcePosition& whe
   return nullptr;
 }
 
-// Blocks of a block whose name is near: a path through none of them is more likely a slip than a new block.
+// Sub-blocks with similar names: a path through a missing block is more likely a typo than a new block.
 std::string near_block(const Value& block, const std::string& name) {
   std::vector<std::string> blocks;
   for (const Value::Entry& entry : block.entries()) {
@@ -71,7 +71,7 @@ std::string near_block(const Value& block, const std::string& name) {
   return did_you_mean(name, blocks);
 }
 
-// The value under a name, made when there is none. `leads_on`: more names follow.
+// The value under a name, created if missing. `leads_on`: more names follow.
 Value* find_entry(Value& block, const std::string& name, bool leads_on, const SourcePosition& where,
                   Problems& problems) {
   if (block.is_null()) block = Value::map(where, {});

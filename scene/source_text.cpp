@@ -21,7 +21,7 @@ size_t sequence_length(std::string_view text) {
   if (length == 0 || text.size() < length) return 0;
   if (!std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), is_continuation))
     return 0;
-  // Overlong forms, surrogates and what lies beyond U+10FFFF show in the second byte.
+  // Overlong forms, surrogates and code points beyond U+10FFFF are visible in the second byte.
   const auto second = static_cast<unsigned char>(text[1]);
   if ((lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f)) return 0;
   if ((lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f)) return 0;
@@ -66,7 +66,7 @@ SourcePosition SourceText::position(int line, int byte_column) {
 }
 
 bool SourceText::check(Problems& problems) {
-  int brackets = 0;  // open ones; those in comments and quotes count too, which does no harm at this size
+  int brackets = 0;  // open ones; counting those in comments and quotes too is harmless at this size
   for (size_t i = 0; i < text_.size();) {
     const std::string_view rest = std::string_view(text_).substr(i);
     const size_t length = sequence_length(rest);

@@ -17,10 +17,10 @@
 namespace pelage {
 namespace {
 
-// Deeper than any scene needs, and far from the limits of yaml-cpp's own recursion.
+// Deeper than any scene needs, and far below the limits of yaml-cpp's own recursion.
 constexpr size_t kDeepest = 64;
 
-// Leaves yaml-cpp once the reason has been reported.
+// Thrown to leave yaml-cpp once the reason has been reported.
 struct Stop {};
 
 // Builds values from the events of yaml-cpp's parser, which reports aliases instead of following them.
@@ -56,7 +56,7 @@ class ValueBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     Value null;
-    // The mark of a value that is not there is that of whatever follows, often on the next line.
+    // yaml-cpp's mark of a missing value is that of whatever follows, often on the next line.
     const bool after_key = !open_.empty() && open_.back().has_key;
     null.set_position(after_key ? open_.back().key_position : before(mark));
     place(std::move(null));
@@ -96,7 +96,7 @@ class ValueBuilder final : public YAML::EventHandler {
     problems_.add(at(mark), "tags are not supported (" + quote(tag) + ")");
   }
 
-  // yaml-cpp takes the end of the file for a closing quote.
+  // yaml-cpp accepts the end of the file as a closing quote.
   void check_closed(const YAML::Mark& mark) {
     const std::string& text = source_.text();
     auto i = static_cast<size_t>(std::clamp<long>(mark.pos, 0, static_cast<long>(text.size())));
@@ -114,7 +114,7 @@ class ValueBuilder final : public YAML::EventHandler {
     throw Stop{};
   }
 
-  // End of the text before the mark, blanks left out.
+  // End of the text before the mark, excluding blanks.
   SourcePosition before(const YAML::Mark& mark) {
     if (fixed_) return *fixed_;
     const std::string& text = source_.text();
@@ -189,7 +189,7 @@ class ValueBuilder final : public YAML::EventHandler {
   int documents_ = 0;
 };
 
-// yaml-cpp's wording, where it is obscure, in terms of what to look for.
+// Replaces yaml-cpp's obscure messages by hints on what to look for.
 std::string explain(const std::string& message) {
   struct Wording {
     const char* theirs;

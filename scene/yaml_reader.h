@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// What may be read in all for one scene, over all its files and overrides. Readers count down.
+/// Limits for one scene, over all its files and overrides. Readers count down.
 struct DocumentLimits {
   size_t bytes = size_t(2) << 20;
   size_t values = 100'000;
@@ -17,11 +17,11 @@ struct DocumentLimits {
 };
 
 /// Reads one YAML document into values, without expanding anything: anchors, aliases, tags, merge keys,
-/// duplicate keys and keys that are not names are problems, and so is nesting beyond 64 levels. An empty
-/// document is a null value; text that is not YAML is a problem and nothing at all. Nothing is thrown for
-/// what stands in the text.
+/// duplicate keys and keys that are not names are problems, as is nesting beyond 64 levels. An empty document
+/// is a null value; text that is not YAML adds a problem and returns nothing. Never throws because of the
+/// text.
 ///
-/// `file` is what positions say; with `fixed`, every position is that one instead (text from the command
+/// `file`: file name in positions; with `fixed`, every position is that one instead (text from the command
 /// line).
 std::optional<Value> read_yaml(std::string text, const std::string& file,
                                const std::optional<SourcePosition>& fixed, DocumentLimits& limits,

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// The files that a scene names, apart from poses: meshes, strands, guides, maps and environments. A run that
-/// wrote to one of them would destroy what somebody made.
+/// The files that a scene names, except poses: meshes, strands, guides, maps and environments. Used to refuse
+/// output files that would overwrite them.
 std::vector<std::filesystem::path> asset_files(const SceneDescription& scene);
 
 }  // namespace pelage

@@ -27,7 +27,7 @@ std::shared_ptr<const SurfaceTopology> share(std::shared_ptr<const SurfaceTopolo
   return topology;
 }
 
-// A missing file is a mistake of the scene, at the place that names it.
+// A missing file is an error at the place in the scene that names it.
 void require_file(const std::filesystem::path& file, const SourcePosition& named_at) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
@@ -66,7 +66,7 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
   return skin;
 }
 
-/// Where all strands of the scene are refused for want of memory, that is said before the first is placed.
+/// If the strands of the scene cannot fit the memory limit, fails before the first is placed.
 void require_room_for_strands(const SceneDescription& scene, const Job& job) {
   int64_t kept = 0;
   for (const auto& [name, position, params] : scene.grooms.items) {
@@ -84,7 +84,7 @@ bool only_holes(const SurfaceTopology& topology) {
   return true;
 }
 
-/// A groom whose mistakes have a place: that of the groom where they have none of their own.
+/// Makes a groom; errors without a position get that of the groom.
 std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,
@@ -106,7 +106,7 @@ std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePos
   }
 }
 
-/// What each character holds in a frame, by its index in the scene.
+/// Memory of each character in a frame, by its index in the scene.
 std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& assets) {
   std::vector<int64_t> bytes;
   for (const auto& [name, position, params] : scene.characters.items)

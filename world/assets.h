@@ -17,7 +17,7 @@
 
 namespace pelage {
 
-/// What all frames of a scene share: cages on shared topologies, grooms, materials with their textures.
+/// What all frames of a scene share: cages with shared topologies, grooms, materials with their textures.
 struct Assets {
   struct Skin {
     std::shared_ptr<const LimitSurface> rest;  ///< object space
@@ -30,16 +30,17 @@ struct Assets {
   TextureLibrary textures;
   std::map<std::string, Skin> skins;
   std::map<std::string, std::shared_ptr<const Groom>> grooms;
-  /// Poses that a character's part has of its own, by the name of the character and the index of the part.
+  /// Poses that belong to a single part of a character, by the character's name and the part's index.
   std::map<std::pair<std::string, size_t>, PoseSequence> part_poses;
   std::vector<std::vector<CrowdMember>> crowds;  ///< in the order of the scene
   std::vector<MaterialParams> materials;         ///< in the order of the scene
   std::vector<MemoryCharge> charges;
 };
 
-/// Reads every file that the scene names and makes what does not move: rest surfaces, follicles, prepared
-/// operators, coats with a cache from there; who stands where. Sets the limit of the ledger. Throws Error
-/// (kInput), Error (kMemory) before anything is made that `render.memory` has no room for, Error (kStopped).
+/// Reads every file that the scene names and makes everything that does not move: rest surfaces, follicles,
+/// prepared operators, coats (from their cache where they have one), positions of crowds. Sets the limit of
+/// the ledger. Throws Error (kInput); Error (kMemory) before making anything that does not fit
+/// `render.memory`; Error (kStopped).
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

@@ -6,11 +6,11 @@
 
 namespace pelage {
 
-/// Matrix from a character's object space to world space at a frame, for row vectors (p * M): scale first,
-/// then rotation about x, y, z, then translation.
+/// Matrix from a character's object space to world space at a frame, for row vectors (p * M): scale, then
+/// rotation about x, y, z, then translation.
 M44f character_matrix(const TransformParams& transform, double frame);
 
-/// Whether the character is anywhere else at some other frame.
+/// Whether the transform is animated.
 bool moves(const TransformParams& transform);
 
 }  // namespace pelage

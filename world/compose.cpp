@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one page where everything meets: what the scene describes becomes the world of one frame.
+// Turns the scene description into the world of one frame.
 #include "world/compose.h"
 
 #include <algorithm>
@@ -92,7 +92,7 @@ class Composer {
     }
   }
 
-  /// What sharing a topology saves is measured by not doing it.
+  /// Used to measure the savings of shared topologies.
   std::shared_ptr<const SurfaceTopology> unshared_topology(const std::string& skin) {
     const SkinParams& params = scene_.skins.find(skin)->value;
     auto topology = SurfaceTopology::create(assets_.skins.at(skin).cage, params.scheme, params.boundary,

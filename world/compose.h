@@ -17,8 +17,8 @@ struct World {
   int64_t strands_described = 0;
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
   int64_t characters = 0;           ///< those with a coat
-  int64_t characters_in_frame = 0;  ///< of these, those whose bound meets the camera's view
-  FrameHeader header;               ///< of the EXR; write_frame() adds what rendering gave
+  int64_t characters_in_frame = 0;  ///< of these, those whose bound intersects the camera's view
+  FrameHeader header;               ///< of the EXR; write_frame() adds the results of rendering
   std::vector<MemoryCharge> charges;
 };
 

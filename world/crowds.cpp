@@ -17,7 +17,7 @@ size_t character_index(const SceneDescription& scene, const std::string& name) {
       items.begin());  // load_scene checked that it exists
 }
 
-/// What the animals of a crowd hold in a frame; which prototype each one is comes out even.
+/// Memory of a crowd's animals in a frame, assuming prototypes in equal numbers.
 int64_t bytes_in_frame(const SceneDescription& scene, const CrowdParams& crowd,
                        const std::vector<int64_t>& drawn_bytes) {
   double sum = 0;

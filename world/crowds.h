@@ -9,10 +9,9 @@
 
 namespace pelage {
 
-/// Places the crowds of a scene, one after the other, each clear of those before it. `drawn_bytes`: of each
-/// character of the scene, in its order, what one animal of it will hold in a frame. Before any is placed,
-/// each crowd is checked against `render.memory`, with what drawing it will take. Throws what make_crowd()
-/// throws.
+/// Places the crowds of a scene, one after the other, each avoiding those before it. `drawn_bytes`: memory of
+/// one animal in a frame, for each character of the scene in order. Before placing any animal, checks each
+/// crowd against `render.memory`, including the memory for rendering it. Throws what make_crowd() throws.
 std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
                                                   const std::vector<int64_t>& drawn_bytes, const Job& job);
 

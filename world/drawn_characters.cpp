@@ -27,7 +27,7 @@ M44f to_world(const DrawnCharacter& character, double time) {
   return scale_of(*character.member) * own * placement_of(*character.member);
 }
 
-/// What moves one part of a character.
+/// Motion of one part of a character.
 struct Motion {
   const DrawnCharacter& character;
   const std::vector<V3f>& rest;
@@ -73,8 +73,8 @@ std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, cons
 
 int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
                               const CharacterParams& character) {
-  constexpr size_t kHeap = 16;  // of each block, what the heap keeps and rounds
-  constexpr size_t kName = 48;  // of a name too long for its string
+  constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
+  constexpr size_t kName = 48;  // per name that is too long for a string's internal buffer
   const CrowdMember anyone;
   const DrawnCharacter animal{name, name, &character, anyone};
   size_t bytes = sizeof(CrowdMember) + sizeof(DrawnCharacter) + 2 * kName;

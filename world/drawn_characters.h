@@ -11,32 +11,33 @@
 
 namespace pelage {
 
-/// A character that stands in the picture: by itself, or as one animal of a crowd.
+/// A visible character: on its own, or as an animal of a crowd.
 struct DrawnCharacter {
   std::string name;       ///< "rat", or "colony.17" for an animal of a crowd, counted from 0
-  std::string prototype;  ///< the character of the scene that it is
+  std::string prototype;  ///< the character of the scene that it is an instance of
   const CharacterParams* params = nullptr;
   std::optional<CrowdMember> member;
 };
 
-/// All of a scene, characters first, then crowds, in the order of the scene. Refers to `scene`.
+/// All visible characters of a scene, first single ones, then crowds, in the order of the scene. Refers to
+/// `scene`.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
-/// What one animal of a character holds in a frame, grown hair and whole poses apart: its names, its posed
-/// cages and what describes its coats.
+/// Memory of one animal of a character in a frame, without grown hair and whole poses: its names, its posed
+/// cages and the description of its coats.
 int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
                               const CharacterParams& character);
 
 /// Whether hair grows on it.
 bool has_coat(const DrawnCharacter& character);
 
-/// Which of them keep every hair: `count` of those with a coat, one from the middle of each of as many equal
-/// parts of their order by distance from `eye`, so that near and far ones are sampled alike; all when there
-/// are fewer.
+/// Selects the characters that keep all their hair: `count` of those with a coat, one from the middle of each
+/// of as many equal parts of their order by distance from `eye`, so that near and far ones are sampled
+/// equally; all when there are fewer.
 std::vector<bool> full_detail_characters(const std::vector<DrawnCharacter>& characters, int64_t count,
                                          const V3f& eye, double frame);
 
-/// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval when
+/// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval if
 /// something moves while the shutter is open.
 CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame);

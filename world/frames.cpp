@@ -18,7 +18,7 @@ constexpr int kMaxDigits = 9;
               quote(text) + ": " + why + "; frames are written as 1-48, 1-48x2 or 1,5,9-12");
 }
 
-// Takes an integer from the front of `rest`.
+// Parses an integer at the front of `rest`.
 bool take_integer(std::string_view& rest, int& number) {
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (error != std::errc()) return false;
@@ -49,13 +49,13 @@ Range take_range(std::string_view& rest, const std::string& text) {
   return range;
 }
 
-// A place for the frame number at the start of `text`: how long it is, and to how many digits it is filled.
+// A placeholder for the frame number at the start of `text`: its length, and the number of digits to pad to.
 struct Place {
   size_t length = 0;
   int digits = 0;
 };
 
-// Digits of a width at text[i..]; moves i behind them.
+// Parses the digits of a width at text[i..]; advances i past them.
 int take_width(std::string_view text, size_t& i) {
   int width = 0;
   while (i < text.size() && text[i] >= '0' && text[i] <= '9' && width <= kMaxDigits) {
@@ -118,7 +118,7 @@ std::string print_frames(const FrameList& list) {
     size_t end = i + 1;
     const int step = end < frames.size() ? frames[end] - frames[i] : 0;
     while (step > 0 && end < frames.size() && frames[end] - frames[end - 1] == step) ++end;
-    if (end - i < 3) end = i + 1;  // two numbers are no range
+    if (end - i < 3) end = i + 1;  // two numbers are not a range
     text += (i ? "," : "") + std::to_string(frames[i]);
     if (end - i > 1) text += "-" + std::to_string(frames[end - 1]);
     if (end - i > 1 && step > 1) text += "x" + std::to_string(step);

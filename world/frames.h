@@ -10,16 +10,16 @@
 
 namespace pelage {
 
-/// Frames to render, in the order given, each once.
+/// Frames to render, in the given order, without duplicates.
 struct FrameList {
   std::vector<int> frames{1};
 };
 
-/// Reads "7", "1-48", "1-48x2", "-5--1" and lists of these, "1,5,9-12". Throws Error (kArguments) saying what
-/// is wrong, also for more than 1,000,000 frames.
+/// Reads "7", "1-48", "1-48x2", "-5--1" and lists of these, "1,5,9-12". Throws Error (kArguments) with the
+/// reason, also for more than 1,000,000 frames.
 FrameList parse_frames(const std::string& text);
 
-/// The shortest text that parse_frames reads back: "1-12".
+/// The shortest text from which parse_frames reads the same list: "1-12".
 std::string print_frames(const FrameList& list);
 
 /// `frames:` of a scene: a number or a text for parse_frames.
@@ -30,11 +30,11 @@ struct ValueReader<FrameList> {
   static std::string print(const FrameList& list) { return print_frames(list); }
 };
 
-/// Whether a file name has a place for the frame number: %04d, %d, ####, $F4, $F, <F4> or <F>.
+/// Whether a file name contains a placeholder for the frame number: %04d, %d, ####, $F4, $F, <F4> or <F>.
 bool has_frame_pattern(std::string_view name);
 
-/// The name with the frame number in all such places; `%%` becomes `%`. Negative numbers keep their digits:
-/// %04d of -3 is -0003.
+/// The name with the frame number in place of all placeholders; `%%` becomes `%`. Negative numbers keep their
+/// digits: %04d of -3 is -0003.
 std::string frame_file_name(std::string_view name, int frame);
 
 /// Throws Error (kArguments) when several frames would be written to one file.

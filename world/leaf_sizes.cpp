@@ -14,17 +14,17 @@ namespace pelage {
 namespace {
 
 constexpr uint64_t kChunksInMemory = 400, kChunksOfFileInMemory = 32;
-constexpr uint64_t kMinChunksInMemory = 8;      // where all fits; growing one takes twice its bytes
-constexpr uint64_t kBytesPerControlPoint = 80;  // of a chunk; half of them are its tree
+constexpr uint64_t kMinChunksInMemory = 8;      // if everything fits; growing a chunk needs twice its bytes
+constexpr uint64_t kBytesPerControlPoint = 80;  // of a chunk; half of it for its tree
 constexpr int kStep = 4;
 // Boxes and indices of chunks must not outweigh them.
 constexpr uint64_t kFewestStrands = 125, kFewestPoints = 8000, kFewestLongStrands = 8;
 constexpr int kStoredStrands = 500;  // some 250 KiB
 
-/// What a coat is before it is made.
+/// Size of a coat before it is made.
 struct Extent {
-  std::optional<uint64_t> strands;  // nothing where it goes by the area of the skin
-  uint64_t points = 0;              // of a strand
+  std::optional<uint64_t> strands;  // empty when it depends on the area of the skin
+  uint64_t points = 0;              // per strand
 };
 
 Extent extent_of(const GroomParams& groom) {
@@ -37,7 +37,7 @@ Extent extent_of(const GroomParams& groom) {
     extent.strands = file.strands_in_file();
     extent.points = file.points_in_file() / std::max<uint64_t>(1, *extent.strands) + 1;
   } catch (const Error&) {
-    // Groom::create() reports what is wrong with the file.
+    // Groom::create() reports problems with the file.
   }
   return extent;
 }
@@ -46,7 +46,7 @@ uint64_t bytes_of(uint64_t strands, uint64_t points) { return strands * points *
 
 using Extents = std::map<std::string, Extent>;  // by coat
 
-/// Of all characters in full detail; nothing where a coat does not say how many strands it has.
+/// Bytes of all characters in full detail; empty when a coat does not state its number of strands.
 std::optional<uint64_t> bytes_of_fur(const SceneDescription& scene, const Extents& extents) {
   uint64_t bytes = 0;
   for (const auto& [name, position, character] : scene.characters.items) {

@@ -5,13 +5,14 @@
 
 namespace pelage {
 
-/// Says for each coat how many strands are grown together, where the scene does not. Where all fur of the
-/// scene may not fit the memory limit, so few that some hundred chunks do: rays that are scattered go
-/// everywhere and need little wherever they go. Of strands of a file, finding which costs more the fewer are
-/// read together, some dozen. Where all fits, so few that growing some of them does too. In few steps, so
-/// that limits that are not far from each other share boxes that are kept; where trees are kept
-/// (render.bvh.file), whatever the limit, so that one file serves all. Coats with a cache, whose files belong
-/// to one size, stay as they are; so do strands of a file where trees are kept. Changes no pixel.
+/// Sets how many strands of each coat are grown together, where the scene does not. If not all fur of the
+/// scene may fit the memory limit, leaves are so small that some hundred chunks fit: scattered rays go
+/// everywhere and need little in each place. For strands of a file it is some dozen chunks, because finding
+/// strands costs more the fewer are read together. If everything fits, leaves are so small that the temporary
+/// memory for growing some of them fits too. Sizes have few steps, so that similar limits share stored boxes;
+/// with stored trees (render.bvh.file) the size does not depend on the limit, so that one file serves all.
+/// Coats with a cache, whose files are for one size, are unchanged, as are strands of a file with stored
+/// trees. Does not affect pixels.
 void choose_leaf_sizes(SceneDescription& scene);
 
 }  // namespace pelage

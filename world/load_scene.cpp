@@ -52,7 +52,7 @@ void check_part(const SceneDescription& scene, const PartParams& part, Problems&
   }
 }
 
-// By file in the order of first mention, then by line: what a reader of the files expects.
+// By file in the order of first mention, then by line, as a reader expects.
 std::vector<Problem> in_file_order(std::vector<Problem> problems) {
   std::map<std::string, size_t> files;
   for (const Problem& problem : problems) files.try_emplace(problem.position.file, files.size());
@@ -65,7 +65,7 @@ std::vector<Problem> in_file_order(std::vector<Problem> problems) {
   return problems;
 }
 
-// Whether a groom says how many strands it has, once.
+// Checks that a groom states its number of strands exactly once.
 void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
   const bool counted = groom.value.strands || groom.value.density,
              from_file = !groom.value.strands_file.empty();
@@ -79,10 +79,11 @@ void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
   }
 }
 
-// Names that reach layers of a picture, which it would cut at a zero byte or at its longest, and mix then.
+// Checks names that are used in layers of a picture, which would truncate them at a zero byte or at its max
+// length and then confuse them.
 void check_layer_name(const std::string& what, const std::string& name, const SourcePosition& position,
                       Problems& problems) {
-  constexpr size_t kLongestName = kLongestExrName - 15;  // which is enough for ".secondary.R"
+  constexpr size_t kLongestName = kLongestExrName - 15;  // enough for ".secondary.R"
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (name.size() > kLongestName) {
     problems.add(position, fmt::format("the name of {} {} has {} bytes; the limit is {}", what, quote(name),
@@ -147,7 +148,7 @@ void check_filter_samples(const SceneDescription& scene, const Value& document, 
 }
 
 void collect_files(const Value& value, std::set<std::string>& files) {
-  if (value.position().line > 0) files.insert(value.position().file);  // a flag has no lines
+  if (value.position().line > 0) files.insert(value.position().file);  // flags have no lines
   if (value.is_map()) {
     for (const Value::Entry& entry : value.entries()) collect_files(entry.value, files);
   }
@@ -156,7 +157,7 @@ void collect_files(const Value& value, std::set<std::string>& files) {
   }
 }
 
-/// The scene file, and those from which some value has come.
+/// The scene file, and those that provided a value.
 std::vector<std::filesystem::path> files_of(const Value& document, const std::filesystem::path& path) {
   std::set<std::string> files{path.string()};
   collect_files(document, files);
@@ -173,7 +174,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     const ContentHash hash = document_hash(*document);
     scene.files = files_of(*document, path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
-    // A name that is missing because its block could not be read would be blamed twice.
+    // A name missing because its block could not be read would be reported twice.
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);

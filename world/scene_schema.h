@@ -41,14 +41,14 @@ struct UnitsParams {
   static const Schema<UnitsParams>& schema();
 };
 
-/// A posed cage per frame, or per some frames. Character frame `first` shows pose `first`; between poses,
-/// positions blend linearly.
+/// A posed cage per frame, or one every few frames. Character frame `first` shows pose `first`; positions are
+/// interpolated linearly between poses.
 struct PosesParams {
-  AssetPath files;  ///< with a place for the number, see world/frames.h
+  AssetPath files;  ///< with a placeholder for the number, see world/frames.h
   int first = 1;
   int count = 1;
   double frames_per_pose = 1;
-  bool cycle = false;  ///< pose first + count is pose first again; else the ends hold
+  bool cycle = false;  ///< pose first + count is pose first again; else the first and last poses hold
   static const Schema<PosesParams>& schema();
 };
 
@@ -82,11 +82,11 @@ struct CharacterParams {
   TransformParams transform;
   float frame_offset = 0;     ///< added to the frame to get the pose
   Footprint footprint;        ///< discs (x, z, radius) on the ground, of an animal of scale 1
-  std::optional<bool> drawn;  ///< none: unless a crowd is made of it
+  std::optional<bool> drawn;  ///< empty: unless a crowd uses it
   static const Schema<CharacterParams>& schema();
 };
 
-/// All that a scene file says.
+/// Everything that a scene file states.
 struct SceneDescription {
   FormatVersion pelage;
   UnitsParams units;
@@ -101,18 +101,18 @@ struct SceneDescription {
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< of the document with its overrides, not of the files it names
-  /// That the document was read from: the scene, what it includes; and what these name, see asset_files().
+  /// Every file the document was read from: the scene and its includes. Files that these name: asset_files().
   std::vector<std::filesystem::path> files;
   std::vector<Problem> warnings;  ///< old names of keys in the document, each with the new one
   static const Schema<SceneDescription>& schema();
 };
 
-/// Adds a problem for every name that nothing in the scene has, with the nearest one, and for what cannot go
-/// together: a groom on a part with another skin, a fibre material on a skin.
+/// Adds a problem for every unknown name, with the nearest known one, and for every invalid combination: a
+/// groom on a part with another skin, a fibre material on a skin.
 void check_references(const SceneDescription& scene, Problems& problems);
 
-/// Reads a scene and checks all of it that needs no other file. Throws Error (kInput) with every mistake, in
-/// file order.
+/// Reads a scene and checks everything that can be checked without other files. Throws Error (kInput) with
+/// all mistakes, in file order.
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 }  // namespace pelage

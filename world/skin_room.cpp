@@ -20,7 +20,7 @@ int64_t needed(const ControlMesh& cage, SubdivisionScheme scheme) {
 }  // namespace
 
 MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, const Job& job) {
-  constexpr int64_t kOfFile = 4;  // the text and three times as much in arrays that grow by doubling
+  constexpr int64_t kOfFile = 4;  // the text, and three times as much in arrays that grow by doubling
   std::error_code unknown;
   const auto bytes = static_cast<int64_t>(std::filesystem::file_size(params.mesh.path, unknown));
   return reserve(job.ledger, MemoryTag::kSkins, unknown ? 0 : kOfFile * bytes,

@@ -9,11 +9,11 @@
 
 namespace pelage {
 
-/// Charges what reading the mesh of a skin takes; throws Error (kMemory) when there is no room for it.
+/// Charges the memory for reading the mesh of a skin; throws Error (kMemory) when it does not fit.
 MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, const Job& job);
 
-/// Charges the cage and what making a skin of `cage` takes at most; throws Error (kMemory) when there is no
-/// room for it. Warns of a mesh with so many faces that subdividing it is hardly meant.
+/// Charges the cage and the max memory for making a skin of `cage`; throws Error (kMemory) when it does not
+/// fit. Warns of a mesh with so many faces that it was probably not meant to be subdivided.
 MemoryCharge reserve_skin(const std::string& name, const SkinParams& params, const ControlMesh& cage,
                           const Job& job);
 

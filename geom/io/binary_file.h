@@ -8,18 +8,19 @@
 
 namespace pelage {
 
-/// A little-endian binary file read in pieces, whose every claim about itself is checked against its length
-/// first. Thread safety: const members may be called from any thread.
+/// A little-endian binary file, read in pieces. All sizes it claims are checked against its length first.
+/// Thread safety: const members may be called from any thread.
 class BinaryFile {
  public:
-  /// Throws Error (kInput) when the file is missing, empty, no regular file or a git-lfs pointer.
+  /// Throws Error (kInput) when the file is missing, empty, not a regular file, or a git-lfs pointer.
   explicit BinaryFile(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
   uint64_t size() const { return size_; }
-  /// Throws Error (kInput) naming `what` unless `count` values of `value_size` bytes lie at `offset`.
+  /// Throws Error (kInput) naming `what` unless the file has `count` values of `value_size` bytes at
+  /// `offset`.
   void require(uint64_t offset, uint64_t count, uint64_t value_size, const std::string& what) const;
-  /// Reads what `require` has found to be there.
+  /// Reads values that `require` has validated.
   void read(uint64_t offset, std::span<float> values) const {
     read_bytes(offset, values.data(), values.size_bytes());
   }

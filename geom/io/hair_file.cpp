@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "geom/io/strand_formats.h"
 
-// Cem Yuksel's .hair format [CyHair]: a header of 128 bytes, then, as far as the bits of `arrays` say so,
+// Cem Yuksel's .hair format [CyHair]: a header of 128 bytes, then the arrays flagged in the bits of `arrays`:
 // segments per strand (uint16), points (3 floats), thickness (float, a diameter), transparency (float) and
 // colour (3 floats), the last four per point.
 
@@ -29,7 +29,7 @@ static_assert(sizeof(Header) == 128 && std::is_trivially_copyable_v<Header>);
 enum Array : uint32_t { kSegments = 1, kPoints = 2, kThickness = 4, kTransparency = 8, kColor = 16 };
 constexpr uint32_t kAllArrays = 31;
 
-/// Where each array begins; every one has been found to lie within the file.
+/// Offset of each array; all are validated to lie within the file.
 struct Layout {
   uint64_t segments = 0, points = 0, thickness = 0, transparency = 0, color = 0;
 };
@@ -64,7 +64,7 @@ Layout check_layout(const BinaryFile& file, const Header& header) {
   return layout;
 }
 
-/// Empty where all strands have as many segments as the header says.
+/// Empty where all strands have the number of segments in the header.
 std::vector<uint32_t> read_first_points(const BinaryFile& file, const Header& header, const Layout& layout) {
   const uint64_t strands = header.strand_count;
   const auto check_total = [&](uint64_t points) {
@@ -74,7 +74,7 @@ std::vector<uint32_t> read_first_points(const BinaryFile& file, const Header& he
   };
   std::vector<uint32_t> first;
   if (!layout.segments) {
-    // Strands that only the header knows of: each of them has a point.
+    // Strands that only the header declares: each of them must have a point.
     check_total(strands * (uint64_t(header.default_segments) + 1));
     return first;
   }
@@ -91,7 +91,7 @@ std::vector<uint32_t> read_first_points(const BinaryFile& file, const Header& he
   return first;
 }
 
-/// Segments of every strand when all have equally many, else -1.
+/// Number of segments per strand if all have the same number, else -1.
 int64_t common_segments(const Strands& strands) {
   for (size_t s = 1; s < strands.strand_count(); ++s) {
     if (strands.strand_points(s) != strands.strand_points(0)) return -1;

@@ -15,7 +15,7 @@ namespace pelage {
 
 namespace {
 
-// Keeps counts of corners within 32 bits: the shortest corner takes two bytes.
+// Keeps the number of corners within 32 bits: the shortest corner takes two bytes.
 constexpr size_t kLongestFile = size_t(2) << 30;
 constexpr uint32_t kNoUv = std::numeric_limits<uint32_t>::max();
 constexpr int64_t kMaxElements = std::numeric_limits<int32_t>::max();
@@ -28,7 +28,7 @@ V3f read_position(ObjScanner& scanner) {
   return p;
 }
 
-/// Reads one file. References to what may stand further down are checked when all of it is known.
+/// Reads one file. References to later elements are checked at the end.
 class ObjReader {
  public:
   ObjReader(std::string_view text, const std::string& file, const Job* job)

@@ -13,7 +13,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// Length of a backslash that joins two lines, with its line end; 0 when there is none at `at`.
+/// Length of a backslash that joins two lines, including the line end; 0 when there is none at `at`.
 size_t continuation(std::string_view text, size_t at) {
   if (text[at] != '\\') return 0;
   if (at + 1 < text.size() && text[at + 1] == '\n') return 2;

@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// Walks over the statements of an OBJ file, token by token, and remembers where it is. A statement ends with
-/// its line, unless the line ends with a backslash; `#` starts a comment. Problems are collected, and beyond
-/// the first `kMaxProblems` only counted, so that a damaged file of gigabytes gives a page of errors.
+/// Scans the statements of an OBJ file, token by token, with their positions. A statement ends with its line,
+/// unless the line ends with a backslash; `#` starts a comment. Problems are collected; after the first
+/// `kMaxProblems` they are only counted, so that a damaged file of gigabytes causes a page of errors.
 class ObjScanner {
  public:
   static constexpr size_t kMaxProblems = 20;
@@ -19,21 +19,21 @@ class ObjScanner {
   /// `text` must outlive the scanner; `file` names it in problems.
   ObjScanner(std::string_view text, std::string file);
 
-  /// Goes to the next statement and gives its keyword; false at the end of the file.
+  /// Advances to the next statement and returns its keyword; false at the end of the file.
   bool next_statement(std::string_view& keyword);
-  /// Next token of this statement; false when there is none left.
+  /// The next token of this statement; false when there is none left.
   bool next_token(std::string_view& token);
-  /// What is left of this statement, without blanks around it.
+  /// The rest of this statement, without surrounding blanks.
   std::string_view rest();
 
   /// Line of the token that was read last, from 1.
   int line() const { return token_line_; }
 
-  /// The next token as a finite number or a whole number. Reports what is wrong, `what` saying what was
-  /// expected.
+  /// Reads the next token as a finite number or an integer. Reports problems; `what`: the expected value, for
+  /// the message.
   bool number(const char* what, float& value);
   bool integer(const char* what, int64_t& value);
-  /// The same for a token, or a part of one, that has been read already.
+  /// The same for a token, or a part of one, that has already been read.
   bool parse_number(std::string_view token, const char* what, float& value);
   bool parse_integer(std::string_view token, const char* what, int64_t& value);
 
@@ -58,7 +58,7 @@ class ObjScanner {
   Problems problems_{kMaxProblems};
 };
 
-/// A piece of a file as it may stand in a message: short, printable, in quotes.
+/// An excerpt of a file for messages: short, printable, quoted.
 std::string quoted_excerpt(std::string_view text);
 
 }  // namespace pelage

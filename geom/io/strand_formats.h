@@ -11,14 +11,14 @@
 #include "geom/io/binary_file.h"
 #include "geom/io/strand_file.h"
 
-// What the formats behind geom/io/strand_file.h have in common.
+// Common parts of the formats behind geom/io/strand_file.h.
 
 namespace pelage {
 
 class AtomicFile;
 
-/// Reads of a file that come one shortly behind the other, in several arrays at a time: what is small is
-/// taken from a window of the file that was read at once. Of one thread.
+/// Buffers reads at slightly increasing offsets in several arrays of a file: small reads are served from
+/// windows that were read at once. For use by one thread.
 class FileWindows {
  public:
   explicit FileWindows(const BinaryFile& file) : file_(file) {}
@@ -28,7 +28,7 @@ class FileWindows {
   }
 
  private:
-  // Larger blocks of the heap would be pages of their own (base/heap.h), made and dropped for every read.
+  // Larger heap blocks would have their own pages (base/heap.h), allocated and freed for every read.
   static constexpr size_t kBytes = 12 << 10, kWindows = 6;
   struct Window {
     uint64_t begin = 0, used = 0;
@@ -39,19 +39,19 @@ class FileWindows {
   uint64_t uses_ = 0;
 };
 
-/// The strands of an opened file as they are in it, not repaired. Everything the file says about itself was
-/// checked against its length. Thread safety: const members may be called from any thread.
+/// The strands of an opened file as stored, not repaired. All sizes that the file claims have been checked
+/// against its length. Thread safety: const members may be called from any thread.
 class RawStrands {
  public:
   RawStrands(const std::filesystem::path& path, const char* format_name, const StrandReadOptions& options)
       : file(path), format(format_name), basis(options.basis.value_or(CurveBasis::kPinnedBSpline)) {}
   virtual ~RawStrands() = default;
 
-  /// Where the points of a strand, or of what comes after the last, begin.
+  /// Index of the first point of a strand, or of the end after the last strand.
   virtual uint32_t first_point(size_t strand) const = 0;
-  /// Appends the strands [begin, end) to arrays that empty() made; their ids are their places in the file.
+  /// Appends the strands [begin, end) to arrays made by empty(); their ids are their indices in the file.
   virtual void append(size_t begin, size_t end, FileWindows& windows, StrandArrays& arrays) const = 0;
-  /// What is held to find strands.
+  /// Memory of the index of strands.
   virtual size_t bytes() const { return 0; }
 
   StrandArrays empty() const {
@@ -67,27 +67,27 @@ class RawStrands {
   const CurveBasis basis;
   size_t strand_count = 0;
   bool has_widths = false;
-  float file_width = 0;                     ///< of files without widths of their own, where they say; else 0
-  std::vector<StrandAttribute> attributes;  ///< without values, but for constants
+  float file_width = 0;                     ///< of files without widths per point, if stated; else 0
+  std::vector<StrandAttribute> attributes;  ///< without values, except for constants
 };
 
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
-/// By the ending of the name. Throws Error (kInput).
+/// Selects the format by the file name's ending. Throws Error (kInput).
 std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands);
 void write_tfx(const std::filesystem::path& path, const Strands& strands);
 
-/// Reads `count` records of `components` floats at `offset` into every fourth float and its followers of
-/// `points` (x, y, z, r), a few thousand at a time.
+/// Reads `count` records of `components` floats at `offset`, a few thousand at a time. Writes them with a
+/// stride of four floats to `points` (x, y, z, r).
 void read_point_parts(FileWindows& file, uint64_t offset, int components, size_t count, float* points);
 
-/// Calls `value(point, out)` for every point of every strand and writes the `components` floats it gives.
+/// Calls `value(point, out)` for every point of every strand and writes the resulting `components` floats.
 void write_per_point(AtomicFile& file, const Strands& strands, int components,
                      const std::function<void(size_t strand, size_t point, float* out)>& value);
 
-/// Value of an attribute at a point of a strand; `components` many, missing ones filled with the last.
+/// Value of an attribute at a point of a strand; missing components are filled with the last one.
 void attribute_at(const StrandAttribute& attribute, size_t strand, size_t point, int components, float* out);
 
 /// Appends the ids and first points of strands [begin, end) of a file.
@@ -96,10 +96,10 @@ void append_places(const RawStrands& raw, size_t begin, size_t end, StrandArrays
 /// Appends `count` records of an attribute's floats at `offset`.
 void append_values(FileWindows& file, uint64_t offset, size_t count, StrandAttribute& attribute);
 
-/// The width of strands without one: what the file or the options say, else 0.
+/// The width of strands without one, as stated by the file or the options; else 0.
 float stated_width(const RawStrands& raw, const StrandReadOptions& options);
 
-/// Repairs what was read, with `width` for strands that have none.
+/// Repairs the strands that were read, with `width` for strands that have none.
 StrandFile finish_strands(StrandArrays arrays, const RawStrands& raw, float width);
 
 /// Throws Error (kFailed): "path: why".

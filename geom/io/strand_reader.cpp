@@ -14,8 +14,8 @@ namespace {
 
 constexpr uint32_t kPointsAtOnce = 1 << 16;
 
-/// Calls visit(begin, end) for ranges of strands that cover the file, each of some ten thousand points or of
-/// one strand.
+/// Calls visit(begin, end) for ranges of strands that cover the file, each with some ten thousand points or a
+/// single strand.
 template <class Visit>
 void for_each_range(const RawStrands& raw, const Job& job, const Visit& visit) {
   for (size_t begin = 0; begin < raw.strand_count;) {
@@ -40,7 +40,7 @@ size_t StrandReader::points_in_file() const { return raw_->first_point(raw_->str
 CurveBasis StrandReader::basis() const { return raw_->basis; }
 std::span<const StrandAttribute> StrandReader::attributes() const { return raw_->attributes; }
 
-/// A width that nobody states depends on the size of all strands together.
+/// An unstated width depends on the size of all strands together.
 void StrandReader::find_width(const Job& job) {
   if (width_ > 0) return;
   Box3f box;
@@ -87,7 +87,7 @@ void StrandReader::fail_changed() const {
   throw Error(ErrorKind::kFailed, {raw_->file.path().string(), 0, 0}, "changed while it was in use");
 }
 
-/// Keeps where usable strands are and how long, as soon as it is not the same for all.
+/// Records positions and lengths of usable strands, once these are not the same for all.
 void StrandReader::note(const Strands& strands) {
   for (size_t s = 0; s < strands.strand_count(); ++s, ++count_) {
     const auto place = static_cast<uint32_t>(strands.id(s));

@@ -7,7 +7,7 @@
 namespace pelage {
 namespace {
 
-/// Squares of larger coordinates would overflow in everything that follows.
+/// Squares of larger coordinates would overflow in later computations.
 constexpr float kFarthest = 1e18f;
 
 bool is_usable(const float* p) {
@@ -74,7 +74,7 @@ class Repair {
     return differs;
   }
 
-  /// Copies the strand behind those kept so far; false when too few points are left of it.
+  /// Copies the strand after those kept so far; false when it has too few points left.
   bool keep(size_t strand, uint32_t begin, uint32_t end, size_t kept) {
     const uint32_t first = points_;
     bool repaired = false, has_width = false;

@@ -7,22 +7,20 @@
 
 namespace pelage {
 
-/// Makes raw arrays of a file (one motion key, no roots) fit to be Strands, in place:
+/// Repairs raw arrays of a file (one motion key, no roots) in place, so that they are valid Strands:
 /// - strands with a point that is not finite or farther than 1e18 from the origin, with fewer points than
-/// their basis
-///   needs, or without extent are dropped; the ids of the others stay;
-/// - points equal to the one before are removed, except where the basis gives them a meaning (kBSpline);
-/// - radii that are negative or no numbers become 0; strands without any width, and all strands when
-/// `default_width` is
-///   for a file without widths, get half of `default_width`.
-/// Values of attributes that are not finite become 0.
+/// their basis needs, or without extent are dropped; the ids of the others stay;
+/// - points equal to the previous one are removed, except where the basis gives them a meaning (kBSpline);
+/// - negative and NaN radii become 0; strands without any width, and all strands when `default_width` is for
+/// a file without widths, get half of `default_width`.
+/// Non-finite attribute values become 0.
 StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 
-/// What a width is taken for where neither the file nor the reader says: a thousandth of the largest side of
-/// the box of all points.
+/// Assumed width when neither the file nor the reader states one: a thousandth of the largest side of the box
+/// of all points.
 float assumed_width(const StrandArrays& arrays);
 float assumed_width(const Box3f& box);
-/// Of the points that is made of: those that are finite and not absurdly far away.
+/// The points used for that box: those that are finite and not absurdly far away.
 Box3f usable_box(const StrandArrays& arrays);
 
 }  // namespace pelage

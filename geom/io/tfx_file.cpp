@@ -6,9 +6,9 @@
 #include "base/file.h"
 #include "geom/io/strand_formats.h"
 
-// TressFX 4's .tfx format [TressFX]: a header of 160 bytes that holds byte offsets of the arrays, 0 for those
-// that are absent. All strands have equally many points; a point's fourth float is 0 where the simulation
-// holds it, else 1.
+// TressFX 4's .tfx format [TressFX]: a header of 160 bytes with the byte offsets of the arrays, 0 for missing
+// ones. All strands have the same number of points; a point's fourth float is 0 if the simulation fixes it,
+// else 1.
 
 namespace pelage {
 namespace {

@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-/// The materials of a scene under each model in turn.
+/// The materials of a scene, converted to each model in turn.
 class ModelMaterials {
  public:
   ModelMaterials(std::vector<MaterialParams> materials, std::filesystem::path tables, const Job& job)
@@ -60,7 +60,7 @@ class ModelMaterials {
   MaterialParams white_;
 };
 
-/// Adds what there is to say of one model. Throws Error (kStopped) once the user wants to stop.
+/// Adds the results of one model. Throws Error (kStopped) once the user wants to stop.
 void compare_model(const std::string& model, const SceneDescription& scene, const Job& job,
                    ModelMaterials& materials, FrameComparer& comparer, Comparison& comparison) {
   materials.choose(model);
@@ -89,7 +89,7 @@ Comparison compare_models(const SceneDescription& scene, Assets& assets,
   ModelMaterials materials(assets.materials, folder / "tables", job);
   FrameComparer comparer(scene, assets, job);
   Comparison comparison;
-  // The furnace and the single fibre count as a picture each.
+  // The furnace and the single fibre count as one picture each.
   const ProgressStage stage(job.progress, "compare",
                             static_cast<double>(models.size() * (kLightSides.size() + 2)));
   try {

@@ -17,7 +17,7 @@ namespace {
 
 bool is_fur(const Film& film, int x, int y) { return film.surface(x, y).id != kNoStrand; }
 
-/// Stages of single frames would flood the display: it shows the comparison as one.
+/// Stages of single frames would flood the display: shows the comparison as one.
 class QuietProgress final : public Progress {
  public:
   explicit QuietProgress(Progress& outer) : outer_(outer) {}
@@ -85,7 +85,7 @@ void measure(const Film& a, const Film& b, ComparedFrame& frame) {
 FrameComparer::FrameComparer(const SceneDescription& scene, Assets& assets, const Job& job)
     : scene_(scene), assets_(assets), job_(job) {
   scene_.render.samples = std::max(1, (scene.render.samples + 1) / 2);
-  // The same pixels as with boxes, and no pass over all fur to find them.
+  // The same pixels as with boxes, without a pass over all fur to compute them.
   scene_.render.bounds = BoundingStrategy::kNone;
 }
 

@@ -14,7 +14,7 @@
 namespace pelage {
 namespace {
 
-/// CPU seconds after which all frames of one light are compared: the median of what they took.
+/// CPU seconds at which all frames of one light are compared: the median of their times.
 std::map<std::string, double> equal_times(const std::vector<ComparedFrame>& frames) {
   std::map<std::string, std::vector<double>> seconds;
   for (const ComparedFrame& frame : frames) seconds[frame.light].push_back(frame.cpu_s);
@@ -100,7 +100,7 @@ BarPlot bars(const std::vector<ComparedFrame>& frames, const char* label, Quanti
   return plot;
 }
 
-/// "darkest, 0.91 times as bright as that of chiang", without the ratio where it is chiang itself.
+/// "darkest, 0.91 times as bright as that of chiang", without the ratio for chiang itself.
 std::string extreme_text(const char* what, const ComparedFrame& frame, const ComparedFrame& chiang) {
   if (frame.model == chiang.model) return what;
   return fmt::format("{}, {:.2f} times as bright as that of {}", what, frame.luminance / chiang.luminance,

@@ -10,18 +10,18 @@
 
 namespace pelage {
 
-/// All that comparing the models of a scene's fur found; less where the user stopped it.
+/// Result of comparing the fibre models on a scene; incomplete when the user stopped it.
 struct Comparison {
   std::vector<ComparedFrame> frames;
   std::vector<SingleFibre> fibres;
   std::map<std::string, double> furnace;  ///< by model: see FrameComparer::furnace
 };
 
-/// The report without the facts of the machine: tables of cost, noise and energy, the contact sheet and the
-/// single fibres. `comparison` has frames.
+/// The report without the facts about the machine: tables of cost, noise and energy, the contact sheet and
+/// the single fibres. `comparison` must have frames.
 Report comparison_report(const Comparison& comparison, const SceneDescription& scene);
 
-/// What a plotter wants: of every fibre the energies around and along it, of the model and traced, as JSON.
+/// Data for plots, as JSON: for every fibre the energies around and along it, of the model and traced.
 std::string fibres_json(const std::vector<SingleFibre>& fibres);
 
 }  // namespace pelage

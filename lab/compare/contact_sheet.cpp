@@ -15,7 +15,7 @@ namespace {
 constexpr Canvas::Color kGround = {28, 28, 28}, kInk = {235, 235, 235}, kFaint = {150, 150, 150},
                         kEmpty = {60, 60, 60};
 constexpr int kGap = 6, kHeader = 34, kLabel = 26;
-constexpr double kTitle = 16, kSmall = 12;  // sizes of fonts
+constexpr double kTitle = 16, kSmall = 12;  // font sizes
 
 int place_of(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
@@ -26,7 +26,7 @@ int place_of(std::vector<std::string>& names, const std::string& name) {
 std::string title_of(const std::string& light) { return "light: " + light; }
 std::string figures_of(const ComparedFrame& frame) { return fmt::format("{:.1f} CPU s", frame.cpu_s); }
 
-/// How wide a column must be so that no title reaches into the next.
+/// Width of a column such that titles do not overlap.
 int titles_width(const std::vector<ComparedFrame>& frames) {
   double width = 0;
   for (const ComparedFrame& frame : frames) {

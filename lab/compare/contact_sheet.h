@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// A row per model and a column per light, in the order in which each first occurs, with their names. Frames
-/// that are missing leave a grey field. All pictures have one size. Not empty.
+/// A row per model and a column per light, in order of first occurrence, with their names. Missing frames are
+/// grey. All pictures must have the same size; there must be at least one.
 Picture contact_sheet(const std::vector<ComparedFrame>& frames);
 
 }  // namespace pelage

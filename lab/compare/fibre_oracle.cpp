@@ -14,14 +14,14 @@ namespace {
 
 constexpr int kPathsPerCheck = 256;  // paths
 constexpr float kDegree = kPi / 180;
-/// About as rough as the physical models by default.
+/// About the default roughness of the physical models.
 constexpr float kOpaqueBlur = 10 * kDegree;
 
 float middle_offset(int i, int count) {
   return 2 * (static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 1;
 }
 
-/// What a clear fibre gives back of light across it.
+/// Albedo of a clear fibre for light perpendicular to it.
 float clear_albedo(float absorption) {
   constexpr int kPaths = 4000;
   double sum = 0;

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Where a fibre sends the light that comes from one inclination, evenly over its width: energy by cells of
-/// sin(theta_i) and phi. One colour channel.
+/// Distribution of the light that a fibre scatters, for light from one inclination, uniform over its width:
+/// energy by cells of sin(theta_i) and phi. One colour channel.
 class FibreHistogram {
  public:
   static constexpr int kSines = 40, kAzimuths = 72;
@@ -30,22 +30,21 @@ class FibreHistogram {
   std::vector<double> cells_ = std::vector<double>(static_cast<size_t>(kSines) * kAzimuths);
 };
 
-/// How far two distributions are from each other, whatever their totals: 0 where they are the same, 1 where
-/// one is nothing wherever the other is something.
+/// Distance of two normalised distributions: 0 when equal, 1 when disjoint.
 double total_variation(const std::vector<double>& a, const std::vector<double>& b);
 
-/// A fibre as a model has it, and the same fibre to be traced: what the model is held against.
+/// The parameters of a model, and the matching fibre for brute-force tracing, its reference.
 struct FibreOracle {
-  /// The model without tilt, its absorption given.
+  /// The model without tilt, with given absorption.
   MaterialParams params;
   TracedFibre traced;
   float absorption = 0;  ///< of cortex and medulla, per radius
-  /// Blur of what a smooth fibre would do, as rough as the model says: deviations in radians for R, TT and
-  /// all that is reflected inside. Light that a medulla scattered is not blurred.
+  /// Blur of a smooth fibre's scattering that matches the model's roughness: deviations in radians for R, TT
+  /// and all internal reflections. Light scattered by the medulla is not blurred.
   std::array<float, 3> longitudinal{}, azimuthal{};
-  bool opaque = false;  ///< light cannot go through the model: the traced fibre is what it stands for
+  bool opaque = false;  ///< opaque model: the traced fibre is the one that it approximates
 
-  /// `look` is called now and then meanwhile, and may throw.
+  /// `look` is called from time to time meanwhile, and may throw.
   using Look = std::function<void()>;
   FibreHistogram model(
       float theta_o, int samples, const Look& look = [] {}) const;
@@ -53,14 +52,14 @@ struct FibreOracle {
       float theta_o, int paths, const Look& look = [] {}) const;
 };
 
-/// For a fibre material that absorbs so much per radius, or an opaque one that is as bright as a clear fibre
-/// which does. `params` must be of a model for fibres.
+/// For a fibre material with this absorption per radius, or an opaque one as bright as a clear fibre with it.
+/// `params` must belong to a fibre model.
 FibreOracle fibre_oracle(const MaterialParams& params, float absorption);
 
-/// Names of all models for fibres, from the simplest to the most involved, as scenes have them.
+/// Scene names of all fibre models, from the simplest to the most complex.
 const std::vector<std::string>& fibre_model_names();
-/// A fibre material of the model of this name, with the colour and opacity of another; that itself where it
-/// is of that model. The name must be one of fibre_model_names().
+/// A fibre material of the named model, with the colour and opacity of `other`; `other` itself if it already
+/// has that model. The name must be one of fibre_model_names().
 MaterialParams with_fibre_model(const MaterialParams& other, const std::string& model);
 
 }  // namespace pelage

@@ -34,7 +34,7 @@ Named<LightParams> lights_from(const LightSide& side, const CameraParams& camera
   SphereLightParams lamp;
   lamp.position = Keyed<V3f>(target + distance * direction);
   lamp.radius = distance * std::sin(kHalfWidth);
-  // A wall of radiance 1 is lit by pi L sin^2.
+  // The irradiance on a wall facing the lamp is pi L sin^2; a white wall's radiance is that over pi.
   lamp.radiance = Rgb(kWall / (std::sin(kHalfWidth) * std::sin(kHalfWidth)));
   Named<LightParams> lights;
   lights.items.push_back({side.name, {}, lamp});

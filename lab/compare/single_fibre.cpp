@@ -21,9 +21,9 @@ constexpr int kCellSize = 5, kLeft = 150, kTop = 44, kGap = 16, kPolar = 232;
 constexpr int kMapWidth = kCellSize * FibreHistogram::kAzimuths,
               kMapHeight = kCellSize * FibreHistogram::kSines;
 constexpr int kRow = kPolar + kGap;
-constexpr double kTitle = 16, kSmall = 12;  // sizes of fonts
+constexpr double kTitle = 16, kSmall = 12;  // font sizes
 
-/// Black through blue, red and yellow to white, lightness rising evenly.
+/// Black through blue, red and yellow to white, with uniformly increasing lightness.
 Canvas::Color heat(double x) {
   constexpr std::array<std::array<double, 3>, 6> kKnots = {
       {{0, 0, 0}, {40, 20, 110}, {140, 30, 125}, {225, 80, 70}, {250, 180, 60}, {255, 255, 220}}};
@@ -37,7 +37,7 @@ Canvas::Color heat(double x) {
   return color;
 }
 
-/// Energies of cells over four decades below the whole spread evenly over thirty cells.
+/// Energies of cells, over four decades below the total energy distributed evenly over thirty cells.
 void draw_map(Canvas& canvas, int x, int y, const FibreHistogram& histogram) {
   constexpr double kMax = 1.0 / 30, kDecades = 4;
   for (int i = 0; i < FibreHistogram::kSines; ++i) {
@@ -63,7 +63,7 @@ void draw_polar(Canvas& canvas, int x, int y, const SingleFibre& fibre) {
   canvas.line(cx - radius, cy, cx + radius, cy, kPale);
   canvas.line(cx, cy - radius, cx, cy + radius, kPale);
   const auto draw = [&](const std::vector<double>& values, Canvas::Color color) {
-    // Roots, so that faint lobes can be seen beside the bright one behind the fibre.
+    // Square roots, so that weak lobes are visible beside the bright one behind the fibre.
     const auto point = [&](size_t k) {
       const size_t i = k % values.size();
       const double phi =

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// One fibre of a model beside the same fibre traced by brute force, lit from kInclination and seen from
-/// everywhere, no part of its width more than another.
+/// One fibre of a model beside the same fibre traced by brute force, lit from kInclination uniformly over its
+/// width and seen from everywhere.
 struct SingleFibre {
   static constexpr float kInclination = 0.4f;  ///< radians
   static constexpr float kAbsorption = 0.2f;   ///< per radius
@@ -19,18 +19,18 @@ struct SingleFibre {
   std::string model;
   bool opaque = false;
   FibreHistogram by_model, traced;
-  double white_across = 0;   ///< what a fibre that absorbs nothing gives back of light across it,
+  double white_across = 0;   ///< albedo of a fibre without absorption for light across it,
   double white_slanted = 0;  ///< and of light from 1 radian
 
   double azimuth_distance() const;      ///< total variation of the distributions around the fibre
   double inclination_distance() const;  ///< and along it
 };
 
-/// The same for any number of threads.
+/// The result is the same for any number of threads.
 SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material, const Job& job);
 
-/// A row per fibre: the map of sin(theta_i) and phi of the model, that of the traced light, and both around
-/// the fibre as a polar plot.
+/// A row per fibre: map of sin(theta_i) and phi of the model, that of the traced light, and both around the
+/// fibre as a polar plot.
 Picture single_fibre_sheet(const std::vector<SingleFibre>& fibres);
 
 }  // namespace pelage

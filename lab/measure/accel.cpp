@@ -15,7 +15,7 @@ namespace pelage {
 namespace {
 
 constexpr double kShares[] = {1, 0.5, 0.25, 0.1, 0.05};
-constexpr const char* kInCore = "fur-64";  // what paging is compared with
+constexpr const char* kInCore = "fur-64";  // the baseline for paging
 constexpr const char* kYardstick = "embree-compact";
 
 constexpr const char* kMethod =
@@ -83,7 +83,7 @@ const Outcome* find(const std::vector<Outcome>& outcomes, const std::string& id)
   return nullptr;
 }
 
-/// How many times less CPU time a kind of rays takes than with the yardstick.
+/// Factor by which CPU time for a kind of rays is smaller than the yardstick's.
 RatioSpread cpu_speed(const Outcome& yardstick, const Outcome& o, const std::string& kind) {
   return ratio_of(yardstick, o, "kinds." + kind + ".cpu_s");
 }
@@ -163,7 +163,7 @@ std::vector<std::string> keys(std::vector<std::string> first, const std::string&
   return first;
 }
 
-/// Rows of variants whose ids begin so.
+/// Rows of variants whose ids start with `prefix`.
 Table rows_of(Table table, const std::vector<Outcome>& outcomes, const std::string& prefix) {
   std::vector<std::vector<Cell>> rows;
   for (size_t i = 0; i < outcomes.size(); ++i) {
@@ -173,7 +173,7 @@ Table rows_of(Table table, const std::vector<Outcome>& outcomes, const std::stri
   return table;
 }
 
-// CPU time: a machine that does other things too slows the clock, not the processor's share.
+// CPU time, because other work on the machine affects wall time more.
 std::string abstract_of(const std::vector<Outcome>& outcomes, double segments) {
   const Outcome *fur = find(outcomes, kInCore), *embree = find(outcomes, kYardstick);
   if (!fur || !embree || !fur->succeeded() || !embree->succeeded()) return "";
@@ -202,7 +202,7 @@ std::string abstract_of(const std::vector<Outcome>& outcomes, double segments) {
 
 Measured measure_accel(const SceneDescription& scene, const MeasureSetup& given, Progress& progress) {
   MeasureSetup setup = given;
-  // Times per thread are what is compared.
+  // Times per thread are compared.
   bool threads_given = false;
   for (const std::string& argument : setup.arguments) threads_given |= argument == "--threads";
   if (!threads_given) setup.arguments.insert(setup.arguments.end(), {"--threads", "1"});

@@ -44,12 +44,12 @@ const Outcome* find(const std::vector<Outcome>& outcomes, const std::string& id)
 }
 
 std::string change(double after, double before) {
-  constexpr double kTooFew = 50;  // for a percentage to say anything
+  constexpr double kTooFew = 50;  // min count for a meaningful percentage
   return before >= kTooFew ? fmt::format(" ({:+.0f} %)", 100 * (after / before - 1)) : "";
 }
 
-// "1.03 times the CPU time", or why that number says nothing: times of a machine that does other things too
-// differ from run to run.
+// "1.03 times the CPU time", or why the number is not meaningful: other work on the machine makes times vary
+// between runs.
 std::string time_text(const Outcome& a, const Outcome& b, const std::string& path, const char* name) {
   const bool known = a.runs.size() > 1 && b.runs.size() > 1;
   const bool apart = !known || a.min(path) > b.max(path) || a.max(path) < b.min(path);
@@ -57,7 +57,7 @@ std::string time_text(const Outcome& a, const Outcome& b, const std::string& pat
                      apart ? "" : " (less than the difference between runs of one strategy)");
 }
 
-// Says where the scene leaves bounds nothing to save.
+// Reports scenes in which bounds cannot save anything.
 std::string touched_text(const Outcome& exact, const Outcome& conservative) {
   const auto all = [](const Outcome& o) { return o.number("chunks_touched") >= 0.95 * o.number("chunks"); };
   if (!all(exact) || !all(conservative)) return "";
@@ -65,13 +65,13 @@ std::string touched_text(const Outcome& exact, const Outcome& conservative) {
          "everything is in the frame. Tighter bounds then save no growth, only box tests and visits. ";
 }
 
-// Other work on the machine slows runs down, and not all of them alike.
+// Other work on the machine slows down runs, and not equally.
 std::string load_text(const std::vector<Outcome>& outcomes) {
   double max = 0;
   for (const Outcome& outcome : outcomes) {
     for (const VariantRun& run : outcome.runs) max = std::max(max, run.load);
   }
-  // A run that follows another finds that one's threads in the mean of the last minute.
+  // The load average of a run includes threads of the run before it.
   if (max <= 1.5 * available_processors()) return "";
   return fmt::format(
       " The machine was busy with other work (a load of {:.0f} on {} processors): counts and memory are "
@@ -79,7 +79,7 @@ std::string load_text(const std::vector<Outcome>& outcomes) {
       max, available_processors());
 }
 
-// What the numbers say of the strategies that the question is about.
+// Findings about the strategies in question.
 std::string findings(const std::vector<Outcome>& outcomes) {
   const bool counted = std::any_of(outcomes.begin(), outcomes.end(),
                                    [](const Outcome& o) { return o.number("chunk_visits") > 0; });
@@ -176,7 +176,7 @@ Section work_section(const Table& data, const std::vector<Outcome>& outcomes) {
            in_vain, area, tests, visits}};
 }
 
-// Strategies that hold the same geometry in memory look the same over time.
+// Strategies with the same geometry in memory look the same over time.
 std::vector<Outcome> plotted(const std::vector<Outcome>& outcomes) {
   std::vector<Outcome> result;
   for (const Outcome& outcome : outcomes) {
@@ -187,7 +187,7 @@ std::vector<Outcome> plotted(const std::vector<Outcome>& outcomes) {
   return result;
 }
 
-// `all` and `results`: with the rows whose savings are switched off, which the ledger must explain too.
+// `all` and `results` include the rows with switched-off optimisations, which the ledger must explain too.
 Section memory_section(const Table& data, const std::vector<Outcome>& outcomes, const Table& all,
                        const BoundsResults& results) {
   std::vector<std::string> memory = keys_with(data, "memory_");

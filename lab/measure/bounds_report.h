@@ -10,14 +10,14 @@
 
 namespace pelage {
 
-/// What `measure bounds` found: outcomes in the order in which they are shown, the strategies first, then one
-/// per switch, and how the picture of each differs from that of none (nothing where one of the two failed).
+/// Results of `measure bounds`: outcomes in display order, first the strategies, then one per switch; and the
+/// difference of each picture from that of strategy none (empty where one of them failed).
 struct BoundsResults {
   std::vector<Outcome> outcomes;
-  size_t strategies = 0;  ///< of the outcomes, the first
+  size_t strategies = 0;  ///< number of outcomes, from the first, that are strategies
   std::vector<std::optional<PictureDifference>> differences;
-  std::optional<Picture> picture;  ///< of none
-  bool cached = false;             ///< the scene's grooms have caches
+  std::optional<Picture> picture;  ///< of strategy none
+  bool cached = false;             ///< whether the scene's grooms have caches
   int repeat = 1;
 };
 

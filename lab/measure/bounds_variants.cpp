@@ -15,7 +15,7 @@ class VariantMaker {
 
   bool cached() const { return caches_.any(); }
 
-  /// A run of a strategy whose caches are in the folder of that name.
+  /// A run of a strategy with its caches in the folder of that name.
   Variant make(const std::string& id, const std::string& title, const std::string& strategy,
                const std::string& folder) const {
     Variant variant{id, title, "render", {"--set", "render.bounds=" + strategy, "--sample-memory", "0.01"}};
@@ -48,7 +48,7 @@ BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup
   for (const std::string strategy : kTwoPass) {
     if (maker.cached()) v.run.push_back(maker.cold(strategy));
   }
-  // What needs no boxes shares the offsets that the cold run of exact left.
+  // Variants without boxes reuse the offsets of the cold run of exact.
   v.run.push_back(maker.make(kNoneId, "none", "none", kExactId));
   for (const std::string factor : kUserFactors) {
     Variant variant = maker.make("user-" + factor, "user × " + factor, "user", kExactId);

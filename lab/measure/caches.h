@@ -9,17 +9,17 @@
 
 namespace pelage {
 
-/// Folders of an experiment's own in place of those that the grooms of a scene keep their caches in, so that
-/// it decides what is cold and what is warm, and leaves the scene's caches alone.
+/// Replaces the cache folders of a scene's grooms by folders of the experiment, which thus controls what is
+/// cold and warm, and leaves the scene's caches unchanged.
 class CacheFolders {
  public:
   CacheFolders(const SceneDescription& scene, const std::filesystem::path& folder);
 
   /// Whether any groom has a cache.
   bool any() const { return !grooms_.empty(); }
-  /// --set arguments that send every cache to the folder of this name.
+  /// --set arguments that redirect every cache to the folder of this name.
   std::vector<std::string> arguments(const std::string& name) const;
-  /// Forgets what the folder of this name holds.
+  /// Deletes the contents of the folder of this name.
   void clear(const std::string& name) const;
   std::filesystem::path folder(const std::string& name) const { return folder_ / name; }
 
@@ -31,7 +31,7 @@ class CacheFolders {
 /// A YAML string.
 std::string yaml_quoted(const std::string& text);
 
-/// Bytes of all files below a folder whose names begin so; 0 when there are none.
+/// Total size of all files below a folder whose names start with `prefix`; 0 when there are none.
 double folder_bytes(const std::filesystem::path& folder, const std::string& prefix = "");
 
 }  // namespace pelage

@@ -9,35 +9,35 @@
 
 namespace pelage {
 
-/// What an experiment found.
+/// Result of an experiment.
 struct Measured {
-  Report report;  ///< without the facts of the machine and the runs, which are the same for all experiments
+  Report report;  ///< without the facts about machine and runs, which all experiments share
   std::vector<Outcome> outcomes;
 };
 
-// One function per experiment. Each runs its variants until all are done or progress says that the user
-// wants to stop, and reports on those that were run. Throws Error (kFailed) when the folder cannot be
-// written.
+// One function per experiment. Each runs its variants until all are done or `progress` requests a stop, and
+// reports on the variants that were run. Throws Error (kFailed) when the folder cannot be written.
 
-/// What fur is traced with: memory, time to build, speed for several kinds of rays, tests, page faults.
+/// Acceleration structures for fur: memory, build time, speed for several kinds of rays, tests, page faults.
 Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
 /// Every bounding strategy: time, memory, growth, box tests, lost pixels.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Memory budgets from the whole of what the chunks take down to what is refused.
+/// Memory budgets, from the size of all chunks down to one that is refused.
 Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Growth with and without the operator cache, and by operator.
+/// Time to grow with and without the operator cache, and per operator.
 Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Plain and adaptive sampling: samples at equal error, and bias.
+/// Uniform and adaptive sampling: samples at equal error, and bias.
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Level of detail against full detail: what full detail of a whole crowd would take, from `full_detail` of
-/// its characters (`crowd`); hairs, working set, time and error by idea, distance, blur and focus (`detail`);
-/// distances by qualities (`wedge`); what changes in the picture while the camera of the detail moves
-/// (`dolly`). `parts`: of kLodParts, or empty for all.
+/// Reduced detail against full detail. `parts`: names from kLodParts, or empty for all:
+///   crowd   cost of the whole crowd in full detail, extrapolated from `full_detail` characters
+///   detail  hairs, working set, time and error by criterion, distance, blur and focus
+///   wedge   distances by qualities
+///   dolly   change of the picture while the LOD camera moves
 Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
                      const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);
 

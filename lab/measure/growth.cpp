@@ -31,11 +31,11 @@ constexpr const char* kEdits =
     "storing its layer included. Follicles are kept. The last operator leaves the offsets instead of a "
     "layer.";
 
-// Three ways to grow one groom: its operators, its operators and a new cache, its cache.
+// Three ways to grow one groom: from its operators, from its operators with a new cache, from its cache.
 struct GroomVariants {
   std::string groom;
   std::filesystem::path cache;
-  std::filesystem::path strands;  // that the warm one writes
+  std::filesystem::path strands;  // written by the warm variant
   std::vector<Variant> variants;  // uncached, or uncached, cold and warm
   const GroomParams* params = nullptr;
   std::vector<GrowthEdit> edits;  // of a groom with a cache
@@ -63,12 +63,12 @@ GroomVariants variants_of(const SceneDescription& scene, const Named<GroomParams
     return v.variants.emplace_back(std::move(made));
   };
   add("uncached", item.value.cache ? "=null" : "");
-  if (!item.value.cache) return v;  // what to freeze only the scene can say
+  if (!item.value.cache) return v;  // only the scene can define what to freeze
   const std::string cached = ".directory=" + yaml_quoted(v.cache.string());
   Variant& cold = add("cold", cached);
   v.edits = growth_edits(name, item.value, v.cache, cold);
   cold.prepare = [cache = v.cache] { std::filesystem::remove_all(cache); };
-  // A groom that is cached is grown only for a file.
+  // A cached groom is grown only for a file.
   Variant& warm = add("warm", cached);
   warm.arguments.insert(warm.arguments.end(), {"-o", v.strands.string()});
   return v;

@@ -18,7 +18,7 @@ size_t frozen_count(const GroomParams& params) {
   return end;
 }
 
-/// The files of the states behind each frozen operator but the last; empty when the cache was not filled.
+/// The files with the states after each frozen operator except the last; empty when the cache was not filled.
 std::vector<std::filesystem::path> layers_of(const std::string& groom, const GroomParams& params,
                                              const std::filesystem::path& cache) {
   const ContentStore store(cache);
@@ -31,7 +31,7 @@ std::vector<std::filesystem::path> layers_of(const std::string& groom, const Gro
   return layers;
 }
 
-/// As after an edit of operator `place`: what it and those behind it made is not there.
+/// Simulates an edit of operator `place`: removes its results and those of the operators after it.
 void remove_cached_from(size_t place, const std::string& groom, const GroomParams& params,
                         const std::filesystem::path& cache) {
   const auto layers = layers_of(groom, params, cache);

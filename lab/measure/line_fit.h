@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// A straight line through points (x, y) by least squares, and how far what it says can be trusted.
+/// A least-squares line through points (x, y), with the data for its standard error.
 struct LineFit {
   double at_zero = 0, slope = 0;
   double residual = 0;  ///< standard deviation of the points about the line (of n - 2); 0 for two points
@@ -15,11 +15,12 @@ struct LineFit {
   double count = 0;
 
   double at(double x) const { return at_zero + slope * x; }
-  /// Standard error of at(x), from the residual alone: it knows nothing of a line that bends further on.
+  /// Standard error of at(x), from the residual alone: does not account for a curve that bends beyond the
+  /// points.
   double error_at(double x) const;
 };
 
-/// Not-a-numbers for fewer than two different x, or where a y is not a number.
+/// NaNs for fewer than two different x, or when a y is NaN.
 LineFit fit_line(std::span<const std::pair<double, double>> points);
 
 }  // namespace pelage

@@ -18,14 +18,14 @@ namespace pelage {
 namespace {
 
 constexpr const char *kCrowd = "crowd", *kDetail = "detail", *kWedge = "wedge", *kDolly = "dolly";
-// Parts of a dolly: where the camera of the detail stands, of its distance, and how much farther in the next
-// frame, as in a dolly over 230 frames to ten times as far.
+// Parts of a dolly: positions of the LOD camera, relative to its distance, and the increment per frame, as in
+// a dolly over 230 frames to ten times the distance.
 constexpr double kDollyPlaces[] = {0.25, 0.5, 1};
 constexpr double kDollyStep = 1.01;
 constexpr int kSheetWidth = 320;
 constexpr size_t kSheetRows = 3;
 
-/// What one variant is held against, by index of its outcomes; -1: it is full detail itself.
+/// The reference of a variant, as index of its outcomes; -1: it is full detail itself.
 struct Row {
   std::string part;
   int full = -1;
@@ -65,7 +65,7 @@ class LodSweep {
         progress_(progress),
         runner_(setup, progress, count()) {}
 
-  /// Until one does not succeed.
+  /// Runs until one fails.
   void run() {
     if (wanted(kCrowd) && !scene_.crowds.items.empty()) {
       crowd.run([&](const Variant& variant) {
@@ -123,7 +123,7 @@ class LodSweep {
   void move_away() {
     for (const double place : kDollyPlaces) {
       for (const double factor : {place, place * kDollyStep}) {
-        // One seed: what does not change in the scene does not change in the picture.
+        // One seed: where the scene does not change, the picture does not either.
         const Variant variant =
             variant_of(dolly_id(factor), fmt::format("dolly, {:.5g} of the distance", factor),
                        detail_camera(scene_, static_cast<float>(factor)), true, 0);
@@ -138,7 +138,7 @@ class LodSweep {
     return outcomes.back().succeeded() && !progress_.cancelled();
   }
 
-  /// Two pictures of seeds of their own, so that noise does not count. The index of the first, or -1.
+  /// Two pictures with their own seeds, so that noise cancels. Returns the index of the first, or -1.
   int add_pair(const LodPlace& place, const LodSetting& setting, int full) {
     const auto first = static_cast<int>(outcomes.size());
     for (const char* which : {"a", "b"}) {

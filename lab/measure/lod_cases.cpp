@@ -26,7 +26,7 @@ Settings from(const SceneDescription& scene, float factor) {
   return view;
 }
 
-/// Of all ideas, those that are on.
+/// Enables the given criteria.
 Settings ideas(bool motion, bool focus, bool back_facing, bool contrast, bool points) {
   const auto word = [](bool on) { return std::string(on ? "true" : "false"); };
   return {{"render.lod.motion_blur", word(motion)},

@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// Scene keys and their values, as --set wants them.
+/// Scene keys and their values, in the form of --set.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
-/// A way to see the scene.
+/// A view of the scene.
 struct LodPlace {
   std::string id, title;
   Settings view;  ///< camera
@@ -24,16 +24,16 @@ struct LodSetting {
   bool reduced = true;  ///< false: full detail
 };
 
-/// The scene as it is, and from further away, with more blur, with a wider lens; the first is the scene.
+/// The scene as it is, and from farther away, with more blur, with a wider lens; the first is the scene.
 std::vector<LodPlace> lod_places(const SceneDescription& scene);
-/// Everything, then idea by idea.
+/// All criteria, then each separately.
 std::vector<LodSetting> lod_ideas();
-/// Full detail of coats that differ in their seeds alone: what it costs that other hairs are seen.
+/// Full detail with coats that differ only in their seeds: the difference caused by seeing other hairs.
 LodSetting other_hairs(const SceneDescription& scene);
-/// From coarse to fine: `quality`.
+/// Values of `quality`, from coarse to fine.
 std::vector<LodSetting> lod_qualities();
-/// The camera of the detail stands still at `factor` of its distance, with the shutter and the lens of the
-/// camera of the picture, which stays.
+/// Moves the LOD camera to `factor` of its distance, with the shutter and lens of the picture's camera, which
+/// does not move.
 Settings detail_camera(const SceneDescription& scene, float factor);
 
 }  // namespace pelage

@@ -13,12 +13,12 @@
 namespace pelage {
 namespace {
 
-constexpr double kMaxWhole = 128;  // characters: with more, full detail of all may be hours
+constexpr double kMaxWhole = 128;  // characters; for more, full detail of all may take hours
 constexpr const char* kFolder = "lod";
-constexpr const char* kBoxes = "boxes-";  // files of boxes in a cache begin so
+constexpr const char* kBoxes = "boxes-";  // prefix of the files of boxes in a cache
 constexpr const char* kMemory = "render.memory=";
 
-/// Boxes are measured in every run, as they are for every new frame; what operators did is kept.
+/// Boxes are measured in every run, as for every new frame; results of operators are kept.
 void remove_boxes(const std::filesystem::path& folder) {
   std::error_code failure;
   std::vector<std::filesystem::path> old;

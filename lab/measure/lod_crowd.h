@@ -12,26 +12,26 @@
 
 namespace pelage {
 
-/// What full detail of a whole crowd takes, without rendering it: some of its characters keep every hair
-/// while the others stand around them with reduced detail, and hide of them what they would hide. What each
-/// more takes is a line, which is followed to all. A crowd of few characters is rendered in full too: then it
-/// is seen how far that is wrong.
+/// Estimates the cost of full detail for a whole crowd without rendering it. Some of its characters keep all
+/// their hair, while the others surround and occlude them with reduced detail. The cost per additional
+/// character is a line, which is extrapolated to all. A crowd of few characters is also rendered in full,
+/// which shows the error of the extrapolation.
 class LodCrowd {
  public:
-  /// `characters`: how many keep every hair, a run each.
+  /// `characters`: numbers of characters with all their hair, one run each.
   LodCrowd(const SceneDescription& scene, const MeasureSetup& setup, std::vector<int> characters);
 
-  /// Variants that are run at most.
+  /// Max number of variants.
   size_t max_variants() const { return characters_.size() + 3; }
-  /// Runs them; `run` returns null where one did not succeed.
+  /// Runs them; `run` returns null for a failed one.
   void run(const std::function<const Outcome*(const Variant&)>& run);
 
-  /// Nothing to say where less than two runs succeeded, or no scene has so many characters.
+  /// False when less than two runs succeeded, or the scene has too few characters.
   bool known() const { return points_.size() > 1; }
   /// One sentence.
   std::string abstract() const;
   Section section() const;
-  /// Rows of the extrapolation, and of its standard error, for the table of all outcomes.
+  /// Rows with the extrapolation and its standard error, for the table of all outcomes.
   void add_rows(Table& data) const;
 
  private:
@@ -48,8 +48,8 @@ class LodCrowd {
   std::vector<std::string> arguments_;
   double all_ = 0;  // characters with a coat
   std::vector<Outcome> points_;
-  std::vector<double> full_detail_;  // of each of these
-  std::vector<Outcome> whole_;       // all in full: one, or none
+  std::vector<double> full_detail_;  // the number for each point
+  std::vector<Outcome> whole_;       // all in full: one or none
 };
 
 }  // namespace pelage

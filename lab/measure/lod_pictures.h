@@ -10,23 +10,23 @@
 
 namespace pelage {
 
-/// How much two pictures of one camera and one seed differ: of the luminance, relative to its mean over
+/// Difference of two pictures with one camera and one seed: in luminance, relative to the mean luminance of
 /// pixels with alpha.
 struct PictureChange {
-  double largest = NAN, rms = NAN;  ///< of pixels
-  double largest_block = NAN;       ///< of means over kChangeBlock^2 pixels: what is more than noise
+  double largest = NAN, rms = NAN;  ///< over pixels
+  double largest_block = NAN;       ///< over means of kChangeBlock^2 pixels, which average out noise
 };
 constexpr int kChangeBlock = 8;
-/// Not-a-number when a file cannot be read.
+/// NaN when a file cannot be read.
 PictureChange change_between(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Pictures of equal size as one, `columns` beside each other, each made smaller until it is at most
-/// `max_width` wide. Nothing when one is missing or of another size.
+/// Combines pictures of equal size, `columns` per row, each reduced until it is at most `max_width` wide.
+/// Empty when one is missing or has another size.
 std::optional<Picture> picture_sheet(const std::vector<std::filesystem::path>& files, size_t columns,
                                      int max_width, const std::string& caption);
 
-/// The layer `lod` in colours: from blue, every strand, over green to red, a hundredth of them; black where
-/// there is nothing. Nothing without the layer.
+/// The layer `lod` in false colours: from blue, every strand, through green to red, one in a hundred; black
+/// where there is nothing. Empty without the layer.
 std::optional<Picture> detail_picture(const std::filesystem::path& file);
 
 }  // namespace pelage

@@ -11,7 +11,8 @@ using Rows = std::vector<std::vector<double>>;
 constexpr size_t kSeconds = 0, kAnonymous = 1, kFile = 2, kFirstTag = 3;
 constexpr size_t kMaxPoints = 250;  // more cannot be seen
 
-// At most kMaxPoints rows: of neighbours, the one with the most memory, so that no peak is lost.
+// At most kMaxPoints rows: of each group of neighbours, the one with the most memory, so that no peak is
+// lost.
 Rows thinned(const Rows& rows) {
   if (rows.size() <= kMaxPoints) return rows;
   Rows result;

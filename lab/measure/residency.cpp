@@ -16,13 +16,13 @@
 namespace pelage {
 namespace {
 
-// Shares of the peak chunk bytes; those below the third row are tried until one is refused.
+// Fractions of the peak chunk bytes; those after the third row are tried until one is refused.
 constexpr double kShares[] = {1, 0.5, 0.25, 0.1, 0.05, 0.03};
 constexpr double kSmallShares[] = {0.02, 0.01, 0.005, 0.0025, 0.001};
 constexpr const char* kUnlimited = "1T";
 
 struct Budget {
-  double bytes = NAN;  // not-a-number: no limit
+  double bytes = NAN;  // NaN: no limit
   double share = NAN;  // of the chunks
 };
 
@@ -30,7 +30,8 @@ Variant limited(const std::string& id, const std::string& title, const std::stri
   return {id, title, "render", {"--set", "render.memory=" + memory, "--sample-memory", "0.01"}};
 }
 
-/// As large as the scene's own limit has them, in all rows: otherwise chunks would follow the row's.
+/// Fixed to the sizes for the scene's own limit, in all rows: otherwise chunks would depend on the row's
+/// limit.
 std::vector<std::string> same_chunks(const SceneDescription& scene) {
   std::vector<std::string> arguments;
   for (const auto& [name, position, groom] : scene.grooms.items) {
@@ -51,7 +52,7 @@ double min_bytes(const Outcome& refused) {
   return begin < end ? std::stod(text.substr(begin, end - begin)) * (1 << 20) : NAN;
 }
 
-// Beside the chunks, at most this much of the budget was taken at any time.
+// Max memory of the budget used by anything but chunks.
 double fixed_bytes(const Outcome& unlimited) {
   double bytes = 0;
   for (const char* tag : {"film", "skins", "operator_cache", "reflection_cache"}) {
@@ -85,13 +86,13 @@ class Sweep {
           {bytes, share});
     };
     for (const double share : kShares) {
-      if (!done() && !outcomes.back().timed_out()) try_share(share);  // less memory would take longer still
+      if (!done() && !outcomes.back().timed_out()) try_share(share);  // less memory would take even longer
     }
     for (const double share : kSmallShares) {
       if (!done() && outcomes.back().succeeded()) try_share(share);
     }
     if (done() || !outcomes.back().refused()) return;
-    // Refused budgets name the least that would do: the last row tells whether it does.
+    // A refusal names the smallest sufficient budget: the last row verifies it.
     const double min = min_bytes(outcomes.back());
     if (std::isfinite(min)) {
       add(limited("least", "least", fmt::format("{:.0f}", min)), {min, (min - fixed) / chunks});
@@ -206,7 +207,7 @@ Measured measure_residency(const SceneDescription& scene, const MeasureSetup& se
         spread_text(ratio_of(*tightest, outcomes[1], "wall_s")));
   }
   report.sections.push_back(method(setup));
-  // What warmed the caches is in the data, and nothing to compare with.
+  // Runs that warm the caches are in the data but not compared.
   const std::vector<Outcome> compared(outcomes.begin() + std::min<std::ptrdiff_t>(1, std::ssize(outcomes)),
                                       outcomes.end());
   Table shown = data;

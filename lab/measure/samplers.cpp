@@ -14,7 +14,7 @@
 namespace pelage {
 namespace {
 
-// Of render.samples, which is the most that a pixel gets.
+// Fractions of render.samples, the max per pixel.
 constexpr int kPlainShares[] = {16, 4};
 constexpr int kReferenceFactor = 2;
 
@@ -22,7 +22,7 @@ void set(Variant& variant, const std::string& key, const std::string& value) {
   variant.arguments.insert(variant.arguments.end(), {"--set", key + "=" + value});
 }
 
-/// Another seed for each variant: no two pictures share noise.
+/// Each variant has another seed, so that no two pictures share noise.
 Variant variant_of(const std::string& id, const std::string& title, int samples, size_t seed) {
   Variant variant{id, title, "render", {}};
   set(variant, "render.samples", std::to_string(samples));
@@ -33,7 +33,7 @@ Variant variant_of(const std::string& id, const std::string& title, int samples,
 }
 
 struct Row {
-  int plain = 0;        // samples of the plain picture that it is held against; 0: a reference
+  int plain = 0;        // samples of the uniform picture that it is compared with; 0: a reference
   size_t plain_at = 0;  // its index
   PictureError error;
   bool known = false;
@@ -58,7 +58,7 @@ class Sweep {
               variant_of(fmt::format("plain-{}", samples), fmt::format("plain, {}", samples), samples, plain),
               samples, plain))
         return;
-      // What plain sampling achieves is the noise budget of the others.
+      // The noise of uniform sampling is the noise budget of the others.
       const std::string noise = fmt::format("{:g}", outcomes[plain].number("noise"));
       const auto adaptive = [&](const char* id, const char* title, const char* rule, const char* goal) {
         Variant variant = variant_of(fmt::format("{}-{}", id, samples), fmt::format("{}, {}", title, samples),
@@ -100,7 +100,7 @@ class Sweep {
   VariantRunner runner_;
 };
 
-/// Plain samples per pixel that would leave the error of this row, over what it took.
+/// Uniform samples per pixel that would have the error of this row, relative to its samples.
 double gain(const std::vector<Row>& rows, const Row& row, double samples) {
   const Row& plain = rows[row.plain_at];
   if (!row.known || !plain.known) return NAN;

@@ -36,7 +36,7 @@ std::vector<const Procedural*> leaves_of(const FurPart& part,
   return leaves;
 }
 
-/// One batch after the other.
+/// Appends batches.
 class Gatherer {
  public:
   void add(const Strands& strands) {

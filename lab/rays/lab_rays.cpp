@@ -26,7 +26,7 @@ V3f direction(uint64_t i, uint64_t use) {
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
 
-/// A place on a strand.
+/// A position on a strand.
 struct Place {
   V3f position{0};
   float time = 0, radius = 0;
@@ -88,7 +88,7 @@ LabRays camera_rays(const RenderScene& scene, size_t max) {
   return set;
 }
 
-/// Bits of x, y and z in turn.
+/// Interleaves the bits of x, y and z.
 uint64_t morton(const V3f& p) {
   uint64_t code = 0;
   for (int bit = 9; bit >= 0; --bit) {
@@ -123,7 +123,7 @@ LabRays sorted(const LabRays& set, const Box3f& box) {
   return result;
 }
 
-/// A ray as it is filed.
+/// A ray in a file.
 struct StoredRay {
   float origin[3], direction[3];
   float far, time, clear, place;
@@ -141,7 +141,7 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
     const FurHit hit = tree.closest(ray, {});
     if (!hit) continue;
     hits.push_back(place_on(snapped, strands, hit.number, hit.u, ray.time));
-    // Where the ray met the ribbon, not on its axis.
+    // The hit on the ribbon, not on its axis.
     hits.back().position = ray.origin + hit.distance * ray.direction;
   }
   if (hits.empty()) throw Error(ErrorKind::kArguments, "the camera sees no fur, so no rays can start there");
@@ -150,7 +150,7 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
       deep{"deep", true, {}, {}, {}};
   Box3f box;
   for (size_t i = 0; i < max; ++i) {
-    // In the order of the hits, several from each where there are few.
+    // In the order of the hits, several from each if there are few.
     const Place& from = hits[i * hits.size() / max];
     box.extendBy(from.position);
     add(gather, from, direction(i, 10), std::numeric_limits<float>::infinity());

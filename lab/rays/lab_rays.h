@@ -10,13 +10,13 @@
 
 namespace pelage {
 
-/// Rays of one kind, in the order in which they are traced.
+/// Rays of one kind, in the order of tracing.
 struct LabRays {
   std::string name;     ///< "camera", "gather", "sorted", "shadow", "deep"
-  bool shadow = false;  ///< whether anything in the way is enough
+  bool shadow = false;  ///< whether any hit suffices
   std::vector<Ray> rays;
   std::vector<FurStart> starts;  ///< the strands that they start on
-  /// Where an accelerator that knows no such strand begins: two widths from there.
+  /// Start distance for accelerators that do not know the strand: two widths.
   std::vector<float> clear;
 
   size_t size() const { return rays.size(); }
@@ -24,13 +24,13 @@ struct LabRays {
 
 /// The rays of a measurement, the same for the same scene:
 ///
-/// camera: through points of the picture, tile after tile;
-/// gather: from where these hit fur, in all directions, in the order of the hits;
-/// sorted: the same rays, by the octant of their direction and then along a space-filling curve;
-/// shadow: from where camera rays hit fur to points on lights; none without lights;
-/// deep: from places spread evenly over all strands, in all directions.
+/// camera: through points of the picture, tile by tile;
+/// gather: from the hits of these on fur, in all directions, in the order of the hits;
+/// sorted: the same rays, sorted by the octant of their direction and along a space-filling curve;
+/// shadow: from the hits of camera rays on fur to points on lights; none without lights;
+/// deep: from points spread evenly over all strands, in all directions.
 ///
-/// `max`: rays of each kind, at most. Throws Error (kArguments) when the camera sees no fur.
+/// `max`: max number of rays of each kind. Throws Error (kArguments) when the camera sees no fur.
 std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& strands,
                                    const SnappedStrands& snapped, const FurTree& tree, size_t max);
 

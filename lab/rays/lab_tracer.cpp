@@ -20,10 +20,10 @@
 namespace pelage {
 namespace {
 
-constexpr int kPasses = 2, kPagedPasses = 1;  // that are timed, after one that is not
+constexpr int kPasses = 2, kPagedPasses = 1;  // timed passes, after one warm-up pass
 constexpr size_t kGrain = 1024;               // rays
-constexpr uint64_t kWaitingShare = 4;         // of a budget rays that wait have one part in so many
-constexpr int kTessellationRate = 8;          // that the renderer asks of Embree
+constexpr uint64_t kWaitingShare = 4;         // waiting rays use this fraction of a budget
+constexpr int kTessellationRate = 8;          // as in the renderer
 
 /// Sums of one range.
 struct Sums {
@@ -182,7 +182,7 @@ void trace_together(const PagedFur& fur, const LabRays& set, const WorkRange& ra
   }
 }
 
-/// The share of the tree's size is for everything that is held.
+/// `share` of the tree's size covers all memory.
 PagedFurOptions paged_options(const FurPageFile& file, double share, const Workers& workers) {
   PagedFurOptions options;
   options.threads = workers.thread_count();
@@ -211,7 +211,7 @@ LabResult trace_paged(const ContentStore& store, const std::vector<LabRays>& set
   result.build_cpu_s = cpu_seconds() - start;
   const auto meter = [&] { return std::pair(fur.counts().expansions, fur.bytes_read()); };
   for (const LabRays& set : sets) {
-    // To each thread one stretch of them.
+    // Each thread gets one contiguous range.
     const size_t stretch = set.size() / static_cast<size_t>(options.threads) + 1;
     LabCost& alone = result.rays[set.name] = cost_of(
         set, workers, kGrain,
@@ -269,7 +269,7 @@ std::vector<LabRays> rays_of(const ContentStore& store, const std::vector<std::s
 
 LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, const Job& job) {
   const std::vector<LabRays> sets = rays_of(store, variant.kinds);
-  // Pages have all that paged fur needs.
+  // Pages contain everything that paged fur needs.
   const LabFur fur = variant.kind == LabVariant::Kind::kPaged ? LabFur() : load_lab_fur(store);
   job.progress.begin("trace", 1);
   LabResult result;

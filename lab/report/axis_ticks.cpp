@@ -44,7 +44,7 @@ std::vector<double> log_ticks(double low, double high) {
 
 std::vector<std::string> tick_labels(const std::vector<double>& ticks, bool log) {
   std::vector<std::string> labels;
-  // Ticks have one digit before their power of ten; the step's own place decides for evenly spaced ones.
+  // Ticks have one significant digit; for evenly spaced ones the step determines the decimals.
   const auto decimals_of = [](double number) {
     return number == 0
                ? 0

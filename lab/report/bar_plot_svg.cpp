@@ -14,7 +14,7 @@ double value_of(const BarPlot::Values& series, size_t group) {
   return group < series.values.size() ? series.values[group] : NAN;
 }
 
-// How far the bars of a group reach.
+// Lengths of the bars of a group.
 std::vector<double> ends(const BarPlot& plot) {
   std::vector<double> numbers;
   for (size_t group = 0; group < plot.groups.size(); ++group) {
@@ -30,7 +30,7 @@ std::vector<double> ends(const BarPlot& plot) {
   return numbers;
 }
 
-// From the least to the most; returns the most that is shown.
+// Draws the range from min to max; returns the visible max.
 double draw_spread(Svg& svg, const PlotScale& scale, const std::pair<double, double>& spread, double y) {
   if (!scale.shows(spread.first) || !scale.shows(spread.second) || spread.first == spread.second) return 0;
   const double x0 = scale.pixel(spread.first), x1 = scale.pixel(spread.second);

@@ -8,9 +8,9 @@ namespace pelage {
 
 enum class TextAnchor { kStart, kMiddle, kEnd };
 
-/// Words over a picture. Lengths are pixels, y down.
+/// Text over a picture. Lengths in pixels, y down.
 struct Label {
-  double x = 0, y = 0;  ///< of the anchor, on the base line
+  double x = 0, y = 0;  ///< of the anchor, on the baseline
   std::string text;
   TextAnchor anchor = TextAnchor::kStart;
   std::array<unsigned char, 3> color = {0, 0, 0};  ///< sRGB

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kLeft = 66, kRight = 14, kBottom = 44;
 
-// Sums of the areas so far at every x: bounds[i] lies below area i, bounds.back() above the last.
+// Cumulative sums of the areas at every x: bounds[i] is the lower bound of area i, bounds.back() the upper
+// bound of the last.
 std::vector<std::vector<double>> stack(const std::vector<Series>& areas) {
   std::vector<std::vector<double>> bounds;
   if (areas.empty()) return bounds;
@@ -31,7 +32,7 @@ std::vector<LegendEntry> legend_of(const LinePlot& plot) {
   for (size_t i = 0; i < plot.areas.size(); ++i)
     entries.push_back({plot.areas[i].name, series_color(i), "", true});
   for (size_t i = 0; i < plot.lines.size(); ++i) {
-    // Above areas a line has the colour of text: its colour would be taken for one of theirs.
+    // Above areas, lines have the colour of text, because other colours would be mistaken for areas.
     const std::string color = plot.areas.empty() ? series_color(i) : std::string(kInkColor);
     entries.push_back({plot.lines[i].name, color, std::string(series_dash(i)), false});
   }

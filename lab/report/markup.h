@@ -6,8 +6,8 @@
 
 namespace pelage {
 
-/// Text for HTML and SVG, also inside quoted attributes: markup escaped, and bytes that XML forbids or that
-/// are not UTF-8 replaced.
+/// Escapes text for HTML and SVG, also inside quoted attributes; replaces bytes that XML forbids or that are
+/// not UTF-8.
 std::string escape_markup(std::string_view text);
 
 }  // namespace pelage

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// A picture with its labels as an inline SVG element, the pixels as PNG inside.
+/// A picture with its labels as an inline SVG element, with the pixels as embedded PNG.
 std::string picture_svg(const Picture& picture);
 
 }  // namespace pelage

@@ -9,27 +9,27 @@
 
 namespace pelage {
 
-/// Maps numbers to pixels along one direction.
+/// Maps numbers to pixels along one axis.
 struct PlotScale {
-  double low = 0, high = 1;  ///< numbers at the ends, raw
+  double low = 0, high = 1;  ///< raw numbers at the ends
   double from = 0, to = 1;   ///< pixels there
   bool log = false;
   DisplayUnit unit;
 
   double pixel(double number) const;
-  /// Whether a number has a place on this scale.
+  /// Whether a number lies on this scale.
   bool shows(double number) const;
 };
 
 /// A scale from zero (or, on a log axis, from the smallest positive number) to the largest of `numbers`, with
-/// a little room. Never empty.
+/// a small margin. Never empty.
 PlotScale make_scale(const Axis& axis, const std::vector<double>& numbers, double from, double to);
 
-/// Ticks, labels, grid lines and the axis title. `across` are the pixels between which grid lines run.
+/// Draws ticks, labels, grid lines and the axis title. Grid lines run between the pixels `top` and `bottom`.
 void draw_x_axis(Svg& svg, const PlotScale& scale, const std::string& label, double top, double bottom);
 void draw_y_axis(Svg& svg, const PlotScale& scale, const std::string& label, double left, double right);
 
-/// What a name in a legend stands beside.
+/// Symbol beside a name in a legend.
 struct LegendEntry {
   std::string name, color, dash;
   bool area = false;

@@ -24,7 +24,7 @@ std::string png_bytes(const Picture& picture) {
   image.format = picture.channels == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
   png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
   std::string png(bytes, '\0');
-  // Only memory can be wanting: the buffer holds the worst case.
+  // Can fail only for lack of memory: the buffer holds the worst case.
   if (!png_image_write_to_memory(&image, png.data(), &bytes, 0, picture.pixels.data(), 0, nullptr))
     throw std::bad_alloc();
   png.resize(bytes);

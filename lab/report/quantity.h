@@ -6,9 +6,9 @@
 
 namespace pelage {
 
-/// What a number of a report counts. Decides its unit and how it is written.
+/// What a number of a report measures. Decides its unit and format.
 enum class Quantity {
-  kCount,    ///< whole things
+  kCount,    ///< integers
   kSeconds,  ///< shown in s or ms
   kBytes,    ///< shown in B, KiB, MiB or GiB
   kRate,     ///< per second
@@ -23,16 +23,16 @@ struct DisplayUnit {
   int decimals = 0;    ///< so that the largest has three or four digits
 };
 
-/// The unit in which numbers up to `largest` read best.
+/// The unit in which numbers up to `largest` are easiest to read.
 DisplayUnit display_unit(Quantity quantity, double largest);
 
-/// The unit in which raw numbers are kept in JSON and CSV: "bytes", "s", "1/s", or empty.
+/// The unit of raw numbers in JSON and CSV: "bytes", "s", "1/s", or empty.
 std::string_view raw_unit(Quantity quantity);
 
-/// A number in its unit, digits in groups of three: "12 345", "0.25", "∞", "–" when it is not a number.
+/// A number in its unit, digits in groups of three: "12 345", "0.25", "∞", "–" for NaN.
 std::string number_text(double number, const DisplayUnit& unit);
 
-/// "peak memory (MiB)", or only the name where there is no unit.
+/// "peak memory (MiB)", or only the name when there is no unit.
 std::string with_unit(const std::string& name, const DisplayUnit& unit);
 
 }  // namespace pelage

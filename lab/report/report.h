@@ -11,9 +11,8 @@
 
 namespace pelage {
 
-// A report as one value: what an experiment found, without a word on how it is written down. The writers are
-// in report_html.h, report_json.h and report_csv.h. Numbers are in SI units and bytes; not-a-number stands
-// for "not known".
+// A report as one value, independent of how it is written. The writers are in report_html.h, report_json.h
+// and report_csv.h. Numbers are in SI units and bytes; NaN means "unknown".
 
 struct Text {
   std::string text;
@@ -21,8 +20,8 @@ struct Text {
 using Cell = std::variant<double, Text>;
 
 struct Column {
-  std::string key;    ///< for machines: "peak_rss_bytes"
-  std::string title;  ///< for people: "peak RSS"
+  std::string key;    ///< for programs: "peak_rss_bytes"
+  std::string title;  ///< for readers: "peak RSS"
   Quantity quantity = Quantity::kRatio;
 };
 
@@ -32,14 +31,14 @@ struct Table {
   std::vector<std::vector<Cell>> rows;  ///< as long as `columns`
 };
 
-/// The columns of `table` with these keys, in this order; keys it lacks are left out.
+/// The columns of `table` with these keys, in this order; missing keys are skipped.
 Table select(const Table& table, const std::vector<std::string>& keys, std::string caption);
 
 struct Axis {
   std::string label;  ///< without unit
   Quantity quantity = Quantity::kRatio;
   bool log = false;
-  double end = 0;  ///< reaches at least this far, so that plots side by side can be compared
+  double end = 0;  ///< the axis reaches at least this far, so that plots side by side can be compared
 };
 
 struct Series {
@@ -47,17 +46,17 @@ struct Series {
   std::vector<std::pair<double, double>> points;  ///< x ascending; the line breaks where y is not finite
 };
 
-/// Lines over x, and areas stacked on each other below them. Areas share their x.
+/// Lines over x, above stacked areas. Areas share their x.
 struct LinePlot {
   std::string caption;
   Axis x, y;
   std::vector<Series> areas;
   std::vector<Series> lines;
-  bool markers = false;  ///< few points: mark each
-  bool half = false;     ///< two beside each other
+  bool markers = false;  ///< few points: draw a marker at each
+  bool half = false;     ///< half the page width, two side by side
 };
 
-/// Horizontal bars, a group per name. Every series has a value per group.
+/// Horizontal bars, one group per name. Every series has one value per group.
 struct BarPlot {
   struct Values {
     std::string name;
@@ -69,8 +68,8 @@ struct BarPlot {
   std::vector<Values> series;
   bool stacked = false;
   bool half = false;
-  std::vector<std::pair<double, double>> spread = {};  ///< least and most per group: a whisker; or empty
-  std::vector<std::string> notes = {};                 ///< per group: stands where there is no number
+  std::vector<std::pair<double, double>> spread = {};  ///< min and max per group (whiskers); or empty
+  std::vector<std::string> notes = {};                 ///< per group: shown where there is no number
 };
 
 /// Pixels for screens: 1 (grey) or 3 (sRGB) bytes each, rows from the top.
@@ -79,7 +78,7 @@ struct Picture {
   int width = 0, height = 0, channels = 3;
   std::vector<unsigned char> pixels;
   bool half = false;
-  std::vector<Label> labels = {};  ///< in pages and SVG files; PNG files go without
+  std::vector<Label> labels = {};  ///< in pages and SVG files; PNG files omit them
 };
 
 struct Paragraph {
@@ -99,7 +98,7 @@ struct Report {
   std::string abstract;
   std::vector<std::pair<std::string, std::string>> facts;  ///< what was run, and where
   std::vector<Section> sections;
-  Table data;        ///< everything that was measured, a row per variant: what CSV and JSON hold
+  Table data;        ///< all measurements, one row per variant: the content of CSV and JSON
   std::string runs;  ///< JSON text: each run with its command and its statistics
 };
 

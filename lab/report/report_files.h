@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Checks that a folder takes files before hours go into what will be written there, by an empty report.json.
-/// Makes the folder. Throws Error (kFailed).
+/// Checks that a folder is writable before hours of work, by writing an empty report.json. Creates the
+/// folder. Throws Error (kFailed).
 void claim_report_folder(const std::filesystem::path& folder);
 
 /// Writes report.html, report.json and report.csv. Throws Error (kFailed).

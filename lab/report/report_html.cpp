@@ -80,7 +80,7 @@ class Page {
     in_figures(false);
   }
 
-  // Figures that follow each other share a box, in which halves stand side by side.
+  // Consecutive figures share a box, in which half-width ones are side by side.
   void in_figures(bool wanted) {
     if (wanted != in_figures_) out_ += wanted ? "<div class=\"figures\">\n" : "</div>\n";
     in_figures_ = wanted;
@@ -161,7 +161,7 @@ std::vector<std::pair<std::string, std::string>> report_figures(const Report& re
       const auto* picture = std::get_if<Picture>(&block);
       if (!lines && !bars && !picture) continue;
       ++figure;
-      if (picture && picture->labels.empty()) continue;  // nothing but pixels
+      if (picture && picture->labels.empty()) continue;  // pixels only
       files.emplace_back(fmt::format("figure-{:02}.svg", figure),
                          standalone_svg(lines  ? line_plot_svg(*lines)
                                         : bars ? bar_plot_svg(*bars)

@@ -9,12 +9,12 @@
 
 namespace pelage {
 
-/// A report as one HTML page that needs nothing else: style sheet, plots (SVG) and pictures (PNG) stand in
-/// it, there are no scripts. Tables and figures are numbered. Well-formed as XML too. Made to be printed.
+/// A report as one self-contained HTML page: style sheet, plots (SVG) and pictures (PNG) are embedded,
+/// without scripts. Tables and figures are numbered. Also well-formed XML. Suitable for printing.
 std::string report_html(const Report& report);
 
-/// Its plots as files of their own, for papers and slides: names ("figure-03.svg", numbered as on the page)
-/// and contents.
+/// Its plots as separate files, for papers and slides: names ("figure-03.svg", numbered as on the page) and
+/// contents.
 std::vector<std::pair<std::string, std::string>> report_figures(const Report& report);
 
 }  // namespace pelage

@@ -7,11 +7,12 @@
 
 namespace pelage {
 
-/// Version of the object that `pelage measure` writes: goes up when a name changes its meaning or vanishes.
+/// Version of the object that `pelage measure` writes: incremented when a name changes its meaning or is
+/// removed.
 constexpr int kReportSchema = 1;
 
-/// What was run, what was measured (raw units, a row per variant) and every run's own statistics as one JSON
-/// object. Numbers that are not finite are null.
+/// The configuration, the measurements (raw units, one row per variant) and every run's own statistics as one
+/// JSON object. Non-finite numbers are null.
 std::string report_json(const Report& report);
 
 }  // namespace pelage

@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-// A tenth of a pixel is finer than any screen or printer of a page shows. Adding zero makes -0 a 0.
+// A tenth of a pixel is finer than screens and printers resolve. Adding zero turns -0 into 0.
 std::string px(double value) { return fmt::format("{:.6g}", std::round(value * 10) / 10 + 0.0); }
 
 std::string point_list(const std::vector<double>& points) {

@@ -21,7 +21,7 @@ std::vector<std::string> all_keys(const std::vector<Outcome>& outcomes, const st
   return {keys.begin(), keys.end()};
 }
 
-// In the order in which a run goes through them; others after these.
+// In the order of a run's stages; others afterwards.
 std::vector<std::string> stages(const std::vector<Outcome>& outcomes) {
   const std::vector<std::string> keys = all_keys(outcomes, "stages_s");
   std::vector<std::string> sorted;

@@ -10,27 +10,27 @@
 
 namespace pelage {
 
-/// What every experiment on `render` tabulates, a row per outcome: status, wall and CPU time, peaks of
-/// memory, bytes by ledger tag ("memory_film_bytes"), seconds by stage ("stage_render_s"), chunks and growth,
+/// The columns common to all experiments on `render`, one row per outcome: status, wall and CPU time, memory
+/// peaks, bytes by ledger tag ("memory_film_bytes"), seconds by stage ("stage_render_s"), chunks and growth,
 /// rays and boxes.
 Table outcome_table(const std::vector<Outcome>& outcomes);
 
-/// Adds a column; `value` is asked for every row's outcome.
+/// Adds a column; calls `value` for every row's outcome.
 void add_column(Table& table, const Column& column, const std::vector<Outcome>& outcomes,
                 const std::function<Cell(const Outcome&)>& value);
 
-/// Keys of the columns that begin with `prefix` and are not zero or unknown throughout, in the table's order.
+/// Keys of the columns that start with `prefix` and are not entirely zero or unknown, in the table's order.
 std::vector<std::string> keys_with(const Table& table, const std::string& prefix);
 
-/// The numbers of a column; not-a-number for texts.
+/// The numbers of a column; NaN for texts.
 std::vector<double> column_values(const Table& table, const std::string& key);
 
-/// The columns of law 5: what of the resident memory the ledger explains.
+/// The columns of law 5: how much of the resident memory the ledger explains.
 Table ledger_table(const Table& table);
 
-/// Stages by wall time, stacked, with the spread of all runs: a bar per outcome.
+/// Stages by wall time, stacked, with the spread of all runs: one bar per outcome.
 BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::string& caption);
-/// Columns side by side, or stacked: a bar per outcome and key.
+/// Columns side by side, or stacked: one bar per outcome and key.
 BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,
                     const std::vector<std::string>& keys, const std::string& axis,
                     const std::string& caption);

@@ -40,7 +40,7 @@ class Descriptor {
   int number_;
 };
 
-// In the child, between fork and exec: nothing that allocates or locks.
+// Runs in the child between fork and exec: must not allocate or lock.
 [[noreturn]] void exec_child(char* const* arguments, int log, int failure, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -105,7 +105,7 @@ ProcessEnd run_process(const std::vector<std::string>& command, const std::files
   if (child < 0)
     throw Error(ErrorKind::kFailed, std::string("cannot create a process: ") + std::strerror(errno));
   if (child == 0) exec_child(arguments.data(), log_file.number(), failure_out.number(), parent);
-  ::setpgid(child, child);  // whichever of the two comes first
+  ::setpgid(child, child);  // by whichever process is first
 
   failure_out.close();
   int code = 0;

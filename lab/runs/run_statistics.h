@@ -9,20 +9,20 @@
 
 namespace pelage {
 
-/// What a run wrote with --stats, as far as it is numbers. A value.
+/// The numbers that a run wrote with --stats. A value.
 class RunStatistics {
  public:
-  /// Nothing when the file is missing or damaged.
+  /// Empty when the file is missing or damaged.
   static std::optional<RunStatistics> read(const std::filesystem::path& path);
 
-  /// A number by the path of its keys, "stages_s.render"; not-a-number when there is none.
+  /// A number by the path of its keys, "stages_s.render"; NaN when there is none.
   double number(const std::string& path) const;
-  /// Sum of the numbers of an object, such as "rays"; not-a-number when there is none.
+  /// Sum of the numbers of an object, such as "rays"; NaN when there is none.
   double sum(const std::string& object) const;
   /// Keys of an object of numbers, in alphabetical order.
   std::vector<std::string> keys(const std::string& object) const;
 
-  /// Memory over time: column names, and rows as long as these. Empty without --sample-memory.
+  /// Memory over time: column names, and rows of the same length. Empty without --sample-memory.
   const std::vector<std::string>& timeline_columns() const { return timeline_columns_; }
   const std::vector<std::vector<double>>& timeline() const { return timeline_; }
 

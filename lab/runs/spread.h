@@ -7,14 +7,13 @@
 
 namespace pelage {
 
-/// A number of one variant over that of another: by their typical runs, and the least and most that any two
-/// runs give.
+/// Ratio of a number of two variants: of their typical runs, and the min and max over all pairs of runs.
 struct RatioSpread {
   double typical = 0, min = 0, max = 0;
 };
 RatioSpread ratio_of(const Outcome& above, const Outcome& below, const std::string& path);
 
-/// "1.84 (1.79 to 1.90)"; without the spread where each variant ran once.
+/// "1.84 (1.79 to 1.90)"; without the spread when each variant ran once.
 std::string spread_text(const RatioSpread& ratio);
 
 }  // namespace pelage

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMemoryExitCode = 4;
 
-// The first lines of a log say what went wrong; quiet runs print nothing else.
+// The first lines of a log contain the error; quiet runs print nothing else.
 std::string error_lines(const std::filesystem::path& log) {
   constexpr int kMax = 3;
   std::istringstream lines(read_file(log));
@@ -137,7 +137,7 @@ VariantRun VariantRunner::run_once(const Variant& variant, int repeat) {
   const std::string stem = repeat == 1 ? variant.id : fmt::format("{}.{}", variant.id, repeat);
   const std::filesystem::path statistics = setup_.folder / (stem + ".json"),
                               log = setup_.folder / (stem + ".log");
-  // What an earlier experiment left must not be taken for this one's.
+  // Files of an earlier experiment must not be mistaken for results of this one.
   std::error_code ignored;
   std::filesystem::remove(statistics, ignored);
   if (variant.prepare) variant.prepare();

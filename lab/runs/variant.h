@@ -16,11 +16,11 @@ namespace pelage {
 /// What all variants of an experiment have in common.
 struct MeasureSetup {
   std::filesystem::path program;  ///< run once per variant
-  std::filesystem::path folder;   ///< receives everything
+  std::filesystem::path folder;   ///< receives all output files
   std::string scene;
   std::vector<std::string> arguments;  ///< for every run: --set, --threads
   int repeat = 1;                      ///< runs of each variant
-  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is ended
+  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is killed
 };
 
 /// One way to run the program.
@@ -29,50 +29,51 @@ struct Variant {
   std::string title;  ///< for people: "exact, cold"
   std::string command = "render";
   std::vector<std::string> arguments;
-  bool once = false;  ///< not repeated: warming runs, and cold ones, which would be warm the second time
+  bool once = false;  ///< not repeated: warm-up runs, and cold runs, which would be warm the second time
   std::function<void()> prepare = {};  ///< called before each run
 };
 
 struct VariantRun {
   std::vector<std::string> command;
   ProcessEnd end;
-  std::string error;  ///< what it said when it did not succeed
-  double load = 0;    ///< load average (1 min) when it began
+  std::string error;  ///< its message when it did not succeed
+  double load = 0;    ///< load average (1 min) when it started
   std::optional<RunStatistics> statistics;
 };
 
-/// What became of a variant.
+/// Result of a variant.
 struct Outcome {
   Variant variant;
   std::vector<VariantRun> runs;
 
   bool succeeded() const;      ///< every run
-  bool refused() const;        ///< exit code 4: the memory budget was too small, which is an answer
-  bool timed_out() const;      ///< a run took longer than it may
-  bool interrupted() const;    ///< stopped from outside, or never begun
+  bool refused() const;        ///< exit code 4: the memory budget was too small, which is a valid result
+  bool timed_out() const;      ///< a run exceeded the time limit
+  bool interrupted() const;    ///< stopped from outside, or never started
   std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
-  std::string error() const;   ///< of the run that did not succeed
+  std::string error() const;   ///< of the run that failed
 
-  /// The successful run of the median wall time; null when there is none.
+  /// The successful run with the median wall time; null when there is none.
   const VariantRun* typical() const;
-  /// A number of that run's statistics, by path; not-a-number when it is not known.
+  /// A number of that run's statistics, by path; NaN when unknown.
   double number(const std::string& path) const;
-  /// Least and most of it over all successful runs.
+  /// Min and max over all successful runs.
   double min(const std::string& path) const;
   double max(const std::string& path) const;
 };
 
-/// Runs variants, each in a process of its own, one at a time.
+/// Runs variants one at a time, each in its own process.
 class VariantRunner {
  public:
-  /// `count` variants are expected, for the progress shown.
+  /// `count`: number of variants expected, for the progress display.
   VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count);
 
-  /// Every variant gets ID.json (--stats), ID.exr or nothing (-o), and ID.log; further runs ID.2.json and so
-  /// on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be written.
+  /// Writes ID.json (--stats), ID.exr or nothing (-o), and ID.log for every variant; repeated runs write
+  /// ID.2.json and so on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be
+  /// written.
   Outcome run(const Variant& variant);
-  /// The same for many, in rounds: every variant once, then every one again, so that what changes on the
-  /// machine meanwhile falls on all alike. A variant that did not succeed is not run again.
+  /// Runs many variants in rounds, every variant once per round, so that changing load of the machine affects
+  /// all alike. A variant that failed is not run again.
   std::vector<Outcome> run_in_rounds(const std::vector<Variant>& variants);
 
   std::filesystem::path picture(const Variant& variant) const;

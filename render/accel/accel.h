@@ -12,15 +12,15 @@
 
 namespace pelage {
 
-/// The strand that a ray starts from, in terms of the accelerator that met it (Hit::start): near the place
-/// where the ray begins it is not met again.
+/// The strand that a ray starts from, as identified by the accelerator (Hit::start). Near the start of the
+/// ray, that strand is not hit again.
 struct StrandStart {
   static constexpr uint32_t kNone = StrandHandle::kNone;
 
-  uint32_t chunk = kNone;      ///< which holds the strand; kNone: the ray starts elsewhere
+  uint32_t chunk = kNone;      ///< chunk that holds the strand; kNone: the ray does not start on a strand
   uint32_t first_segment = 0;  ///< of the strand in the chunk
   uint32_t segment_count = 0;
-  float place = 0;  ///< segment of the strand + parameter in it
+  float place = 0;  ///< segment of the strand + parameter within it
 };
 
 struct Ray {
@@ -28,20 +28,20 @@ struct Ray {
   float near = 0;
   V3f direction{0, 0, 1};  ///< unit
   float far = std::numeric_limits<float>::infinity();
-  float time = 0;  ///< in [0, 1] of the shutter
-  uint32_t random =
-      0;  ///< decides at which semi-transparent crossings closest() stops; unused when all is opaque
+  float time = 0;       ///< in [0, 1] of the shutter
+  uint32_t random = 0;  ///< determines at which semi-transparent crossings closest() stops; unused when
+                        ///< everything is opaque
   StrandStart start = {};
 };
 
 enum class HitKind : uint8_t { kNone, kStrand, kSkin };
 
-/// Where a ray meets geometry, by value: nothing of the accelerator is held by it.
+/// Intersection of a ray with geometry. A value that holds no reference to the accelerator.
 struct Hit {
   HitKind kind = HitKind::kNone;
   float distance = std::numeric_limits<float>::infinity();
-  uint32_t part = 0;       ///< which coat of which character, or which skin
-  uint64_t strand_id = 0;  ///< within the part
+  uint32_t part = 0;       ///< index of the coat of a character, or of the skin
+  uint64_t strand_id = 0;  ///< unique within the part
   uint32_t segment = 0;    ///< of the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
@@ -55,42 +55,41 @@ struct Hit {
   StrandKey key() const { return {part, strand_id}; }
 };
 
-/// What a hit met, copied out of geometry that may be gone by the time the hit is shaded: the one strand with
-/// its attributes, or the one triangle, each over all motion keys.
+/// The geometry that was hit, copied because its chunk may be evicted before the hit is shaded: one strand
+/// with its attributes, or one triangle, with all motion keys.
 struct HitGeometry {
   Strands strand;
   SkinMesh triangle;
 };
 
-/// What tracing costs.
+/// Cost of tracing.
 struct TraceCounts {
   int64_t box_tests = 0;     ///< rays against boxes above the chunks
-  int64_t chunk_visits = 0;  ///< rays against what a chunk holds
+  int64_t chunk_visits = 0;  ///< rays against the contents of chunks
 };
 
-/// What one thread needs while it traces.
+/// Per-thread state of tracing.
 struct TraceThread {
-  int worker = 0;   ///< no two threads that trace at once have the same
-  HitGeometry met;  ///< of the last hit that closest() gave this thread
+  int worker = 0;   ///< unique among the threads that trace concurrently
+  HitGeometry met;  ///< of the last hit that closest() returned to this thread
   TraceCounts counts;
 };
 
-/// Rays against all strands and skins of a frame.
+/// Intersection of rays with all strands and skins of a frame.
 ///
-/// A hit is a function of the ray and of what it meets alone: equal distances are decided by strand id (then
-/// by part and segment), so that neither the number of threads nor the shape of the tree reaches a pixel (law
-/// 1). h is that of the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit lies at
-/// axis - h * radius * ez. Rays that are not finite meet nothing.
-/// Thread safety: const members may be called from many threads at once, each inside a FlushDenormals scope.
+/// A hit is a function of the ray and the geometry only: ties in distance are broken by strand id (then by
+/// part and segment), so that neither the number of threads nor the shape of the tree affects a pixel (law
+/// 1). h is that of the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit is at
+/// axis - h * radius * ez. Non-finite rays hit nothing. Thread safety: const members may be called from many
+/// threads at once, each inside a FlushDenormals scope.
 class Accel {
  public:
   virtual ~Accel() = default;
-  /// The nearest hit in (near, far). Semi-transparent crossings are passed with probability 1 - opacity, each
-  /// crossing deciding once by a hash of `ray.random`, the strand and the place on it.
-  /// What is hit is left in `thread.met`.
+  /// The nearest hit in (near, far). Semi-transparent crossings are skipped with probability 1 - opacity;
+  /// each crossing decides once, using a hash of `ray.random`, the strand and the position on it. Stores the
+  /// geometry in `thread.met`.
   virtual Hit closest(const Ray& ray, TraceThread& thread) const = 0;
-  /// The part of light that comes through between near and far: the product of 1 - opacity over all
-  /// crossings.
+  /// Fraction of light transmitted between near and far: the product of 1 - opacity over all crossings.
   virtual float transmittance(const Ray& ray, TraceThread& thread) const = 0;
   /// Whether everything is opaque; then transmittance() is 0 or 1.
   virtual bool opaque() const = 0;

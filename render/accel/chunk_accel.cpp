@@ -14,7 +14,7 @@ namespace {
 // Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
 // times finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
-constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that has no fine ones
+constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine ones
 
 }  // namespace
 
@@ -22,11 +22,11 @@ constexpr uint32_t kUnknown = ~0u;  // boxes that a ray meets of a chunk that ha
 struct alignas(64) ChunkAccel::Scratch {
   struct Waiting {
     float entry;
-    uint32_t boxes;  // fine ones that the ray meets
+    uint32_t boxes;  // number of fine ones that the ray intersects
     uint32_t chunk;
   };
 
-  /// Whether this ray has not come to the chunk before; now it has.
+  /// Whether this is the ray's first visit of the chunk; marks it as visited.
   bool first_time(uint32_t chunk) {
     if (seen[chunk] == ray) return false;
     seen[chunk] = ray;
@@ -39,8 +39,8 @@ struct alignas(64) ChunkAccel::Scratch {
     ray = 1;
   }
 
-  uint32_t ray = 0;            // counts rays
-  std::vector<uint32_t> seen;  // by chunk: the last ray that came to it
+  uint32_t ray = 0;            // number of the current ray
+  std::vector<uint32_t> seen;  // by chunk: the last ray that visited it
   std::vector<Waiting> waiting;
 };
 
@@ -81,7 +81,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
     met = hits.boxes;
     return hits.entry;
   };
-  // The far end of a ray is often infinite too.
+  // The far end of a ray may be infinite too.
   const auto reaches = [&](float entry) {
     return entry <= far() && entry < std::numeric_limits<float>::infinity();
   };
@@ -115,7 +115,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   }
   thread.counts.box_tests += walk.box_tests();
   if (!goes_on) return;
-  // What is nearest first, or what will most likely stop the ray: skins, then chunks of which it meets most.
+  // Nearest first, or for occlusion what most likely blocks the ray: skins, then chunks with the most
+  // intersected boxes.
   using Waiting = Scratch::Waiting;
   std::sort(scratch.waiting.begin(), scratch.waiting.end(), [any](const Waiting& a, const Waiting& b) {
     if (any && a.boxes != b.boxes) return a.boxes > b.boxes;

@@ -16,11 +16,11 @@ namespace pelage {
 /// Accel over geometry that exists only while something needs it. A ChunkTree says which chunks a ray may
 /// meet, ResidentChunks grow and drop them, and a ChunkGeometry is what one of them holds.
 ///
-/// A ray visits the chunks that are resident first, front to back, and then those that it still reaches of
-/// the others; each at most once. A chunk that is not resident grows only for a ray that meets one of its
-/// fine boxes, where it has any, before what the ray has met so far. What a ray meets is copied out while the
-/// chunk is pinned. Neither the budget nor the boxes, as long as they hold their chunks, nor what is resident
-/// reaches a result.
+/// A ray visits the resident chunks first, front to back, then those of the others that it still reaches;
+/// each at most once. A chunk that is not resident is grown only for rays that intersect one of its fine
+/// boxes, if it has any, in front of the nearest hit so far. The geometry that is hit is copied while the
+/// chunk is pinned. Results depend neither on the budget, nor on the boxes as long as they contain their
+/// chunks, nor on what is resident.
 ///
 /// Errors of a grower pass through closest() and transmittance().
 /// Thread safety: as Accel; each TraceThread::worker is used by one thread at a time, and by a visit of

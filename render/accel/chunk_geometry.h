@@ -12,19 +12,18 @@
 
 namespace pelage {
 
-/// The nearest hit that a ray has so far, over all chunks that it visited.
+/// The nearest hit of a ray so far, over all visited chunks.
 struct NearestSoFar {
   Hit hit;
-  uint32_t face = 0;      ///< ptex face, of a skin's hit
-  uint32_t triangle = 0;  ///< of the chunk, of a skin's hit; in the same order in every chunk with the face
+  uint32_t face = 0;      ///< ptex face of a hit on a skin
+  uint32_t triangle = 0;  ///< in the chunk, of a hit on a skin; same order in every chunk with the face
 
-  /// What decides between equal distances: strands before skins, then strand id, part, segment, or face and
-  /// triangle.
+  /// Breaks ties in distance: strands before skins, then strand id, part, segment, or face and triangle.
   auto rank() const {
     return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? face : hit.segment,
                       triangle);
   }
-  /// Whether `other` comes before it.
+  /// Whether `other` precedes it.
   bool comes_after(const NearestSoFar& other) const {
     if (other.hit.distance != hit.distance) return other.hit.distance < hit.distance;
     return !hit || other.rank() < rank();
@@ -35,10 +34,10 @@ struct NearestSoFar {
 /// members from any thread, each inside a FlushDenormals scope.
 class ChunkGeometry : public Resident {
  public:
-  /// Whether the ray meets something here between near and far that stands before `nearest`, which then
-  /// becomes that; `met` its geometry. `rays` is kept from chunk to chunk.
+  /// Returns whether the ray hits something here between near and far that precedes `nearest`. If so, updates
+  /// `nearest`, and `met` with its geometry. `rays` is reused from chunk to chunk.
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
-  /// Adds the semi-transparent crossings of a ray; false when something opaque blocks it.
+  /// Adds the semi-transparent crossings of a ray; false when an opaque one blocks it.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
 
   /// Strands with a segment at least; 0 of a skin.
@@ -53,7 +52,7 @@ class ChunkGeometry : public Resident {
 
   /// What is held, this object included.
   virtual size_t bytes() const = 0;
-  /// Most that was held while it was made.
+  /// Max memory in use while it was made.
   virtual size_t build_peak_bytes() const = 0;
 };
 

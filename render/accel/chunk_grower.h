@@ -13,19 +13,19 @@
 
 namespace pelage {
 
-/// Strands and how opaque they are.
+/// Strands with their opacity.
 struct FurContents {
   Strands strands;
   std::vector<float> opacity;  ///< one in [0, 1] per point, or empty: opaque
 };
 
-/// What a chunk holds: fur of one part, or one skin.
+/// Contents of a chunk: fur of one part, or one skin.
 struct ChunkContents {
   std::variant<FurContents, SkinMesh> geometry;
-  uint32_t part = 0;  ///< which coat of which character, or which skin; strand ids are unique within one
+  uint32_t part = 0;  ///< index of the coat or skin; strand ids are unique within a part
 };
 
-/// How large the contents of a chunk are at most.
+/// Upper bounds of the size of a chunk's contents.
 struct ChunkCounts {
   size_t strands = 0;
   size_t points = 0;  ///< of one motion key
@@ -34,7 +34,7 @@ struct ChunkCounts {
   size_t vertices = 0;          ///< of one motion key
   size_t triangles = 0;
   int motion_keys = 1;
-  size_t growth_bytes = 0;  ///< what growing holds beside the contents, dropped when it is done
+  size_t growth_bytes = 0;  ///< temporary memory of grow(), without the contents
 };
 
 /// The chunks of a frame by number: what each holds, how much that is and how to make it, whatever makes it.
@@ -42,17 +42,18 @@ struct ChunkCounts {
 class ChunkGrower {
  public:
   virtual ~ChunkGrower() = default;
-  /// Same chunk, same contents. By the calling thread alone; may throw.
+  /// Same chunk, same contents. Runs on the calling thread only; may throw.
   virtual ChunkContents grow(uint32_t chunk) const = 0;
-  /// Whether grow() gives a skin, not fur. Counts do not tell: a skin of holes has no vertices.
+  /// Whether the chunk is a skin rather than fur. Counts cannot tell: a skin that is all holes has no
+  /// vertices.
   virtual bool is_skin(uint32_t chunk) const = 0;
   /// ChunkContents::part, without growing.
   virtual uint32_t part(uint32_t chunk) const = 0;
   /// Upper bounds, without growing.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
-  /// For messages: what the chunk is a part of, or nothing.
+  /// Name of the coat or skin for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Of fur, without growing.
+  /// Scale of the strands of a fur chunk, without growing.
   virtual StrandScale scale(uint32_t chunk) const = 0;
 };
 

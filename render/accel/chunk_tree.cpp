@@ -29,7 +29,7 @@ void ChunkWalk::open(uint32_t index, float far) {
   Four enter, leave;
   const auto met = slabs_.intersect(node.boxes, motion, far, enter, leave);
   const Four rank = order_ == Order::kFrontToBack ? enter : enter - leave;
-  // All four are written and those that are met counted: no branch that nothing foretells.
+  // Writes all four and counts the intersected ones: avoids unpredictable branches.
   Entry* entries = &stack_[count_];
   std::array<float, 5> ranks;
   size_t count = 0;
@@ -39,7 +39,7 @@ void ChunkWalk::open(uint32_t index, float far) {
     count += met[lane] & 1;
   }
   count_ += count;
-  // Those that come first at the end.
+  // The first ones go to the end.
   for (size_t i = 1; i < count; ++i) {
     const Entry entry = entries[i];
     const float of_entry = ranks[i];

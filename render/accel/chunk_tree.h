@@ -14,16 +14,16 @@ namespace pelage {
 
 class Workers;
 
-/// Tells single rays which chunks they may meet, front to back: a tree, four boxes to a node, over the boxes
-/// of all parts of all chunks. Where boxes are linear in time, a ray sees them as they are at its own time.
+/// Finds the chunks that single rays may hit, front to back: a 4-wide tree over the boxes of all parts of all
+/// chunks. Boxes that are linear in time are evaluated at the time of the ray.
 ///
 /// Thread safety: immutable.
 class ChunkTree {
  public:
-  /// The same tree for any number of workers. At most 2^31 - 1 chunks.
+  /// The tree is the same for any number of workers. At most 2^31 - 1 chunks.
   ChunkTree(std::span<const ChunkBounds> chunks, const Workers& workers);
 
-  /// Holds all boxes at all times; empty for none.
+  /// Contains all boxes at all times; empty for none.
   const Box3f& bounds() const { return bounds_; }
   size_t bytes() const { return nodes_.capacity() * sizeof(Node) + motions_.capacity() * sizeof(FourBoxes); }
 
@@ -34,32 +34,32 @@ class ChunkTree {
   static constexpr uint32_t kChunk = 1u << 31;  // a child that is a chunk, not a node
 
   struct Node {
-    FourBoxes boxes;  // at shutter open; those of absent children are inside out
+    FourBoxes boxes;  // at shutter open; boxes of missing children are inverted
     std::array<uint32_t, 4> children;
   };
 
   std::vector<Node> nodes_;         // the root first
-  std::vector<FourBoxes> motions_;  // how far the boxes of each node move until shutter close, or none
+  std::vector<FourBoxes> motions_;  // motion of each node's boxes until shutter close, or empty
   Box3f bounds_;
   float reach_ = 0;  // largest coordinate
 };
 
-/// One ray on its way through a ChunkTree.
+/// Traversal of a ChunkTree by one ray.
 class ChunkWalk {
  public:
   enum class Order {
-    kFrontToBack,   ///< for a ray that looks for the nearest
-    kLongestFirst,  ///< by the ray's way through a box: for one that looks for anything in its way
+    kFrontToBack,   ///< for rays that need the nearest hit
+    kLongestFirst,  ///< by length of the ray inside a box: for rays that need any hit
   };
   ChunkWalk(const ChunkTree& tree, const Ray& ray, Order order);
 
-  /// The next chunk that has a box which the ray meets between its near end and `far`, and where it enters
-  /// that box at the earliest; in the order asked for, as far as the tree separates them. A chunk comes as
-  /// often as it has such boxes. False when there is none. `far` may become smaller from call to call.
+  /// The next chunk with a box that the ray intersects between its near end and `far`, and a lower bound of
+  /// its entry distance, in the requested order as far as the tree separates them. A chunk is returned once
+  /// per intersected box. False when there is none. `far` may decrease between calls.
   bool next(float far, uint32_t& chunk, float& entry);
 
   const RaySlabs& slabs() const { return slabs_; }
-  /// Boxes that were tested so far.
+  /// Number of boxes tested so far.
   int64_t box_tests() const { return 4 * nodes_tested_; }
 
  private:

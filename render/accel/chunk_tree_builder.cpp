@@ -12,9 +12,9 @@ namespace pelage {
 namespace {
 
 constexpr int kBins = 16;
-constexpr size_t kJob = 4096;  // parts of a subtree that one worker builds at most
-// Below this depth ranges are halved by number, 16-fold per two levels: 2^31 parts end 16 levels further down
-// and their 3 waiting siblings per level fit ChunkWalk's stack.
+constexpr size_t kJob = 4096;  // max parts of a subtree that one worker builds
+// Below this depth ranges are halved by number, 16-fold per two levels: 2^31 parts end 16 levels further
+// down, and their 3 pending siblings per level fit ChunkWalk's stack.
 constexpr int kMaxSahDepth = 22;
 
 struct Bounds {
@@ -39,12 +39,12 @@ struct Bounds {
   }
 };
 
-/// A part on its way into the tree: its box over all time, and where to find the boxes of its keys.
+/// A part during the build: its box over all time, and the index of its boxes per key.
 struct Part {
   Bounds bounds;
   uint32_t chunk = 0, part = 0;
 
-  float centre(int axis) const { return bounds.low[axis] + bounds.high[axis]; }  // twice
+  float centre(int axis) const { return bounds.low[axis] + bounds.high[axis]; }  // times two
 };
 
 struct Range {
@@ -58,7 +58,7 @@ struct Bin {
   size_t count = 0;
 };
 
-/// Where parts go by the middle of their box along one axis.
+/// Distribution of parts into bins by the centre of their box along one axis.
 struct Binning {
   int axis = 0;
   float low = 0, scale = 0;
@@ -70,8 +70,8 @@ struct Binning {
 
 }  // namespace
 
-/// Builds a ChunkTree from the top: the range with the largest area is split where the surface area heuristic
-/// says [Wald07], until a node has four children.
+/// Builds a ChunkTree top-down: repeatedly splits the range with the largest area by the surface area
+/// heuristic [Wald07], until a node has four children.
 class ChunkTreeBuilder {
  public:
   ChunkTreeBuilder(ChunkTree& tree, std::span<const ChunkBounds> chunks) : tree_(tree), chunks_(chunks) {
@@ -84,7 +84,7 @@ class ChunkTreeBuilder {
           const Box3f& box = chunks[c].box(p, key);
           part.bounds.add({box.min, box.max});
         }
-        if (!(part.bounds.low.x <= part.bounds.high.x)) continue;  // nothing in it
+        if (!(part.bounds.low.x <= part.bounds.high.x)) continue;  // empty part
         moving_ |= chunks[c].keys > 1;
         parts_.push_back(part);
       }
@@ -125,7 +125,8 @@ class ChunkTreeBuilder {
     return r;
   }
 
-  /// The node over a range, and all below it; in the top of the tree, small ranges become jobs instead.
+  /// Adds the node over a range and everything below it; in the top of the tree, small ranges become jobs
+  /// instead.
   uint32_t add_node(const Range& all, int depth, Nodes& out, bool top) {
     std::array<Range, 4> children;
     const size_t count = divide(all, depth, children);

@@ -12,9 +12,9 @@
 
 namespace pelage {
 
-/// A place where rays cross a strand: the half segments on both sides of one joint. An accelerator may report
-/// one crossing several times (two segments overlap at their joint; a round one is entered and left); reports
-/// of the same place are one crossing.
+/// Identifies one crossing of a ray and a strand: the two half segments beside a joint. An accelerator may
+/// report one crossing several times (two segments overlap at their joint; a round one is entered and left);
+/// reports with the same place are one crossing.
 struct CrossingPlace {
   uint64_t strand_id = 0;
   uint32_t part = 0;
@@ -23,13 +23,13 @@ struct CrossingPlace {
   friend auto operator<=>(const CrossingPlace&, const CrossingPlace&) = default;
 };
 
-/// Whether a ray with the random word `random` is stopped at a crossing: the same for every report of it.
+/// Whether a ray with the random word `random` stops at a crossing: the same for every report of it.
 inline bool stops_at(uint32_t random, const CrossingPlace& place, float opacity) {
   return unit_float(hash64(random, place.strand_id, place.part, place.joint, random_use("opacity"))) <
          opacity;
 }
 
-/// The semi-transparent crossings of one ray, in whatever order they are met.
+/// The semi-transparent crossings of one ray, in any order.
 class Crossings {
  public:
   void add(const CrossingPlace& place, float opacity) {
@@ -41,7 +41,7 @@ class Crossings {
   }
 
   size_t reports() const { return count_ + many_.size(); }
-  /// Product of 1 - opacity over the crossings, each counted once with its largest opacity. The factors are
+  /// Product of 1 - opacity over the crossings, each counted once with its max opacity. Factors are
   /// multiplied in the order of places, so that the order of reports does not matter.
   float transmittance() {
     if (many_.empty()) return product(std::span(few_).first(count_));

@@ -30,12 +30,12 @@ struct LightQuery : EmbreeQuery {
 bool is_opaque(const EmbreeScene& scene, uint32_t geometry) {
   return scene.is_skin(geometry) || scene.curves(geometry).opaque();
 }
-/// Where a ray leaves a round strand. It was counted where it entered.
+/// Where a ray leaves a round strand. The crossing was counted on entry.
 bool is_exit(const EmbreeScene& scene, const EmbreeReport& report) {
   return scene.is_round() && report.faces_away();
 }
 
-/// Of two hits at one distance keeps the one that stands first.
+/// Of two hits at the same distance, keeps the one that precedes the other.
 void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   const EmbreeReport report(arguments);
   auto& query = report.query<NearestQuery>();
@@ -59,7 +59,7 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
   if (!query.scene.is_skin(geometry)) query.scene.curves(geometry).fetch_ahead(primitive);
 }
 
-/// The same where strands are semi-transparent.
+/// The same for semi-transparent strands.
 void keep_nearest_stopping(const RTCFilterFunctionNArguments* arguments) noexcept {
   const EmbreeReport report(arguments);
   const auto& query = report.query<NearestQuery>();
@@ -123,7 +123,7 @@ Hit EmbreeAccel::closest(const Ray& ray, TraceThread& thread) const {
   hit.part = batch.part();
   hit.strand_id = batch.strands().id(place.strand);
   hit.segment = place.segment;
-  hit.v = -r.hit.v;  // Embree counts from the other edge
+  hit.v = -r.hit.v;  // Embree's sign convention is opposite
   thread.met.strand.assign_strand(batch.strands(), place.strand);
   if (scene_->is_round() || batch.strands().basis() == CurveBasis::kLinear) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);

@@ -13,7 +13,7 @@ namespace pelage {
 
 #if RTC_VERSION_MAJOR >= 4
 
-/// Base of what a filter is handed back through its arguments. `filter` may be null.
+/// Base of the query that a filter receives through its arguments. `filter` may be null.
 struct EmbreeQuery {
   explicit EmbreeQuery(RTCFilterFunctionN filter_function) : filter(filter_function) {
     rtcInitRayQueryContext(&context);
@@ -42,7 +42,7 @@ inline void embree_occluded(RTCScene scene, EmbreeQuery& query, RTCRay& ray) {
 
 #else
 
-/// Base of what a filter is handed back through its arguments. `filter` may be null.
+/// Base of the query that a filter receives through its arguments. `filter` may be null.
 struct EmbreeQuery {
   explicit EmbreeQuery(RTCFilterFunctionN filter) {
     rtcInitIntersectContext(&context);

@@ -14,16 +14,16 @@
 namespace pelage {
 namespace {
 
-// What Embree allocates, found by measuring trees over strands and skins of every kind and size, 1 to 4
-// motion keys; embree_chunk_test walks over them again.
-constexpr size_t kPerScene = 4096;         // the first node, what is small
-constexpr size_t kPerPrimitive = 52;       // of a tree without motion; 40 to 44 are usual
-constexpr size_t kPerFew = 140;            // of the first primitives, whose nodes are half empty
-constexpr size_t kFew = 48;                // how many those are
-constexpr size_t kReference = 32;          // of each primitive while the tree is built, in powers of two
-constexpr size_t kPerMoving = 95;          // and per pair of motion keys: time may be split between any two
-constexpr size_t kPerMovingTriangle = 60;  // the same of skins
-constexpr size_t kMovingReference = 80;    // of each primitive and pair of keys while the tree is built
+// Upper bounds of Embree's allocations, measured with trees over strands and skins of all kinds and sizes,
+// with 1 to 4 motion keys; embree_chunk_test checks them.
+constexpr size_t kPerScene = 4096;    // the first node and small objects
+constexpr size_t kPerPrimitive = 52;  // of a tree without motion; 40 to 44 are typical
+constexpr size_t kPerFew = 140;       // extra for the first primitives, whose nodes are half empty
+constexpr size_t kFew = 48;           // number of these
+constexpr size_t kReference = 32;     // per primitive during the build, in powers of two
+constexpr size_t kPerMoving = 95;  // per primitive and pair of motion keys: time may be split between any two
+constexpr size_t kPerMovingTriangle = 60;  // the same for skins
+constexpr size_t kMovingReference = 80;    // per primitive and pair of keys during the build
 
 size_t tree_bytes_bound(const ChunkCounts& n) {
   const size_t primitives = n.segments + n.triangles, pairs_of_keys = static_cast<size_t>(n.motion_keys - 1);
@@ -31,7 +31,7 @@ size_t tree_bytes_bound(const ChunkCounts& n) {
   const size_t few = kPerScene + kPerFew * std::min(primitives, kFew) * std::max<size_t>(pairs_of_keys, 1);
   const size_t moving = kPerMoving * n.segments + kPerMovingTriangle * n.triangles;
   const size_t tree = few + (pairs_of_keys == 0 ? kPerPrimitive * primitives : moving * pairs_of_keys);
-  // The last block is partly used.
+  // The last block is partially used.
   return (tree / EmbreeDevice::kTreeBlock + 2) * EmbreeDevice::kTreeBlock;
 }
 size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
@@ -44,7 +44,7 @@ size_t skin_bytes_bound(const ChunkCounts& n) {
   return 24 * static_cast<size_t>(n.motion_keys) * n.vertices + 40 * n.triangles + 64;
 }
 
-/// Embree reads 16 bytes at each vertex, so 4 bytes behind the last one must be ours.
+/// Embree reads 16 bytes at each vertex, so 4 bytes after the last one must be valid.
 void pad_for_embree(std::vector<float>& positions) {
   if (positions.capacity() == positions.size()) positions.reserve(positions.size() + 1);
 }
@@ -55,7 +55,7 @@ struct EmbreeChunk::Query : EmbreeQuery {
   Query(RTCFilterFunctionN filter_function, const EmbreeChunk& in_chunk, const Ray& of)
       : EmbreeQuery(filter_function), chunk(in_chunk), ray(of), starts_here(in_chunk.starts_here(of)) {}
 
-  /// Of a candidate from the ray's origin, not from where Embree's begins.
+  /// Distance of a candidate from the ray's origin, rather than from where Embree's ray starts.
   float distance_of(const EmbreeReport& report) const { return report.distance() - chunk.before_; }
   bool is_start(const EmbreeReport& report) const {
     return starts_here && chunk.is_start(ray, report.primitive(), report.u(), distance_of(report));
@@ -73,7 +73,7 @@ struct EmbreeChunk::NearestQuery : Query {
         nearest(nearest_so_far),
         distance(nearest_so_far.hit.distance) {}
   const NearestSoFar& nearest;
-  float distance;  // of the primitive, or before there is one of `nearest`
+  float distance;  // of the primitive or, if there is none, of `nearest`
   uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
 };
 
@@ -100,7 +100,7 @@ struct EmbreeChunk::Filters {
     return found;
   }
 
-  /// Of two hits at one distance keeps the one that stands first.
+  /// Of two hits at the same distance, keeps the one that precedes the other.
   static void keep_nearest(const RTCFilterFunctionNArguments* arguments) noexcept {
     const EmbreeReport report(arguments);
     auto& query = report.query<NearestQuery>();
@@ -128,7 +128,7 @@ struct EmbreeChunk::Filters {
     if (chunk.strands_) chunk.strands_->fetch_ahead(primitive);
   }
 
-  /// The same where strands are semi-transparent.
+  /// The same for semi-transparent strands.
   static void keep_nearest_stopping(const RTCFilterFunctionNArguments* arguments) noexcept {
     const EmbreeReport report(arguments);
     const auto& query = report.query<NearestQuery>();
@@ -142,7 +142,7 @@ struct EmbreeChunk::Filters {
     keep_nearest(arguments);
   }
 
-  /// Collects semi-transparent crossings; an opaque one that is not the ray's start ends the query.
+  /// Collects semi-transparent crossings; an opaque one that is not the ray's own start ends the query.
   static void collect_crossings(const RTCFilterFunctionNArguments* arguments) noexcept {
     const EmbreeReport report(arguments);
     auto& query = report.query<LightQuery>();
@@ -156,7 +156,7 @@ struct EmbreeChunk::Filters {
     report.reject();
   }
 
-  /// Where a ray leaves a round strand. It was counted where it entered.
+  /// Where a ray leaves a round strand. The crossing was counted on entry.
   static bool is_exit(const EmbreeChunk& chunk, const EmbreeReport& report) {
     return chunk.options_.shape == CurveShape::kRound && report.faces_away();
   }
@@ -169,7 +169,7 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, uint32_t number, float widest,
   size_t held = sizeof(*this);
   if (auto* fur = std::get_if<FurContents>(&contents.geometry)) {
     before_ = begins_before(widest, options.shape);
-    // Emptied before the tree is built, so that the two never stand side by side.
+    // Freed before the tree is built, so that both never coexist.
     const FurContents grown = std::move(*fur);
     longest_ = longest_segment(grown.strands, options.shape);
     strands_.emplace(grown.strands, grown.opacity, options.compact_attributes, patterns);
@@ -183,7 +183,7 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, uint32_t number, float widest,
     const auto lock = device_.one_at_a_time();
     const EmbreeMeter meter;
     Workers::alone().run_library([&] {
-      // Embree's own threads of this moment: the calling one.
+      // Embree uses only the calling thread here.
       const FlushDenormals flush;
       build();
     });
@@ -255,7 +255,7 @@ void EmbreeChunk::add_skin() {
 bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& met) const {
   RTCRayHit r;
   Ray here = ray;
-  // What is as near as the nearest so far may stand before it: a little of the way is lost in rounding.
+  // A hit as near as the nearest so far may precede it: allow for rounding.
   here.far = std::min(ray.far, far_behind(nearest.hit.distance, longest_));
   r.ray = embree_ray(here, before_);
   if (before_ > 0) r.ray.tfar = std::nextafter(r.ray.tfar, std::numeric_limits<float>::infinity());
@@ -273,7 +273,7 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
     met.triangle.assign_triangle(skin_, r.hit.primID);
     return true;
   }
-  hit.v = -r.hit.v;  // Embree counts from the other edge
+  hit.v = -r.hit.v;  // Embree's sign convention is opposite
   const uint32_t strand = strands_->locate(r.hit.primID).strand;
   hit.start = start_on(strand, static_cast<float>(hit.segment) + hit.u);
   hit.strand_index = strand;
@@ -295,7 +295,7 @@ bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const 
 
 bool EmbreeChunk::is_start(const Ray& ray, uint32_t primitive, float u, float distance) const {
   if (primitive - ray.start.first_segment >= ray.start.segment_count) return false;
-  if (before_ > 0 && distance > 4 * before_) return false;  // far more than two widths
+  if (before_ > 0 && distance > 4 * before_) return false;  // much more than two widths
   const PackedStrands::Place place = strands_->locate(primitive);
   Strands strand;
   strands_->copy_strand(place.strand, strand);
@@ -317,7 +317,7 @@ size_t EmbreeChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {
   const size_t grown = 16 * keys * n.points + n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) +
                        n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
                        sizeof(float) * (n.points + n.attribute_floats) + kPerScene;
-  // Positions may be copied to be padded.
+  // Positions may be copied for padding.
   const size_t packing =
       PackedStrands::bytes_bound(n) + PackedStrands::scratch_bytes_bound(n) + 12 * keys * n.vertices;
   return std::max(sizeof(EmbreeChunk) + skin_bytes_bound(n) + grown + std::max(packing, n.growth_bytes),

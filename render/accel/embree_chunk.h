@@ -16,14 +16,14 @@ struct EmbreeChunkOptions {
   bool compact_attributes = true;
 };
 
-/// What a chunk holds while it is resident: packed strands or a skin, and a compact Embree scene over it on a
+/// The contents of a resident chunk: packed strands or a skin, and a compact Embree scene over them on a
 /// device that all chunks share. Thread safety: const members from any thread, each inside a FlushDenormals
 /// scope.
 class EmbreeChunk final : public ChunkGeometry {
  public:
-  /// `number`: what Ray::start calls this chunk. `widest`: as StrandScale::widest has it. Built by the
-  /// calling thread alone, so that it may be made inside a loop of another team. Throws Error for what Embree
-  /// reports; the device outlives the chunk.
+  /// `number`: identifies this chunk in Ray::start. `widest`: as StrandScale::widest. Built by the calling
+  /// thread only, so that it may be made inside a loop of another pool. Throws Error for errors that Embree
+  /// reports; the device must outlive the chunk.
   EmbreeChunk(ChunkContents contents, uint32_t number, float widest, const EmbreeChunkOptions& options,
               const EmbreeDevice& device, SegmentPatterns& patterns);
   ~EmbreeChunk() override;
@@ -44,13 +44,13 @@ class EmbreeChunk final : public ChunkGeometry {
 
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }
-  /// Embree's share included.
+  /// Including Embree's memory.
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// At least what making a chunk of these counts holds at any moment, the contents that it is given
-  /// included, and what it holds afterwards.
+  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
+  /// given contents, and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);
-  /// The same where the build_peak_bytes() of an equal chunk are known.
+  /// The same when the build_peak_bytes() of an equal chunk are known.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
@@ -70,7 +70,7 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunkOptions options_;
   const EmbreeDevice& device_;
   uint32_t part_ = 0, number_ = 0;
-  float before_ = 0;                      // how far before their origin Embree's rays begin; see embree_ray()
+  float before_ = 0;                      // how far before their origin Embree's rays start; see embree_ray()
   std::optional<PackedStrands> strands_;  // or skin_
   SkinMesh skin_;
   float longest_ = 0;  // see far_behind()

@@ -83,7 +83,7 @@ EmbreeCurves::Place EmbreeCurves::locate(uint32_t primitive) const {
 
 float EmbreeCurves::opacity(Place place, float u) const {
   if (opaque()) return 1;
-  // As interpolate_attribute does it: a span of an unpinned B-spline lies beside its second and third points.
+  // As in interpolate_attribute(): a span of an unpinned B-spline lies between its second and third points.
   const size_t before = strands().basis() == CurveBasis::kBSpline ? 1 : 0;
   const float* o = &source_.opacity[strands().first_point(place.strand) + place.segment + before];
   return interpolate(o[0], o[1], u);

@@ -10,15 +10,16 @@
 
 namespace pelage {
 
-/// Control points of a batch of strands as Embree reads them, and the way back from its primitives to
-/// strands.
+/// Control points of a batch of strands in the form that Embree reads, and the mapping from its primitives
+/// back to strands.
 ///
 /// Unpinned B-splines and linear strands are read in place; pinned B-splines and Catmull-Rom strands need a
 /// copy with a phantom point at each end.
 ///
 /// Flat segments are tested in tessellation_rate straight pieces. Of the camera rays that hit a ball of
-/// 100,000 strands, rates 4, 8 and 12 met another strand than rate 16, Embree's most, in 5.9, 1.2 and 0.4 %;
-/// rates 4 and 8 cost the same (one AVX register), rate 16 costs 4 to 10 % more for shadow rays. Hence 8.
+/// 100,000 strands, 5.9, 1.2 and 0.4 % hit another strand at rates 4, 8 and 12 than at rate 16, Embree's
+/// maximum. Rates 4 and 8 cost the same (one AVX register); rate 16 makes shadow rays 4 to 10 % slower. Hence
+/// 8.
 class EmbreeCurves {
  public:
   explicit EmbreeCurves(const AccelStrands& source);
@@ -39,11 +40,11 @@ class EmbreeCurves {
   };
   Place locate(uint32_t primitive) const;
   float opacity(Place place, float u) const;
-  /// Asks the processor to fetch what shading will read of a strand. Called for every hit that may become the
-  /// nearest: the rest of the ray's way hides the wait for memory.
+  /// Prefetches the data of a strand that shading will read. Called for every hit that may become the
+  /// nearest: the rest of the traversal hides the latency.
   void fetch_ahead(uint32_t primitive) const;
 
-  /// Heap bytes held here.
+  /// Heap memory of this object.
   size_t bytes() const;
 
  private:
@@ -53,7 +54,7 @@ class EmbreeCurves {
   size_t vertex_count_ = 0;
   std::vector<float> copy_;                  // control points with phantom ends, or empty: read in place
   std::vector<uint32_t> first_vertex_;       // one per segment
-  uint32_t segments_per_strand_ = 0;         // when all strands have equally many
+  uint32_t segments_per_strand_ = 0;         // when all strands have the same number
   uint32_t points_per_strand_ = 0;           // the same
   std::vector<uint32_t> strand_of_segment_;  // otherwise
   std::vector<uint32_t> first_segment_;      // otherwise: of each strand

@@ -13,10 +13,10 @@
 namespace pelage {
 namespace {
 
-// Embree's monitor does not say for which scene it allocates; each scene of a chunk is built by one thread.
+// Embree's monitor does not report the scene of an allocation; each scene of a chunk is built by one thread.
 thread_local EmbreeMeter* meter_of_thread = nullptr;
 
-/// Embree adds a header and room to align to a block, the heap another header.
+/// Embree adds a header and padding to align to a block, the heap another header.
 std::string small_scenes() {
   constexpr size_t kAdded = 256;
   return fmt::format("alloc_single_thread_alloc=1,alloc_thread_block_size={}",
@@ -78,7 +78,7 @@ void EmbreeDevice::on_error(void* self, RTCError code, const char* text) noexcep
   try {
     device.text_ = text ? text : "";
   } catch (const std::bad_alloc&) {
-    // The code alone still says that something went wrong.
+    // The error code alone is still reported.
   }
 }
 

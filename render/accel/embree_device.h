@@ -10,16 +10,16 @@
 
 namespace pelage {
 
-/// An Embree device whose errors are kept until somebody asks: nothing may be thrown through Embree's C
-/// frames.
+/// An Embree device that stores errors until they are queried: exceptions must not propagate through Embree's
+/// C frames.
 class EmbreeDevice {
  public:
-  /// Allocations are charged to MemoryTag::kChunks. `memory_limit`: bytes that the ledger's budgeted tags may
-  /// reach, 0 for no limit. Throws Error (kFailed) when Embree does not start.
+  /// Charges allocations to MemoryTag::kChunks. `memory_limit`: max bytes of the ledger's budgeted tags, 0
+  /// for no limit. Throws Error (kFailed) when Embree does not start.
   EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger);
-  /// For many small scenes, each built by one thread. Allocations are charged to nobody; EmbreeMeter counts
-  /// them. Trees stand in blocks of kTreeBlock bytes, pages of their own: trees that come and go leave no
-  /// holes in the heap.
+  /// For many small scenes, each built by one thread. Allocations are not charged; EmbreeMeter counts them.
+  /// Trees are allocated in blocks of kTreeBlock bytes on their own pages, so that freed trees leave no holes
+  /// in the heap.
   EmbreeDevice();
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
@@ -28,11 +28,11 @@ class EmbreeDevice {
   RTCDevice get() const { return device_; }
   /// Throws the first error that Embree reported since the device was made.
   void rethrow() const;
-  /// Throws the last error of this thread: where many threads build at once.
+  /// Throws the last error of this thread, for concurrent builds.
   void rethrow_of_thread() const;
-  /// Held while a scene is built or released beside others. Empty but for the thread-sanitizer build: Embree
-  /// guards the list of its threads' allocators by a spin lock that the sanitizer does not see, and would be
-  /// reported.
+  /// Hold while a scene is built or released concurrently with others. Does nothing except in the
+  /// thread-sanitizer build: Embree guards the list of its threads' allocators with a spin lock that the
+  /// sanitizer does not recognise, which would cause false reports.
   std::unique_lock<std::mutex> one_at_a_time() const;
 
   static constexpr size_t kTreeBlock = 6 * 4096;
@@ -52,8 +52,8 @@ class EmbreeDevice {
   std::string text_;
 };
 
-/// While it lives, counts what Embree allocates on this thread, of whichever device, as heap_bytes(). They do
-/// not nest.
+/// Counts Embree's allocations on this thread during its lifetime, on any device, as heap_bytes(). Must not
+/// be nested.
 class EmbreeMeter {
  public:
   EmbreeMeter();
@@ -61,7 +61,7 @@ class EmbreeMeter {
   EmbreeMeter(const EmbreeMeter&) = delete;
   EmbreeMeter& operator=(const EmbreeMeter&) = delete;
 
-  /// Bytes allocated since then and not given back, and the most of them at one time.
+  /// Bytes allocated and not freed since construction, and their maximum.
   int64_t held() const { return held_; }
   int64_t peak() const { return peak_; }
 

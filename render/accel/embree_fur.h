@@ -12,17 +12,17 @@ namespace pelage {
 class EmbreeScene;
 class Workers;
 
-/// Embree's flat curves over one batch of strands and nothing around them: what the fur tree is measured
-/// against. Thread safety: immutable; each query inside a FlushDenormals scope.
+/// Embree's flat curves over a single batch of strands: the baseline for the fur tree. Thread safety:
+/// immutable; each query inside a FlushDenormals scope.
 class EmbreeFur {
  public:
-  /// The strands stay where they are. Curves in Embree's form and its tree are charged to
-  /// MemoryTag::kChunks. `tessellation_rate`: pieces of a segment.
+  /// Reads the strands in place. Charges the curves in Embree's form and its tree to MemoryTag::kChunks.
+  /// `tessellation_rate`: pieces per segment.
   EmbreeFur(const Strands& strands, bool compact, int tessellation_rate, MemoryLedger& ledger,
             const Workers& workers);
   ~EmbreeFur();
 
-  /// Distance to the nearest hit in (near, far), infinite where there is none.
+  /// Distance to the nearest hit in (near, far); infinite when there is none.
   float closest(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
 

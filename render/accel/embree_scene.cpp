@@ -77,10 +77,11 @@ void EmbreeScene::add_skin(const SkinMesh& mesh, uint32_t id) {
   rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(mesh.motion_keys));
   const size_t floats = mesh.vertex_count() * 3;
   for (int key = 0; key < mesh.motion_keys; ++key) {
-    // Copied: Embree reads 16 bytes at the last vertex, past the end of an array of exactly 3 floats each.
+    // Copied, because Embree reads 16 bytes at the last vertex, beyond the end of an array of exactly 3
+    // floats each.
     void* buffer = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(key),
                                            RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertex_count());
-    if (!buffer) break;  // the commit finds it missing, and the error is thrown after it
+    if (!buffer) break;  // the commit detects it, and the error is thrown afterwards
     std::memcpy(buffer, &mesh.positions[static_cast<size_t>(key) * floats], floats * sizeof(float));
   }
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,

@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// The Embree scene of an EmbreeAccel, and what its geometry numbers mean: strand batches first, then skins,
-/// in the order given.
+/// The Embree scene of an EmbreeAccel, and the meaning of its geometry numbers: strand batches first, then
+/// skins, in the given order.
 class EmbreeScene {
  public:
   EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
@@ -29,8 +29,7 @@ class EmbreeScene {
   const SkinMesh& skin_mesh(uint32_t geometry) const { return *skins_[skin(geometry)]; }
   const EmbreeCurves& curves(uint32_t geometry) const { return curves_[geometry]; }
 
-  /// The order that decides between equal distances: strands before skins, then by strand id, part and
-  /// segment.
+  /// The order that breaks ties in distance: strands before skins, then by strand id, part and segment.
   bool precedes(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b, uint32_t primitive_b) const;
   CrossingPlace crossing(const EmbreeCurves& batch, EmbreeCurves::Place place, float u) const;
 

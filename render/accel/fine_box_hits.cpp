@@ -15,7 +15,7 @@ FineBoxHits intersect_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, fl
     float distance;
     uint32_t level, group;
   };
-  // Three siblings wait on each level below the highest; 2^32 boxes have 16 levels.
+  // Three siblings are pending on each level below the highest; 2^32 boxes have 16 levels.
   std::array<Entry, 64> stack;
   size_t waiting = 0;
   stack[waiting++] = {0, static_cast<uint32_t>(boxes.levels() - 1), 0};

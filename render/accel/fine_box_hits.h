@@ -9,15 +9,15 @@
 
 namespace pelage {
 
-/// What a ray meets of the fine boxes of a chunk.
+/// Intersection of a ray with the fine boxes of a chunk.
 struct FineBoxHits {
   float entry =
-      std::numeric_limits<float>::infinity();  ///< where it enters the first; infinity: it meets none
-  uint32_t boxes = 0;                          ///< how many it meets, where that was asked for
+      std::numeric_limits<float>::infinity();  ///< entry distance of the first; infinity: no intersection
+  uint32_t boxes = 0;                          ///< number of intersected boxes, if requested
 };
 
-/// Looks before `far` for the first of the fine boxes that a ray meets, or, with `all`, for all of them. Adds
-/// to `tests` how many were looked at. Boxes are taken to be larger by `margin` on every side.
+/// Searches before `far` for the first fine box that a ray intersects or, with `all`, for all of them. Adds
+/// the number of tested boxes to `tests`. Boxes are enlarged by `margin` on every side.
 FineBoxHits intersect_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
                                  int64_t& tests, float margin = 0);
 

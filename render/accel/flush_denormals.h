@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Turns denormal numbers to zero in this thread for as long as it lives (FTZ and DAZ), as Embree wants it.
-/// Every body of a render loop opens one, so that results do not depend on which thread ran it.
+/// Flushes denormal numbers to zero in this thread during its lifetime (FTZ and DAZ), as Embree requires.
+/// Every body of a render loop creates one, so that results do not depend on the thread.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

@@ -11,10 +11,10 @@
 namespace pelage {
 namespace {
 
-/// Of a narrow segment the crossing belongs to the joint that it is nearer to.
+/// A crossing with a flat segment belongs to the nearer joint.
 uint32_t joint_beside(float u) { return u > 0.5f ? 1 : 0; }
 
-/// What growing gives.
+/// Upper bound of the size of grown contents.
 size_t grown_bytes_bound(const ChunkCounts& n) {
   return 16 * static_cast<size_t>(n.motion_keys) * n.points +
          n.strands * (sizeof(uint32_t) + sizeof(uint64_t)) + n.strands * (sizeof(RootAddress) + sizeof(V2f)) +
@@ -88,7 +88,7 @@ FurChunk::FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTre
 ChunkBounds FurChunk::part_bounds(size_t parts) const {
   ChunkBounds bounds = subtree_bounds(tree_.view(), parts);
   if (!tree_.view().frame.turned) return bounds;
-  // Boxes around turned ones reach beyond everything that is in them.
+  // Boxes around rotated ones extend beyond their contents.
   const FurTreeView& tree = tree_.view();
   for (Box3f& box : bounds.boxes) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +110,7 @@ FurStart FurChunk::start_of(const Ray& ray) const {
 
 bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const {
   Ray here = ray;
-  // What is as near as the nearest so far may stand before it.
+  // A hit as near as the nearest so far may precede it.
   if (nearest.hit)
     here.far =
         std::min(ray.far, std::nextafter(nearest.hit.distance, std::numeric_limits<float>::infinity()));

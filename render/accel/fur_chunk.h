@@ -17,16 +17,16 @@ struct FurChunkOptions {
   bool compact_attributes = true;
 };
 
-/// Fur of one part in a fur tree, which has the only copy of the points, beside what shading needs of the
-/// strands: ids, roots, attributes. Hits come out as strands of Bezier curves on the grid of the coat, the
-/// curves that were hit.
+/// Fur of one part in a fur tree, which has the only copy of the points, and the strands' data for shading:
+/// ids, roots, attributes. Hits return strands of Bezier curves on the grid of the coat, the curves that were
+/// hit.
 class FurChunk final : public ChunkGeometry {
  public:
-  /// `number`: what Ray::start calls this chunk. `grid`: the same for all chunks of a coat. Built by the
-  /// calling thread alone.
+  /// `number`: identifies this chunk in Ray::start. `grid`: the same for all chunks of a coat. Built by the
+  /// calling thread only.
   FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid, const FurChunkOptions& options);
 
-  /// A chunk that was kept in a file.
+  /// A chunk that was stored in a file.
   FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
 
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
@@ -46,14 +46,14 @@ class FurChunk final : public ChunkGeometry {
   const FurTree& tree() const { return tree_; }
   const PackedStrands& strands() const { return strands_; }
   size_t segment_count() const { return strands_.segment_count(); }
-  /// Boxes of about so many parts that hold every hit.
+  /// About `parts` boxes that contain every hit.
   ChunkBounds part_bounds(size_t parts) const;
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// At least what making a chunk of these counts holds at any moment, the contents that it is given
-  /// included, and what it holds afterwards.
+  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
+  /// given contents, and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts, const FurChunkOptions& options);
-  /// The same where the build_peak_bytes() of an equal chunk are known.
+  /// The same when the build_peak_bytes() of an equal chunk are known.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:

@@ -14,13 +14,13 @@ namespace pelage {
 namespace {
 
 const std::string kKind = "fur-chunks";
-constexpr size_t kOverhead = size_t(16) << 10;  // small pieces of a chunk, generously
-constexpr size_t kUnmet = 4096;                 // segments of a chunk beyond those in full blocks
+constexpr size_t kOverhead = size_t(16) << 10;  // small allocations of a chunk, generously
+constexpr size_t kUnmet = 4096;                 // segments of a chunk in excess of full blocks
 constexpr size_t kMaxHead = size_t(1) << 20;
 
 enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
 
-/// What is known of a chunk, in front of what is known of its packed strands.
+/// Metadata of a chunk, before those of its packed strands.
 struct Head {
   uint32_t version, part, layout;
   int32_t motion_keys;
@@ -34,7 +34,7 @@ ContentHash entry_key(const ContentHash& key) {
   return ContentHasher().add("fur chunks").add(FurChunkFile::kVersion).add(key).digest();
 }
 
-/// Whether no ray can meet a lane, because it is one point without a width at every key.
+/// Whether no ray can hit a lane, because it is a single point without width at every key.
 bool is_empty_lane(const std::byte* block, bool wide, size_t lane, int motion_keys) {
   for (int key = 0; key < motion_keys; ++key) {
     const SnappedSegment segment = read_block(block, wide, lane, key);
@@ -48,7 +48,7 @@ bool is_empty_lane(const std::byte* block, bool wide, size_t lane, int motion_ke
   return true;
 }
 
-/// Whether every segment in the leaves of a possible tree is one of `count`.
+/// Whether every segment number in the leaves of a validated tree is below `count`.
 bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count) {
   const size_t size = node_size(view.layout, view.motion_keys);
   for (size_t n = 0; n < node_bytes; n += size) {
@@ -73,7 +73,7 @@ bool numbers_are_below(const FurTreeView& view, size_t node_bytes, size_t count)
   return true;
 }
 
-/// Of a tree that holds anything.
+/// For a tree that is not empty.
 bool is_possible(const FurBox& box) {
   for (size_t axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(box.low[axis]) || !std::isfinite(box.high[axis]) || box.low[axis] > box.high[axis])
@@ -82,8 +82,8 @@ bool is_possible(const FurBox& box) {
   return true;
 }
 
-/// Segments that nothing can meet are in no leaf. A chunk that has hardly any others is not kept, so that no
-/// file makes a reader take memory out of all proportion to its size.
+/// Segments that cannot be hit are in no leaf. A chunk that has hardly any others is not stored, so that a
+/// small file cannot make its reader allocate disproportionate memory.
 bool is_in_proportion(size_t segments, size_t leaf_bytes, int motion_keys) {
   return segments <= FurBlockHeader::kLanes * (leaf_bytes / kNarrowBlock.block(motion_keys)) + kUnmet;
 }

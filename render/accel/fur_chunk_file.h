@@ -11,52 +11,52 @@
 
 namespace pelage {
 
-/// The fur of a frame on disk, chunk by chunk: an entry of kind "fur-chunks" of a content store. A chunk is
-/// four sections, each with a checksum: what is known of it, the packed strands, nodes, leaves. They are read
-/// and checked when the chunk is needed, straight to where they stay; nothing is mapped. A chunk that is not
-/// what was written is lost, the others are not.
+/// The fur of a frame on disk, chunk by chunk: an entry of kind "fur-chunks" in a content store. A chunk has
+/// four sections, each with its own checksum: metadata, packed strands, nodes, leaves. They are read and
+/// verified when the chunk is needed, directly into their final memory; nothing is mapped. A damaged chunk is
+/// lost without affecting the others.
 ///
 /// Thread safety: const members may be called from any thread.
 class FurChunkFile {
  public:
-  /// Counts up whenever the same strands would give other bytes.
+  /// Incremented whenever the same strands would give different bytes.
   static constexpr uint32_t kVersion = 2;
 
-  /// Writes an entry, chunk by chunk, in order; it exists from commit() on.
+  /// Writes an entry, chunk by chunk, in order; it exists after commit().
   class Writer {
    public:
     Writer(const ContentStore& store, const ContentHash& key);
-    /// `chunk` may be null: one that is no fur.
+    /// `chunk` may be null: not fur.
     void add(const FurChunk* chunk);
-    /// Whether nothing more can come of it.
+    /// Whether writing has failed.
     bool failed() const { return entry_.failed(); }
-    /// Whether the entry now exists; what the file system refuses is told to `warn`.
+    /// Returns whether the entry now exists; reports file system errors to `warn`.
     bool commit(const WarningSink& warn);
 
    private:
     ContentStore::Writer entry_;
   };
 
-  /// Nothing when there is no such entry, or one that is damaged or foreign as far as its table tells: then
-  /// `warn` has been told.
+  /// Null when the entry is missing, or when its table shows that it is damaged or foreign; the latter call
+  /// `warn`.
   static std::unique_ptr<const FurChunkFile> open(const ContentStore& store, const ContentHash& key,
                                                   size_t chunk_count, const WarningSink& warn);
   explicit FurChunkFile(StoredSections file);
 
   size_t chunk_count() const { return file_.section_count() / kSections; }
-  /// Of any chunk of the frame: those behind the last are no fur. No longer of one that is lost.
+  /// Whether the file has this chunk of the frame; chunks after the last are not fur. False for lost chunks.
   bool has(uint32_t chunk) const {
     return chunk < chunk_count() && file_.section_bytes(kSections * size_t(chunk)) > 0 &&
            !lost_[chunk].load(std::memory_order_relaxed);
   }
-  /// At least what reading a chunk holds at any moment, and what the chunk holds afterwards.
+  /// Upper bound of the memory held at any moment while a chunk is read, and afterwards.
   size_t bytes_bound(uint32_t chunk) const;
-  /// `pool` as FurTreeOptions. Null when the chunk cannot be read or is not what was written: then it is
-  /// lost, the file is removed, so that it will be made again, or `warn` is told why it cannot be; it is told
-  /// once for all chunks.
+  /// `pool` as in FurTreeOptions. Null when the chunk cannot be read or is damaged: it is then lost, and the
+  /// file is removed, so that it will be made again; if removing fails, `warn` is called, once for all
+  /// chunks.
   std::unique_ptr<FurChunk> read(uint32_t chunk, const WarningSink& warn, PagePool* pool = nullptr) const;
 
-  /// What this object holds.
+  /// Memory of this object.
   size_t bytes() const { return sizeof(*this) + file_.bytes() + chunk_count() * sizeof(lost_[0]); }
   int64_t chunks_read() const { return chunks_read_.load(std::memory_order_relaxed); }
   int64_t bytes_read() const { return bytes_read_.load(std::memory_order_relaxed); }
@@ -64,7 +64,7 @@ class FurChunkFile {
  private:
   static constexpr size_t kSections = 4;
 
-  /// Throws Error (kInput) when it cannot be read or is not what was written.
+  /// Throws Error (kInput) when it cannot be read or is damaged.
   std::unique_ptr<FurChunk> parse(uint32_t chunk, PagePool* pool) const;
 
   StoredSections file_;

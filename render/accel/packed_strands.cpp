@@ -24,7 +24,7 @@ float PackedStrands::opacity(Place place, float u) const {
   if (opaque_) return 1;
   if (opacity_.frequency == AttributeClass::kConstant) return value(opacity_, 0);
   if (opacity_.frequency == AttributeClass::kPerStrand) return value(opacity_, place.strand);
-  // A span of an unpinned B-spline lies beside its second and third points.
+  // A span of an unpinned B-spline lies between its second and third points.
   const size_t before = basis_ == CurveBasis::kBSpline ? 1 : 0;
   const size_t index = first_point(place.strand) + place.segment + before;
   return interpolate(value(opacity_, index), value(opacity_, index + 1), u);
@@ -46,7 +46,7 @@ void PackedStrands::copy_strand(uint32_t strand, Strands& out) const {
 
 StrandArrays PackedStrands::bezier_strand(uint32_t strand, StrandArrays a) const {
   const uint32_t segments = strand_segments(strand);
-  // A span of an unpinned B-spline lies beside its second and third points.
+  // A span of an unpinned B-spline lies between its second and third points.
   const size_t before = basis_ == CurveBasis::kBSpline ? 1 : 0;
   a.basis = CurveBasis::kBezier;
   a.points.resize(static_cast<size_t>(motion_keys_) * 4 * (3 * segments + 1));
@@ -118,10 +118,10 @@ size_t PackedStrands::bytes() const {
 
 namespace {
 
-constexpr size_t kArrays = 12;                                // beside the attributes
+constexpr size_t kArrays = 12;                                // without the attributes
 constexpr size_t kMaxAttributes = 16, kAttributeBytes = 256;  // generous, for bytes_bound()
 
-/// Of attributes, opacities and roots.
+/// For attributes, opacities and roots.
 size_t numbers_bound(const ChunkCounts& n) { return n.attribute_floats + n.points + 4 * n.strands; }
 
 }  // namespace
@@ -132,7 +132,7 @@ size_t PackedStrands::bytes_bound(const ChunkCounts& n, PackedPoints points) {
   const size_t block = (points == PackedPoints::kInPlace ? vertices : 0) +
                        n.strands * (sizeof(uint64_t) + sizeof(uint32_t)) +
                        sizeof(uint32_t) * (n.strands + 1) + sizeof(float) * numbers_bound(n);
-  // Per attribute: its name and places, the end of its array.
+  // Per attribute: its name and positions, the end of its array.
   const size_t named = kAttributeBytes * (kArrays + std::min(n.attribute_floats, kMaxAttributes));
   return sizeof(PackedStrands) + PageBlock::held_bytes(block) + named;
 }

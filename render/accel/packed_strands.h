@@ -16,26 +16,26 @@
 
 namespace pelage {
 
-/// Where the control points of packed strands are.
+/// Where the control points of packed strands are stored.
 enum class PackedPoints {
-  kInPlace,   ///< as Embree reads them
-  kInFurTree  ///< in a fur tree: strands are in the order of their ids, segments have the tree's numbers
+  kInPlace,   ///< in the packed strands, as Embree reads them
+  kInFurTree  ///< in a fur tree: strands are ordered by id, segments are numbered as in the tree
 };
 
-/// The strands of a chunk as they are kept: one block of memory with the control points as Embree reads them,
-/// phantom ends in place, unless they are kept elsewhere, and the rest in the smallest form that gives it
-/// back.
+/// The strands of a chunk in compact form: one block of memory with the control points as Embree reads them,
+/// including phantom ends, unless they are stored elsewhere, and the other data in the smallest form from
+/// which it can be restored.
 ///
-/// Points, radii and ids come back bit by bit. Attributes, opacities, root addresses and texture coordinates
-/// do so where `compact` is off; otherwise as packed_value(), in the rarest class that they need (constant,
-/// per strand, per point) and in 1, 2 or 4 bytes. A strand without a segment is left out.
-/// Thread safety: immutable.
+/// Points, radii and ids are restored bit by bit. Attributes, opacities, root addresses and texture
+/// coordinates are lossless without `compact`; otherwise they are rounded by packed_value() and stored at the
+/// lowest frequency that suffices (constant, per strand, per point), in 1, 2 or 4 bytes. Strands without a
+/// segment are omitted. Thread safety: immutable.
 class PackedStrands {
  public:
-  /// `opacity`: one in [0, 1] per point, or empty. Points are kept here.
+  /// `opacity`: one in [0, 1] per point, or empty. Points are stored here.
   PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact,
                 SegmentPatterns& patterns);
-  /// The same of strands whose points are kept elsewhere.
+  /// The same for strands whose points are stored elsewhere.
   PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact);
 
   size_t strand_count() const { return strand_count_; }
@@ -44,15 +44,15 @@ class PackedStrands {
   int motion_keys() const { return motion_keys_; }
   bool opaque() const { return opaque_; }
 
-  /// x, y, z, radius of every control point of one motion key, phantoms included. This, segments(),
-  /// copy_strand() and fetch_ahead() only where points are kept here.
+  /// x, y, z, radius of every control point of one motion key, including phantom points. This, segments(),
+  /// copy_strand() and fetch_ahead() may be called only when points are stored here.
   const float* vertices(int key) const {
     return reinterpret_cast<const float*>(block_.data()) + static_cast<size_t>(key) * vertex_count_ * 4;
   }
   size_t vertex_count() const { return vertex_count_; }
   /// First control point of each segment.
   const uint32_t* segments() const { return segments_; }
-  /// The control points that make one segment: 4, or 2 of a linear one.
+  /// Number of control points of one segment: 4, or 2 for linear ones.
   uint32_t segment_vertices() const { return extra_ + 1; }
 
   struct Place {
@@ -68,7 +68,7 @@ class PackedStrands {
     return wide_ids_ ? at<uint64_t>(ids_)[strand] : first_id_ + at<uint32_t>(ids_)[strand];
   }
   float opacity(Place place, float u) const;
-  /// Strand `strand` becomes the only one of `out`, whose memory is reused.
+  /// Makes strand `strand` the only one of `out`, whose memory is reused.
   void copy_strand(uint32_t strand, Strands& out) const;
   uint32_t first_segment(uint32_t strand) const {
     return segments_per_strand_ != 0 ? strand * segments_per_strand_ : at<uint32_t>(first_segments_)[strand];
@@ -76,22 +76,23 @@ class PackedStrands {
   uint32_t strand_segments(uint32_t strand) const {
     return first_segment(strand + 1) - first_segment(strand);
   }
-  /// A strand as Bezier curves, all of it but the points, for which there is room; `memory` is reused.
+  /// A strand as Bezier curves, complete except for the points, for which memory is allocated; reuses
+  /// `memory`.
   StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
-  /// What a file keeps of strands whose points are elsewhere: all but the block, and the block.
+  /// Serialised strands whose points are stored elsewhere: everything except the block, and the block.
   std::vector<std::byte> stored_head() const;
   std::span<const std::byte> stored_block() const { return {block_.data(), block_.bytes()}; }
-  /// The same strands; nothing where the two do not fit together.
+  /// Restores the strands; empty where the two are inconsistent.
   static std::optional<PackedStrands> from_stored(std::span<const std::byte> head, PageBlock block);
 
-  /// Asks the processor to fetch what copy_strand() will read first.
+  /// Prefetches the first data that copy_strand() will read.
   void fetch_ahead(uint32_t primitive) const;
 
-  /// What is held, this object included.
+  /// Memory in use, including this object.
   size_t bytes() const;
-  /// At least bytes() of every batch of these counts.
+  /// Upper bound of bytes() for any batch with these counts.
   static size_t bytes_bound(const ChunkCounts& counts, PackedPoints points = PackedPoints::kInPlace);
-  /// What is held beside it while it is packed.
+  /// Temporary memory while strands are packed.
   static size_t scratch_bytes_bound(const ChunkCounts& counts);
 
  private:
@@ -110,7 +111,7 @@ class PackedStrands {
   PackedStrands() = default;
   template <class Packed, class Use>
   static void for_each_number(Packed& packed, const Use& use);
-  /// Whether all that is read lies within the block.
+  /// Whether all reads stay within the block.
   bool is_possible() const;
 
   template <class T>
@@ -122,10 +123,10 @@ class PackedStrands {
     size_t first;
     uint32_t count, stride;
   };
-  /// Everything of a strand but basis and points. `range` says which numbers of those kept per point are
-  /// wanted, and where in `out` each of them goes.
+  /// Copies everything of a strand except basis and points. `range`: which per-point values are needed, and
+  /// their destination in `out`.
   void copy_rest(uint32_t strand, const PointRange& range, StrandArrays& out) const;
-  /// Points of a strand as they were given: without phantoms, and where the first of them counts from.
+  /// Original points of a strand: without phantom points, and the index of the first one.
   uint32_t strand_points(uint32_t strand) const;
   size_t first_point(uint32_t strand) const;
   float value(const Values& values, size_t index) const {
@@ -138,9 +139,9 @@ class PackedStrands {
   size_t strand_count_ = 0, segment_count_ = 0, vertex_count_ = 0;
   uint64_t first_id_ = 0;
   size_t ids_ = 0, faces_ = 0, first_segments_ = 0;
-  uint32_t segments_per_strand_ = 0;  // when all strands have equally many; otherwise 0
+  uint32_t segments_per_strand_ = 0;  // when all strands have the same number; otherwise 0
   uint32_t extra_ = 3;                // control points of a strand beyond its number of segments
-  uint32_t phantoms_ = 0;             // of these, not given
+  uint32_t phantoms_ = 0;             // of these, the phantom points
   uint32_t first_face_ = 0;
   int motion_keys_ = 1;
   CurveBasis basis_ = CurveBasis::kPinnedBSpline;

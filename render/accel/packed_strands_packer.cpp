@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How strands are packed; packed_strands.cpp reads them.
+// Packs strands; packed_strands.cpp reads them.
 #include <algorithm>
 #include <bit>
 #include <limits>
@@ -20,11 +20,11 @@ bool same(const float* a, const float* b, size_t count) {
 
 }  // namespace
 
-/// Fills a PackedStrands: first everything is brought into its final class and precision and given a place,
-/// then the block is made and written.
+/// Fills a PackedStrands: first all data is converted to its final frequency and precision and gets a
+/// position, then the block is allocated and written.
 class PackedStrands::Packer {
  public:
-  /// Points are kept here when there are `patterns`.
+  /// Points are stored here if there are `patterns`.
   Packer(PackedStrands& out, const Strands& strands, bool compact, SegmentPatterns* patterns)
       : out_(out), strands_(strands), compact_(compact), patterns_(patterns) {
     PELAGE_CHECK(strands.basis() != CurveBasis::kBezier);
@@ -50,7 +50,8 @@ class PackedStrands::Packer {
     plan_roots();
     plan_values(opacity);
     out_.block_ = PageBlock(size_);
-    std::memset(out_.block_.data(), 0, out_.block_.bytes());  // gaps too: it may go into a file
+    std::memset(out_.block_.data(), 0,
+                out_.block_.bytes());  // including gaps, because it may be written to a file
     if (patterns_) write_points();
     write_segments();
     write_ids();
@@ -158,7 +159,7 @@ class PackedStrands::Packer {
     }
   }
 
-  /// Those of the kept strands.
+  /// The values of the kept strands.
   std::vector<float> gathered(const float* from, AttributeClass frequency, uint32_t components) const {
     if (frequency == AttributeClass::kConstant) return {from, from + components};
     std::vector<float> numbers;
@@ -188,7 +189,7 @@ class PackedStrands::Packer {
     planned_.push_back({&values, std::move(numbers)});
   }
 
-  /// Per point becomes per strand where every strand has one value along it.
+  /// Converts per point to per strand when every strand has a single value along it.
   void thin_strands(Values& values, std::vector<float>& numbers) const {
     const size_t n = values.components;
     const float* first = numbers.data();
@@ -210,7 +211,7 @@ class PackedStrands::Packer {
     values.frequency = AttributeClass::kPerStrand;
   }
 
-  /// Per strand becomes constant where all strands have one value.
+  /// Converts per strand to constant when all strands have the same value.
   void thin_batch(Values& values, std::vector<float>& numbers) const {
     const size_t n = values.components;
     if (numbers.empty()) return;

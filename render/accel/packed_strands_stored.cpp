@@ -5,7 +5,7 @@
 #include "base/check.h"
 #include "render/accel/packed_strands.h"
 
-// Packed strands on their way to a file and back: numbers in a row, and the block as it is.
+// Serialisation of packed strands: a sequence of numbers, and the block unchanged.
 namespace pelage {
 namespace {
 
@@ -61,14 +61,14 @@ class ByteReader {
   std::span<const std::byte> rest_;
 };
 
-/// Whether `count` numbers of `size` bytes lie within the block, aligned.
+/// Whether `count` numbers of `size` bytes are within the block and aligned.
 bool lies_within(size_t offset, size_t count, size_t size, size_t bytes) {
   return offset <= bytes && offset % size == 0 && count <= (bytes - offset) / size;
 }
 
 }  // namespace
 
-/// Calls use(member) for everything beside the block and the attributes.
+/// Calls use(member) for everything except the block and the attributes.
 template <class Packed, class Use>
 void PackedStrands::for_each_number(Packed& packed, const Use& use) {
   use(packed.strand_count_), use(packed.segment_count_), use(packed.vertex_count_), use(packed.first_id_);

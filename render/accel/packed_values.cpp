@@ -20,7 +20,7 @@ float packed_value(float x) { return is_unit(x) ? static_cast<float>(step_of(x))
 Precision coarsest_precision(std::span<const float> values) {
   Precision precision = Precision::kUnorm8;
   for (float x : values) {
-    // Compared bit by bit: -0 is not 0 here.
+    // Compared bitwise, because -0 must differ from 0.
     if (!is_unit(x) || std::bit_cast<uint32_t>(packed_value(x)) != std::bit_cast<uint32_t>(x)) {
       return Precision::kFloat;
     }

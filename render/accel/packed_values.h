@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// How finely numbers are kept. Whatever is chosen gives the same floats back.
+/// Storage format of numbers. All formats restore the same floats.
 enum class Precision : uint8_t {
   kFloat,
   kUnorm16,  ///< multiples of 1/65535 in [0, 1]
@@ -17,18 +17,18 @@ inline size_t precision_bytes(Precision precision) {
   return precision == Precision::kFloat ? 4 : precision == Precision::kUnorm16 ? 2 : 1;
 }
 
-/// What becomes of a number that is packed: in [0, 1] the nearest multiple of 1/65535 (0 and 1 stay what they
-/// are, the error is at most 2^-17), elsewhere itself. A function of the number alone: how strands are
-/// divided into chunks never reaches a pixel.
+/// Rounds a number for packing: in [0, 1] to the nearest multiple of 1/65535 (0 and 1 are exact, the error is
+/// at most 2^-17); other numbers are unchanged. A function of the number alone: the division of strands into
+/// chunks never affects a pixel.
 float packed_value(float x);
 
-/// The coarsest precision that gives `values` back, which are packed_value()s or anything else.
+/// The coarsest precision that restores `values`, which may be packed_value()s or any other numbers.
 Precision coarsest_precision(std::span<const float> values);
 
-/// Writes `values` in a precision that holds them; `out` is aligned for it.
+/// Writes `values` in a precision that can hold them; `out` must be aligned for it.
 void pack_values(std::span<const float> values, Precision precision, std::byte* out);
 
-/// Number `index` of packed numbers.
+/// Element `index` of packed numbers.
 inline float unpacked_value(const std::byte* packed, Precision precision, size_t index) {
   switch (precision) {
     case Precision::kFloat:

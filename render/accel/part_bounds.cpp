@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-/// The segments of a batch, or the triangles of a skin, numbered through.
+/// The segments of a batch, or the triangles of a skin, numbered consecutively.
 class Primitives {
  public:
   explicit Primitives(const ChunkContents& contents) {
@@ -51,7 +51,7 @@ struct Item {
   uint32_t primitive = 0;
 };
 
-/// Calls `part` for `parts` runs of items of about equal length, neighbours together.
+/// Calls `part` for `parts` runs of neighbouring items, of about equal length.
 template <class Part>
 void divide(std::span<Item> items, size_t parts, const Part& part) {
   if (parts <= 1 || items.size() <= 1) {

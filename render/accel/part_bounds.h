@@ -12,22 +12,22 @@
 namespace pelage {
 
 /// Boxes of about `segments_per_part` neighbouring segments or triangles each, at most `max_parts`, over the
-/// whole shutter; linear in time when there is motion. Parts do not follow strands: a box of a piece of many
-/// strands is much smaller than one of a few whole strands.
+/// whole shutter; linear in time when there is motion. Parts ignore strands: the box of pieces of many
+/// strands is much smaller than that of a few whole strands.
 ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t max_parts);
-/// Enlarges the boxes at shutter open and close so that between them they hold `inside` at `time`.
+/// Enlarges the boxes at shutter open and close so that the interpolated box contains `inside` at `time`.
 void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time);
 /// Moves all sides of all boxes outward.
 void widen(ChunkBounds& bounds, float margin);
-/// What part_bounds() holds at most while it works.
+/// Max temporary memory of part_bounds().
 size_t part_bounds_scratch(const ChunkCounts& counts);
 
-/// The boxes of one chunk, ready for rays. Immutable.
+/// The boxes of one chunk, ready for ray tracing. Immutable.
 class PartBoxes {
  public:
   explicit PartBoxes(const ChunkBounds& bounds);
 
-  /// Where the ray enters the first of the boxes that it meets before `far`; infinity when it meets none.
+  /// Entry distance of the first box that the ray intersects before `far`; infinity when there is none.
   float enter(const RaySlabs& ray, float far) const {
     float nearest = std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < boxes_.size(); ++i) {
@@ -40,7 +40,7 @@ class PartBoxes {
     return nearest;
   }
   size_t count() const { return count_; }
-  /// As they were given.
+  /// The original boxes.
   ChunkBounds bounds() const;
   static size_t bytes_bound(size_t parts, bool moving) {
     return sizeof(PartBoxes) + (parts + 3) / 4 * sizeof(FourBoxes) * (moving ? 2 : 1);
@@ -48,7 +48,7 @@ class PartBoxes {
 
  private:
   std::vector<FourBoxes> boxes_;
-  std::vector<FourBoxes> motions_;  // as many, or none
+  std::vector<FourBoxes> motions_;  // one per box, or empty
   size_t count_ = 0;
 };
 

@@ -11,18 +11,18 @@
 
 namespace pelage {
 
-/// Four boxes side by side: by axis, the low and the high sides. Boxes that are inside out are never met.
+/// Four boxes side by side: by axis, the low and the high sides. Inverted boxes are never intersected.
 using FourBoxes = std::array<std::array<Four, 2>, 3>;
 
 class GridSlabs;
 
-/// One ray as the slab test wants it [Kay86].
+/// A ray prepared for the slab test [Kay86].
 ///
-/// The test is conservative: a box counts as met where rounding leaves a doubt, on the scale of the scene and
-/// of the ray's origin, so that nothing that an exact intersector reports inside a box is lost.
+/// The test is conservative: a box counts as intersected when rounding, on the scale of the scene and of the
+/// ray's origin, makes it uncertain, so that no hit of an exact intersector inside a box is lost.
 class RaySlabs {
  public:
-  /// `reach`: the largest coordinate of all boxes.
+  /// `reach`: max coordinate of all boxes.
   RaySlabs(const Ray& ray, float reach) : near_(ray.near), time_(four(ray.time)) {
     const auto size = [](const V3f& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
     const float error_bound = kErrorBound * (size(ray.origin) + reach);
@@ -32,7 +32,7 @@ class RaySlabs {
       Axis& axis = axes_[static_cast<size_t>(i)];
       const bool backward = d < 0;
       axis.near_side = backward ? 1 : 0;
-      // Low sides are moved down by the doubt and high sides up, whichever of them the ray meets first.
+      // Low sides are moved down by the error bound and high sides up, whichever the ray enters first.
       axis.near_origin = four(ray.origin[i] + (backward ? -error_bound : error_bound));
       axis.far_origin = four(ray.origin[i] + (backward ? error_bound : -error_bound));
       axis.inverse = four(1.0f / d);
@@ -41,9 +41,9 @@ class RaySlabs {
 
   float near() const { return near_; }
 
-  /// Which of the boxes the ray meets between its near end and `far`: lanes of -1, others 0. `enter` and
-  /// `leave` become where it enters them at the earliest and leaves them at the latest. `motion`, if any: how
-  /// far their sides move until shutter close.
+  /// Which of the boxes the ray intersects between its near end and `far`: lanes of -1, others 0. `enter` and
+  /// `leave` become bounds of the entry and exit distances. `motion`, if any: displacement of their sides
+  /// until shutter close.
   auto intersect(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
@@ -63,10 +63,10 @@ class RaySlabs {
  private:
   friend class GridSlabs;
 
-  // What rounding may move a side or a hit by, relative to the largest number that goes in: 32 units in the
-  // last place. The hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
+  // Max rounding error of a side or a hit, relative to the largest input: 32 units in the last place. The
+  // hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
   static constexpr float kErrorBound = 0x1p-19f;
-  static constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
+  static constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
 
   struct Axis {
     Four near_origin, far_origin, inverse;
@@ -77,10 +77,10 @@ class RaySlabs {
   Four time_;
 };
 
-/// The same ray before boxes whose sides are whole numbers of steps from a corner that moves (FineBoxes).
+/// The same ray against boxes whose sides are whole steps from a moving corner (FineBoxes).
 class GridSlabs {
  public:
-  /// `margin`: how much larger boxes are taken to be, on every side.
+  /// `margin`: by how much boxes are enlarged on every side.
   GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid, float margin) : near_(ray.near_) {
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<size_t>(i);
@@ -94,8 +94,8 @@ class GridSlabs {
     }
   }
 
-  /// As RaySlabs::meet(). The doubt on the scale of the scene covers what rounding does here: the corner lies
-  /// in the scene.
+  /// As RaySlabs::intersect(). The error bound on the scale of the scene covers the rounding here, because
+  /// the corner lies in the scene.
   auto intersect(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);

@@ -22,7 +22,7 @@ std::shared_ptr<const SegmentPatterns::Pattern> SegmentPatterns::get(uint32_t se
   std::shared_ptr<const Pattern>& known = patterns_[{segments, stride}];
   if (known && known->first_vertex.size() >= strands * segments) return known;
 
-  // Sizes are powers of two: whatever sizes are asked for, few arrays are ever made.
+  // Sizes are powers of two, so that only few arrays are ever made.
   const size_t count = std::bit_ceil(strands);
   auto made = std::make_shared<Pattern>();
   made->first_vertex.reserve(count * segments);

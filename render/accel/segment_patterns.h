@@ -13,8 +13,8 @@
 
 namespace pelage {
 
-/// First control points of segments, for batches whose strands all have equally many points. Such batches
-/// share one array: it does not depend on the strands. Thread safety: any thread.
+/// First control points of segments, for batches whose strands all have the same number of points. Such
+/// batches share one array, which does not depend on the strands. Thread safety: any thread.
 class SegmentPatterns {
  public:
   struct Pattern {
@@ -24,11 +24,10 @@ class SegmentPatterns {
 
   explicit SegmentPatterns(MemoryLedger& ledger) : ledger_(ledger) {}
 
-  /// Charges from now on what batches of so many strands can make get() hold, so that it takes nothing from
-  /// a budget later. Said of all batches before the first get().
+  /// Charges the memory that get() may need for batches with this number of strands, so that get() takes
+  /// nothing from the budget later. Call for all batches before the first get().
   void expect(size_t segments, size_t strands);
-  /// For at least `strands` strands of `segments` segments each, whose first control points are `stride`
-  /// apart.
+  /// For at least `strands` strands of `segments` segments each, with first control points `stride` apart.
   std::shared_ptr<const Pattern> get(uint32_t segments, uint32_t stride, size_t strands);
 
  private:
@@ -38,7 +37,7 @@ class SegmentPatterns {
   };
 
   MemoryLedger& ledger_;
-  std::mutex mutex_;                     // guards what follows
+  std::mutex mutex_;                     // guards the following
   std::map<size_t, Expected> expected_;  // by segments
   std::map<std::pair<uint32_t, uint32_t>, std::shared_ptr<const Pattern>> patterns_;
 };

@@ -36,22 +36,21 @@ struct CameraRay {
   float time = 0;    ///< in [0, 1] of the shutter
 };
 
-/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Its position, view
-/// axis and field of view are interpolated linearly between `motion_keys` even times of the shutter, as
-/// geometry is.
+/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Position, view axis
+/// and field of view are interpolated linearly between `motion_keys` evenly spaced times of the shutter, like
+/// geometry.
 ///
-/// Raster space: pixels, x right, y down, (0, 0) the upper left corner of the image.
+/// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
  public:
-  /// Throws Error (kInput) when the camera stands on what it looks at or looks along its up vector.
+  /// Throws Error (kInput) when the camera is at its target or looks along its up vector.
   Camera(const CameraParams& params, double frame, int width, int height);
 
   /// Ray through raster position (x, y), lens position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
-  /// Raster position and depth along the axis of a world point at a time of the shutter; nothing behind the
-  /// camera.
+  /// Raster position and depth along the axis of a world point at a shutter time; empty behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
-  /// The same at the frame itself, or `frames_ahead` = 1 at the next one.
+  /// The same at the time of the frame itself, or of the next one with `frames_ahead` = 1.
   std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {
     return project(frames_ahead == 0 ? frame_ : next_frame_, world);
   }
@@ -60,20 +59,19 @@ class Camera {
   /// lens: false only when all of it is behind the camera or beyond one border of the picture.
   bool may_see(const Box3f& box) const;
 
-  /// At the frame itself: for tessellation.
+  /// View at the time of the frame itself, for tessellation.
   View view() const;
-  /// What level of detail measures by: the shutter and the lens.
+  /// Input of level of detail: the camera over the shutter, and the lens.
   LodView lod_view() const;
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
   float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
-  /// Time of the frame itself on the scale of the shutter; outside [0, 1] when the shutter does not contain
-  /// it.
+  /// Time of the frame itself relative to the shutter; outside [0, 1] when the shutter does not contain it.
   float frame_time() const;
 
-  /// As the EXR attributes of these names want it: camera space is left-handed, +y up, looking along +z; NDC
-  /// has (0, 0) in the upper left corner and (1, 1) in the lower right one after division by w. Row vectors:
+  /// Values of the EXR attributes of the same names: camera space is left-handed, +y up, looking along +z;
+  /// NDC has (0, 0) in the upper left and (1, 1) in the lower right corner after division by w. Row vectors:
   /// p * M.
   M44f world_to_camera() const;
   M44f world_to_ndc() const;
@@ -88,7 +86,7 @@ class Camera {
   Pose pose_at(float time) const;
   std::optional<V3f> project(const Pose& pose, const V3f& world) const;
 
-  std::vector<Pose> keys_;  // over the shutter; one when the camera stands still
+  std::vector<Pose> keys_;  // over the shutter; one key for a static camera
   Pose frame_, next_frame_;
   V2f shutter_;
   int width_, height_;

@@ -11,7 +11,7 @@ namespace pelage {
 
 FibreCrossing::FibreCrossing(float eta, float layers, float sin_theta, float cos_theta, float h) {
   const float cos_gamma_o = std::sqrt(std::max(0.0f, (1 - h) * (1 + h)));
-  // The angle to the normal is that in space, so Fresnel's equations hold as they are.
+  // The angle to the normal is that in 3-D, so Fresnel's equations apply unchanged.
   const float cosine = cos_theta * cos_gamma_o;
   reflectance = layers > 0 ? cuticle_reflectance(cosine, eta, layers) : dielectric_reflectance(cosine, eta);
   const float eta_projected = std::sqrt(std::max(0.0f, eta * eta - sin_theta * sin_theta)) / cos_theta;
@@ -36,7 +36,7 @@ std::array<Rgb, kFibreLobes> attenuations(float reflectance, const Rgb& transmit
     const float t = transmittance[c];
     a[1][c] = passed * t;
     a[2][c] = a[1][c] * f * t;
-    // At grazing incidence, where f is 1, all of a[2] is 0 already.
+    // At grazing incidence, where f is 1, a[2] is already 0.
     a[3][c] = a[2][c] * f * t / std::max(1 - f * t, 1e-6f);
   }
   return a;

@@ -8,11 +8,11 @@
 
 namespace pelage {
 
-/// Ways through a fibre by the number of internal legs p: R, TT, TRT, and all longer ones together.
+/// Number of lobes: light paths with p internal legs are R, TT, TRT, and all longer ones together.
 inline constexpr int kFibreLobes = 4;
 
-/// What geometry says about light that meets a dielectric cylinder at h [Marschner03, section 4]: the same
-/// for every colour. Lengths in radii.
+/// Geometry of light that hits a dielectric cylinder at h [Marschner03, section 4]; independent of colour.
+/// Lengths in radii.
 struct FibreCrossing {
   /// `layers` of cuticle as in cuticle_reflectance(), 0 for one smooth interface.
   FibreCrossing(float eta, float layers, float sin_theta, float cos_theta, float h);
@@ -28,8 +28,8 @@ struct FibreCrossing {
   float exit_azimuth(int p) const;
 };
 
-/// The share of the light that leaves by each way when a leg transmits `transmittance` [Marschner03, equation
-/// 6; the rest of the series as in Chiang16]. Sums to 1 when nothing is absorbed.
+/// Fraction of the light that leaves by each path when a leg transmits `transmittance` [Marschner03, equation
+/// 6; the rest of the series as in Chiang16]. Sums to 1 without absorption.
 std::array<Rgb, kFibreLobes> attenuations(float reflectance, const Rgb& transmittance);
 
 /// exp(-sigma * length) by channel.

@@ -34,7 +34,7 @@ class TrimmedLogistic {
   float scale_, inverse_, below_, kept_, height_;
 };
 
-/// Inverse of the error function, good to 4e-7 of the value [Giles11, single precision].
+/// Inverse of the error function, relative error 4e-7 [Giles11, single precision].
 inline float inverse_erf(float x) {
   float w = -std::log((1 - x) * (1 + x));
   float p;
@@ -69,7 +69,7 @@ inline float normal_sample(float xi) {
   return std::numbers::sqrt2_v<float> * inverse_erf(std::clamp(2 * xi - 1, -kFarthest, kFarthest));
 }
 
-/// The normal distribution wound around the circle: the detector of [dEon11] and the azimuthal lobe of
+/// The normal distribution wrapped around the circle: the detector of [dEon11] and the azimuthal lobe of
 /// [Yan17]. For deviations up to 2 radians.
 class WrappedGaussian {
  public:
@@ -95,7 +95,7 @@ class WrappedGaussian {
 
  private:
   float deviation_, half_inverse_square_, height_;
-  int turns_;  // windings to each side that count
+  int turns_;  // number of windings to each side that are summed
 };
 
 }  // namespace pelage

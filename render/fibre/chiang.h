@@ -10,11 +10,11 @@ namespace pelage {
 
 using ChiangBsdf = SeparableBsdf<TrimmedLogistic>;
 
-/// Constants of a material by the near-field model of [Chiang16]: lobes R, TT and TRT with the longitudinal
-/// function of d'Eon and a trimmed logistic around the fibre, and one more for all longer ways.
+/// Material constants of the near-field model of [Chiang16]: lobes R, TT and TRT with the longitudinal
+/// function of d'Eon and a trimmed logistic around the fibre, and one lobe for all longer paths.
 ///
-/// theta_o takes the tilt of the cuticle's scales, whose free edges point to the tip: +2 alpha for R, -alpha
-/// for TT and -4 alpha for TRT, with T from root to tip.
+/// The tilt of the cuticle's scales, whose free edges point to the tip, is added to theta_o: +2 alpha for R,
+/// -alpha for TT and -4 alpha for TRT, with T from root to tip.
 class ChiangMaterial {
  public:
   explicit ChiangMaterial(const ChiangParams& params);

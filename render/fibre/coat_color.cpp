@@ -8,11 +8,12 @@ namespace pelage {
 namespace {
 
 constexpr int kWalks = 4096;
-/// Roots of the absorption at which the brightness is found.
+/// Square roots of the absorptions at which the brightness is computed.
 constexpr std::array<float, 12> kRoots = {0.02f, 0.04f, 0.08f, 0.14f, 0.22f, 0.33f,
                                           0.48f, 0.7f,  1.0f,  1.5f,  2.4f,  6.0f};
 
-/// Where a falling brightness over kRoots meets `wanted`, with 1 at a root of 0 unless it is more than that.
+/// The root of the absorption where the decreasing brightness over kRoots equals `wanted`; the brightness at
+/// 0 is taken as 1, or more if needed.
 float root_of(const std::array<double, kRoots.size()>& brightness, double wanted) {
   double root = 0, above = 1;
   for (size_t i = 0; i < kRoots.size(); ++i) {

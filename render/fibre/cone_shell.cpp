@@ -34,7 +34,7 @@ ConeShell::ConeShell(const ShellShape& shape, ShellVariant variant, float sin_th
     sin_mid_ = 0.0f;
   }
 
-  // Inner and outer cone by angle addition; an angle outside [0, pi] shows by its negative sine.
+  // Inner and outer cone by angle addition; an angle outside [0, pi] has a negative sine.
   const float inner_sin = sin_mid_ * shape.cos_width - cos_mid_ * shape.sin_width;
   const float outer_sin = sin_mid_ * shape.cos_width + cos_mid_ * shape.sin_width;
   const float inner_cos = cos_mid_ * shape.cos_width + sin_mid_ * shape.sin_width;

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// Width and tilt of a specular shell with their sines and cosines: constants of a material.
+/// Material constants: width and tilt of a specular shell with their sines and cosines.
 struct ShellShape {
   /// Half width in [1, 90] degrees; tilt in degrees, added to the polar angle of the middle cone.
   ShellShape(float half_width_degrees, float tilt_degrees);
@@ -19,14 +19,14 @@ struct ShellShape {
   float cos_tilt, sin_tilt;
 };
 
-/// How directions of a shell are drawn. All give the same integrals; kMatched is the one that rendering uses.
+/// Sampling strategies for the directions of a shell. All give the same integrals; rendering uses kMatched.
 enum class ShellSampler {
   kMatched,  ///< in proportion to the shell's own density
   kUniform,  ///< uniform in solid angle, as in the slides of [Neulander13]
   kTent,     ///< the older piecewise-linear density, see tent_pdf()
 };
 
-/// A drawn polar cosine with its density in z.
+/// A sampled polar cosine with its density in z.
 struct ShellPoint {
   float z;
   float pdf;
@@ -36,10 +36,10 @@ struct ShellPoint {
 /// [Neulander10, Neulander13], normalised to integrate to one over the sphere.
 ///
 /// A cylinder reflects into the cone that mirrors the inclination of wo: the middle cone has polar angle
-/// Theta_mid = acos(-sin theta_o) + tilt. The shell reaches half_width to both sides and is cut at the poles.
-/// The literal variant has the weight of the slides, cos(Theta - Theta_mid) in the whole shell; the Wigner
-/// variant has sqrt(1 - u^2), u in [-1, 1] the place of z = cos Theta between the cones, which falls to zero
-/// at both and is what the Wigner sampler draws. Both are uniform in azimuth.
+/// Theta_mid = acos(-sin theta_o) + tilt. The shell extends by half_width to both sides and is cut off at the
+/// poles. The literal variant has the weight of the slides, cos(Theta - Theta_mid), in the whole shell. The
+/// Wigner variant has sqrt(1 - u^2), where u in [-1, 1] is the relative position of z = cos Theta between the
+/// cones; it falls to zero at both, and is the density of the Wigner sampler. Both are uniform in azimuth.
 class ConeShell {
  public:
   ConeShell(const ShellShape& shape, ShellVariant variant, float sin_theta_o);
@@ -59,7 +59,7 @@ class ConeShell {
     if (variant_ == ShellVariant::kLiteral) return sample_literal(xi);
     return std::clamp(center_ + half_range_ * WignerTable::instance().sample(xi), -1.0f, 1.0f);
   }
-  /// The same by any sampler, with the density that it really has.
+  /// The same with any sampler, with the sampler's actual density.
   ShellPoint sample(ShellSampler sampler, float xi) const;
 
   /// Range of z: cosines of the outer and the inner cone.
@@ -71,7 +71,7 @@ class ConeShell {
 
   ShellVariant variant_;
   float cos_mid_, sin_mid_;
-  float below_, above_;  ///< how far the shell reaches to smaller and larger Theta, radians (literal only)
+  float below_, above_;  ///< extent of the shell towards smaller and larger Theta, radians (literal only)
   float center_, half_range_, inverse_half_range_;
   float scale_;  ///< normalises the weight
 };

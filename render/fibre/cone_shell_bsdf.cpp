@@ -9,7 +9,7 @@ namespace pelage {
 namespace {
 
 constexpr float kDiffuseScale = 1.0f / (kPi * kPi);
-/// Added to the luminance of each lobe that scatters at all when lobes are chosen, so that none is starved.
+/// Added to the luminance of each lobe that scatters at all when lobes are selected, so that none is starved.
 constexpr float kChoiceFloor = 1e-3f;
 
 /// Unit vector perpendicular to `tangent` on the side of `wo`; any when they are parallel.
@@ -81,7 +81,7 @@ FibreValue ConeShellBsdf::eval(const V3f& wi) const {
 std::optional<FibreSample> ConeShellBsdf::sample(const V3f& u) const {
   int lobe = 0;
   float rest = u.x;
-  // The last lobe that has a probability takes what rounding leaves over.
+  // The last lobe with a probability gets the rounding remainder.
   const int last = choice_[2] > 0 ? 2 : choice_[1] > 0 ? 1 : 0;
   while (lobe < last && rest >= choice_[lobe]) rest -= choice_[lobe++];
   if (!(choice_[lobe] > 0.0f)) return std::nullopt;
@@ -96,8 +96,8 @@ std::optional<FibreSample> ConeShellBsdf::sample(const V3f& u) const {
     z = WignerTable::instance().sample(xi);
     across = toward_viewer_;
     beside = across.cross(tangent);
-    // Turning directions around from the weak side with this probability gives 1 + balance cos(phi) exactly,
-    // and leaves a uniform azimuth, stratified as it came, alone.
+    // Reversing directions on the weak side with this probability gives 1 + balance cos(phi) exactly, and
+    // leaves a uniform azimuth and its stratification unchanged.
     if (u.z < -balance_ * c) {
       c = -c;
       s = -s;

@@ -10,16 +10,16 @@
 
 namespace pelage {
 
-/// What all points of a fibre material share, computed once.
+/// Constants that all points of a fibre material share.
 struct ConeShellMaterial {
   explicit ConeShellMaterial(const ConeShellParams& params);
 
-  /// Where along its strand (0 root, 1 tip) a lobe of a point at `v` takes its tangent: shifted by a fixed
-  /// amount and by a random one that is the strand's own and never changes, so that highlights differ from
-  /// hair to hair but do not boil in time. Never wraps around.
+  /// Where along its strand (0 root, 1 tip) a lobe of a point at `v` looks up its tangent: shifted by a fixed
+  /// amount plus a random one that is constant per strand, so that highlights differ from hair to hair but do
+  /// not flicker. Clamped to the strand.
   float tangent_place(LobeGroup lobe, float v, uint64_t strand_id, uint64_t seed) const;
 
-  float diffuse;  ///< where none is given, what the highlights of a white fibre leave
+  float diffuse;  ///< where not given: what the highlights of a white fibre leave over
   float balance;
   Rgb primary;
   Rgb secondary;
@@ -30,15 +30,15 @@ struct ConeShellMaterial {
   std::array<float, kLobeGroups> jitter;
 };
 
-/// Unit tangents by lobe, taken at ConeShellMaterial::tangent_place().
+/// Unit tangents by lobe, looked up at ConeShellMaterial::tangent_place().
 using LobeTangents = std::array<V3f, kLobeGroups>;
 
-/// The cone-shell model at a point of a fibre: a diffuse lobe (the shell that is the whole sphere) with a
-/// choice between forward and back scatter, and two specular shells about tangents of their own [Neulander10,
-/// Neulander13].
+/// The cone-shell model at a point of a fibre: a diffuse lobe (the shell that covers the whole sphere) with a
+/// balance between forward and back scattering, and two specular shells about tangents of their own
+/// [Neulander10, Neulander13].
 ///
-/// Never gives back more than it gets: albedos whose sum exceeds one in a channel are scaled down together. A
-/// plain value, cheap to make for every vertex of a path: no memory is allocated, trigonometry happens only
+/// Never gains energy: albedos whose sum exceeds one in a channel are scaled down together. A plain value,
+/// cheap to construct at every vertex of a path: does not allocate; trigonometric functions are called only
 /// in sample() and where a literal shell is cut at a pole.
 class ConeShellBsdf {
  public:
@@ -47,8 +47,8 @@ class ConeShellBsdf {
                 const V3f& wo);
 
   FibreValue eval(const V3f& wi) const;
-  /// Stratification of (u.x, u.y) survives: u.x picks the lobe and, stretched, the polar angle, u.y the
-  /// azimuth; u.z balances forward and back scatter.
+  /// Preserves stratification of (u.x, u.y): u.x selects the lobe and, rescaled, the polar angle, u.y the
+  /// azimuth; u.z balances forward and back scattering.
   std::optional<FibreSample> sample(const V3f& u) const;
   Rgb albedo() const { return albedos_[0] + albedos_[1] + albedos_[2]; }
 

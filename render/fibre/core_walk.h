@@ -12,40 +12,40 @@
 
 namespace pelage {
 
-/// Independent numbers for one walk, a function of its seed.
+/// Independent random numbers for one walk, a function of its seed.
 class WalkRandom {
  public:
   explicit WalkRandom(uint64_t seed) : state_(mix64(seed)) {}
   float unit() { return unit_float(mix64(state_ += 0x9e3779b97f4a7c15ull)); }
-  /// Free path in a medium of the given coefficient.
+  /// Free path length in a medium with this coefficient.
   float free_path(float sigma) { return -std::log(1 - unit()) / sigma; }
 
  private:
   uint64_t state_;
 };
 
-/// A place in the cross-section of a cylinder along x, and a unit direction of travel.
+/// A position in the cross-section of a cylinder along x, and a unit direction of travel.
 struct CoreWalk {
   V2f position{0};
   V3f direction{0, 1, 0};
 
   void advance(float length) { position += length * V2f(direction.y, direction.z); }
 
-  /// Length to where the line leaves the cylinder of `radius`, from inside it.
+  /// Distance to the exit from the cylinder of `radius`, from inside it.
   float length_out(float radius) const {
     const Line line = about(radius);
     return std::max(0.0f, (std::sqrt(std::max(0.0f, line.discriminant)) - line.b) / line.a);
   }
-  /// Length to where it enters that cylinder, from outside; nothing where it misses.
+  /// Distance to the entry into that cylinder, from outside; empty when missed.
   std::optional<float> length_in(float radius) const {
     const Line line = about(radius);
     if (!(line.discriminant > 0) || line.b >= 0) return std::nullopt;
     return std::max(0.0f, (-line.b - std::sqrt(line.discriminant)) / line.a);
   }
 
-  /// From the rim of a scattering cylinder of `radius` to where the walk leaves it, by free paths and the
-  /// phase function of Henyey and Greenstein with mean cosine `g`. Adds what was travelled to `length`;
-  /// returns whether anything scattered.
+  /// Walks from the surface of a scattering cylinder of `radius` until it leaves, using free paths and the
+  /// phase function of Henyey-Greenstein with mean cosine `g`. Adds the travelled distance to `length`;
+  /// returns whether it scattered.
   bool cross(float radius, float sigma, float g, WalkRandom& random, float& length) {
     bool scattered = false;
     for (;;) {
@@ -67,7 +67,7 @@ struct CoreWalk {
     const V2f d(direction.y, direction.z);
     const float a = std::max(d.length2(), 1e-10f);
     const float b = position.dot(d);
-    // a r^2 - (position x d)^2 is b^2 - a c without its cancellation.
+    // a r^2 - (position x d)^2 equals b^2 - a c without its cancellation.
     const float cross = position.x * d.y - position.y * d.x;
     return {a, b, a * radius * radius - cross * cross};
   }

@@ -10,13 +10,13 @@ namespace pelage {
 
 using DeonBsdf = SeparableBsdf<WrappedGaussian>;
 
-/// Azimuthal roughness of the fit of [Chiang16] for models that have no such parameter.
+/// Azimuthal roughness passed to the fit of [Chiang16] by models without such a parameter.
 inline constexpr float kColorRoughness = 0.3f;
 
-/// Constants of a material by the energy-conserving model of [dEon11]: the lobes of Marschner with a
-/// longitudinal function that is normalised, Gaussian detectors around the fibre, and one lobe for all longer
-/// ways. Attenuations are taken at theta_o, which is theta_d at the peaks: energy is exact then, and lobes
-/// are drawn exactly.
+/// Material constants of the energy-conserving model of [dEon11]: the lobes of Marschner with a normalised
+/// longitudinal function, Gaussian detectors around the fibre, and one lobe for all longer paths.
+/// Attenuations are evaluated at theta_o, which equals theta_d at the peaks: energy is then exact, and lobes
+/// are sampled exactly.
 ///
 /// The far field is the average over h.
 class DeonMaterial {

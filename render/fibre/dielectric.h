@@ -21,15 +21,15 @@ inline Reflectances fresnel(float cosine, float eta) {
   return {s * s, p * p};
 }
 
-/// Of unpolarised light.
+/// For unpolarised light.
 inline float dielectric_reflectance(float cosine, float eta) {
   const Reflectances r = fresnel(cosine, eta);
   return 0.5f * (r.perpendicular + r.parallel);
 }
 
-/// A stack of cuticle scales in place of one interface [Yan15, equation 7]. One layer is two interfaces and
-/// adds up all reflections between them, r -> 2 r / (1 + r) per polarisation; `layers` of them reflect
-/// l p / (1 + (l - 1) p). Half a layer is one interface, exactly so at normal incidence.
+/// Reflectance of a stack of cuticle scales instead of one interface [Yan15, equation 7]. One layer is two
+/// interfaces and includes all reflections between them, r -> 2 r / (1 + r) per polarisation; `layers` of
+/// them reflect l p / (1 + (l - 1) p). Half a layer equals one interface, exactly so at normal incidence.
 inline float cuticle_reflectance(float cosine, float eta, float layers) {
   const Reflectances r = fresnel(cosine, eta);
   const float layer = r.perpendicular / (1 + r.perpendicular) + r.parallel / (1 + r.parallel);

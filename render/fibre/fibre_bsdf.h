@@ -16,13 +16,13 @@
 
 namespace pelage {
 
-/// Scattering of one fibre at one point for one outgoing direction, by any model. A plain value: no memory is
-/// allocated. It may refer to the FibreMaterial that made it.
+/// Scattering by one fibre, at one point and for one outgoing direction, with any of the models. A plain
+/// value that does not allocate. It may refer to the FibreMaterial that made it.
 ///
-/// Conventions: directions are unit, in world space, and point away from the strand: wo to the viewer or
-/// previous vertex (given when the value is made), wi to the light or next vertex; wi is what is sampled.
-/// Inclination theta is measured from the normal plane: sin theta = dot(w, T), T the unit tangent from root
-/// to tip.
+/// Conventions: directions are unit vectors in world space that point away from the strand. wo points to the
+/// viewer or previous vertex and is fixed on construction; wi points to the light or next vertex and is
+/// sampled. Inclination theta is measured from the normal plane: sin theta = dot(w, T), T the unit tangent
+/// from root to tip.
 class FibreBsdf {
  public:
   using Model = std::variant<ConeShellBsdf, LambertCylinderBsdf, KajiyaKayBsdf, ChiangBsdf, DeonBsdf,
@@ -35,7 +35,8 @@ class FibreBsdf {
   FibreValue eval(const V3f& wi) const {
     return std::visit([&](const auto& model) { return model.eval(wi); }, model_);
   }
-  /// Draws wi from the mixture; `u` are three numbers in [0, 1). Nothing when the fibre absorbs all.
+  /// Draws wi from the mixture of lobes; `u`: three numbers in [0, 1). Empty when the fibre absorbs
+  /// everything.
   std::optional<FibreSample> sample(const V3f& u) const {
     return std::visit([&](const auto& model) { return model.sample(u); }, model_);
   }

@@ -9,18 +9,18 @@
 
 namespace pelage {
 
-/// A direction about a fibre: sine and cosine of its inclination, and its azimuth in [-pi, pi].
+/// A direction relative to a fibre: sine and cosine of its inclination, and its azimuth in [-pi, pi].
 struct FibreAngles {
   float sin_theta = 0;
   float cos_theta = 1;
   float phi = 0;
 };
 
-/// An angle of at most a few turns, in [-pi, pi].
+/// Wraps an angle of at most a few turns to [-pi, pi].
 inline float wrapped_angle(float x) { return x - 2 * kPi * std::round(x * (0.5f / kPi)); }
 
-/// The frame of a fibre seen from `wo`: x along the tangent, wo in the half plane of x and y, whose azimuth
-/// is 0. A fibre met at h has the normal sqrt(1 - h^2) y - h z there.
+/// The frame of a fibre seen from `wo`: x along the tangent, wo in the half plane of x and y, which has
+/// azimuth 0. The surface normal of a fibre hit at h is sqrt(1 - h^2) y - h z.
 class FibreFrame {
  public:
   FibreFrame(const V3f& tangent, const V3f& wo) : x_(tangent) {

@@ -42,8 +42,8 @@ bool has_given_absorption(const MedullaParams& params) {
   return optics.sigma_ca && optics.sigma_ma;
 }
 
-/// Whether the colour is turned into what a fibre absorbs by the look of much of it together. Chiang fibres,
-/// from which that look comes, and those of d'Eon, which are the same from afar, have a formula.
+/// Whether the colour is converted to absorption through the colour of dense fur. Chiang fibres, which define
+/// that colour, and those of d'Eon, which look the same from afar, have a formula.
 bool takes_coat_color(const MaterialParams& params) {
   return std::visit(Overloaded{[](const ConeShellParams& p) { return !p.diffuse; },
                                [](const LambertCylinderParams& p) { return !p.albedo; },

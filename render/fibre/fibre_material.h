@@ -11,42 +11,43 @@
 
 namespace pelage {
 
-/// Where light meets a fibre, in terms of what models ask.
+/// A point on a fibre where light is scattered, with the inputs of all models.
 struct FibrePoint {
-  LobeTangents tangents;  ///< the first is the strand's own; the others matter to cone shells alone
-  V3f wo{0};              ///< unit, to the viewer or previous vertex
-  float h = 0;            ///< across the fibre, -1 to 1, in the frame of FibreFrame
+  LobeTangents tangents;  ///< the first is the strand's own tangent; only cone shells use the others
+  V3f wo{0};              ///< unit, towards the viewer or previous vertex
+  float h = 0;            ///< position across the fibre, -1 to 1, in the frame of FibreFrame
   Rgb color{0};           ///< the material's colour there
 };
 
-/// The parameters with the tables that their model and their colour need found or made: once per run rather
-/// than once per frame. Throws Error (kStopped) as Job does.
+/// The parameters with the tables that their model and colour need, loaded or computed. Call once per run
+/// rather than once per frame. Throws Error (kStopped) as Job does.
 MaterialParams with_tables(MaterialParams params, const Job& job);
 
-/// A material for fibres: what all its points share, made once. Thread safety: const members may be called
-/// from any thread.
+/// A fibre material: the data that all its points share. Thread safety: const members may be called from any
+/// thread.
 class FibreMaterial {
  public:
-  /// Whether the parameters are of a model for fibres.
+  /// Whether the parameters belong to a fibre model.
   static bool is_one(const MaterialParams& params) { return fibre_params(params) != nullptr; }
-  /// `params` must be of a model for fibres. Tables that with_tables() has not made are made here.
-  /// `look` is called often meanwhile and may throw.
+  /// `params` must belong to a fibre model. Computes the tables that with_tables() has not made; calls `look`
+  /// often meanwhile, which may throw.
   explicit FibreMaterial(
       const MaterialParams& params, const Workers& workers = Workers::alone(),
       const std::function<void()>& look = [] {});
 
-  /// Refers to this material.
+  /// The result refers to this material.
   FibreBsdf at(const FibrePoint& point) const;
 
-  /// Where most light leaves a fibre that it met at `point`: so many radii farther along the tangent. It goes
-  /// through, or is reflected where it is where the model is opaque.
+  /// Distance along the tangent, in radii, from `point` to where most of the light leaves the fibre after
+  /// crossing it. 0 for opaque models, which reflect at the hit.
   float farther(const FibrePoint& point) const;
 
-  /// The cone-shell model, whose lobes take their tangents from places of their own; null for all others.
+  /// The cone-shell model, which looks up its lobes' tangents at shifted places; null for all other models.
   const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
-  /// Whether FibrePoint::h should be drawn anew for each point, uniformly, in place of that of the hit.
+  /// Whether FibrePoint::h should be drawn uniformly for each point instead of taken from the hit.
   bool far_field() const { return far_field_; }
-  /// What colours mean; null for models with a formula of their own, and where the colour does not count.
+  /// Converts colour to absorption; null for models with a formula of their own, and when the colour is not
+  /// used.
   const std::shared_ptr<const CoatColor>& coat_color() const { return coat_color_; }
 
  private:
@@ -57,14 +58,13 @@ class FibreMaterial {
                              DeonMaterial, MarschnerMaterial, YanFastMaterial, YanMaterial>;
   static Model make(const MaterialParams& params);
   FibreBsdf at_absorbing(const FibrePoint& point, const Rgb& absorption) const;
-  /// Opaque models look at `albedo`, translucent ones at `paint`: a colour or an absorption, whichever their
-  /// at() takes.
+  /// Opaque models use `albedo`, translucent ones `paint`: a colour or an absorption, depending on the model.
   FibreBsdf at(const FibrePoint& point, const Rgb& albedo, const Rgb& paint) const;
 
   Model model_;
   std::shared_ptr<const CoatColor> coat_color_;
   bool far_field_;
-  std::optional<float> eta_;  // index of refraction; none: opaque
+  std::optional<float> eta_;  // index of refraction; empty: opaque
 };
 
 }  // namespace pelage

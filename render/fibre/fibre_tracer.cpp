@@ -47,7 +47,7 @@ FibrePath trace_fibre(const TracedFibre& fibre, float sin_theta_o, float h, uint
     const V3f normal(0, walk.position.x, walk.position.y);
     const float within = std::clamp(walk.direction.dot(normal), 0.0f, 1.0f);
     const float outside2 = 1 - (1 - within * within) * fibre.eta * fibre.eta;
-    if (outside2 > 0) {  // else reflected totally
+    if (outside2 > 0) {  // otherwise total reflection
       const float outside = std::sqrt(outside2);
       if (random.unit() >= reflectance(fibre, outside)) {
         path.wi = fibre.eta * walk.direction + (outside - fibre.eta * within) * normal;

@@ -7,30 +7,30 @@
 
 namespace pelage {
 
-/// A fibre as optics sees it: a circular dielectric cylinder of radius 1 with a concentric scattering core of
-/// the same index, the medulla. Lengths and coefficients are in units of the fibre's radius.
+/// Optical description of a fibre: a circular dielectric cylinder of radius 1 with a concentric scattering
+/// core of the same index, the medulla. Lengths and coefficients are in units of the fibre's radius.
 struct TracedFibre {
   float eta = 1.55f;
-  float layers = 0;      ///< of cuticle, see cuticle_reflectance(); 0: one smooth interface
+  float layers = 0;      ///< of the cuticle, see cuticle_reflectance(); 0: one smooth interface
   float medulla = 0;     ///< kappa: radius of the core over that of the fibre
   float scattering = 0;  ///< sigma_ms of the medulla
-  float anisotropy = 0;  ///< g of Henyey and Greenstein
+  float anisotropy = 0;  ///< g of Henyey-Greenstein
 };
 
-/// What happened to one path.
+/// Result of one path.
 struct FibrePath {
-  V3f wi{0};               ///< where it left: x along the fibre, wo in the half plane of x and y
-  int reflections = 0;     ///< inside; 0 with `entered` is TT, 1 is TRT
+  V3f wi{0};               ///< exit direction: x along the fibre, wo in the half plane of x and y
+  int reflections = 0;     ///< internal reflections; 0 with `entered` is TT, 1 is TRT
   bool entered = false;    ///< false: reflected by the surface (R)
   bool scattered = false;  ///< by the medulla, once or more
   float cortex = 0;        ///< length travelled outside the medulla, inside the fibre
   float core = 0;          ///< length travelled in the medulla
 };
 
-/// One path of light through a fibre, traced by chance at every interface and in the medulla: the truth that
-/// the models are held against. Nothing is absorbed; weigh a path by exp(-sigma_ca cortex - sigma_ma core).
+/// One random light path through a fibre, with a random choice at every interface and in the medulla: the
+/// reference for the models. Nothing is absorbed; weight a path by exp(-sigma_ca cortex - sigma_ma core).
 /// Every path leaves, with weight 1: the scattering of a fibre at `h` for wo at inclination theta_o is the
-/// distribution of wi. A path is a function of (seed, number) and of what is traced.
+/// distribution of wi. A path is a function of (seed, number) and the inputs.
 FibrePath trace_fibre(const TracedFibre& fibre, float sin_theta_o, float h, uint64_t seed, uint64_t number);
 
 }  // namespace pelage

@@ -5,16 +5,16 @@
 
 namespace pelage {
 
-/// Groups of lobes that images are split by. A model uses those it has; the physical ones count what the
-/// surface reflects (R) as primary, what comes back after one internal reflection (TRT) as secondary, and
-/// everything else that has been inside the fibre as diffuse.
+/// Groups of lobes that images are split into. A model uses a subset; the physical models count surface
+/// reflection (R) as primary, light that leaves after one internal reflection (TRT) as secondary, and all
+/// other light that entered the fibre as diffuse.
 enum class LobeGroup { kDiffuse, kPrimary, kSecondary, kCount };
 inline constexpr int kLobeGroups = static_cast<int>(LobeGroup::kCount);
 inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary", "secondary"};
 
-/// Value of a fibre's scattering for a pair of directions: the throughput density rho = f cos(theta_i) per
-/// solid angle (cos of the inclination, not of any normal), by lobe group, so that radiance out = integral
-/// over the whole sphere of rho * L_in. No further cosine is due.
+/// Scattering of a fibre for a pair of directions: the throughput density rho = f cos(theta_i) per solid
+/// angle (cosine of the inclination, not of a normal), by lobe group. Outgoing radiance is the integral of
+/// rho * L_in over the whole sphere, without a further cosine.
 struct FibreValue {
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   float pdf = 0;  ///< of the mixture that sample() draws from, per solid angle
@@ -25,7 +25,7 @@ struct FibreValue {
 
 struct FibreSample {
   V3f wi{0};
-  FibreValue value;  ///< eval() of wi, the whole mixture
+  FibreValue value;  ///< eval(wi), the whole mixture
 };
 
 }  // namespace pelage

@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// Draws theta_h = (theta_i + theta_o) / 2 for a lobe along the fibre that is a Gaussian of theta_h times a
-/// slow function of it, its energy: what the fibre attenuates, and the change of measure. theta_i stays in
-/// [-pi/2, pi/2], which cuts the Gaussian.
+/// Samples theta_h = (theta_i + theta_o) / 2 for a longitudinal lobe that is a Gaussian of theta_h times a
+/// slowly varying function, its energy: attenuation and change of measure. theta_i stays in [-pi/2, pi/2],
+/// which truncates the Gaussian.
 ///
-/// With s in [0, 1] the distribution function of the cut Gaussian, the energy is interpolated linearly
-/// between a few places s, so that both are drawn exactly, and weights vary as the energy differs from its
-/// interpolation.
+/// With s in [0, 1] the cumulative distribution of the truncated Gaussian, the energy is interpolated
+/// linearly between a few values of s, so that both are sampled exactly; weights vary with the interpolation
+/// error.
 class HalfAngleLobe {
  public:
   HalfAngleLobe() = default;
@@ -38,7 +38,7 @@ class HalfAngleLobe {
     for (int k = 0; k < kPlaces - 1; ++k) mean_ += part(k);
   }
 
-  /// Integral of the Gaussian times the energy, nearly. 0: never draw from this lobe.
+  /// Approximate integral of the Gaussian times the energy. 0: never sample this lobe.
   float energy() const { return within_ * mean_; }
 
   /// Density of theta_h.
@@ -52,7 +52,7 @@ class HalfAngleLobe {
     const float at = energy_[k] + t * (energy_[k + 1] - energy_[k]);
     return std::exp(-0.5f * x * x) / (std::sqrt(2 * kPi) * width_ * within_) * at / mean_;
   }
-  /// Only where energy() > 0.
+  /// Requires energy() > 0.
   float sample(float xi) const {
     float rest = xi * mean_;
     int k = 0;
@@ -67,19 +67,19 @@ class HalfAngleLobe {
  private:
   static constexpr int kPlaces = 5;
   static constexpr std::array<float, kPlaces> kPlace{0, 0.1f, 0.5f, 0.9f, 1};
-  static constexpr float kMinShare = 0.02f;  // of the greatest energy
-  static constexpr float kMinMass = 1e-5f;   // below it the place of a float in the tail is uncertain
+  static constexpr float kMinShare = 0.02f;  // of the largest energy
+  static constexpr float kMinMass = 1e-5f;   // below it, float precision in the tail is insufficient
 
   static float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
-  /// Energy at an end over that beside it: none at a pole that cuts the Gaussian, as much where it is not
-  /// cut; `at` is the place of the pole, in deviations from the centre.
+  /// Ratio of the energy at an end to that beside it: 0 at a pole that truncates the Gaussian, 1 where it is
+  /// not truncated. `at`: position of the pole, in deviations from the centre.
   static float left_at_end(float at) { return std::clamp(0.5f * (at - 1), 0.0f, 1.0f); }
   float part(int k) const { return 0.5f * (energy_[k] + energy_[k + 1]) * (kPlace[k + 1] - kPlace[k]); }
 
   float center_ = 0, width_ = 1;
-  float below_ = 0, within_ = 0;  // of the Gaussian's mass: below the poles, between them
+  float below_ = 0, within_ = 0;  // mass of the Gaussian: below the poles, between them
   std::array<float, kPlaces> energy_{};
-  float mean_ = 0;  // of the energy over s
+  float mean_ = 0;  // mean energy over s
 };
 
 }  // namespace pelage

@@ -6,7 +6,7 @@
 namespace pelage {
 namespace {
 
-/// By the midpoint rule over the part of theta_i where the highlight is not negligible.
+/// By the midpoint rule over the range of theta_i where the highlight is not negligible.
 float integrate_norm(double theta_o, double exponent) {
   constexpr int kSteps = 400;
   constexpr double kHalfPi = std::numbers::pi / 2;
@@ -28,7 +28,7 @@ KajiyaKayMaterial::KajiyaKayMaterial(const KajiyaKayParams& params)
           params.diffuse.value_or(1 - std::max({params.specular.x, params.specular.y, params.specular.z}))),
       specular(params.specular),
       exponent(params.exponent),
-      // cos^p x <= exp(-p (1 - cos x)): the lobe of variance 1 / p covers the highlight.
+      // cos^p x <= exp(-p (1 - cos x)): the lobe of variance 1 / p bounds the highlight.
       proposal(1 / params.exponent) {
   for (int i = 0; i <= kNorms; ++i) norms_[i] = integrate_norm(i * std::numbers::pi / 2 / kNorms, exponent);
 }

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// exp(-x) I0(x) for x >= 0, I0 the modified Bessel function: polynomials good to 2e-7 of the value
+/// exp(-x) I0(x) for x >= 0, I0 the modified Bessel function: polynomials with relative error 2e-7
 /// [Abramowitz64, 9.8.1 and 9.8.2], times exp(exponent + x) so that neither factor overflows.
 inline float bessel_i0_exp(float x, float exponent) {
   if (x < 3.75f) {
@@ -32,8 +32,8 @@ inline float bessel_i0_exp(float x, float exponent) {
 ///
 ///   M(v; theta_i, theta_o) = I0(cos ti cos to / v) exp(-sin ti sin to / v) / (2 v sinh(1 / v)),
 ///
-/// whose integral M cos(theta_i) d theta_i is 1 for every theta_o and every variance v (radians squared). Has
-/// its peak near theta_i = -theta_o.
+/// Integral of M cos(theta_i) d theta_i is 1 for every theta_o and every variance v (radians squared). The
+/// peak is near theta_i = -theta_o.
 class LongitudinalLobe {
  public:
   LongitudinalLobe() : LongitudinalLobe(1) {}
@@ -48,7 +48,8 @@ class LongitudinalLobe {
   float variance() const { return variance_; }
 
   float density(float sin_i, float cos_i, float sin_o, float cos_o) const {
-    // cos ti cos to - sin ti sin to - 1 from differences: narrow lobes live on what the products lose.
+    // cos ti cos to - sin ti sin to - 1 from differences, because the products lose the precision that narrow
+    // lobes need.
     const float s = sin_i + sin_o, c = cos_i - cos_o;
     const float below_peak = -0.5f * (s * s + c * c) * inverse_;
     const float x = cos_i * cos_o * inverse_;

@@ -8,9 +8,9 @@
 namespace pelage {
 namespace {
 
-/// Where both directions lie along the fibre, 1 / cos^2(theta_d) has no bound.
+/// Where both directions are along the fibre, 1 / cos^2(theta_d) is unbounded.
 constexpr float kMinCosine = 1e-2f;
-/// The part of all samples that goes everywhere: far from all peaks the lobes are not known well.
+/// Fraction of all samples drawn uniformly: far from all peaks the lobes are inaccurate.
 constexpr float kEverywhere = 0.01f;
 
 }  // namespace
@@ -50,9 +50,9 @@ MarschnerBsdf::Crossing MarschnerBsdf::crossing(float theta_d) const {
   return {FibreCrossing(material_->eta_, 0, std::sin(theta_d), cos_d, h_), cos_d};
 }
 
-/// What the fibre gives back by one lobe at theta_h, over the Gaussian of theta_h and but for a constant
-/// factor: d omega has another cos(theta_i), d theta_i is 2 d theta_h. On average of channels, and as
-/// FibreCrossing has it, without its angles: a new point of a strand asks nine times.
+/// Energy of one lobe at theta_h, relative to the Gaussian of theta_h and up to a constant factor: d omega
+/// has another cos(theta_i), d theta_i is 2 d theta_h. Averaged over channels; like FibreCrossing, but
+/// without its angles, because a new point of a strand evaluates it nine times.
 float MarschnerBsdf::energy(int lobe, float theta_h) const {
   const float cos_i = std::max(0.0f, std::cos(2 * theta_h - theta_o_));
   const float cos_d = std::max(std::cos(theta_o_ - theta_h), kMinCosine);
@@ -75,7 +75,7 @@ FibreValue MarschnerBsdf::eval(const V3f& wi) const {
   const std::array<Rgb, kFibreLobes> amplitudes =
       attenuations(c.geometry.reflectance, transmittance(sigma_, c.geometry.leg()));
   const float common = material_->scale_ * a.cos_theta / (c.cos_d * c.cos_d);
-  // d theta_h / d omega but for d phi; at the poles themselves there is no density.
+  // d theta_h / d omega without d phi; at the poles themselves there is no density.
   const float measure = 0.5f / std::max(a.cos_theta, 1e-6f);
   std::array<float, kLobes> d;
   float pdf = 0;

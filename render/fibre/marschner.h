@@ -16,11 +16,11 @@ namespace pelage {
 
 class MarschnerBsdf;
 
-/// Constants of a material by the far-field model of [Marschner03].
+/// Material constants of the far-field model of [Marschner03].
 class MarschnerMaterial {
  public:
   explicit MarschnerMaterial(const MarschnerParams& params);
-  /// `absorption` counts where the material gives none.
+  /// `absorption` is used when the material has none.
   MarschnerBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
@@ -33,34 +33,35 @@ class MarschnerMaterial {
   WrappedGaussian azimuthal_;
 };
 
-/// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h:
-/// M a Gaussian of unit area in theta_h, N the attenuation at theta_d times a Gaussian about the exit
-/// azimuth, whose average over h replaces the roots and the caustics of the paper. The length in the fibre is
-/// 2 cos(gamma_t) / cos(theta_t); what the paper prints is known to be wrong.
+/// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h: M
+/// is a Gaussian of unit area in theta_h; N is the attenuation at theta_d times a Gaussian about the exit
+/// azimuth. Averaging N over h replaces the paper's root finding and caustics. The path length in the fibre
+/// is 2 cos(gamma_t) / cos(theta_t); the formula printed in the paper is known to be wrong.
 ///
-/// Gives back nearly twice what it gets: unit area in theta_h is area 2 in theta_i. Refers to `material`.
+/// Reflects nearly twice the incoming energy: unit area in theta_h is area 2 in theta_i. Refers to
+/// `material`.
 class MarschnerBsdf {
  public:
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
 
   FibreValue eval(const V3f& wi) const;
-  /// Draws theta_h from the lobes, then the azimuth about where light leaves at that theta_d. Attenuations,
-  /// exit azimuths and the measure depend on theta_d: lobes about theta_o would miss the brightest light of
-  /// slanted fibres.
+  /// Draws theta_h from the lobes, then the azimuth about the exit azimuth at that theta_d. Attenuations,
+  /// exit azimuths and the measure depend on theta_d: lobes evaluated at theta_o would miss the brightest
+  /// light of slanted fibres.
   std::optional<FibreSample> sample(const V3f& u) const;
-  /// Approximate: attenuations as at theta_o, times 2 as published.
+  /// Approximate: uses attenuations at theta_o, times 2 for the published variant.
   Rgb albedo() const;
 
  private:
   static constexpr int kLobes = MarschnerMaterial::kLobes;
-  /// What light at one theta_d meets.
+  /// Quantities that depend on theta_d alone.
   struct Crossing {
     FibreCrossing geometry;
     float cos_d;
   };
   Crossing crossing(float theta_d) const;
   float energy(int lobe, float theta_h) const;
-  /// The part of samples that goes everywhere: all of them where every lobe is black.
+  /// Fraction of samples drawn uniformly over the sphere: 1 when every lobe is black.
   float uniform_share() const;
 
   const MarschnerMaterial* material_;

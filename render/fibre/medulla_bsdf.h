@@ -8,10 +8,10 @@
 
 namespace pelage {
 
-/// A fibre with a medulla, met at one h: the lobes of what is not scattered, and one of what is. `Scattered`
-/// has density(FibreAngles) and draw(u), which gives the sine of theta_i and phi.
+/// A fibre with a medulla, hit at one h: the lobes of unscattered light, and one lobe of scattered light.
+/// `Scattered` has density(FibreAngles) and draw(u), which returns the sine of theta_i and phi.
 ///
-/// Every lobe is drawn exactly: weights differ by colour alone.
+/// Every lobe is sampled exactly: weights vary by colour only.
 template <class Scattered>
 class MedullaBsdf {
  public:
@@ -54,7 +54,7 @@ class MedullaBsdf {
   float choice_;
 };
 
-/// A direction about a fibre.
+/// A direction relative to a fibre.
 struct DrawnAngles {
   float sin_theta;
   float phi;

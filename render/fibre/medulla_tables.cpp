@@ -12,9 +12,9 @@ namespace pelage {
 namespace {
 
 constexpr const char* kKind = "medulla";
-/// Changes whenever the same optics give other tables.
+/// Incremented whenever the same optics would give different tables.
 constexpr uint32_t kVersion = 1;
-/// The last node of the inclination: nothing of interest enters a fibre at more.
+/// The last node of the inclination: hardly any light enters a fibre at larger angles.
 constexpr float kSteepest = 1.5f;
 
 using Node = MedullaTables::Node;
@@ -26,7 +26,7 @@ ContentHash key_of(const YanOptics& o, int paths) {
   return hasher.digest();
 }
 
-/// Counts become a cumulative distribution, with a little everywhere so that no density is zero.
+/// Converts counts to a cumulative distribution, with a small constant so that no density is zero.
 template <size_t N>
 void accumulate(std::array<float, N>& cells) {
   constexpr float kEverywhere = 0.5f;
@@ -67,7 +67,7 @@ float cell_density(const std::array<float, N>& cumulative, float place, float ce
   const int i = std::clamp(static_cast<int>(place * (N - 1)), 0, static_cast<int>(N) - 2);
   return (cumulative[i + 1] - cumulative[i]) / cell;
 }
-/// Place in [0, 1) with that distribution.
+/// Samples a position in [0, 1) with that distribution.
 template <size_t N>
 float place_at(const std::array<float, N>& cumulative, float xi) {
   const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, xi);

@@ -15,11 +15,11 @@
 
 namespace pelage {
 
-/// How light that the medulla of a fibre scatters leaves the fibre, by inclination and h of the incoming
-/// light: the azimuthal and longitudinal profiles of [Yan15, section 4.3], the latter apart for light that
-/// leaves in front and behind. Found by tracing the whole fibre, so that light which total reflection keeps
-/// inside for a while is where it belongs. A function of the optics and the number of paths alone.
-/// Thread safety: immutable.
+/// Distribution of light scattered by the medulla of a fibre, by inclination and h of the incoming light: the
+/// azimuthal and longitudinal profiles of [Yan15, section 4.3], with separate longitudinal profiles for light
+/// that leaves at the front and at the back. Computed by tracing the whole fibre, so that light kept inside
+/// by total reflection is included correctly. A function of the optics and the number of paths only. Thread
+/// safety: immutable.
 class MedullaTables {
  public:
   static constexpr int kInclinations = 12, kOffsets = 12;  ///< nodes of |theta_o| and |h|
@@ -29,15 +29,16 @@ class MedullaTables {
   /// Takes seconds; throws Error (kStopped) as Job does.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Job& job,
                                                    int paths = kPaths);
-  /// The same to its end, unseen.
+  /// The same without progress, not stoppable.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Workers& workers,
                                                    int paths = kPaths);
-  /// From `store`, or made and stored there; the user is warned of a damaged file, and it is made again.
+  /// Loaded from `store`, or computed and stored there. Warns the user of a damaged file and computes it
+  /// again.
   static std::shared_ptr<const MedullaTables> find_or_make(const YanOptics& optics, const ContentStore& store,
                                                            const Job& job, int paths = kPaths);
 
-  /// Cumulative distributions of one node, and the lengths that its light has travelled. Light comes from
-  /// above the normal plane (theta_o >= 0) at h >= 0.
+  /// Cumulative distributions of one node, and path lengths of its light. Light comes from above the normal
+  /// plane (theta_o >= 0) at h >= 0.
   struct Node {
     std::array<float, kAzimuths + 1> azimuth;           ///< over phi from -pi to pi
     std::array<std::array<float, kSines + 1>, 2> sine;  ///< over sin(theta_i) from -1 to 1: front, behind
@@ -50,7 +51,7 @@ class MedullaTables {
   std::vector<Node> nodes_;
 };
 
-/// The lobe of scattered light at one point: the mixture of four nodes about it. Refers to the tables.
+/// The lobe of scattered light at one point: a mixture of the four nodes around it. Refers to the tables.
 class TabulatedScatter {
  public:
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);

@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// How far scattered light has travelled in the cortex and in the medulla, in radii: the means of groups of
-/// paths, from the shortest to the longest. One mean of all would be too dark for strong absorption, of which
-/// short paths are what is left.
+/// Path lengths of scattered light in the cortex and in the medulla, in radii: means of groups of paths, from
+/// the shortest to the longest. A single mean would be too dark for strong absorption, where only short paths
+/// contribute.
 class PathLengths {
  public:
   PathLengths() = default;
-  /// Of traced paths; their order does not matter beyond equal lengths.
+  /// From traced paths; the order matters only among equal lengths.
   explicit PathLengths(std::vector<FibrePath> paths);
 
   /// The mean of exp(-sigma . length).
@@ -24,7 +24,7 @@ class PathLengths {
   float mean_cortex() const { return mean(cortex_); }
   float mean_core() const { return mean(core_); }
 
-  /// Halfway lengths: `t` = 0 is a, 1 is b.
+  /// Interpolated lengths: `t` = 0 gives a, 1 gives b.
   static PathLengths mix(const PathLengths& a, const PathLengths& b, float t);
 
  private:

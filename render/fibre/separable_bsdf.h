@@ -11,13 +11,13 @@
 
 namespace pelage {
 
-/// Widths of the lobes R, TT, TRT and of the rest: constants of a material, in one place so that what is
-/// evaluated and what is sampled cannot differ.
+/// Widths of the lobes R, TT, TRT and of the rest. Shared by evaluation and sampling, so that these cannot
+/// disagree.
 template <class Azimuth>
 struct LobeWidths {
   std::array<LongitudinalLobe, kFibreLobes> longitudinal;
   std::array<Azimuth, kFibreLobes - 1> azimuthal;  ///< the rest is uniform
-  /// Sines and cosines of what is added to theta_o before each lobe mirrors it, for R, TT and TRT.
+  /// Sines and cosines of the tilt added to theta_o before each lobe mirrors it, for R, TT and TRT.
   std::array<float, kFibreLobes - 1> sin_tilt{0, 0, 0}, cos_tilt{1, 1, 1};
 
   void set_tilt(int p, float radians) {
@@ -26,10 +26,10 @@ struct LobeWidths {
   }
 };
 
-/// A sum of lobes, each a product of a longitudinal and an azimuthal density [Marschner03, equation 5], for
-/// light that meets a fibre at one h: sum over p of A_p M_p(theta_i) N_p(phi). Refers to `widths`.
+/// A sum of lobes for light that hits a fibre at one h: sum over p of A_p M_p(theta_i) N_p(phi), with
+/// longitudinal densities M and azimuthal densities N [Marschner03, equation 5]. Refers to `widths`.
 ///
-/// Every lobe is drawn exactly: weights differ by colour alone. Energy is the sum of the A_p.
+/// Every lobe is sampled exactly: weights vary by colour only. The energy is the sum of the A_p.
 template <class Azimuth>
 class SeparableBsdf {
  public:
@@ -40,7 +40,7 @@ class SeparableBsdf {
     for (int p = 0; p < kFibreLobes; ++p) {
       const float sin_tilt = p < 3 ? widths.sin_tilt[p] : 0, cos_tilt = p < 3 ? widths.cos_tilt[p] : 1;
       sin_o_[p] = frame.sin_theta_o() * cos_tilt + frame.cos_theta_o() * sin_tilt;
-      // Past a pole the cosine turns negative; its size keeps M normalised.
+      // Beyond a pole the cosine is negative; its magnitude keeps M normalised.
       cos_o_[p] = std::abs(frame.cos_theta_o() * cos_tilt - frame.sin_theta_o() * sin_tilt);
       choice_[p] = (amplitude_[p].x + amplitude_[p].y + amplitude_[p].z) / 3;
     }
@@ -72,7 +72,7 @@ class SeparableBsdf {
     return value;
   }
 
-  /// A direction alone. u.x: azimuth; u.y: distance from the peak; u.z: lobe and, stretched, the sense.
+  /// Draws a direction only. u.x: azimuth; u.y: distance from the peak; u.z: lobe and, rescaled, the side.
   V3f draw(const V3f& u) const {
     int p = 0;
     float rest = u.z;

@@ -8,12 +8,13 @@
 namespace pelage {
 namespace {
 
-/// Beyond, what is left of a walk is as good as lost: fibres that absorb a thousandth keep under 1 %.
+/// After this, the remainder of a walk is negligible: fibres that absorb a thousandth keep less than 1 %.
 constexpr int kMaxScatterings = 1000;
-/// A walk that carries so much more than it began with is on its way to infinity.
+/// A walk that has gained this factor is diverging.
 constexpr float kRunaway = 30;
 
-/// A fibre about a walk along `direction`: any way, but met as often as it is seen broadside.
+/// Tangent of a fibre hit by a walk along `direction`: random, with probability proportional to its visible
+/// width.
 V3f hit_tangent(const V3f& direction, WalkRandom& random) {
   for (;;) {
     const float z = 2 * random.unit() - 1, turn = 2 * kPi * random.unit();
@@ -23,7 +24,7 @@ V3f hit_tangent(const V3f& direction, WalkRandom& random) {
   }
 }
 
-/// What one walk brings back to the surface, z = 0.
+/// Light that one walk returns to the surface z = 0.
 double walk(const TangleScatter& scatter, V3f direction, WalkRandom& random) {
   float weight = 1;
   double height = 0;
@@ -52,7 +53,7 @@ double tangle_reflectance(const TangleScatter& scatter, int walks) {
   double sum = 0;
   for (int i = 0; i < walks; ++i) {
     WalkRandom random(hash64(random_use("tangle"), static_cast<uint64_t>(i)));
-    // Even light: downward in proportion to the cosine.
+    // Uniform light: downward, cosine-weighted.
     const float z = -std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(walks));
     const float turn = 2 * kPi * random.unit(), across = std::sqrt((1 - z) * (1 + z));
     const double back = walk(scatter, {across * std::cos(turn), across * std::sin(turn), z}, random);

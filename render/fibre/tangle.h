@@ -8,18 +8,18 @@
 
 namespace pelage {
 
-/// Where a walk through a tangle meets a fibre.
+/// Where a random walk through a dense medium of fibres hits one.
 struct TangleHit {
   V3f tangent{0};
-  V3f wo{0};    ///< unit, back to where the walk came from
+  V3f wo{0};    ///< unit, back along the walk
   float h = 0;  ///< across the fibre, as FibrePoint::h
 };
-/// Scatters a walk at a fibre, by three numbers in [0, 1); nothing when it ends there.
+/// Scatters a walk at a fibre, using three numbers in [0, 1); empty when it ends there.
 using TangleScatter = std::function<std::optional<FibreSample>(const TangleHit&, const V3f&)>;
 
-/// How much of even light an endless depth of fibres gives back that lie every way: the colour of much such
-/// fur together. Green alone. Found by `walks` random walks, the same for every call: good to about 1 /
-/// sqrt(walks) of itself. 2 when fibres give back so much more than they get that there is no such number.
+/// Fraction of uniform light that an infinitely deep medium of randomly oriented fibres reflects: the colour
+/// of dense fur. Uses the green channel only. Estimated with `walks` random walks, the same for every call;
+/// relative error about 1 / sqrt(walks). Returns 2 when fibres gain so much energy that the sum diverges.
 double tangle_reflectance(const TangleScatter& scatter, int walks);
 
 }  // namespace pelage

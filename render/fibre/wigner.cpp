@@ -7,14 +7,14 @@ namespace {
 
 constexpr double kPiD = std::numbers::pi;
 
-/// Polar angle t from the end u = -1 with F = xi: t - sin t cos t = pi xi, by Newton's method from the limit
-/// for small xi. The function is convex and the start lies below the root, so every later iterate lies above
-/// it.
+/// Polar angle t from the end u = -1 with F = xi: t - sin t cos t = pi xi, by Newton's method starting from
+/// the limit for small xi. The function is convex and the start is below the root, so every later iterate is
+/// above it.
 double polar_angle(double xi) {
   double t = std::cbrt(1.5 * kPiD * xi);
   for (int i = 0; i < 60; ++i) {
     const double sine = std::sin(t);
-    // 2t - sin 2t loses all digits for small t; there its series does not.
+    // 2t - sin 2t loses all precision for small t; its series does not.
     const double x = 2 * t;
     const double left = t > 0.05 ? 0.5 * (x - std::sin(x))
                                  : x * x * x / 12 * (1 - x * x / 20 * (1 - x * x / 42 * (1 - x * x / 72)));
@@ -43,7 +43,7 @@ WignerTable::WignerTable() {
     const double end = std::bit_cast<float>((kFirstCell + i + 1) << kCellShift);
     double value[2], slope[2];
     for (int side = 0; side < 2; ++side) {
-      // The last cell is entered at xi = 1/2 only; beyond, the other half's curve continues it.
+      // The last cell is used only at xi = 1/2; beyond it, the other half's curve continues.
       const double xi = side == 0 ? begin : end;
       const double t = xi <= 0.5 ? polar_angle(xi) : kPiD - polar_angle(1 - xi);
       value[side] = 2 * std::sin(t / 2) * std::sin(t / 2);

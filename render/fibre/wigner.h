@@ -20,13 +20,13 @@ inline float wigner_pdf(float u) {
 /// F(u) = 1/2 + (u sqrt(1 - u^2) + asin u) / pi.
 double wigner_cdf(double u);
 
-/// Inverts F by a table. F^-1 has no closed form and infinite slope at both ends, where 1 + u grows as
-/// xi^(2/3): the cells are eighths of octaves of min(xi, 1 - xi), found from the bits of the float, so that a
-/// cubic per cell is good to 5e-7 of the distance from the nearer end. Its density is the analytic one to
-/// that accuracy.
+/// Inverts F with a table. F^-1 has no closed form and infinite slope at both ends, where 1 + u grows as
+/// xi^(2/3). The cells are eighths of octaves of min(xi, 1 - xi), found from the bits of the float, so that a
+/// cubic per cell has an error of 5e-7 of the distance to the nearer end. Its density equals the analytic one
+/// to that accuracy.
 class WignerTable {
  public:
-  /// Made once. Thread safe.
+  /// Constructed once. Thread safe.
   static const WignerTable& instance();
 
   /// u with F(u) = xi, for xi in [0, 1).
@@ -43,18 +43,18 @@ class WignerTable {
  private:
   WignerTable();
 
-  using Cell = std::array<float, 4>;  ///< cubic in the place within the cell, of 1 + u
+  using Cell = std::array<float, 4>;  ///< cubic of 1 + u over the position within the cell
   static constexpr int kCellShift = 20;
   static constexpr uint32_t kFractionMask = (1u << kCellShift) - 1;
   static constexpr float kFractionScale = 1.0f / (1u << kCellShift);
-  static constexpr float kSmallest = 0x1p-25f;  ///< half the least number above 0 that streams give
+  static constexpr float kSmallest = 0x1p-25f;  ///< half the smallest positive number that streams return
   static constexpr uint32_t kFirstCell = std::bit_cast<uint32_t>(kSmallest) >> kCellShift;
   static constexpr uint32_t kLastCell = std::bit_cast<uint32_t>(0.5f) >> kCellShift;
   std::array<Cell, kLastCell - kFirstCell + 1> cells_;
 };
 
-/// The flatter piecewise-linear density that the Wigner sampler replaced [Neulander10]; its knots were not
-/// published: a tent on a floor, with the floor that comes closest to the semicircle.
+/// The flatter piecewise-linear density that the Wigner sampler replaced [Neulander10]. Its knots were not
+/// published; this is a tent plus a constant, fitted to the semicircle.
 inline constexpr float kTentFloor = 0.51f;
 inline float tent_pdf(float u) {
   return std::abs(u) > 1.0f ? 0.0f : (1.0f - kTentFloor) * (1.0f - std::abs(u)) + 0.5f * kTentFloor;

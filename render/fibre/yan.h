@@ -15,14 +15,14 @@ namespace pelage {
 using YanFastBsdf = MedullaBsdf<WignerScatter>;
 using YanBsdf = MedullaBsdf<TabulatedScatter>;
 
-/// Light at one h before the medulla scatters it [Yan17, section 4]: with T what a leg of the way leaves
-/// unscattered, R = F, the unscattered ways are those of a clear fibre whose legs transmit T, and
-/// (1 - F) (1 - T) / (1 - F T) is scattered; these add up to 1.
+/// Light at one h before the medulla scatters it [Yan17, section 4]. T is the fraction of a leg's light that
+/// stays unscattered, and R = F. The unscattered paths are those of a clear fibre whose legs transmit T; (1 -
+/// F) (1 - T) / (1 - F T) is scattered. All of them add up to 1.
 struct MedullaCrossing {
   MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h);
 
   FibreCrossing surface;
-  float in_cortex, in_medulla;  ///< 3-D lengths of a leg
+  float in_cortex, in_medulla;  ///< 3-D path lengths within a leg
   float unscattered;            ///< T
   float scattered() const {
     const float f = surface.reflectance;
@@ -30,15 +30,14 @@ struct MedullaCrossing {
   }
 };
 
-/// What `yan` and `yan-fast` share: everything but the lobe of scattered light.
+/// The part that `yan` and `yan-fast` share: everything except the lobe of scattered light.
 ///
 /// Longitudinal functions are those of d'Eon with the variances of the paper's Gaussians, so that energy is
-/// exact: there is no variant with the Gaussians themselves, which at a width of 10 degrees lose 2 % of the
-/// light across the fibre and 6 % of that from 1.3 radians. R is a product, where [Yan17] lets its cone and
-/// its width vary with the azimuth: light traced through a smooth cylinder without tilt knows no such
-/// variation, and the tilts are of two or three degrees. Azimuthal functions are Gaussians of deviation
-/// sqrt(p + 1) beta_n. Tilts have the signs of ChiangMaterial: +2 alpha for R, -alpha for TT, -3 alpha for
-/// TRT.
+/// exact. There is no variant with the Gaussians themselves: at a width of 10 degrees they lose 2 % of the
+/// light across the fibre and 6 % of light from 1.3 radians. R is a product, whereas the cone and the width
+/// of [Yan17] vary with the azimuth: light traced through a smooth cylinder without tilt shows no such
+/// variation, and tilts are only two or three degrees. Azimuthal functions are Gaussians of deviation sqrt(p
+/// + 1) beta_n. Tilts have the signs of ChiangMaterial: +2 alpha for R, -alpha for TT, -3 alpha for TRT.
 class MedullaFibre {
  public:
   explicit MedullaFibre(const YanOptics& optics);
@@ -53,12 +52,12 @@ class MedullaFibre {
 };
 
 /// Constants of a `yan-fast` material. Scattered light leaves as rho = A cos(theta_i) / pi^2 (1 + b
-/// cos(phi)), what light traced through such fibres does nearly; b and the lengths that A is absorbed over
-/// are found by tracing, by inclination, when the material is made.
+/// cos(phi)), which approximates light traced through such fibres. b and the path lengths that determine A
+/// are traced per inclination when the material is made.
 class YanFastMaterial {
  public:
   explicit YanFastMaterial(const YanFastParams& params);
-  /// `absorption` is that of cortex and medulla where the material gives none.
+  /// `absorption` of cortex and medulla is used when the material has none.
   YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
@@ -73,12 +72,12 @@ class YanFastMaterial {
   std::array<Scattering, kInclinations> scattering_;  // over |sin theta_o|
 };
 
-/// Constants of a `yan` material: scattered light by tables over inclination and h. Refers to the tables,
+/// Constants of a `yan` material: scattered light from tables over inclination and h. Refers to the tables,
 /// which it shares.
 class YanMaterial {
  public:
   explicit YanMaterial(const YanParams& params);
-  /// As in YanFastMaterial.
+  /// As for YanFastMaterial.
   YanBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:

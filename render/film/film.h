@@ -18,7 +18,7 @@ namespace pelage {
 
 inline constexpr uint32_t kNoStrand = 0xffffffffu;
 
-/// The first surface that a camera ray met. Defaults are those of an empty pixel.
+/// The first surface that a camera ray hit. Defaults are those of an empty pixel.
 struct VisibleSurface {
   float depth = std::numeric_limits<float>::infinity();  ///< along the camera axis
   V3f normal{0};                                         ///< unit, world space
@@ -26,10 +26,10 @@ struct VisibleSurface {
   V2f forward{0};                                        ///< pixels to the next frame, x right, y down
   V2f root_uv{0};           ///< texture coordinates of the strand's root or of the skin
   uint32_t id = kNoStrand;  ///< lower half of the strand's id
-  float left_out = 0;       ///< part of the strands that level of detail left out here
+  float left_out = 0;       ///< fraction of the strands that level of detail omitted here
 };
 
-/// What one path brought back.
+/// Result of one path.
 struct FilmSample {
   Rgb radiance{0};
   float alpha = 0;
@@ -40,7 +40,7 @@ struct FilmSample {
   bool inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }
 };
 
-/// Sums of all samples of a picture, pixel by pixel.
+/// Sums over all samples of a picture, per pixel.
 ///
 /// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. The samples of a tile are
 /// added by one thread at a time in an order of their own, so the sums do not depend on the number of
@@ -49,17 +49,17 @@ struct FilmSample {
 class Film {
  public:
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
-  /// What a film of this size takes.
+  /// Memory that a film of this size needs.
   static int64_t bytes_needed(int width, int height, const FilmLayers& layers);
 
-  /// Of the luminance of each pixel's samples, row by row; empty unless layers().noise.
+  /// Moments of the luminance of each pixel's samples, row by row; empty unless layers().noise.
   const std::vector<PixelMoments>& moments() const { return moments_; }
 
   int width() const { return width_; }
   int height() const { return height_; }
   const FilmLayers& layers() const { return layers_; }
 
-  /// `by_layer`: the radiance divided among layers(). Returns false, and leaves the pixel as it was, when a
+  /// `by_layer`: the radiance divided among layers(). Returns false and leaves the pixel unchanged when a
   /// value is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
   /// Adds light to a sample that was added before, which then had less.
@@ -71,9 +71,9 @@ class Film {
   Rgb layer(int x, int y, size_t layer) const;
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].sample; }
 
-  /// All channels of rows y0 .. y1-1 under the names of docs and notes: R G B A and light layers as half, Z,
-  /// N, tangent, forward and root as float, id as uint; with layers().noise, `samples` as uint and `noise`,
-  /// the standard error of the luminance, as float; with layers().lod, `lod` as float.
+  /// All channels of rows y0 .. y1-1: R G B A and light layers as half, Z, N, tangent, forward and root as
+  /// float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of the
+  /// luminance, as float; with layers().lod, `lod` as float.
   std::vector<ExrChannel> exr_rows(int y0, int y1) const;
 
  private:
@@ -91,7 +91,7 @@ class Film {
   FilmSums sums_;  // R G B A, then 3 per layer
   std::vector<uint32_t> counts_;
   std::vector<Surface> surfaces_;
-  std::vector<PixelMoments> moments_;  // of the luminance; empty unless the layers ask for noise
+  std::vector<PixelMoments> moments_;  // of the luminance; empty unless layers().noise
   MemoryCharge charge_;
 };
 

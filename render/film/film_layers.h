@@ -36,17 +36,17 @@ struct ImageParams {
   static const Schema<ImageParams>& schema();
 };
 
-/// Which light layers a film has: for each light, one per lobe group at the first surface that the camera
-/// sees (skin counts as diffuse), then, for lights that the camera sees, what they emit straight into it.
+/// The light layers of a film. For each light: one per lobe group at the first visible surface (skin counts
+/// as diffuse); then, for lights visible to the camera, their direct emission.
 struct FilmLayers {
   struct LightInfo {
     std::string name;
     bool visible = false;
   };
-  /// `groups`: how many of the lobe groups the materials of the scene use, from the first.
+  /// `groups`: number of lobe groups that the materials of the scene use, counted from the first.
   static FilmLayers make(const std::vector<LightInfo>& lights, int groups);
 
-  std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are switched off
+  std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are off
   int groups = 0;
   bool noise = false;                ///< whether the film keeps how much the samples of each pixel vary
   bool lod = false;                  ///< whether it shows how much detail was left out
@@ -58,7 +58,7 @@ struct FilmLayers {
   size_t emitted(size_t light) const { return first_[light] + static_cast<size_t>(groups); }
 
  private:
-  std::vector<size_t> first_;  // layer of the first group, by light
+  std::vector<size_t> first_;  // index of each light's first layer
 };
 
 }  // namespace pelage

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Draws where in and around a pixel a camera ray passes, in proportion to the pixel filter, so that all
-/// samples of a pixel weigh the same and pixels stay independent of each other [Ernst06].
+/// Samples the position of a camera ray in and around a pixel in proportion to the pixel filter, so that all
+/// samples of a pixel have the same weight and pixels stay independent [Ernst06].
 class FilterSampler {
  public:
   explicit FilterSampler(PixelFilter filter);

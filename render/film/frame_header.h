@@ -11,26 +11,26 @@
 
 namespace pelage {
 
-/// What the header of a picture says beside its pixels.
+/// Metadata for the header of a picture.
 struct FrameHeader {
   double frame = 1;
-  V2f shutter{0, 0};  ///< when it opens and closes, in frames around the frame
+  V2f shutter{0, 0};  ///< opening and closing time, in frames relative to the frame
   double frames_per_second = 24;
   double meters_per_unit = 0.01;
   int64_t seed = 0;
-  uint32_t samples = 0;       ///< that every pixel has got
-  double mean_samples = 0;    ///< of all pixels
+  uint32_t samples = 0;       ///< that every pixel has, at least
+  double mean_samples = 0;    ///< over all pixels
   std::string adaptive;       ///< rule of adaptive sampling; empty without
-  bool partial = false;       ///< interrupted: some pixels have got fewer samples
-  bool time_limited = false;  ///< the clock decided how many samples there are
+  bool partial = false;       ///< interrupted: some pixels have fewer samples
+  bool time_limited = false;  ///< the time limit determined the number of samples
   double render_seconds = 0;
   int64_t peak_memory_bytes = 0;
   std::string program_version;
-  std::string scene_hash;  ///< of all that the picture was made from
+  std::string scene_hash;  ///< of everything that determines the picture
 };
 
-/// The EXR attributes of a frame: the standard ones (worldToCamera, worldToNDC, framesPerSecond, and expTime,
-/// seconds that the shutter is open) and, under "pelage:", the rest.
+/// The EXR attributes of a frame: standard ones (worldToCamera, worldToNDC, framesPerSecond, and expTime, the
+/// exposure time in seconds), and the others under "pelage:".
 ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera);
 
 }  // namespace pelage

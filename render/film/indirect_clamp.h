@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// The limit on light of single paths (render.clamp_indirect), and what it took away.
+/// Limit on the contribution of single paths (render.clamp_indirect), and the amount it removed.
 struct IndirectClamp {
   float limit = 0;  ///< luminance; 0 is none
   int64_t lost = 0,
-          indirect = 0;  ///< luminance of all samples in parts of 65,536: integers add up in any order
+          indirect = 0;  ///< luminance, in units of 1/65,536: integers sum in any order
 
-  /// The part that is kept of light that reaches the camera as lobes[g] * light, summed over lobe groups g.
+  /// Factor applied to light that reaches the camera as lobes[g] * light, summed over lobe groups g.
   float keep(const Rgb* lobes, const Rgb& light) {
     if (limit == 0) return 1;
     float all = 0;
@@ -28,7 +28,7 @@ struct IndirectClamp {
 
  private:
   static int64_t in_parts(float value) {
-    return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);  // nothing of what is not a number
+    return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);  // 0 for NaN
   }
 };
 

@@ -14,19 +14,18 @@
 namespace pelage {
 namespace {
 
-/// What growing holds for a moment: a block of strands on its way through the operators, whose points and
-/// colours are rows of floats, and as much again for what operators or reading a file need beside it; more
-/// where they are posed at several times.
+/// Temporary memory of growing: a block of strands during the operators, whose points and colours are rows of
+/// floats, and as much again for operators or reading a file; more when they are posed at several times.
 constexpr size_t kGrowthBytes = size_t(128) << 10, kGrowthBytesPerPoint = size_t(7) << 10;
-/// Most that a piece of skin costs, in triangles of about 250 bytes each: 1/256 of the budget, so that small
-/// budgets can hold many; but no less than what a leaf of some hundred strands takes, because every piece
-/// poses the faces around it too.
+/// Max cost of a piece of skin, in triangles of about 250 bytes each: 1/256 of the budget, so that small
+/// budgets can hold many; but no less than a leaf of some hundred strands needs, because every piece poses
+/// the faces around it too.
 size_t max_piece_cost(uint64_t memory_limit) {
   constexpr uint64_t kMin = 4096, kMax = 65536;
   return memory_limit == 0 ? kMax : std::clamp<uint64_t>(memory_limit >> 16, kMin, kMax);
 }
 
-/// Dividing a skin that takes so much is worth all threads: about 0.05 s of one.
+/// Dividing a skin of at least this size is worth all threads: about 0.05 s on one.
 constexpr size_t kLargeSkin = size_t(16) << 20;
 
 size_t growth_bytes(const StrandCounts& n) {
@@ -79,7 +78,7 @@ void FrameChunks::divide_skins(const Job& job) {
         pieces[i][k].temporary_bytes = skin.temporary_bytes(pieces[i][k].piece);
     });
   };
-  // Large skins one after the other, each by all threads; the others beside each other.
+  // Large skins one after the other, each with all threads; the others concurrently.
   const auto is_large = [&](size_t i) { return !fit || making[i] > kLargeSkin; };
   for (size_t i = 0; i < making.size(); ++i) {
     if (is_large(i)) divide(i, job.workers);
@@ -118,7 +117,7 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
   fur.strands = leaves_[chunk]->generate();
   strands_grown_.fetch_add(static_cast<int64_t>(fur.strands.strand_count()), std::memory_order_relaxed);
   if (fur.strands.strand_count() > 0) {
-    find_attributes(fibre.color, fur.strands, part.name);  // throws for one that is missing
+    find_attributes(fibre.color, fur.strands, part.name);  // throws if one is missing
     fur.opacity = point_opacities(fibre.opacity, fur.strands, part);
   }
   return {std::move(fur), parts_[chunk]};
@@ -163,7 +162,7 @@ bool FrameChunks::in_fur_trees() const {
 }
 
 size_t FrameChunks::bytes() const {
-  constexpr size_t kHeap = 16;  // of each block, its share of what the heap keeps and rounds
+  constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
   size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
                scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]);
@@ -173,10 +172,10 @@ size_t FrameChunks::bytes() const {
 }
 
 FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
-  // The strands of a leaf are charged where they are measured; the block on its way through the operators
-  // counts here.
+  // The strands of a leaf are charged where they are measured; the block during the operators is charged
+  // here.
   MeasurePlan plan;
-  // A chunk that is grown again for a ray takes its tree too: what would do for that is said at once.
+  // A chunk that is grown again for a ray also needs memory for its tree: the message includes it.
   const bool read = !scene_.render.bvh.file.path.empty();
   uint32_t which = 0;
   size_t strands = 0, largest = 0;

@@ -12,14 +12,13 @@
 
 namespace pelage {
 
-/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Knows how to make each
-/// of them from the scene, which it refers to.
+/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Makes each of them
+/// from the scene, which it refers to.
 class FrameChunks final : public ChunkGrower {
  public:
-  /// Splits every coat down to its leaves and divides skins. Throws Error (kInput) for a
-  /// coat whose material is not one for fibres.
-  /// Dividing skins poses them whole, a few at a time, charged meanwhile. Throws Error (kMemory) when one
-  /// alone does not fit `render.memory`.
+  /// Splits every coat down to its leaves and divides skins. Dividing skins poses them whole, a few at a
+  /// time, charged to the ledger meanwhile. Throws Error (kInput) for a coat whose material is not for
+  /// fibres, Error (kMemory) when a single skin does not fit `render.memory`.
   FrameChunks(const RenderScene& scene, const Job& job);
 
   ChunkContents grow(uint32_t chunk) const override;
@@ -29,23 +28,23 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
-  /// That of its coat or skin: "walker.under".
+  /// Name of its coat or skin: "walker.under".
   std::string name(uint32_t chunk) const override;
 
   size_t size() const { return leaves_.size() + pieces_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
   /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
-  /// points. `counts` are of leaves. Throws what growing throws, Error (kMemory) before anything is grown
-  /// that does not fit. Chunks are without boxes when cancelled.
+  /// points. `counts`: of leaves. Throws what growing throws, Error (kMemory) before growing anything that
+  /// does not fit. When cancelled, chunks have no boxes.
   std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
-  /// Whether strands stand in fur trees, which need no boxes of parts above them.
+  /// Whether strands are stored in fur trees, which need no boxes of parts above them.
   bool in_fur_trees() const;
-  /// What describes the chunks, grown or not.
+  /// Memory of the descriptions of the chunks, grown or not.
   size_t bytes() const;
   /// Whether the material of every coat is opaque everywhere.
   bool opaque() const;
-  /// Strands that grow() made so far.
+  /// Number of strands that grow() has made so far.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
 
  private:
@@ -55,10 +54,10 @@ class FrameChunks final : public ChunkGrower {
     size_t temporary_bytes = 0;
   };
 
-  /// How leaves are grown to be measured within `render.memory`.
+  /// Concurrency and memory of measuring leaves within `render.memory`.
   struct MeasurePlan {
     int concurrency = 1;
-    size_t block = 0;  // bytes of a block of strands on its way through the operators
+    size_t block = 0;  // memory of a block of strands during the operators
   };
   MeasurePlan measure_plan(const Job& job) const;
 
@@ -66,10 +65,10 @@ class FrameChunks final : public ChunkGrower {
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
   const RenderScene& scene_;
-  std::vector<std::unique_ptr<Procedural>> made_;  // on the way down
+  std::vector<std::unique_ptr<Procedural>> made_;  // intermediate procedurals of splitting
   std::vector<const Procedural*> leaves_;
   std::vector<uint32_t> parts_;      // of RenderScene::fur, per leaf
-  std::vector<StrandScale> scales_;  // of coats: of what stands in the scene, before it is split
+  std::vector<StrandScale> scales_;  // of coats: of the scene's procedurals, before splitting
   std::vector<uint32_t> coats_;      // per leaf
   std::vector<SkinChunk> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0};

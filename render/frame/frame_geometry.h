@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// The geometry of a frame: chunks, the boxes around them, and what rays are traced with. Chunks are grown
-/// when a ray needs them, unless the scene asks for everything up front.
+/// The geometry of a frame: chunks, the boxes around them, and the accelerator. Chunks are grown when a ray
+/// needs them, unless the scene requests everything up front.
 class FrameGeometry {
  public:
   /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold

@@ -6,7 +6,7 @@
 namespace pelage {
 namespace {
 
-/// How many lobe groups a material uses, from the first.
+/// The number of lobe groups that a material uses, counted from the first.
 int lobe_groups(const MaterialParams& material) {
   if (std::holds_alternative<LambertParams>(material)) return 1;
   return std::holds_alternative<GlossyParams>(material) ? 2 : kLobeGroups;

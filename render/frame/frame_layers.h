@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// The layers of a frame's film, which can be told before anything of the frame is made.
+/// The layers of a frame's film, which are known before anything of the frame is made.
 FilmLayers frame_layers(const ImageParams& image, const RenderParams& render,
                         const std::vector<FilmLayers::LightInfo>& lights,
                         std::span<const MaterialParams> materials);

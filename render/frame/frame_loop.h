@@ -20,41 +20,41 @@ namespace pelage {
 /// Traces passes of samples over a film, tile by tile.
 class FrameLoop {
  public:
-  /// How many samples a pixel should have that has `given`. Asked again until it has them; called by the
-  /// thread that traces the pixel.
+  /// The number of samples that a pixel with `given` samples should have. Called again until it has them, by
+  /// the thread that traces the pixel.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
   enum class End { kDone, kCancelled, kOutOfTime };
 
-  /// `clock` is what deadlines refer to.
+  /// `clock`: the reference of deadlines.
   FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
   size_t pixel_count() const { return sample_counts_.size(); }
   const Film& film() const { return film_; }
-  /// Samples that were traced for a pixel.
+  /// Number of samples traced for a pixel.
   uint32_t sample_count(size_t pixel) const { return sample_counts_[pixel]; }
   uint32_t min_samples() const;
   double mean_samples() const;
 
-  /// Brings every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, far from each
-  /// other, so that threads that begin together do not wait for the same fur. Samples of one pixel are added
-  /// in order by one thread. Once the clock passes `deadline` no more tiles are begun.
+  /// Traces every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, with consecutive
+  /// tiles far apart, so that threads that start together do not wait for the same fur. Samples of one pixel
+  /// are added in order by one thread. Starts no more tiles once the clock passes `deadline_s`.
   End pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
 
-  /// Seconds of one thread that a sample of the pixel's tile has taken so far.
+  /// Mean thread seconds per sample of the pixel's tile so far.
   double cost(size_t pixel) const;
-  /// What the clock said when the first tile was done.
+  /// Time on the clock when the first tile was finished.
   double first_tile_s() const { return first_tile_s_; }
   void add_to(Statistics& statistics) const;
-  /// Fraction of the indirect light that render.clamp_indirect took away.
+  /// Fraction of the indirect light that render.clamp_indirect removed.
   double clamped_fraction() const;
 
  private:
   struct TileCost {
     double seconds = 0, samples = 0;
   };
-  /// False when it was cancelled in the middle.
+  /// False when it was cancelled before the end.
   bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
   bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch);
   size_t tile_of(int x, int y) const;

@@ -8,7 +8,7 @@ namespace pelage {
 /// A rendered frame.
 struct FrameResult {
   Film film;
-  uint32_t samples = 0;         ///< paths that every pixel has got
+  uint32_t samples = 0;         ///< paths traced for every pixel, at least
   double mean_samples = 0;      ///< paths of all pixels over the number of pixels
   double clamped_fraction = 0;  ///< of the indirect light, by render.clamp_indirect
   double noise = 0;             ///< frame_noise(); 0 where the film keeps no moments

@@ -18,13 +18,13 @@
 namespace pelage {
 namespace {
 
-/// Place over the whole strand of a place in one of its segments.
+/// Position over the whole strand of a position in one of its segments.
 float along_strand(const Strands& strand, const Hit& hit) {
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   return (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
 }
 
-/// A place across a fibre that has nothing to do with where it was hit: the far field, one sample at a time.
+/// A position across a fibre that is independent of the hit: samples the far field.
 float random_offset(const Hit& hit) {
   return signed_float(hash64(random_use("far field"), hit.strand_id, hit.segment,
                              std::bit_cast<uint32_t>(hit.u), std::bit_cast<uint32_t>(hit.v)));
@@ -34,31 +34,31 @@ std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
 }
 
-// Farthest place along a fibre where a ray is taken to have entered that passes the axis here, over the
-// radius. Beyond 83 degrees the fibre is no cylinder for so long.
+// Max distance along a fibre, in radii, from where a ray passes the axis to its assumed entry. Beyond 83
+// degrees a fibre is not a cylinder over that length.
 constexpr float kFarthestEntry = 8;
 
-/// How far along the tangent from where a ray is nearest to the axis it has met a fibre's surface, over the
-/// radius.
+/// Distance along the tangent, in radii, from the nearest point to the axis to where a ray entered the
+/// fibre's surface.
 float entry_place(const FibrePoint& at, float h) {
   const FibreFrame frame(at.tangents[0], at.wo);
   const float slant = frame.sin_theta_o() / frame.cos_theta_o();
   return std::clamp(std::sqrt(std::max(0.0f, 1 - h * h)) * slant, -kFarthestEntry, kFarthestEntry);
 }
 
-// How far above the skin light starts that leaves it beside the hit, over the way to there: facets stand out
-// of the surface that they stand for.
+// Height above the skin at which light starts that leaves it beside the hit, relative to the distance: facets
+// protrude from the surface that they approximate.
 constexpr float kSkinRise = 0.08f;
 
-/// Numbers of what is seen and of the line of sight, not of the place where it was met: what changes a little
-/// from frame to frame must not draw anew.
+/// Random numbers that depend on the visible object and the line of sight, but not on the position of the
+/// hit: small changes between frames must not change the random choice.
 class ViewRandom {
  public:
   ViewRandom(const Ray& ray, uint64_t seen) : ray_(ray), seen_(seen) {}
   float number(uint64_t use) const {
     return unit_float(hash64(use, seen_, bits(0), bits(1) << 32 | bits(2)));
   }
-  /// A place on a skin with this normal, evenly in a disc about the origin.
+  /// A uniformly distributed point of a disc around the origin, on a skin with this normal.
   V3f on_skin(const V3f& normal, float radius) const {
     const V3f side = normal.cross(std::abs(normal.x) < 0.5f ? V3f(1, 0, 0) : V3f(0, 1, 0)).normalized();
     const float angle = 2 * std::numbers::pi_v<float> * number(random_use("deputy: angle"));
@@ -73,9 +73,9 @@ class ViewRandom {
   uint64_t seen_;
 };
 
-/// One of the strands that a strand with reduced detail stands for, from which light goes on: were it to go
-/// on from the wide strand, it would find its way as clear as the line of sight, and the room empty where the
-/// others would be.
+/// One of the strands that a strand with reduced detail represents, from which light continues. If it
+/// continued from the wide strand itself, its path would be as free as the line of sight, and the space of
+/// the omitted strands empty.
 struct RepresentedStrand {
   V3f away{0};
   bool can_hit_own_strand = false;
@@ -93,7 +93,7 @@ RepresentedStrand represented_strand(const Simplification& lod, float share, con
   return represented;
 }
 
-/// Never lighter than white, unless the colour itself is.
+/// Not lighter than white, unless the colour itself is.
 Rgb tinted(const Rgb& color, const Rgb& tint) {
   Rgb result;
   for (int i = 0; i < 3; ++i) result[i] = std::min(color[i] * tint[i], std::max(color[i], 1.0f));
@@ -157,8 +157,8 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
   const float share = lod ? kept_share(hit, strand) : 1.0f;
   if (share < 1) {
     RepresentedStrand represented = represented_strand(*lod, share, ray, hit, strand);
-    // As high in the coat as where the line of sight met the wide strand, not as its axis: what is seen of a
-    // coat from the side are the upper edges of wide strands.
+    // At the height in the coat where the line of sight hit the wide strand rather than its axis: seen from
+    // the side, a coat shows the upper edges of wide strands.
     const float beside_axis = 1 - 1 / lod->gain(share);
     represented.away += beside_axis * (ray.origin + hit.distance * ray.direction - point.position);
     return {point.position,
@@ -169,7 +169,7 @@ ScatterPoint FrameShading::fibre_point(const Ray& ray, const Hit& hit, const Str
             at.h,
             bsdf};
   }
-  // Flat strands are met where the ray is nearest to the axis, round ones where it enters.
+  // Flat strands are hit where the ray is nearest to the axis, round ones where it enters.
   const float entry = scene_.render.curves == CurveShape::kFlat ? entry_place(at, hit.v) : 0.0f;
   return {point.position,
           point.tangent,
@@ -201,8 +201,8 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
   SkinPoint point = pelage::skin_point(triangle, ray, hit);
   const Rgb color = tinted(skin_color(part, skin, hit, triangle), part.tint);
   if (part.lod) {
-    // From somewhere beside it, or light would find its way where the line of sight did, through the gaps of
-    // wide strands.
+    // From a point beside the hit; otherwise light would follow the line of sight through the gaps of wide
+    // strands.
     const V3f open = point.position - ray.time * point.shutter_motion;
     const float share =
         part.lod->share({.open = open, .close = open + point.shutter_motion, .normal = point.normal});
@@ -222,8 +222,8 @@ ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const H
                                       : skin_point(ray, hit, met.triangle);
 }
 
-/// Pixels from the frame to the next one for a point seen at `time` of the shutter, which goes on moving as
-/// it does, on average, while the shutter is open; the camera moves as its keys say.
+/// Motion in pixels from the frame to the next one for a point seen at `time` of the shutter. The point
+/// continues its mean motion over the shutter; the camera follows its keys.
 V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const {
   const Camera& camera = scene_.camera;
   const float frames = camera.shutter_frames();

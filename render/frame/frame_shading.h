@@ -13,15 +13,14 @@
 
 namespace pelage {
 
-/// Turns hits into what the materials of a scene make of them. Refers to the scene for as long as it lives.
-/// `met` is what the accelerator left of the hit.
-/// Thread safety: const members may be called from any thread.
+/// Evaluates the materials of a scene at hits. Refers to the scene for its lifetime. `met`: the geometry that
+/// the accelerator copied for the hit. Thread safety: const members may be called from any thread.
 class FrameShading {
  public:
   explicit FrameShading(const RenderScene& scene);
 
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
-  /// What the film keeps of the first surface of a path.
+  /// Film data of the first surface of a path.
   VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
 
  private:
@@ -29,15 +28,15 @@ class FrameShading {
     FibreMaterial material;
     Field color;
     std::optional<Rgb> constant_color;
-    std::vector<std::string> attributes;  // that the colour reads
+    std::vector<std::string> attributes;  // read by the colour
   };
   struct Skin {
     Field color;
     std::optional<Rgb> constant_color;
-    std::optional<GlossyParams> coat;  // none: Lambert
+    std::optional<GlossyParams> coat;  // empty: Lambert
   };
 
-  /// The share of the strands that were kept where this one stands.
+  /// The share of the strands that was kept at this strand.
   float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;

@@ -16,7 +16,7 @@ struct RayCounts {
   int64_t camera = 0, shadow = 0, indirect = 0;
 };
 
-/// Memory of one thread, reused from sample to sample. An integrator adds its own.
+/// Per-thread memory, reused from sample to sample. Integrators derive from it.
 struct SampleScratch {
   virtual ~SampleScratch() = default;
 
@@ -27,13 +27,13 @@ struct SampleScratch {
   TraceThread thread;
 };
 
-/// What FrameLoop drives: samples of pixels, each a function of (scene, pixel, number of the sample) alone.
-/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+/// Interface driven by FrameLoop: samples of pixels, each a function of (scene, pixel, sample number) only.
+/// Thread safety: const members may be called from any thread, each with its own scratch.
 class SampleIntegrator {
  public:
   virtual ~SampleIntegrator() = default;
   virtual std::unique_ptr<SampleScratch> make_scratch() const = 0;
-  /// Leaves the result in `scratch`, which make_scratch() made.
+  /// Stores the result in `scratch`, which must come from make_scratch().
   virtual void trace(int x, int y, uint32_t sample, SampleScratch& scratch) const = 0;
 };
 

@@ -11,12 +11,12 @@
 namespace pelage {
 namespace {
 
-/// `count`, a real number of any size, as a number of samples.
+/// Converts `count`, a real number of any size, to a number of samples.
 uint32_t limited(double count, uint32_t min, uint32_t max_samples) {
   return std::max(min, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(max_samples))));
 }
 
-/// Of the pilot, what is spent on finding out where something varies at all.
+/// Fraction of the pilot used to find pixels where anything varies.
 constexpr uint32_t kProbeShare = 4;
 
 Pilot pilot_of(const Film& film) {
@@ -60,7 +60,7 @@ ScheduleEnd SampleSchedule::run() {
 
 SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
   End end = End::kDone;
-  double last_pass_s = 0;  // of one sample per pixel
+  double last_pass_s = 0;  // per sample and pixel
   for (uint32_t given = 0; given < samples && end == End::kDone;) {
     uint32_t next = in_passes_ ? std::min(samples, std::max(1u, 2 * given)) : samples;
     if (params_.time_limit > 0 && given > 0) {
@@ -156,7 +156,7 @@ SampleSchedule::End SampleSchedule::seed() {
       return std::min(cap, given + batch);
     };
     end = loop_.pass(goal, loop_.sample_count(0) == 0 && in_passes_, deadline());
-    // What pixels that go on will need, if they vary as they did.
+    // Samples that the remaining pixels will need if their variance stays the same.
     double expected = 0;
     bool done = true;
     for (size_t i = 0; i < loop_.pixel_count(); ++i) {

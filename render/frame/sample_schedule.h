@@ -6,25 +6,26 @@
 
 namespace pelage {
 
-/// How it ended.
+/// How the schedule ended.
 struct ScheduleEnd {
   bool partial = false;       ///< cancelled
-  bool time_limited = false;  ///< the clock decided how many samples there are
+  bool time_limited = false;  ///< the time limit determined the number of samples
 };
 
-/// Decides which pixel gets how many samples, and in which order, so that a frame that is cancelled, or out
-/// of time, is a valid one of fewer samples.
+/// Decides how many samples each pixel gets, and in which order, such that a frame that is cancelled or runs
+/// out of time is valid, with fewer samples.
 ///
-/// All pixels alike: passes of 1, 1, 2, 4, 8 ... samples. Adaptive, two-stage: such passes until each has a
-/// quarter of the pilot, the rest of it where anything varies, then an eighth, a quarter, half and all of
-/// what two_stage_counts() says is missing. Adaptive by the seed's rule: passes of one batch, two, four ...
-/// for the pixels that have not converged. Where the memory limit does not hold all chunks (`stays` is false)
-/// and no time limit is set, stages are one pass each, so that a tile is finished while what it needs is
-/// there.
+/// Uniform: passes of 1, 1, 2, 4, 8 ... samples. Adaptive, two-stage: such passes until each pixel has a
+/// quarter of the pilot, the rest of the pilot where anything varies, then an eighth, a quarter, half and all
+/// of the samples missing according to two_stage_counts(). Adaptive by the seed's rule: passes of one batch,
+/// two, four ... for the pixels that have not converged. When the memory limit does not hold all chunks
+/// (`stays` is false) and there is no time limit, each stage is a single pass, so that a tile is finished
+/// while its chunks are resident.
 ///
-/// Every count is a function of the samples of the frame, not of threads or of the clock, unless the time
-/// limit is met. The limit counts from the start of `clock`; every pixel gets one sample at least. Under the
-/// two-stage rule counts shrink in proportion until, by what the pilot took, all of them fit.
+/// Every count is a function of the samples of the frame, independent of threads and the clock, unless the
+/// time limit is reached. The limit counts from the start of `clock`; every pixel gets at least one sample.
+/// Under the two-stage rule, counts are scaled down until all of them fit, estimated from the time of the
+/// pilot.
 class SampleSchedule {
  public:
   SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job, const Stopwatch& clock,
@@ -33,13 +34,13 @@ class SampleSchedule {
 
  private:
   using End = FrameLoop::End;
-  /// All pixels to `samples`.
+  /// Traces all pixels to `samples`.
   End uniform(uint32_t samples);
-  /// A quarter of the pilot for every pixel, and the rest where needs_full_pilot() says so.
+  /// A quarter of the pilot for every pixel, and the rest where needs_full_pilot() requires it.
   End pilot();
   End two_stage();
   End seed();
-  /// What two_stage_counts() asks for, as counts that fit the time limit.
+  /// The counts of two_stage_counts(), scaled to fit the time limit.
   std::vector<uint32_t> second_stage_counts();
   uint32_t max_samples() const { return static_cast<uint32_t>(params_.samples); }
   double deadline() const;
@@ -49,7 +50,7 @@ class SampleSchedule {
   Job job_;
   const Stopwatch& clock_;
   bool in_passes_;
-  bool cut_ = false;  // counts were shrunk to fit the time limit
+  bool cut_ = false;  // counts were scaled down to fit the time limit
 };
 
 }  // namespace pelage

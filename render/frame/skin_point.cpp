@@ -43,7 +43,7 @@ SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit) {
   point.normal.normalize();
   if (point.normal.dot(facet) < 0) point.normal = -point.normal;
 
-  // Each corner's tangent plane says how far the surface bulges out over the facet there.
+  // The tangent planes of the corners determine how far the surface bulges out over the facet.
   V3f bulge(0);
   for (int c = 0; c < 3; ++c) {
     V3f n = corners[c].normal;
@@ -51,7 +51,7 @@ SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit) {
     const float below = std::min(0.0f, (point.position - corners[c].position).dot(n));
     bulge -= weights[c] * below * n;
   }
-  // The hit is off by a few units in the last place of its largest coordinate and of its distance.
+  // The error of the hit is a few units in the last place of its largest coordinate and of its distance.
   const V3f& p = point.position;
   const float size = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), hit.distance});
   point.start = p + bulge + (0x1p-20f * size) * facet;

@@ -10,7 +10,7 @@ namespace pelage {
 struct SkinPoint {
   V3f position{0};
   V3f normal{0};  ///< unit limit normal, interpolated; on the side that the ray came from
-  /// Where rays begin that leave the surface: on the curved surface which the triangle stands for, so that a
+  /// Origin of rays that leave the surface: on the curved surface that the triangle approximates, so that a
   /// convex skin is not shadowed by its own facets at grazing light [Hanika21].
   V3f start{0};
   V3f shutter_motion{0};  ///< how far the point travels while the shutter is open
@@ -19,11 +19,11 @@ struct SkinPoint {
 /// `triangle`: HitGeometry::triangle of the hit.
 SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit);
 
-/// How far the skin is above the tangent plane at a hit, `away` from it along that plane, if it goes on
-/// bending as in this triangle; at most the length of `away`. `normal`: SkinPoint::normal.
+/// Height of the skin above the tangent plane at a hit, at the offset `away` along that plane, extrapolating
+/// the curvature of this triangle; at most the length of `away`. `normal`: SkinPoint::normal.
 float skin_rise(const SkinMesh& triangle, float time, const V3f& normal, const V3f& away);
 
-/// Parameters in its ptex face of a hit.
+/// Parameters of a hit in its ptex face.
 V2f skin_parameters(const SkinMesh& triangle, const Hit& hit);
 
 }  // namespace pelage

@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-/// Of everything that reaches a byte of the chunks; nothing when one of them has no name.
+/// Hash of everything that affects the chunks' bytes; empty when one of them has no hash.
 std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkOptions& options) {
   ContentHasher hasher;
   hasher.add("stored fur").add(options.compact_attributes).add(options.tree.layout);
@@ -25,14 +25,14 @@ std::optional<ContentHash> content_of(const FrameChunks& chunks, const FurChunkO
   return hasher.add(static_cast<uint64_t>(chunks.leaves().size())).digest();
 }
 
-/// Grows all fur once, a few chunks at a time, and writes it in order; no more than can be written.
+/// Grows all fur once, a few chunks at a time, and writes it in order; stops at the first failed write.
 bool write(const ContentStore& store, const ContentHash& key, const FrameChunks& chunks,
            const ResidentChunksOptions& options, const Job& job) {
   FurChunkFile::Writer writer(store, key);
   const size_t leaves = chunks.leaves().size();
   job.progress.begin("store fur", static_cast<double>(leaves));
   for (uint32_t next = 0; next < leaves && !job.progress.cancelled() && !writer.failed();) {
-    // As many as there are threads and memory for, but one at least.
+    // As many as threads and memory allow, but at least one.
     std::vector<MemoryCharge> charges;
     while (next + charges.size() < leaves &&
            charges.size() < static_cast<size_t>(job.workers.thread_count())) {
@@ -80,7 +80,7 @@ std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const
   store.sweep();
   const ContentStore::Lock lock = store.lock("fur-chunks", *key, [&] { return job.progress.cancelled(); });
   if (lock.held()) {
-    // Who had it before may have written them.
+    // The previous holder of the lock may have written them.
     if (auto file = open([](const std::string&) {})) return file;
   }
   if (!write(store, *key, chunks, options, job)) return nullptr;

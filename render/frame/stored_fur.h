@@ -11,10 +11,10 @@
 
 namespace pelage {
 
-/// The chunks of fur that `render.bvh.file` keeps of a frame: opened, or grown, built and written first.
-/// Null, after one warning, where they cannot be kept: of fur whose content has no name, of coats that are
-/// not opaque everywhere, and where the folder cannot be written. Null, too, when cancelled. Throws what
-/// growing throws.
+/// The chunks of fur that `render.bvh.file` stores for a frame: opened, or grown, built and written first.
+/// Null, after one warning, when they cannot be stored: for fur whose content has no hash, coats that are not
+/// opaque everywhere, and a folder that cannot be written. Also null when cancelled. Throws what growing
+/// throws.
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
                                                const ResidentChunksOptions& options, const Job& job);
 

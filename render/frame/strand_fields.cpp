@@ -48,7 +48,7 @@ class StrandFieldPoint {
   FieldPoint point_;
 };
 
-/// The place of control point `i` of a strand of `points` points: where the curve comes nearest to it.
+/// The position of control point `i` of a strand with `points` points: where the curve is nearest to it.
 StrandPlace place_of_point(const Strands& strands, size_t strand, uint32_t i) {
   const uint32_t segments = segment_count(strands.basis(), strands.strand_points(strand));
   const uint32_t before = strands.basis() == CurveBasis::kBSpline ? 1 : 0;

@@ -10,10 +10,10 @@
 
 namespace pelage {
 
-/// Most attributes that one field of a fibre material may read.
+/// Max number of attributes that one field of a fibre material may read.
 inline constexpr size_t kMaxFieldAttributes = 8;
 
-/// A place on a strand.
+/// A position on a strand.
 struct StrandPlace {
   size_t strand = 0;
   uint32_t segment = 0;
@@ -22,20 +22,19 @@ struct StrandPlace {
 };
 
 /// The attributes that `field` reads, in the order of its names. Throws Error (kInput) when the strands of
-/// the part named `part` lack one.
+/// the part named `part` do not have one of them.
 std::vector<const StrandAttribute*> find_attributes(const Field& field, const Strands& strands,
                                                     const std::string& part);
 
-/// The colour of a field of a fibre material at a place on a strand; `attributes` as find_attributes() gives
-/// them.
+/// The colour of a field of a fibre material at a position on a strand; `attributes` from find_attributes().
 Rgb strand_color(const Field& field, const Strands& strands,
                  std::span<const StrandAttribute* const> attributes, const LimitSurface* rest,
                  const StrandPlace& place);
 
-/// Whether a field of a fibre material says that strands are opaque everywhere.
+/// Whether a field of a fibre material makes strands opaque everywhere.
 inline bool is_opaque(const Field& opacity) { return opacity.is_constant() && opacity.value({}) >= 1; }
 
-/// Opacity at every control point, or nothing when it is 1 everywhere.
+/// Opacity at every control point; empty when it is 1 everywhere.
 std::vector<float> point_opacities(const Field& opacity, const Strands& strands, const FurPart& part);
 
 }  // namespace pelage

@@ -12,7 +12,7 @@ struct Cell {
 };
 
 /// Cell number `index` of the Hilbert curve through a square of `side` (a power of two) cells. Two bits of
-/// the index choose a quadrant per level, from the smallest; the first and the last quadrant are turned.
+/// the index select a quadrant per level, from the smallest; the first and the last quadrant are rotated.
 Cell hilbert_cell(uint64_t index, uint32_t side) {
   Cell cell;
   for (uint32_t size = 1; size < side; size *= 2, index /= 4) {

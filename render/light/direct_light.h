@@ -14,81 +14,81 @@
 
 namespace pelage {
 
-/// Which techniques estimate direct light: both, combined by the power heuristic, or one alone. All converge
-/// to the same picture; one alone is for tests and comparisons.
+/// Techniques that estimate direct light: both, combined by the power heuristic, or one alone. All converge
+/// to the same picture; a single one is for tests and comparisons.
 enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 
-/// A point on a light that a shadow ray may go to.
+/// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
   V3f direction{0};
   float distance = 0;
   FibreValue value;     ///< of the scattering towards it
   Rgb arriving{0};      ///< radiance, weighted, over the density of one point
-  float luminance = 0;  ///< of what that scatters
+  float luminance = 0;  ///< of the scattered light
 };
 
-/// Memory of one thread, reused from point to point.
+/// Per-thread memory, reused from point to point.
 struct DirectLightScratch {
-  std::vector<float> probabilities;  ///< of choosing each light, at the current point
+  std::vector<float> probabilities;  ///< of selecting each light, at the current point
   std::vector<LightPoint> points;
 };
 
-/// Direct light at a scatter point. Where a shadow ray goes is drawn from several points on lights, which are
-/// chosen by importance, by what they would scatter if they were not occluded: evaluating a fibre costs a
-/// small part of tracing a ray [Talbot05]. Directions drawn from the lobes are the other technique; the two
-/// are weighted by the power heuristic [Veach97, section 9.2]. Lights are transparent to rays and to each
-/// other.
+/// Direct light at a scatter point. The target of a shadow ray is resampled from several points on lights,
+/// which are selected by importance, in proportion to their unoccluded contribution: evaluating a fibre costs
+/// much less than tracing a ray [Talbot05]. The other technique samples directions from the lobes; both are
+/// weighted by the power heuristic [Veach97, section 9.2]. Lights are transparent to rays and to each other.
 ///
-/// At each point: begin(); propose() and choose() for shadow rays; meet() for a ray drawn from the lobes. The
-/// caller traces the rays.
-/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+/// At each point: begin(); propose() and choose() for shadow rays; find_lights() for a ray sampled from the
+/// lobes. The caller traces the rays. Thread safety: const members may be called from any thread, each with
+/// its own scratch.
 class DirectLight {
  public:
-  /// `lights` outlives it. `rays`: shadow rays at each point.
+  /// `lights` must outlive it. `rays`: number of shadow rays per point.
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques)
       : lights_(lights), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
-  /// Shadow rays end a little before the light, so that a surface on which a light lies does not block it.
+  /// Shadow rays end slightly before the light, so that a surface touching the light does not block it.
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
   /// Points on lights that propose() tries; it leaves out those from which no light arrives.
   uint32_t points_tried() const { return rays_ * kCandidates; }
 
-  /// The probabilities of the lights at a point.
+  /// Computes the probabilities of the lights at a point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
     scratch.probabilities.resize(lights_.size());
     lights_.probabilities(
         point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
-  /// Points on lights, and the sum of their luminances, which is 0 where no light arrives. `u`: two random
-  /// numbers. `lobe_pdf(value)`: the density with which the other technique finds a direction of that value.
+  /// Samples points on lights and returns the sum of their luminances, which is 0 where no light arrives.
+  /// `u`: two random numbers. `lobe_pdf(value)`: density of the other technique for a direction with that
+  /// value.
   template <class LobePdf>
   double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                  DirectLightScratch& scratch) const;
 
-  /// Calls `shadow(point, factor)` for the proposed points that shadow rays go to: light arrives there as
-  /// point.arriving * factor unless the ray is blocked. `u`: a random number.
+  /// Calls `shadow(point, factor)` for the selected points: light arrives there as point.arriving * factor
+  /// unless the shadow ray is blocked. `u`: a random number.
   template <class Shadow>
   void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
 
-  /// Calls `found(light, hit, weight)` for each light that a ray in `direction`, drawn from the lobes with
-  /// density `lobe_pdf`, meets before `distance`.
+  /// Calls `found(light, hit, weight)` for each light that a ray in `direction`, sampled from the lobes with
+  /// density `lobe_pdf`, intersects before `distance`.
   template <class Found>
   void find_lights(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
                    const DirectLightScratch& scratch, const Found& found) const;
 
  private:
-  /// Points on lights among which one shadow ray chooses.
+  /// Number of points on lights from which one shadow ray is resampled.
   static constexpr uint32_t kCandidates = 4;
   static constexpr float kGolden = 0.6180339887f;
 
-  /// The density that points on a light count with against directions drawn from the lobes, by that of one
-  /// of them. All points count where a lobe would find the light by rare chance, although few of them are
-  /// asked for their visibility: small lights that are bright are the noise of long paths. An environment is
-  /// found by every ray that gets out, so there only the shadow rays count.
+  /// Density assigned to points on a light in the weights against lobe sampling, given that of one point. All
+  /// candidate points count where a lobe would rarely hit the light, although only some of them get a shadow
+  /// ray: small bright lights cause the noise of long paths. Every ray that leaves the scene hits an
+  /// environment, so only shadow rays count there.
   float competing_pdf(float pdf, float distance) const {
     const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
     return pdf * points * static_cast<float>(rays_);
@@ -109,7 +109,7 @@ double DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobeP
   scratch.points.clear();
   double total = 0;
   for (uint32_t k = 0; k < count; ++k) {
-    // Every point alone is anywhere with equal chance; together they are a lattice, the lights in turn.
+    // Each point alone is uniformly distributed; together they form a lattice that takes the lights in turn.
     const float turn = u.y + static_cast<float>(k) * kGolden;
     const V2f at(std::min((u.x + static_cast<float>(k)) / static_cast<float>(count), kBelowOne),
                  std::min(turn - std::floor(turn), kBelowOne));
@@ -149,7 +149,7 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 template <class Shadow>
 void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
                          const Shadow& shadow) const {
-  // Systematic resampling: points are drawn in proportion to what arrives if nothing stands in between.
+  // Systematic resampling: points are drawn in proportion to the unoccluded light that they contribute.
   const double step = total / rays_;
   const auto count = static_cast<float>(rays_ * kCandidates);
   double next = u * step, sum = 0;

@@ -11,14 +11,14 @@
 
 namespace pelage {
 
-/// Light from infinitely far away in every direction: a lat-long image looked up without interpolation (crisp
-/// sun shadows; see EnvironmentMap), or one radiance for all directions.
+/// Light from infinitely far away in every direction: a lat-long image, looked up without interpolation (for
+/// crisp sun shadows; see EnvironmentMap), or a constant radiance.
 class EnvironmentLight final : public Light {
  public:
   EnvironmentLight(std::string name, const Rgb& radiance, bool visible);
-  /// `to_world` is the rotation from the space of EnvironmentMap. Throws Error (kInput) for images that
-  /// cannot be used, Error (kMemory) when the distribution does not fit into the ledger's limit. `check_stop`
-  /// is called often and may throw.
+  /// `to_world`: rotation from the space of EnvironmentMap. Throws Error (kInput) for unusable images, Error
+  /// (kMemory) when the distribution does not fit the ledger's limit. `check_stop` is called often and may
+  /// throw.
   EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture, const Rgb& factor,
                    const M33f& to_world, bool visible, MemoryLedger& ledger,
                    const std::function<void()>& check_stop = {});
@@ -38,7 +38,7 @@ class EnvironmentLight final : public Light {
   Rgb radiance_;                               ///< of the constant environment
   M33f to_world_;                              ///< for row vectors, as all Imath matrices
   MemoryCharge charge_;                        ///< of the map
-  std::unique_ptr<const EnvironmentMap> map_;  ///< none when constant
+  std::unique_ptr<const EnvironmentMap> map_;  ///< null when constant
   float importance_;
   bool visible_;
 };

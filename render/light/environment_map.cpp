@@ -16,15 +16,15 @@ namespace pelage {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-/// Texels a side that are read at a time: the largest cell, and a tile of textures that are kept in tiles.
+/// Side length of the blocks of texels that are read at once: the largest cell, and a tile of tiled textures.
 constexpr int kBlock = 64;
 
 int divided_up(int a, int b) { return (a + b - 1) / b; }
 
 bool is_finite(const Rgb& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
-/// One of a few entries in proportion to their weights, which are not all zero. `rest` is where in [0, 1)
-/// `u` lies within it.
+/// One of a few entries, selected in proportion to their weights, which must not all be zero. `rest`: `u`
+/// rescaled to [0, 1) within it.
 struct DiscreteSample {
   int index = 0;
   float rest = 0;
@@ -38,7 +38,7 @@ DiscreteSample sample_discrete(const double* weights, int count, float u) {
     if (!(weights[i] > 0)) continue;
     draw = {i, std::clamp(static_cast<float>(left / weights[i]), 0.0f, kBelowOne)};
     if (left < weights[i]) break;
-    left -= weights[i];  // the last one takes what rounding leaves over
+    left -= weights[i];  // the last one gets the rounding remainder
   }
   return draw;
 }
@@ -97,7 +97,7 @@ EnvironmentMap::EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& 
   inverse_power_ = power_ > 0 ? static_cast<float>(1 / power_) : 0.0f;
 }
 
-/// Leaves in column_cdf_ what each cell of kBlock rows of texels shines: the sum over its columns of the
+/// Stores in column_cdf_ the emission of each cell of kBlock rows of texels: the sum over its columns of the
 /// luminance, averaged over solid angle.
 void EnvironmentMap::measure_band(int row, const std::function<void()>& check_stop) {
   const int height = std::min(kBlock, image_->height() - row);
@@ -143,7 +143,7 @@ Rgb EnvironmentMap::shown(const Rgb& stored) const {
   return factor_ * Rgb(positive(stored.x), positive(stored.y), positive(stored.z));
 }
 
-/// A texel of a cell in proportion to what it shines: its row first, then itself.
+/// Selects a texel of a cell in proportion to its emission: first its row, then the texel.
 EnvironmentMap::Place EnvironmentMap::place_in_cell(size_t column, size_t row, const V2f& rest) const {
   const int x = static_cast<int>(column) * cell_, y = static_cast<int>(row) * cell_;
   if (cell_ == 1) return {{x, y}, rest};

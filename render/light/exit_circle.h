@@ -10,21 +10,21 @@
 
 namespace pelage {
 
-/// Where light leaves a fibre: a circle about `center` across the unit `tangent`, on lines that pass the axis
-/// at the distance h * radius. A smooth cylinder keeps that distance, however often light is reflected
-/// inside, and h has the sign of the fibre's frame. So the direction decides the place on the circle: the hit
-/// itself for the mirror image in its normal, the far side for light that goes through.
+/// Where light leaves a fibre: a circle around `center` perpendicular to the unit `tangent`, on lines at the
+/// distance h * radius from the axis. A smooth cylinder preserves that distance through any number of
+/// internal reflections, and h has the sign of the fibre's frame. The direction therefore determines the
+/// position on the circle: the hit itself for the mirror direction, the far side for transmitted light.
 ///
-/// A near light is seen from that place, not from the axis: what the axis sees differs by the order of
-/// radius / distance.
+/// A nearby light is seen from that position rather than from the axis, which makes a difference of the order
+/// of radius / distance.
 struct ExitCircle {
   V3f center{0};
   V3f tangent{0};
   float radius = 0;  ///< 0: a point
   float h = 0;
 
-  /// Place on the circle over the radius, from its center, of light that leaves along `out`, a unit vector
-  /// across the fibre.
+  /// Position on the circle relative to its center, in radii, of light that leaves along `out`, a unit vector
+  /// perpendicular to the tangent.
   V3f outside(const V3f& out) const { return cos_gamma() * out + h * tangent.cross(out); }
   float cos_gamma() const { return std::sqrt(std::max(0.0f, 1 - h * h)); }
 
@@ -36,9 +36,9 @@ struct ExitCircle {
     return center + radius * outside(side / std::sqrt(length2));
   }
 
-  /// A sample of a light as seen from the center, made one of the line that ends at the same point of the
-  /// light: direction, distance, and density per solid angle of directions of lines. Nothing where no line
-  /// of the fibre gets there from that side of the light.
+  /// Converts a sample of a light seen from the center to one of the line that ends at the same point of the
+  /// light: direction, distance, and density per solid angle of line directions. Empty when no line of the
+  /// fibre reaches that side of the light.
   std::optional<LightSample> toward(const LightSample& seen) const {
     if (radius == 0 || std::isinf(seen.distance)) return seen;
     const V3f to = seen.distance * seen.direction;
@@ -46,7 +46,7 @@ struct ExitCircle {
     const V3f across = to - along * tangent;
     const float rho2 = across.length2(), offset = h * radius;
     if (!(rho2 > radius * radius)) return std::nullopt;
-    // The line meets the cross-section through the light at `to` and is tangent to a circle of |offset|.
+    // The line intersects the cross-section through the light at `to` and is tangent to a circle of |offset|.
     const float from_nearest = std::sqrt(rho2 - offset * offset);
     const V3f out = (from_nearest * across - offset * tangent.cross(across)) / rho2;
     const float way = from_nearest - radius * cos_gamma();
@@ -60,7 +60,7 @@ struct ExitCircle {
     return sample;
   }
 
-  /// Density of toward() for the line along `wi`, which meets the light at `hit`.
+  /// Density of toward() for the line along `wi`, which intersects the light at `hit`.
   float pdf(const Light& light, const V3f& wi, const LightHit& hit) const {
     if (radius == 0 || std::isinf(hit.distance)) return light.pdf(center, wi);
     LightSample seen;
@@ -73,9 +73,9 @@ struct ExitCircle {
   }
 
  private:
-  /// Density per solid angle of lines of what is `seen` from the center, for the line along `wi` that ends at
-  /// the same point of the light after `distance`. Lines spread less than those from a point do: their
-  /// azimuths begin on the circle, so that between two of them an area is from_nearest / way of the latter.
+  /// Density per solid angle of lines for `seen` from the center, and the line along `wi` that ends at the
+  /// same point of the light after `distance`. Lines diverge less than those from a point: because their
+  /// azimuths start on the circle, the area between two of them is from_nearest / way of the latter.
   float line_pdf(const LightSample& seen, const V3f& wi, float distance) const {
     const float way = distance * (wi - wi.dot(tangent) * tangent).length();
     if (!(way > 0)) return seen.pdf;

@@ -8,14 +8,14 @@
 
 namespace pelage {
 
-/// Upper bound, but at least 0.1, of cos(theta_i) over the directions from a fibre of tangent `tangent` into
-/// a ball of `radius` about `to_center`: cos(max(0, |theta_c| - theta_u)), theta_c the inclination of the
-/// centre, theta_u the ball's angular radius. 1 for the null tangent (no fibre, or one whose lobes are
-/// known).
+/// Upper bound, but at least 0.1, of cos(theta_i) over the directions from a fibre with tangent `tangent`
+/// into a ball of `radius` around `to_center`: cos(max(0, |theta_c| - theta_u)), with theta_c the inclination
+/// of the centre and theta_u the ball's angular radius. 1 for the null tangent (no fibre, or one with known
+/// lobes).
 ///
-/// It bounds what lobes scatter that are even in azimuth and follow cos(theta_i): the diffuse ones of
-/// cone-shell and Kajiya and Kay. Narrow lobes of a fibre that is seen at a slant do not keep to it, nor do
-/// those about shifted tangents: hence the floor.
+/// The bound applies to lobes that are uniform in azimuth and proportional to cos(theta_i): the diffuse ones
+/// of cone-shell and Kajiya-Kay. Narrow lobes of a fibre seen at a slant do not follow it, nor do those about
+/// shifted tangents; hence the floor.
 inline float fibre_cosine_bound(const V3f& to_center, float radius, const V3f& tangent) {
   const float distance2 = to_center.dot(to_center);
   if (tangent == V3f(0) || !(distance2 > radius * radius)) return 1.0f;

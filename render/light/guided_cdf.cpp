@@ -30,7 +30,7 @@ double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide) {
 
 GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u) {
   const size_t cell = std::min(static_cast<size_t>(u * static_cast<float>(guide.size())), guide.size() - 1);
-  // Rounding may have put u into the cell after its own: one entry further back is then still right.
+  // Rounding may have put u into the cell after its own: the previous entry is then the right one.
   size_t low = guide[cell];
   while (low > 0 && cdf[low - 1] > u) --low;
   size_t high = cell + 1 < guide.size() ? std::min<size_t>(guide[cell + 1] + 1, cdf.size()) : cdf.size();

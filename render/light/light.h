@@ -14,11 +14,11 @@ struct LightSample {
   V3f direction{0};    ///< unit, from the shaded point to the light
   float distance = 0;  ///< infinity for an environment
   Rgb radiance{0};
-  float pdf = 0;  ///< per solid angle, of this light alone (the choice of the light not included)
-  V3f normal{0};  ///< of the light at that point, unit, to either side; null for an environment
+  float pdf = 0;  ///< per solid angle, of this light alone (excluding the selection of the light)
+  V3f normal{0};  ///< of the light at that point, unit, on either side; null for an environment
 };
 
-/// Where a ray meets a light.
+/// Intersection of a ray with a light.
 struct LightHit {
   float distance = std::numeric_limits<float>::infinity();
   Rgb radiance{0};
@@ -30,17 +30,17 @@ class Light {
  public:
   virtual ~Light() = default;
   virtual const std::string& name() const = 0;
-  /// A direction by solid angle importance; nothing when the light cannot reach `from`.
+  /// Samples a direction; empty when no light can reach `from`.
   virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
-  /// Density with which sample() gives `direction`, by the branch that it would take.
+  /// Density of sample() for `direction`, using the same strategy.
   virtual float pdf(const V3f& from, const V3f& direction) const = 0;
-  /// The light along a ray (unit direction), for rays that leave the geometry or end beyond the light.
+  /// The light along a ray (unit direction) that leaves the scene or ends beyond the light.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
-  /// Solid angle x average radiance (luminance) as seen from `from`: the weight for choosing among lights
+  /// Solid angle x mean radiance (luminance) as seen from `from`: the weight for selecting among lights
   /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres;
-  /// the null vector when the point is not on a fibre.
+  /// pass the null vector for points that are not on a fibre.
   virtual float importance(const V3f& from, const V3f& tangent) const = 0;
-  /// Unit direction from `from` to its middle; nothing where it shines from all around.
+  /// Unit direction from `from` to the centre of the light; empty when it surrounds the scene.
   virtual std::optional<V3f> middle(const V3f& from) const = 0;
   /// Whether camera rays see it.
   virtual bool visible() const = 0;

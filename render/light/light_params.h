@@ -39,8 +39,8 @@ struct SphereLightParams {
 struct EnvironmentLightParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "environment";
-  AssetPath file;   ///< lat-long image, +y up, centre column along -z; without one: constant
-  Rgb radiance{1};  ///< factor on the image, or the constant itself
+  AssetPath file;   ///< lat-long image, +y up, centre column along -z; empty: constant
+  Rgb radiance{1};  ///< factor on the image, or the constant radiance
   Keyed<float> intensity{1.0f};
   V3f rotate{0};  ///< degrees about x, y, z, in this order
   bool visible = true;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kUniformShare = 0.1;
 
-/// Room for one number per light: on the stack for as many lights as scenes have, as a rule.
+/// Storage for one number per light: on the stack for the number of lights that scenes usually have.
 class LightScratch {
  public:
   explicit LightScratch(size_t count) : many_(count > few_.size() ? count : 0), count_(count) {}
@@ -59,7 +59,7 @@ LightSet::Choice LightSet::choose(std::span<const float> probabilities, float u)
     if (!(p > 0.0f)) continue;
     choice = {i, p, std::min(rest / p, kBelowOne)};
     if (rest < p) break;
-    rest -= p;  // the last light takes what rounding leaves over
+    rest -= p;  // the last light gets the rounding remainder
   }
   return choice;
 }

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// The lights of a scene and the choice among them. Hit tests and pdfs include the choice, so that "light
-/// selection also uses MIS". Thread safety: const members from any thread.
+/// The lights of a scene, and random selection among them. Hit tests and pdfs include the selection, so that
+/// "light selection also uses MIS". Thread safety: const members from any thread.
 class LightSet {
  public:
   explicit LightSet(std::vector<std::unique_ptr<Light>> lights);
@@ -19,9 +19,9 @@ class LightSet {
   size_t size() const { return lights_.size(); }
   const Light& light(size_t i) const { return *lights_[i]; }
 
-  /// A light chosen with probability in proportion to its importance (mixed with 10 % of uniform choice among
-  /// the lights that can contribute at all). One number, so that several choices with u = (k + offset) / n
-  /// form a systematic sample.
+  /// A light selected with probability proportional to its importance (mixed with 10 % of uniform selection
+  /// among the lights that can contribute at all). Uses one random number, so that several selections with u
+  /// = (k + offset) / n form a systematic sample.
   struct Choice {
     size_t light = 0;
     float probability = 0;  ///< 0 when no light can contribute
@@ -30,17 +30,17 @@ class LightSet {
   Choice choose(const V3f& from, const V3f& tangent, float u) const;
   float probability(const V3f& from, const V3f& tangent, size_t light) const;
 
-  /// The same in two steps, for those who need both at one point: probabilities of all lights into `out`
-  /// (size() entries; they sum to 1, or are all 0), then the choice.
+  /// The same in two steps, for callers that need both at one point: writes the probabilities of all lights
+  /// to `out` (size() entries; they sum to 1, or are all 0), then selects.
   void probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const;
   static Choice choose(std::span<const float> probabilities, float u);
 
-  /// The same where lobes scatter light with the density `lobes(direction)` per solid angle: lights towards
-  /// which they scatter much are chosen more often. A narrow lobe that points at a small bright light, which
-  /// is chosen by rare chance, is the brightest noise of paths through fur. Half of each importance does
-  /// without the density, since the middle of a large light says little about the rest of it. No tangent is
-  /// asked for: the bound on cos(theta_i) would dim lights along the fibre, which R, TT and TRT scatter as
-  /// brightly as others when the fibre is seen at a slant.
+  /// The same for lobes that scatter with density `lobes(direction)` per solid angle: lights in directions of
+  /// strong scattering are selected more often. A narrow lobe that points at a small bright light with a low
+  /// probability of selection causes the brightest noise of paths through fur. Half of each importance
+  /// ignores the density, since the middle of a large light says little about the rest of it. Does not use
+  /// the tangent: the bound on cos(theta_i) would dim lights along the fibre, although R, TT and TRT scatter
+  /// these as brightly as others when the fibre is seen at a slant.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
     importances(from, V3f(0), out);
@@ -54,7 +54,7 @@ class LightSet {
 
  private:
   void importances(const V3f& from, const V3f& tangent, std::span<float> out) const;
-  /// Turns importances into probabilities.
+  /// Normalises importances to probabilities.
   static void normalise(std::span<float> out);
 
   std::vector<std::unique_ptr<Light>> lights_;

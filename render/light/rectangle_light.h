@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// A rectangle in space. `x` and `y` are unit and perpendicular; it emits to the side of x cross y.
+/// A rectangle in space. `x` and `y` are unit and perpendicular; it emits towards x cross y.
 struct Rectangle {
   V3f center{0};
   V3f x{1, 0, 0};
@@ -13,8 +13,8 @@ struct Rectangle {
   V2f half_size{0.5f};
 };
 
-/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]; by area where it subtends so
-/// little that its angles cancel in rounding.
+/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]; by area where it is so small
+/// that its angles cancel in rounding.
 class RectangleLight final : public Light {
  public:
   RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);
@@ -27,7 +27,7 @@ class RectangleLight final : public Light {
   std::optional<V3f> middle(const V3f& from) const override { return (shape_.center - from).normalized(); }
   bool visible() const override { return visible_; }
 
-  /// Solid angle from `from`, whichever side that is on.
+  /// Solid angle from `from`, on either side.
   double solid_angle(const V3f& from) const;
 
  private:

@@ -13,37 +13,37 @@
 
 namespace pelage {
 
-/// A vertex of a path: where light is scattered, and how. Fibres and skins alike, in terms of lobe groups and
-/// of rho = f cos(theta_i) as FibreBsdf has it.
+/// A vertex of a path: position and scattering, with a common interface for fibres and skins, in terms of
+/// lobe groups and of rho = f cos(theta_i) as in FibreBsdf.
 class ScatterPoint {
  public:
   /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface; `h` across it, as
-  /// the fibre's model was told. Most light leaves it at the point of the axis that is `farther` along the
+  /// passed to the fibre's model. Most light leaves at the point of the axis that is `farther` along the
   /// tangent.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
                const FibreBsdf& bsdf, float farther = 0)
       : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
-  /// The same of a strand that stands for many: light leaves one of them, which is `away` from it; the strand
-  /// itself may be in its way (`can_hit_own_strand`).
+  /// The same for a strand that represents many: light leaves one of them, which is `away` from it; the
+  /// strand itself may block that light (`can_hit_own_strand`).
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool can_hit_own_strand,
                float h, const FibreBsdf& bsdf)
       : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
     can_hit_own_strand_ = can_hit_own_strand;
   }
-  /// A point of a skin: `start` is where rays that leave it begin.
+  /// A point of a skin: rays that leave it start at `start`.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
   ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
 
-  /// Where light sampling looks from, before exit() says on which lines light gets there.
+  /// Reference point for light sampling, before exit() refines the lines that light takes.
   const V3f& position() const { return exit_.center; }
-  /// Unit tangent of a fibre, the null vector on a skin.
+  /// Unit tangent of a fibre, the null vector for a skin.
   const V3f& tangent() const { return exit_.tangent; }
-  /// Where light leaves, as near lights see it; a point on a skin.
+  /// Where light leaves, as seen from nearby lights; a point for a skin.
   const ExitCircle& exit() const { return exit_; }
 
-  /// Whether rays that start here may meet the strand that was hit, near this place too.
+  /// Whether rays that start here may hit the strand itself again, even near this point.
   bool can_hit_own_strand() const { return can_hit_own_strand_; }
 
   FibreValue eval(const V3f& wi) const {
@@ -58,10 +58,10 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
-  /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never under
-  /// the surface of the fibre, which does not shadow itself. Light that meets a fibre evenly across its width
-  /// leaves it so. The circle is about the hit's own place along the fibre, so that a bent fibre does not
-  /// cover it.
+  /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never below
+  /// the fibre's surface, which does not shadow itself. Light that arrives uniformly across the width of a
+  /// fibre leaves uniformly. The circle is centred at the hit's own position along the fibre, so that a bent
+  /// fibre does not cover it.
   V3f start(const V3f& wi) const {
     const float radius = exit_.radius;
     if (radius == 0) return surface_;
@@ -69,7 +69,7 @@ class ScatterPoint {
     const float length2 = side.length2();
     if (length2 < 1e-6f) return surface_;
     const V3f from_axis = exit_.outside(side / std::sqrt(length2));
-    // Far from the origin a few units in the last place are more than a thousandth of a thin fibre.
+    // Far from the origin, a few units in the last place exceed a thousandth of a thin fibre.
     const float largest = std::max({std::abs(position_.x), std::abs(position_.y), std::abs(position_.z)});
     return position_ + (kJustOutside * radius + 0x1p-21f * largest) * from_axis;
   }
@@ -77,7 +77,8 @@ class ScatterPoint {
  private:
   static constexpr float kJustOutside = 1.001f;
 
-  /// Surfaces in the groups of fibres: what skin scatters is diffuse, its coat the primary highlight.
+  /// Maps surfaces to the lobe groups of fibres: scattering by skin is diffuse, its coat the primary
+  /// highlight.
   static FibreValue as_fibre(const SurfaceValue& value) { return {{value.rho, Rgb(0), Rgb(0)}, value.pdf}; }
   static FibreValue as_fibre(const GlossyValue& value) {
     return {{value.diffuse, Rgb(value.specular), Rgb(0)}, value.pdf};

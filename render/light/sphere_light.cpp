@@ -11,7 +11,8 @@ namespace pelage {
 
 namespace {
 
-/// 1 - cos m of the cone that a sphere subtends, sin^2 m = r^2 / D^2; no cancellation however small.
+/// 1 - cos m of the cone that a sphere subtends, with sin^2 m = r^2 / D^2; without cancellation for small
+/// angles.
 float cone_height(float sin2) { return sin2 / (1.0f + std::sqrt(1.0f - sin2)); }
 
 }  // namespace
@@ -65,12 +66,12 @@ std::optional<LightHit> SphereLight::intersect(const V3f& from, const V3f& direc
   const float along = to_center.dot(direction);
   const bool inside = !(to_center.dot(to_center) > radius_ * radius_);
   if (!inside && !(along > 0.0f)) return std::nullopt;
-  // The distance of the centre from the ray as the length of a vector: b^2 - 4ac would cancel for far
+  // Distance of the centre from the ray as the length of a vector, because b^2 - 4ac would cancel for distant
   // spheres.
   const V3f beside = to_center - along * direction;
   const float chord2 = radius_ * radius_ - beside.dot(beside);
   if (!(chord2 >= 0.0f)) {
-    // Rounding may put a point inside the sphere beside its own chord.
+    // Rounding may place a point inside the sphere beside its own chord.
     if (!inside) return std::nullopt;
     return LightHit{std::max(0.0f, along), radiance_, -beside.normalized()};
   }

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// A sphere of constant radiance, sampled uniformly in solid angle. Seen from inside it shines from every
+/// A sphere of constant radiance, sampled uniformly in solid angle. From inside it emits from every
 /// direction.
 class SphereLight final : public Light {
  public:

@@ -9,7 +9,7 @@ namespace pelage {
 
 namespace {
 
-/// A complex number whose argument is an angle, not normalised: angles add without trigonometry.
+/// A complex number, not normalised, whose argument is an angle: adds angles without trigonometry.
 struct Phase {
   double re, im;
   Phase operator*(const Phase& b) const { return {re * b.re - im * b.im, re * b.im + im * b.re}; }
@@ -25,7 +25,7 @@ SphericalRectangle::SphericalRectangle(double center_x, double center_y, double 
       y1_(center_y + half_height),
       z_(z) {
   // The interior angle at a corner (x, y) is pi/2 plus an angle whose tangent is +-x y / (|z| distance): the
-  // solid angle, the sum of the interior angles minus 2 pi, is the sum of the latter.
+  // solid angle, the sum of the interior angles minus 2 pi, is the sum of these angles.
   const double depth = std::abs(z);
   const auto corner = [&](double x, double y, double sign) {
     return Phase{depth * std::sqrt(x * x + y * y + z * z), sign * x * y};
@@ -34,8 +34,8 @@ SphericalRectangle::SphericalRectangle(double center_x, double center_y, double 
   const Phase whole = start * corner(x1_, y0_, -1) * corner(x1_, y1_, 1);
   solid_angle_ = depth > 0 ? std::atan2(whole.im, whole.re) : 0.0;
   if (solid_angle_ < 0) {
-    // More than half the sphere of arguments is possible only for a point in front of the rectangle itself;
-    // elsewhere a negative sum is rounding.
+    // A sum beyond half a turn is possible only for a point directly in front of the rectangle; elsewhere a
+    // negative sum is rounding.
     const bool in_front = x0_ < 0 && x1_ > 0 && y0_ < 0 && y1_ > 0;
     solid_angle_ = in_front ? solid_angle_ + 2 * std::numbers::pi : 0.0;
   }

@@ -5,8 +5,9 @@
 
 namespace pelage {
 
-/// A rectangle as a point sees it: its axes are x and y, the plane at z. Samples uniform in solid angle by an
-/// area-preserving map of the square [Urena13]. In double: the solid angle is a difference of angles.
+/// A rectangle as seen from a point: its axes are x and y, its plane is at z. Samples uniformly in solid
+/// angle with an area-preserving map of the square [Urena13]. In double, because the solid angle is a
+/// difference of angles.
 class SphericalRectangle {
  public:
   /// Centre in the rectangle's own axes, relative to the point.
@@ -15,11 +16,11 @@ class SphericalRectangle {
   double solid_angle() const { return solid_angle_; }
   /// A point of the rectangle, relative to the viewing point, in the rectangle's axes; u and v in [0, 1).
   V3d sample(double u, double v) const;
-  /// Density per solid angle of sample() in a direction that meets the rectangle at `distance`.
+  /// Density per solid angle of sample() for a direction that intersects the rectangle at `distance`.
   double pdf(double distance) const;
 
  private:
-  /// Below this sampling is by area. At 1e-6 sr the solid angle still has nine digits.
+  /// Below this, sampling is by area. At 1e-6 sr the solid angle still has nine digits.
   static constexpr double kSmall = 1e-6;
 
   double x0_, x1_, y0_, y1_, z_;

@@ -7,13 +7,13 @@ namespace pelage {
 
 // Absorption coefficients per radius of the fibre.
 
-/// Of the two pigments of hair: concentrations of eumelanin (black, brown) and pheomelanin (red, yellow)
-/// [dEon11, after Donner and Jensen].
+/// Absorption by the two pigments of hair, given concentrations of eumelanin (black, brown) and pheomelanin
+/// (red, yellow) [dEon11, after Donner and Jensen].
 inline Rgb melanin_absorption(float eumelanin, float pheomelanin) {
   return Rgb(0.419f, 0.697f, 1.37f) * eumelanin + Rgb(0.187f, 0.4f, 1.05f) * pheomelanin;
 }
 
-/// The fit that turns the colour of many fibres together into the absorption of one, for an azimuthal
+/// The fit that converts the colour of a mass of fibres to the absorption of a single one, for an azimuthal
 /// roughness in [0, 1] [Chiang16, section 4.2]. A single such fibre is far lighter than the colour.
 class ColorToAbsorption {
  public:

@@ -3,7 +3,7 @@
 
 #include "render/material/fibre_params.h"
 
-// Keys that models of fibres share.
+// Keys that fibre models share.
 
 namespace pelage {
 

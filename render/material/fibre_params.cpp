@@ -171,7 +171,7 @@ Pigments pigments_of(HairPreset preset) {
 std::optional<Rgb> given_absorption(const AbsorptionParams& params) {
   if (!params.absorption && !params.eumelanin && !params.pheomelanin && params.preset == HairPreset::kNone)
     return std::nullopt;
-  // An absorption that is given takes the preset's place.
+  // A given absorption overrides the preset.
   const Pigments pigments = params.absorption ? Pigments{} : pigments_of(params.preset);
   return params.absorption.value_or(Rgb(0)) +
          melanin_absorption(params.eumelanin.value_or(pigments.eumelanin),

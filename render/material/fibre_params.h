@@ -12,27 +12,27 @@ namespace pelage {
 
 class CoatColor;
 
-/// What every model of a fibre has, so that one may be put in another's place by its name alone.
+/// Parameters that every fibre model has, so that changing the name of the model is enough to replace it.
 struct FibreParams {
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};
-  /// What with_tables() found or made for models that need it. Null: made when the material is.
+  /// Loaded or computed by with_tables() for models that need it. Null: computed with the material.
   std::shared_ptr<const CoatColor> coat_color = {};
 };
 
-/// Whether the place across the fibre matters that a ray meets, or all places count alike, as if the fibre
-/// were too thin to see. Each sample of a far field draws one place, so that the average is the far field.
+/// Near field: scattering depends on where a ray hits across the fibre. Far field: it is averaged across the
+/// fibre, as if that were too thin to see; each sample draws one position, so that the mean is the far field.
 enum class FibreField { kNear, kFar };
 template <>
 struct EnumNames<FibreField> {
   static constexpr const char* names[] = {"near", "far"};
 };
 
-/// The non-translucent baseline: a tube that reflects evenly.
+/// The opaque baseline: a diffuse cylinder.
 struct LambertCylinderParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "lambert-cylinder";
-  std::optional<Rgb> albedo;  ///< none: from the colour
+  std::optional<Rgb> albedo;  ///< empty: derived from the colour
   FibreField field = FibreField::kNear;
   static const Schema<LambertCylinderParams>& schema();
 };
@@ -41,14 +41,14 @@ struct LambertCylinderParams : FibreParams {
 struct KajiyaKayParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "kajiya-kay";
-  std::optional<float> diffuse;  ///< times the colour; none: from the colour
+  std::optional<float> diffuse;  ///< times the colour; empty: derived from the colour
   Rgb specular{0.08f};
   float exponent = 40;
   static const Schema<KajiyaKayParams>& schema();
 };
 
-/// Hair to start from, by its pigments. How much a pigment absorbs was measured; how much of it is in the
-/// hair is a guide of other programs' for people, and a guess for animals.
+/// Starting points for hair by pigment. The absorption of the pigments was measured; their concentrations are
+/// those of other programs for people, and guesses for animals.
 enum class HairPreset {
   kNone,
   kHumanBlond,
@@ -67,16 +67,15 @@ struct EnumNames<HairPreset> {
                                           "fox",       "mouse",       "panther"};
 };
 
-/// How the colour of a translucent fibre is given: by what it absorbs, or else by `color`.
+/// Colour of a translucent fibre: by its absorption, or else by `color`.
 struct AbsorptionParams {
-  HairPreset preset = HairPreset::kNone;  ///< counts for pigments that are not given
+  HairPreset preset = HairPreset::kNone;  ///< used for pigments that are not given
   std::optional<Rgb> absorption;          ///< per radius
   std::optional<float> eumelanin;         ///< concentration of the black and brown pigment
   std::optional<float> pheomelanin;       ///< of the red and yellow one
 };
 
-/// Whether the lobes are those of the paper or half as high, about what
-/// energy calls for.
+/// Whether the lobes have the height of the paper or half of it, which roughly conserves energy.
 enum class MarschnerVariant { kPublished, kHalved };
 template <>
 struct EnumNames<MarschnerVariant> {
@@ -116,9 +115,9 @@ struct ChiangParams : FibreParams, AbsorptionParams {
   static const Schema<ChiangParams>& schema();
 };
 
-/// Absorption per radius by coefficient and pigments; nothing where neither is given.
+/// Absorption per radius from the coefficient or the pigments; empty when neither is given.
 std::optional<Rgb> given_absorption(const AbsorptionParams& params);
-/// The same, or else that of a point whose material has the given colour there.
+/// The same or, when empty, the absorption for a material colour.
 class ColorToAbsorption;
 Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color);
 

@@ -7,9 +7,9 @@ namespace pelage {
 
 namespace {
 
-constexpr double kNarrowest = 1;  // degrees; below, float directions no longer resolve a shell at the poles
+constexpr double kNarrowest = 1;  // degrees; below, float directions cannot resolve a shell at the poles
 constexpr double kWidest =
-    90;  // the half width of the whole sphere; the literal weight would go negative beyond
+    90;  // the half width of the whole sphere; the literal weight would be negative beyond
 
 }  // namespace
 

@@ -21,7 +21,7 @@ struct LambertParams {
   static const Schema<LambertParams>& schema();
 };
 
-/// A diffuse skin under a clear coat: eyes, noses.
+/// A diffuse skin under a clear coat, for eyes and noses.
 struct GlossyParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "glossy";
@@ -31,18 +31,18 @@ struct GlossyParams {
   static const Schema<GlossyParams>& schema();
 };
 
-/// Which weight the specular shells have, see render/fibre/cone_shell.h.
+/// Weight of the specular shells, see render/fibre/cone_shell.h.
 enum class ShellVariant { kWigner, kLiteral };
 template <>
 struct EnumNames<ShellVariant> {
   static constexpr const char* names[] = {"wigner", "literal"};
 };
 
-/// Fur by the cone-shell model of "Rendering Fur in Life of Pi".
+/// Fur, using the cone-shell model of "Rendering Fur in Life of Pi".
 struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
-  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; none: from the colour
+  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; empty: derived from the colour
   float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
   float primary_width = 12;      ///< half width of its shell, degrees
@@ -62,12 +62,13 @@ using MaterialParams =
     std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams, KajiyaKayParams,
                  MarschnerParams, DeonParams, ChiangParams, YanFastParams, YanParams>;
 
-/// What all models of fibres have; null for a material of skins.
+/// The parameters that all fibre models share; null for a material of skins.
 const FibreParams* fibre_params(const MaterialParams& material);
 
 class TextureLibrary;
 
-/// The material with the maps of its fields read. Throws Error (kInput) where the scene names a missing one.
+/// The material with the maps of its fields loaded. Throws Error (kInput) when a map that the scene names is
+/// missing.
 MaterialParams with_textures(MaterialParams material, TextureLibrary& textures);
 
 }  // namespace pelage

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Fur to start from. No table of measured animals could be had: rows A to C are parameters that
-/// implementations of the model carry as measured, of animals unknown; all others are guesses.
+/// Starting points for fur. No table of measured animals was available: rows A to C are parameters that
+/// implementations of the model describe as measured, from unknown animals; all others are guesses.
 enum class YanPreset {
   kNone,
   kRowA,
@@ -28,22 +28,22 @@ struct EnumNames<YanPreset> {
                                           "tiger-black", "tiger-white", "polar-bear", "mouse", "human"};
 };
 
-/// A fibre in the terms of [Yan15]: a cortex under a cuticle and about a scattering medulla. Coefficients per
-/// radius of the fibre, angles in degrees.
+/// A fibre in the terms of [Yan15]: a cortex covered by a cuticle, around a scattering medulla. Coefficients
+/// are per radius of the fibre, angles in degrees.
 struct YanOptics {
   float alpha = 2;    ///< tilt of the cuticle's scales
   float beta_m = 8;   ///< width of the lobes along the fibre
-  float beta_n = 10;  ///< and around it
+  float beta_n = 10;  ///< width of the lobes around the fibre
   float eta = 1.55f;
   float kappa = 0.8f;           ///< radius of the medulla over that of the fibre
   float sigma_ms = 2.5f;        ///< scattering of the medulla
-  float g = 0.5f;               ///< its mean cosine
-  float layers = 0.5f;          ///< of cuticle; half a layer is one smooth interface
-  std::optional<Rgb> sigma_ca;  ///< absorption of the cortex; none: from the colour
-  std::optional<Rgb> sigma_ma;  ///< of the medulla
+  float g = 0.5f;               ///< mean cosine of the medulla's scattering
+  float layers = 0.5f;          ///< of the cuticle; half a layer is one smooth interface
+  std::optional<Rgb> sigma_ca;  ///< absorption of the cortex; empty: derived from the colour
+  std::optional<Rgb> sigma_ma;  ///< absorption of the medulla
 };
 
-/// What both models with a medulla are given. Every number that is not given is the preset's.
+/// Parameters of both models with a medulla. A number that is not given comes from the preset.
 struct MedullaParams : FibreParams {
   YanPreset preset = YanPreset::kNone;
   std::optional<float> alpha, beta_m, beta_n, eta, kappa, sigma_ms, g, layers;
@@ -53,7 +53,7 @@ struct MedullaParams : FibreParams {
   YanOptics optics() const;
 };
 
-/// Lobes of [Yan17] with one analytic lobe for what the medulla scatters.
+/// The lobes of [Yan17], with one analytic lobe for scattering by the medulla.
 struct YanFastParams : MedullaParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "yan-fast";
@@ -62,12 +62,12 @@ struct YanFastParams : MedullaParams {
 
 class MedullaTables;
 
-/// The same with tables of what the medulla scatters.
+/// The lobes of [Yan17], with tables for scattering by the medulla.
 struct YanParams : MedullaParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "yan";
-  AssetPath tables;  ///< folder in which they are kept
-  /// What prepare_fibre() found or made. Null: made when the material is.
+  AssetPath tables;  ///< folder that keeps the tables
+  /// Loaded or computed by prepare_fibre(). Null: computed with the material.
   std::shared_ptr<const MedullaTables> made;
   static const Schema<YanParams>& schema();
 };

@@ -12,7 +12,7 @@ struct EnumNames<AdaptiveRule> {
   static constexpr const char* names[] = {"two-stage", "seed"};
 };
 
-/// What the noise budget of the two-stage rule is kept by: the frame as a whole or each of its pixels.
+/// Whether the two-stage rule meets its noise budget on average over the frame or in each pixel.
 enum class NoiseGoal { kFrame, kPixel };
 template <>
 struct EnumNames<NoiseGoal> {
@@ -23,7 +23,7 @@ struct EnumNames<NoiseGoal> {
 struct AdaptiveParams {
   AdaptiveRule rule = AdaptiveRule::kTwoStage;
   NoiseGoal goal = NoiseGoal::kFrame;
-  float noise = 0.05f;  ///< half of the 95 % confidence interval of a pixel's luminance, over its mean
+  float noise = 0.05f;  ///< half of the 95 % confidence interval of a pixel's luminance, relative to its mean
   int pilot = 16;
   int batch = 32;
   static const Schema<AdaptiveParams>& schema();

@@ -7,15 +7,15 @@
 namespace pelage {
 namespace {
 
-/// Pixels darker than this times the mean of the picture count as if they were as bright.
+/// Pixels darker than this fraction of the picture's mean are treated as that bright.
 constexpr double kDark = 0.1;
-/// Pixel by pixel, variances are estimates too: without an excess half of the pixels would miss the budget.
+/// Per pixel, variances are estimates too: without this factor half of the pixels would exceed the budget.
 constexpr double kExcess = 1.5;
 
 struct Offset {
   int x, y;
 };
-/// Those of a 5 x 5 neighbourhood that have the other colour.
+/// The pixels of the other colour in a 5 x 5 neighbourhood.
 constexpr Offset kOtherColor[] = {{0, -1},  {-1, 0}, {1, 0},  {0, 1}, {-1, -2}, {1, -2},
                                   {-2, -1}, {2, -1}, {-2, 1}, {2, 1}, {-1, 2},  {1, 2}};
 
@@ -63,12 +63,12 @@ class ColorCounts {
   }
 
  private:
-  /// Something was met, yet nothing varied: dark for the pilot, but who knows.
+  /// Something was hit, but nothing varied: black in the pilot, but possibly not in general.
   static constexpr double kUnknown = -1;
 
   struct Variance {
     double value;    // relative; 0 where nothing varies
-    uint32_t given;  // samples that the pixel has
+    uint32_t given;  // samples of the pixel
   };
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(pilot_.width) + static_cast<size_t>(x);
@@ -80,7 +80,7 @@ class ColorCounts {
     }
   }
 
-  /// Over the pixels of the other colour where something varies.
+  /// Mean over the pixels of the other colour that vary.
   double mean_of_other() const {
     double sum = 0;
     size_t count = 0;
@@ -115,8 +115,8 @@ class ColorCounts {
     return hit ? kUnknown : 0;
   }
 
-  /// The smallest k for which counts k sqrt(v), within what a pixel may get, bring the mean of v / count over
-  /// the `known` pixels that vary down to `budget`.
+  /// The smallest k for which counts k sqrt(v), clamped to the allowed range, reduce the mean of v / count
+  /// over the `known` pixels that vary to `budget`.
   double frame_factor(const std::vector<Variance>& variances, size_t known, double budget) const {
     const auto excess = [&](double k) {
       double sum = 0;

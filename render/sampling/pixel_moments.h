@@ -6,10 +6,10 @@
 
 namespace pelage {
 
-/// Mean and spread of the numbers given so far [Welford62], in double: sums of squares would cancel.
+/// Running mean and variance [Welford62], in double because sums of squares would cancel.
 struct PixelMoments {
   double mean = 0;
-  double squares = 0;  ///< sum of squared distances from the mean
+  double squares = 0;  ///< sum of squared deviations from the mean
   uint32_t count = 0;
 
   void add(double x) {
@@ -18,9 +18,9 @@ struct PixelMoments {
     mean += from_old / count;
     squares += from_old * (x - mean);
   }
-  /// Of one number; 0 for fewer than two.
+  /// Variance of one number; 0 for fewer than two.
   double variance() const { return count > 1 ? squares / (count - 1) : 0; }
-  /// Standard error of the mean, if the numbers are independent; stratified ones have less.
+  /// Standard error of the mean for independent numbers; stratified ones have a smaller error.
   double error() const { return count > 1 ? std::sqrt(variance() / count) : 0; }
 };
 

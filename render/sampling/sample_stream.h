@@ -18,9 +18,8 @@ constexpr uint32_t reverse_bits(uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
-/// Owen scrambling of a number whose bits stand in reverse order: a bijection in which every bit is flipped
-/// by a function of the bits below it [Burley20, section 2; LaineKarras11], with the constants of
-/// [Vegdahl21].
+/// Owen scrambling of a number with reversed bits: a bijection in which every bit is flipped by a function of
+/// the bits below it [Burley20, section 2; LaineKarras11], with the constants of [Vegdahl21].
 constexpr uint32_t scramble_reversed(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -46,20 +45,19 @@ constexpr float fraction(uint32_t bits) { return static_cast<float>(bits >> 8) *
 }  // namespace detail
 
 /// Random numbers of one sample of one pixel, in [0, 1): shuffled and Owen-scrambled Sobol points, padded
-/// [Burley20, section 3]. Each draw takes a 1-D or 2-D (0, m, 2)-net of its own whose points are handed out
-/// in an order of its own, so that the first 2^k samples of a pixel are stratified in every draw and any two
-/// draws, and any two pixels, are independent. A pure function of (seed, x, y, sample, dimension): the same
-/// for any order of evaluation (law 1).
+/// [Burley20, section 3]. Each draw uses its own 1-D or 2-D (0, m, 2)-net in its own order, so that the first
+/// 2^k samples of a pixel are stratified in every draw, and any two draws and any two pixels are independent.
+/// A pure function of (seed, x, y, sample, dimension): the same for any order of evaluation (law 1).
 ///
-/// Draws are numbered; a draw of 2-D counts as one. What must stay stratified from sample to sample must take
-/// the same draw in all of them, so integrators seek() to fixed places instead of counting what a path
-/// happened to use.
+/// Draws are numbered; a 2-D draw counts as one. Quantities that must be stratified across samples must use
+/// the same draw in all of them, so integrators seek() to fixed positions instead of counting the draws of a
+/// path.
 class SampleStream {
  public:
   SampleStream(uint64_t seed, uint32_t x, uint32_t y, uint32_t sample)
       : key_(hash64(seed, random_use("sample"), x, y)), reversed_sample_(detail::reverse_bits(sample)) {}
 
-  /// The number of the next draw.
+  /// Sets the number of the next draw.
   void seek(uint32_t draw) { draw_ = draw; }
   uint32_t draw() const { return draw_; }
 
@@ -87,7 +85,7 @@ class SampleStream {
  private:
   static constexpr uint64_t kStep = 0x9e3779b97f4a7c15ull;
 
-  /// Owen-scrambling the index permutes aligned blocks of 2^k points, whatever k, and so keeps every net.
+  /// Owen-scrambling the index permutes aligned blocks of 2^k points for every k, and so preserves every net.
   uint32_t shuffled_index(uint32_t seed) const {
     return detail::reverse_bits(detail::scramble_reversed(reversed_sample_, seed));
   }

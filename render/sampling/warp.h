@@ -23,7 +23,7 @@ inline void complete_frame(const V3f& n, V3f& first, V3f& second) {
   second = {b, sign + n.y * n.y * a, -n.y};
 }
 
-/// The direction with polar cosine `z` about the axis of (x, y, axis) at azimuth 2 pi `turn` from x.
+/// The direction with polar cosine `z` about `axis`, at azimuth 2 pi `turn` from x.
 inline V3f polar_direction(const V3f& x, const V3f& y, const V3f& axis, float z, float turn) {
   const float r = std::sqrt(std::max(0.0f, (1.0f - z) * (1.0f + z)));
   const float phi = 2.0f * kPi * turn;
@@ -35,7 +35,7 @@ inline V3f uniform_direction(const V2f& u) {
   return polar_direction({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1.0f - 2.0f * u.x, u.y);
 }
 
-/// Uniform on the unit disk, keeping neighbours neighbours [ShirleyChiu97].
+/// Uniform on the unit disk; preserves neighbourhoods [ShirleyChiu97].
 inline V2f concentric_disk(const V2f& u) {
   const float x = 2.0f * u.x - 1.0f;
   const float y = 2.0f * u.y - 1.0f;

@@ -28,13 +28,13 @@ template <>
 struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
-/// Whether strands stand in trees of our own. Only how they are held depends on this: what rays are told, and
-/// what is made of that, is the same.
+/// Whether strands are stored in our own fur trees. Affects storage only, never the picture.
 inline bool in_fur_trees(AccelKind accel, CurveShape curves) {
   return accel == AccelKind::kFur && curves == CurveShape::kFlat;
 }
 
-/// Whose distance, motion and focus decide the level of detail: the camera of the scene, or one of its own.
+/// The camera whose distance, motion and focus determine the level of detail: the camera of the scene, or a
+/// separate one.
 struct LodCamera {
   std::optional<CameraParams> own;
 };
@@ -52,13 +52,13 @@ struct ValueReader<LodCamera> {
 struct LodParams : SimplificationParams {
   bool enabled = true;
   LodCamera camera;
-  int64_t full_detail = 0;  ///< characters that keep every hair
+  int64_t full_detail = 0;  ///< number of characters that keep all their hair
   static const Schema<LodParams>& schema();
 };
 
 /// `bvh:` of `render:`.
 struct BvhParams {
-  AssetPath file;  ///< folder; empty: nothing is kept
+  AssetPath file;  ///< folder; empty: nothing is stored
   static const Schema<BvhParams>& schema();
 };
 
@@ -67,12 +67,12 @@ struct RenderParams {
   Integrator integrator = Integrator::kPath;
   AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;
-  int samples = 64;  ///< with adaptive sampling, the most that a pixel gets
+  int samples = 64;  ///< with adaptive sampling, the maximum per pixel
   std::optional<AdaptiveParams> adaptive;
-  float time_limit = 0;  ///< seconds; 0 is none
+  float time_limit = 0;  ///< seconds; 0 is no limit
   int light_samples = 1;
   int bounces = 4;           ///< 0 = direct light only
-  float clamp_indirect = 0;  ///< luminance that one path may add after its first scattering; 0 is no limit
+  float clamp_indirect = 0;  ///< max luminance of a path after its first scattering; 0 is no limit
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;
@@ -80,7 +80,7 @@ struct RenderParams {
   BoundingStrategy bounds = BoundingStrategy::kExact;
   float bounds_factor = 1;  ///< of BoundingStrategy::kUser
   LodParams lod;
-  bool shared_topology = true;  ///< characters of one cage share its refinement and patches
+  bool shared_topology = true;  ///< characters with one cage share its refinement and patches
   static const Schema<RenderParams>& schema();
 };
 

@@ -22,25 +22,25 @@ struct FurPart {
   std::string name;  ///< "rat.under"
   std::vector<std::unique_ptr<Procedural>> procedurals;
   size_t material = 0;
-  /// The skin that the strands grow on, in rest pose, for material fields that depend on the rest position;
-  /// may be null, then strands rest at their roots.
+  /// The rest pose of the skin that the strands grow on, for material fields that depend on the rest
+  /// position; may be null: rest positions are then those of the roots.
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};                             ///< multiplies the colour of the strands
-  std::optional<Simplification> lod = {};  ///< by which detail was reduced
+  std::optional<Simplification> lod = {};  ///< how detail was reduced; empty: it was not
 };
 
-/// A skin. Texture coordinates of its hits are asked of the topology of `rest`, rest positions of `rest`
-/// itself; where that is null, both are zero.
+/// A skin. `rest` provides rest positions of hits, and its topology texture coordinates; where it is null,
+/// both are zero.
 struct SkinPart {
   std::string name;
   std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies its colour
-  std::optional<Simplification> lod = {};  ///< of the densest coat on it, where detail was reduced
+  std::optional<Simplification> lod = {};  ///< of the densest coat on it, if detail was reduced
 };
 
-/// Everything that a renderer needs to know of one frame. World space.
+/// Everything that a renderer needs for one frame. World space.
 struct RenderScene {
   std::vector<FurPart> fur;
   std::vector<SkinPart> skins;

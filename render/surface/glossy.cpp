@@ -9,12 +9,12 @@ namespace pelage {
 
 namespace {
 
-// Narrower facets than this are a mirror that floats cannot evaluate.
+// Narrower facets are a mirror that floats cannot represent.
 constexpr float kSmoothest = 1e-3f;
 constexpr float kGrazing = 1e-4f;
 
 float microfacet_density(const V3f& half, float alpha) {
-  // 1 - z^2 as x^2 + y^2: narrow facets live on what that difference would lose.
+  // 1 - z^2 as x^2 + y^2, because narrow facets need the precision that the difference would lose.
   const float a2 = alpha * alpha;
   const float d = half.x * half.x + half.y * half.y + a2 * half.z * half.z;
   return a2 / (kPi * d * d);

@@ -7,11 +7,11 @@
 
 namespace pelage {
 
-/// What a glossy surface sends back, rho = f cos(theta_i) per solid angle, cosine of the normal.
+/// Scattering of a glossy surface, rho = f cos(theta_i) per solid angle, with the cosine to the normal.
 struct GlossyValue {
   Rgb diffuse{0};
-  float specular = 0;  ///< of the clear coat, not coloured
-  float pdf = 0;       ///< of the mixture that sample() draws from, per solid angle
+  float specular = 0;  ///< of the clear coat, without the base colour
+  float pdf = 0;       ///< of the mixture sampled by sample(), per solid angle
 };
 
 struct GlossySample {
@@ -19,11 +19,11 @@ struct GlossySample {
   GlossyValue value;
 };
 
-/// A diffuse base under a smooth clear coat: eyes, noses, wet ground. The coat is a GGX microfacet dielectric
-/// [Walter07] with height-correlated shadowing [Heitz14], drawn by visible normals [Heitz18], Fresnel by
-/// [Schlick94]; what it lets in and out again reaches the base. Reciprocal; never gives back more than it
-/// gets. World space, directions point away from the surface, `normal` and `wo` are on one side. A plain
-/// value, cheap to make.
+/// A diffuse base under a smooth clear coat, for eyes, noses, wet ground. The coat is a GGX microfacet
+/// dielectric [Walter07] with height-correlated shadowing [Heitz14], sampled by visible normals [Heitz18],
+/// with Fresnel by [Schlick94]; light transmitted in and out again reaches the base. Reciprocal; never gains
+/// energy. World space; directions point away from the surface; `normal` and `wo` are on one side. A plain
+/// value, cheap to construct.
 class GlossyBsdf {
  public:
   /// `roughness` in [0, 1], squared to the width of the microfacets; `ior` > 1.
@@ -44,8 +44,8 @@ class GlossyBsdf {
   float facing_reflectance_;
   Frame frame_;
   V3f wo_;             // local: z along the normal
-  float base_share_;   // of the light that the coat lets in on the way to the viewer
-  float coat_choice_;  // probability of drawing from the coat
+  float base_share_;   // fraction of light that the coat transmits on the way to the viewer
+  float coat_choice_;  // probability of sampling the coat
 };
 
 }  // namespace pelage

@@ -8,11 +8,11 @@
 
 namespace pelage {
 
-/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle, the cosine that of the
+/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle, with the cosine to the
 /// normal.
 struct SurfaceValue {
   Rgb rho{0};
-  float pdf = 0;  ///< with which sample() gives the direction, per solid angle
+  float pdf = 0;  ///< density of sample(), per solid angle
 };
 
 struct SurfaceSample {
@@ -30,7 +30,7 @@ class LambertBsdf {
     const float pdf = std::max(0.0f, wi.dot(normal_)) / kPi;
     return {albedo_ * pdf, pdf};
   }
-  /// Draws in proportion to the cosine: rho / pdf is the albedo for every sample.
+  /// Cosine-weighted: rho / pdf is the albedo for every sample.
   std::optional<SurfaceSample> sample(const V2f& u) const {
     const V2f disk = concentric_disk(u);
     const float cosine = std::sqrt(std::max(0.0f, 1.0f - disk.length2()));

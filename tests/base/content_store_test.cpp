@@ -193,7 +193,7 @@ TEST(ContentStore, AKillInTheMiddleLeavesNoEntryAndGivesTheLockBack) {
                    .lock(
                        "test", kKey, [] { return false; }, std::chrono::milliseconds(30))
                    .held());
-  // Whoever is told to stop waits no longer.
+  // A cancelled thread stops waiting.
   EXPECT_FALSE(store.lock("test", kKey, [] { return true; }).held());
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);

@@ -10,7 +10,7 @@
 namespace pelage {
 namespace {
 
-/// Asks to stop once so many ranges were done.
+/// Asks to stop after this many ranges.
 class StopsAfter final : public Progress {
  public:
   explicit StopsAfter(int count) : left_(count) {}

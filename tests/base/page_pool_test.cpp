@@ -37,7 +37,7 @@ TEST(PagePool, NeighboursShareAPiece) {
   EXPECT_EQ(b.data() - a.data(), static_cast<std::ptrdiff_t>(a.bytes()));
 }
 
-// What died is free again, wherever it stood, and joins what is free beside it.
+// The memory of a freed block is free again, wherever it was, and is merged with free neighbours.
 TEST(PagePool, RoomIsUsedAgain) {
   PagePool pool;
   const size_t bytes = size_t(1) << 20;

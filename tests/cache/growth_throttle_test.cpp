@@ -10,7 +10,8 @@ using namespace std::chrono_literals;
 
 class GrowthThrottleTest : public testing::Test {
  protected:
-  /// Lets threads grow one after the other, each if it may; of every ten growths, so many are again soon.
+  /// Lets threads grow one after the other, each if it may; `again_of_ten` of every ten growths are
+  /// repetitions.
   void grow(int growths, int again_of_ten) {
     for (int i = 0; i < growths; now_ += 1ms) {
       const int thread = i % 4;

@@ -66,7 +66,7 @@ TEST_F(GrowBoxesTest, CoatsWithoutACacheAreLeftOut) {
   EXPECT_EQ(grow({{"grooms.coat.cache", "null"}}).find("boxes"), std::string::npos);
 }
 
-// Whoever fills caches ahead of time relies on the exit code.
+// Filling caches ahead of time relies on the exit code.
 TEST_F(GrowBoxesTest, FailsWhenNothingWasKept) {
   try {
     grow({{"grooms.coat.cache", "{directory: /proc/none, freeze: length}"}});

@@ -153,7 +153,7 @@ TEST_F(LodPictures, FalseColoursShowWhatWasLeftOut) {
   EXPECT_EQ(sheet->height, 45);
 }
 
-/// A ball of combed fur on a skin, seen from one place; the camera of the detail stands `distance` away.
+/// A ball of combed fur on a skin, seen from one place; the LOD camera is `distance` away.
 class LodBall : public testing::Test {
  protected:
   struct Seen {

@@ -23,7 +23,7 @@ struct FarPoint {
   void AddWithWeight(const FarPoint& other, double w) { p += w * other.p; }
 };
 
-/// A vertex of a refined cage: where it stands on a ptex face, and its limit.
+/// A vertex of a refined cage: its position on a ptex face, and its limit.
 struct LimitVertex {
   uint32_t face;
   float u, v;

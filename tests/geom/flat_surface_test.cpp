@@ -32,7 +32,7 @@ double area_along_z(std::span<const V3f> polygon, std::span<const uint32_t> tria
 }
 
 TEST(PolygonCut, CoversPolygonsThatAreNotConvex) {
-  // A star, a comb, a spiral and an arrow, in the plane z = 0 but for a little.
+  // A star, a comb, a spiral and an arrow, nearly in the plane z = 0.
   std::vector<std::vector<V3f>> polygons;
   for (const uint32_t points : {5u, 40u}) {
     std::vector<V3f> star;

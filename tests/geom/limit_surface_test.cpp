@@ -27,7 +27,7 @@ TEST(LimitSurface, EqualsTheLimitOfUniformRefinement) {
       }
     }
     if (!c.cage.creases.empty()) continue;  // where normals jump, there is no distance along them
-    // Between the corners of the last patches a Gregory patch stands in for the limit.
+    // Between the corners of the last patches, a Gregory patch approximates the limit.
     for (const LimitVertex& vertex : uniform_limit(c.cage, c.scheme, c.rule, 5)) {
       const SurfacePoint p = surface.evaluate(vertex.face, vertex.u, vertex.v);
       const V3d off = V3d(p.position) - vertex.position;

@@ -222,7 +222,8 @@ TEST_F(GroomCacheTest, OldStatesGoAndThoseInUseStay) {
   for (int state = 5; state < 12; ++state) EXPECT_TRUE(make(with(state))->cache_report()->fresh) << state;
   EXPECT_FALSE(make(with(4))->cache_report()->fresh);
 
-  // Of grooms that nobody grows any more, nothing says a word: their files go by age alone.
+  // Files of grooms that are no longer grown have no manifest that mentions them: they are removed by age
+  // alone.
   age(24 * 40);
   make(Coat{"- length: {value: 0.7}\n", "length", 50, 500, 8, {}, "another"});
   EXPECT_EQ(files("offsets").size(), 1u);

@@ -65,7 +65,7 @@ class OperatorTest : public testing::Test {
     return op;
   }
 
-  /// A batch of strands that stand straight, of unit length, on the follicles from `first` on.
+  /// A batch of straight strands of unit length on the follicles from `first` on.
   std::unique_ptr<StrandBatch> straight(size_t first = 0, int points = 8,
                                         size_t count = kBlockStrands) const {
     auto batch = std::make_unique<StrandBatch>();

@@ -17,7 +17,7 @@ class PushOutTest : public OperatorTest {
     everywhere.focal_pixels = 1e9f;
     return everywhere;
   }
-  /// Strands over the skin, which stands in its rest pose.
+  /// Strands over the skin in its rest pose.
   void on_skin(StrandBatch& batch) const {
     batch.skin = &tree_;
     carry_to_pose(batch, 1);

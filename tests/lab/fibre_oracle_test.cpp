@@ -12,7 +12,7 @@ namespace pelage {
 namespace {
 
 constexpr int kPaths = 40000;
-/// Two histograms of so many paths differ by about this much by chance.
+/// Random difference of two histograms with this many paths.
 constexpr double kChance = 0.025;
 
 struct Distances {

@@ -79,7 +79,7 @@ TEST(LodMeasures, MotionAlongTheViewDoesNotBlur) {
   view.open = view.close = pose({0, 0, 10}, {0, 0, 0});
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {0, 0, 3}), 0, 1e-6);
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {0, 2, 3}), 2, 1e-5);
-  // A point that goes with the camera stands still, and one that stands still moves with it.
+  // A point that moves with the camera has no motion; a fixed one moves relative to it.
   view.close = pose({1, 0, 10}, {1, 0, 0});
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {1, 0, 0}), 0, 1e-6);
   EXPECT_NEAR(motion_across(view, {0, 0, 0}, {0, 0, 0}), 1, 1e-6);

@@ -30,7 +30,7 @@ class StereoFile : public testing::Test {
     ADD_FAILURE() << "accepted";
     return {};
   }
-  /// A plane at depth 4, with a camera of focal length 100 pixels that stands at x = 7.
+  /// A plane at depth 4, with a camera of focal length 100 pixels at x = 7.
   void write_with_camera(const std::string& name) {
     ExrImage image = still_image(80, 40);
     M44f camera;
@@ -121,7 +121,7 @@ TEST_F(StereoFile, LeavesNoHolesAroundThinThings) {
     before += pixels_of(image, "A")[i];
     after += pixels_of(out, "A")[i];
   }
-  // Strands neither become wider nor vanish, but for those that come to hide each other.
+  // Strands neither become wider nor vanish, except for those that become occluded by others.
   EXPECT_NEAR(after / before, 1, 0.15);
 }
 

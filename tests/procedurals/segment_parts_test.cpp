@@ -81,7 +81,7 @@ TEST(SegmentParts, OneKeyIsTheExactBoxOfThePart) {
   }
 }
 
-// As whoever traces rays interpolates them.
+// As interpolated by ray tracing.
 Box3f at_time(const ChunkBounds& bounds, size_t part, float time) {
   const Box3f &a = bounds.box(part, 0), &b = bounds.box(part, bounds.keys - 1);
   return {(1 - time) * a.min + time * b.min, (1 - time) * a.max + time * b.max};
@@ -138,7 +138,7 @@ TEST(SegmentParts, TwoKeysAreExactAtTheEndsOfAStraightMotion) {
   }
 }
 
-// A chunk that moves as a whole has fine boxes as small as one that stands still.
+// A chunk that moves as a whole has fine boxes as small as those of a static one.
 TEST(SegmentParts, FineBoxesMoveWithTheChunk) {
   StrandArrays arrays = Strands(random_strands(8, {.strands = 300})).release();
   const ChunkBounds still = SegmentParts(Strands(arrays)).exact_bounds(2);

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// Heap bytes that operator new gave out and nobody gave back, and their highest value since reset_peak().
+/// Bytes allocated with operator new and not freed, and their max since reset_peak().
 size_t live_bytes();
 size_t peak_bytes();
 void reset_peak();

@@ -37,8 +37,8 @@ inline double chi_square_tail(double statistic, double dof) {
 /// Two-sided tail of the normal distribution.
 inline double normal_tail(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
-/// Level of each of `tests` independent tests such that all pass together with probability 1 - `level` when
-/// the hypothesis is true [Sidak67].
+/// Significance level for each of `tests` independent tests, such that all pass together with probability 1 -
+/// `level` when the hypothesis is true [Sidak67].
 inline double sidak_level(double level, double tests) { return -std::expm1(std::log1p(-level) / tests); }
 
 struct ChiSquare {
@@ -48,8 +48,7 @@ struct ChiSquare {
   double impossible = 0;  ///< counts in cells whose expectation is zero
 };
 
-/// Compares counts with what is expected of them. Cells with an expectation below 5 are merged, smallest
-/// first.
+/// Compares counts with their expectations. Cells with an expectation below 5 are merged, smallest first.
 inline ChiSquare chi_square(const std::vector<double>& observed, const std::vector<double>& expected) {
   std::vector<size_t> order(expected.size());
   std::iota(order.begin(), order.end(), size_t(0));
@@ -85,7 +84,7 @@ class RunningMean {
   }
   double mean() const { return mean_; }
   double variance() const { return count_ > 1 ? squares_ / (count_ - 1) : 0; }
-  /// Of the mean.
+  /// Standard error of the mean.
   double standard_error() const { return std::sqrt(variance() / count_); }
 
  private:

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// The folder of real meshes, grooms and images that nobody here wrote (PELAGE_DATA), or an empty path.
+/// The folder of real meshes, grooms and images from third parties (PELAGE_DATA), or an empty path.
 inline std::filesystem::path data_folder() {
   const char* folder = std::getenv("PELAGE_DATA");
   return folder ? std::filesystem::path(folder) : std::filesystem::path();
@@ -17,6 +17,6 @@ inline std::filesystem::path data_folder() {
 
 }  // namespace pelage
 
-/// First line of a test that reads real input. Skips it, saying why, where the data is not.
+/// First line of a test that reads real input. Skips the test, with a message, when the data is missing.
 #define PELAGE_REQUIRE_DATA() \
   if (::pelage::data_folder().empty()) GTEST_SKIP() << "PELAGE_DATA is not set: real input is absent"

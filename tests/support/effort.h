@@ -5,8 +5,7 @@
 
 namespace pelage {
 
-/// Whether a sanitizer keeps books of its own in the memory of this process, so that its resident pages say
-/// little.
+/// Whether a sanitizer uses memory of this process, so that resident pages are not meaningful.
 constexpr bool kSanitized =
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     true;
@@ -14,8 +13,8 @@ constexpr bool kSanitized =
     false;
 #endif
 
-/// How many of `count` equal repetitions (rays, say) a test makes. A sanitizer, which slows each of them down
-/// about tenfold, looks at what they execute, not at how often: an eighth does there.
+/// Number of equal repetitions (such as rays) in a test, out of `count`. A sanitizer slows each of them down
+/// about tenfold and checks executed code, not statistics: an eighth suffices there.
 constexpr uint64_t repetitions(uint64_t count) { return kSanitized ? (count + 7) / 8 : count; }
 
 }  // namespace pelage

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-// Values for tests of readers, without a parser. Positions say "t" and the line.
+// Values for tests of readers, without a parser. Positions have file "t" and the line.
 
 inline Value scalar(std::string text, int line = 1, bool quoted = false) {
   return Value::scalar({"t", line, 1}, std::move(text), quoted);
@@ -22,7 +22,7 @@ inline Value numbers(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) items.push_back(scalar(text));
   return list(std::move(items));
 }
-/// Key i stands on line i + 1.
+/// Key i is on line i + 1.
 inline Value block(std::vector<std::pair<std::string, Value>> entries) {
   std::vector<Value::Entry> result;
   for (auto& [key, value] : entries) {

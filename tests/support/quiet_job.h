@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// A job that shows nothing and is not stopped, for calls and for tests that want no more of it.
+/// A job that shows nothing and is never stopped, for calls and tests that need no more.
 class QuietJob {
  public:
   explicit QuietJob(int threads = 2)

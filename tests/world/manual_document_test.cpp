@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-// What stands in docs/MANUAL.md is what the program would print today; tools/write_manual makes it anew.
+// docs/MANUAL.md must be what the program prints; tools/write_manual updates it.
 TEST(ManualDocument, IsUpToDate) {
   const std::string document = read_file(PELAGE_SOURCE_DIR "/docs/MANUAL.md");
   std::string manual = manual_text(SceneDescription::schema(), {}, true);

@@ -46,7 +46,7 @@ render: {samples: 4, bounces: 2, lod: {enabled: false}}
   void write(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
 
  private:
-  // A cube of side 1 whose centre stands at x.
+  // A cube of side 1 centred at x.
   static std::string cube(float x) {
     std::string text;
     for (int i = 0; i < 8; ++i) {

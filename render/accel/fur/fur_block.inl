@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: what blocks of four segments hold.
+// Part of fur_kernels.cpp: contents of blocks of four segments.
 
 /// The four curves of a block: Bezier points by axis, radii.
 template <bool kWide, bool kMoving>
@@ -13,7 +13,7 @@ class Block {
       origin_[axis] = static_cast<float>(reinterpret_cast<const FurBlockHeader*>(block)->origin[axis]);
   }
 
-  /// Coordinates of one Bezier point, from `lane` on, without rounding (but for that of motion).
+  /// Coordinates of one Bezier point, from `lane` on, exact except for rounding of motion.
   HWY_INLINE hn::Vec<Doubles> coordinates(uint32_t axis, size_t point, size_t lane) const {
     const std::byte* place = key_ + axis * kSizes.axis + (4 * point + lane) * (kSizes.axis / 16);
     const auto here = decoded(place, axis);
@@ -22,8 +22,8 @@ class Block {
     return hn::Add(hn::Mul(here, hn::Set(kDoubles, 1 - after)),
                    hn::Mul(decoded(place + kSizes.key(), axis), hn::Set(kDoubles, after)));
   }
-  /// Numbers from `first` of the axis on, all lanes of a point and then those of the next: coordinates of the
-  /// first point, and behind it the differences of each point from the one before.
+  /// Numbers of the axis from `first` on, all lanes of a point and then those of the next: coordinates of the
+  /// first point, followed by the differences of each point from the previous one.
   template <class D>
   HWY_INLINE hn::Vec<D> differences(D d, uint32_t axis, size_t first) const {
     const std::byte* place = key_ + axis * kSizes.axis + first * (kSizes.axis / 16);
@@ -71,7 +71,7 @@ class Block {
       return hn::Add(hn::PromoteTo(kDoubles, difference), hn::Set(kDoubles, origin_[axis]));
     }
   }
-  /// What comes before the first point is read, and not used.
+  /// The values before the first point are read but not used.
   template <class D>
   HWY_INLINE hn::Vec<D> decoded_difference(D d, const std::byte* place, uint32_t axis, size_t first) const {
     const std::byte* before = place - kSizes.axis / 4;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: four plane curves and where they are nearest to the origin.
+// Part of fur_kernels.cpp: four planar curves and their nearest points to the origin.
 
-/// Four curves as a ray sees them: points, and the differences of each from the one before. Differences are
-/// not those of the rounded points but known as well as their own size allows: of a curve that runs along
-/// the ray they are much smaller than points are.
+/// Four curves in ray space: points, and differences of consecutive points. The differences are not computed
+/// from the rounded points but are accurate relative to their own size: for a curve along the ray they are
+/// much smaller than the points.
 struct FlatCurves {
   V x[4], y[4], dx[3], dy[3];
 
-  /// Points from the first one and the differences.
+  /// Computes the points from the first one and the differences.
   HWY_INLINE void add_points() {
     for (int i = 0; i < 3; ++i) x[i + 1] = hn::Add(x[i], dx[i]), y[i + 1] = hn::Add(y[i], dy[i]);
   }
@@ -33,7 +33,7 @@ struct Weights {
 /// One coordinate of a curve as a polynomial.
 struct Cubic {
   V a, b, c, d;
-  /// From the first point and the differences behind it.
+  /// From the first point and the differences that follow.
   HWY_INLINE Cubic(V first, const V (&differences)[3]) {
     const V bend = hn::Sub(differences[1], differences[0]);
     a = hn::Sub(hn::Sub(differences[2], differences[1]), bend);
@@ -46,8 +46,8 @@ struct Cubic {
   }
 };
 
-/// A third of the first derivative of one coordinate, and a sixth of the second. From a polynomial the first
-/// would be lost in rounding where a curve all but stands still.
+/// A third of the first derivative of one coordinate, and a sixth of the second. Computed from a polynomial,
+/// the first derivative would be lost in rounding where a curve nearly stands still.
 struct Derivatives {
   V first, second;
   HWY_INLINE Derivatives(const V (&differences)[3], V u) {
@@ -59,14 +59,14 @@ struct Derivatives {
   }
 };
 
-/// Where the distance of curves to the origin may have minima: lanes with one, found here, and lanes with
-/// perhaps several.
+/// Where the distance of curves to the origin may have minima: lanes with exactly one, and lanes with
+/// possibly several.
 struct Minima {
   uint32_t single, folded;
   V f0, f5;
 
-  /// The last points are given as the segments behind see them, their first ones. Where strands are smooth
-  /// their differences are the same too: there a minimum belongs to one of two neighbours, never to none.
+  /// The last points are given as the first points of the following segments. Where strands are smooth their
+  /// differences agree too: a minimum there belongs to one of two neighbours, never to none.
   HWY_INLINE Minima(const FlatCurves& at, V end_x, V end_y) {
     const V(&dx)[3] = at.dx, (&dy)[3] = at.dy;
     const auto product = [&](int p, int d) HWY_ATTR { return dot(at.x[p], at.y[p], dx[d], dy[d]); };
@@ -75,12 +75,13 @@ struct Minima {
     const V f2 = hn::Add(hn::Add(product(0, 2), hn::Mul(six, product(1, 1))), hn::Mul(three, product(2, 0)));
     const V f3 = hn::Add(hn::Add(hn::Mul(three, product(1, 2)), hn::Mul(six, product(2, 1))), product(3, 0));
     V f4 = hn::Add(hn::Mul(three, product(2, 2)), hn::Mul(two, product(3, 1)));
-    // Minus zero becomes zero: a minimum at the end is one, and one at the beginning belongs to the segment
-    // before.
+    // Minus zero becomes zero: a minimum at the end counts, one at the beginning belongs to the previous
+    // segment.
     const V zero = hn::Zero(kFloats);
     f0 = hn::Add(product(0, 0), zero);
     f5 = hn::Add(dot(end_x, end_y, dx[2], dy[2]), zero);
-    // Where points at an end coincide, the curve arrives there along the next difference that is not zero.
+    // Where points at an end coincide, the direction of the curve there is that of the next non-zero
+    // difference.
     const auto flat0 = hn::And(hn::Eq(dx[0], zero), hn::Eq(dy[0], zero));
     const auto flat1 = hn::And(hn::Eq(dx[1], zero), hn::Eq(dy[1], zero));
     const auto flat2 = hn::And(hn::Eq(dx[2], zero), hn::Eq(dy[2], zero));
@@ -88,7 +89,7 @@ struct Minima {
     f0 = hn::IfThenElse(flat0, f1, f0);
     f4 = hn::IfThenElse(hn::And(flat2, flat1), f3, f4);
     f5 = hn::IfThenElse(flat2, f4, f5);
-    // Sign bits: where a coefficient below zero follows one that is not, and the other way round.
+    // Sign bits: where a negative coefficient follows a non-negative one, and vice versa.
     const V falls = hn::Or(hn::Or(hn::Or(hn::AndNot(f0, f1), hn::AndNot(f1, f2)),
                                   hn::Or(hn::AndNot(f2, f3), hn::AndNot(f3, f4))),
                            hn::AndNot(f4, f5));
@@ -101,20 +102,20 @@ struct Minima {
   }
 };
 
-constexpr float kClose = 0x1p-4f;  // steps of the grid, of which a width has 192 or more
+constexpr float kClose = 0x1p-4f;  // steps of the grid; a width has 192 or more
 constexpr float kShort = 0x1p-13f;
-// One block of ten thousand takes more than six steps. A curve that comes to rest near the ray has a root
-// that is all but fivefold: there Newton's steps take but a fifth of the rest, and every other one is a
-// halving.
+// One block in ten thousand takes more than six steps. A curve that nearly stops near the ray has an almost
+// fivefold root: Newton's steps then cover only a fifth of the remaining distance, and every other step is a
+// bisection.
 constexpr int kNewtonSteps = 8, kMaxSteps = kNewtonSteps + 2 * 26;
 
-/// The root of c . c' in (0, 1] of the lanes `active`, where it has exactly one. Newton's steps within a
-/// bracket; each lane stops by itself, with a step of at most kClose along the curve as the ray sees it and
-/// of kShort in the parameter.
+/// The root of c . c' in (0, 1] of the lanes `active`, which must have exactly one. Newton's method within a
+/// bracket; each lane stops separately, with a step of at most kClose along the curve in ray space and kShort
+/// in the parameter.
 HWY_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
   V u = hn::Div(f0, hn::Sub(f0, f5));
   V low = hn::Zero(kFloats), high = all(1);
-  // The last points as they follow from the first ones are rounded otherwise than those of f5, which may put
+  // The last points computed from the first ones are rounded differently from those of f5, which may place
   // the root beyond them.
   auto done = hn::Lt(dot(at.x[3], at.y[3], at.dx[2], at.dy[2]), low);
   u = hn::IfThenElse(done, high, u);
@@ -137,7 +138,7 @@ HWY_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V
     const V most2 = hn::Max(speed2, all(kClose2 / (kShort * kShort)));
     const auto small = hn::Le(hn::Mul(hn::Mul(step, step), most2), all(kClose2));
     u = hn::IfThenElse(done, u, next);
-    if (halves) continue;  // how far that went says nothing of how near it is
+    if (halves) continue;  // the size of that step does not bound the distance to the root
     done = hn::Or(done, small);
     if ((active & ~bits_of<float>(done)) == 0) break;
   }

@@ -8,12 +8,13 @@
 namespace pelage {
 namespace {
 
-constexpr int kDeepest = 20;  // halvings
-// Newton's; then every other one is a halving, which ends wherever rounding lets it (see fur_curves.inl).
+constexpr int kDeepest = 20;  // number of halvings
+// Newton's method; then every other step is a bisection, which ends at the limit of rounding (see
+// fur_curves.inl).
 constexpr int kNewtonSteps = 16, kMaxSteps = kNewtonSteps + 2 * 22;
-constexpr float kNear = 0x1p-22f;  // of the parameter
+constexpr float kNear = 0x1p-22f;  // in the parameter
 
-/// c . c' / 3 over a part of the curve, in Bernstein form times ten over binomials.
+/// c . c' / 3 over a part of the curve, as Bernstein coefficients times ten over binomials.
 using Quintic = std::array<float, 6>;
 
 Quintic distance_derivative(const PlaneCurve& curve) {
@@ -45,7 +46,8 @@ struct Part {
       for (size_t j = 0; j + 1 < 6 - i; ++j) row[j] = 0.5f * (row[j] + row[j + 1]);
     }
   }
-  /// Whether a coefficient counts as negative. At a flat end the first that is not zero speaks for it.
+  /// Whether a coefficient counts as negative. At a flat end, uses the sign of the first coefficient that is
+  /// not zero.
   bool is_negative(size_t i) const {
     if (i == 0 && flat_begin)
       return *std::find_if(f.begin(), f.end() - 1, [](float x) { return x != 0; }) < 0;
@@ -61,7 +63,7 @@ struct Part {
   bool rises() const { return is_negative(0) && !is_negative(5); }
 };
 
-/// The one root between begin and end, below which c . c' is negative.
+/// The single root between begin and end, below which c . c' is negative.
 float solve(const PlaneCurve& curve, float begin, float end) {
   const auto evaluate = [](float point, const float(&d)[3], float u, float& first, float& second) {
     const float bend = d[1] - d[0], a = (d[2] - d[1]) - bend, b = 3 * bend, c = 3 * d[0];

@@ -6,19 +6,18 @@
 
 namespace pelage {
 
-/// A planar Bezier curve as seen along a ray that passes the plane's origin.
+/// A planar Bezier curve in ray space; the ray passes through the origin.
 struct PlaneCurve {
   float x[4], y[4];
-  float dx[3], dy[3];  ///< of points from the ones before, known better than points are
-  float end_x, end_y;  ///< the last point, rounded as the first one of a curve behind this is
+  float dx[3], dy[3];  ///< differences of consecutive points, more accurate than the points
+  float end_x, end_y;  ///< the last point, rounded like the first one of the next curve
 };
 
 /// The parameters in (0, 1] where the curve's distance to the origin has a local minimum: at most three,
 /// ascending.
 ///
 /// The derivative of half the squared distance, c . c', is a quintic. Its Bernstein coefficients change sign
-/// at least as often as it has roots; where they do so more than once the curve is halved, as often as it
-/// takes
+/// at least as often as it has roots; where they change more than once, the curve is halved repeatedly
 /// ([Nakamaru02] halves until the curve is straight, which finds the same minima up to its tolerance).
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]);
 

@@ -12,17 +12,17 @@
 namespace pelage {
 namespace {
 
-constexpr uint32_t kSamples = 512;  // segments
-constexpr int kSpins = 8;           // over a quarter of a turn
-constexpr int kSteps = 32;          // towards the common direction
-// A turned tree is entered a little more slowly. Boxes of four segments shrink by half of what boxes of one
-// do: from here on by an eighth or more.
+constexpr uint32_t kSamples = 512;  // number of segments
+constexpr int kSpins = 8;           // angles over a quarter turn
+constexpr int kSteps = 32;          // iterations towards the common direction
+// Rays enter a rotated tree slightly more slowly. The boxes of four segments shrink by half as much as those
+// of single ones: by an eighth or more at this ratio.
 constexpr double kWorth = 0.7;
 
 using Samples = std::vector<SnappedSegment>;
 
-/// One segment of every so many, chosen by hash: at even steps strands of as many segments would show the
-/// same one each, of their roots say, which are combed where nothing else is.
+/// One segment out of each group, selected by hash: at regular steps, strands with that number of segments
+/// would always contribute the same one, such as their roots, which may be combed differently from the rest.
 Samples samples_of(const SnappedStrands& strands) {
   Samples samples;
   const uint64_t count = strands.segment_count(), max = std::min<uint64_t>(count, kSamples);
@@ -52,7 +52,7 @@ double box_area(const Samples& samples, const FurFrame& frame) {
   return sum;
 }
 
-/// The direction of most of the chords' squared length, by power iteration.
+/// The direction with most of the chords' squared length, by power iteration.
 V3f common_direction(const Samples& samples) {
   double m[3][3] = {};
   for (const SnappedSegment& s : samples) {
@@ -103,7 +103,7 @@ FurBox FurFrame::unrotated(const FurBox& box) const {
       half += std::abs(along) * 0.5 * (double(box.high[i]) - box.low[i]);
       max += std::abs(box.low[i]) + std::abs(box.high[i]);
     }
-    // Axes are floats, and at right angles as far as these go.
+    // Axes are floats, and orthogonal only to their precision.
     half += 0x1p-20 * max;
     result.low[axis] = static_cast<float>(centre - half);
     result.high[axis] = static_cast<float>(centre + half);

@@ -11,32 +11,32 @@ namespace pelage {
 
 struct FurBox;
 
-/// The axes along which all boxes of one fur tree stand: those of the grid, or others at right angles to each
-/// other. Combed fur has one main direction, and boxes along it are much smaller; a ray is turned once for
-/// the whole tree. Curves, and what rays are said to hit, know nothing of it.
+/// The axes of all boxes of one fur tree: those of the grid, or a rotated orthogonal frame. Combed fur has
+/// one main direction, and boxes aligned to it are much smaller; a ray is rotated once for the whole tree.
+/// Curves and hits are not affected.
 struct FurFrame {
   std::array<V3f, 3> axes{V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1)};
-  bool turned = false;  ///< false: the axes are those of the grid, exactly
+  bool turned = false;  ///< false: exactly the axes of the grid
 
   V3f operator()(const V3f& p) const { return {axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)}; }
   SnappedSegment operator()(const SnappedSegment& segment) const;
-  /// A box along the axes of the grid around one that stands in this frame.
+  /// A box along the axes of the grid that contains a box of this frame.
   FurBox unrotated(const FurBox& box) const;
-  /// The same axes, turned or not.
+  /// Whether both have the same axes, rotated or not.
   bool operator==(const FurFrame& o) const { return turned == o.turned && (!turned || axes == o.axes); }
-  /// Whether it may come from a file.
+  /// Whether it is well-formed, for data from a file.
   bool is_possible() const;
 };
 
-/// Which frames a tree may have. Trees over moving strands stand along the grid always.
+/// The frames a tree may use. Trees over moving strands always use the grid's axes.
 enum class FurRotation : uint8_t {
   kNever,
-  kWhenUseful,  ///< where boxes of single segments are so much smaller that boxes of four are, too
+  kWhenUseful,  ///< where boxes of single segments become so much smaller that boxes of four do, too
   kAlways,      ///< for tests
 };
 
-/// A frame that is good for most segments, found from a few hundred of them: the direction that they have in
-/// common as one axis, and of several pairs of others the best. The same for the same strands.
+/// A frame that suits most segments, estimated from a few hundred of them: one axis is their common
+/// direction; the other two are the best of several pairs. Deterministic.
 FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation);
 
 }  // namespace pelage

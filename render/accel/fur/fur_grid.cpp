@@ -20,7 +20,7 @@ FurGrid::FurGrid(float root_width, const V3f& anchor) : anchor_(anchor) {
 }
 
 float FurGrid::margin(float radius) const {
-  // Inner points of the axis by a step, and the square root of the radius by half of one of its own.
+  // Inner points move by at most a step, and the square root of the radius by half of one of its own steps.
   const float root = kRootsPerUnit * std::sqrt(std::max(radius * inverse_, 0.0f));
   const float wider = (root + 0.25f) / (kRootsPerUnit * kRootsPerUnit);
   return 1.001f * step_ * (1 + wider);

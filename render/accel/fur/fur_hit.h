@@ -8,33 +8,34 @@
 
 namespace pelage {
 
-/// The place on a strand that a ray starts from. Near it the same strand is not met: neither the ribbon's own
-/// turning towards the ray nor rounding counts as a hit.
+/// The position on a strand that a ray starts from. Near it the same strand is not hit: neither the ribbon's
+/// rotation towards the ray nor rounding causes a self-intersection.
 struct FurStart {
-  uint32_t first_segment = 0, segment_count = 0;  ///< numbers of the strand's segments; count 0: no strand
-  float place = 0;                                ///< segment of the strand + parameter in it
+  uint32_t first_segment = 0,
+           segment_count = 0;  ///< range of the strand's segment numbers; count 0: no strand
+  float place = 0;             ///< segment of the strand + parameter within it
 };
 
-/// Where a ray meets a segment.
+/// Intersection of a ray with a segment.
 struct FurHit {
   static constexpr uint32_t kNone = ~0u;
 
   float distance = std::numeric_limits<float>::infinity();  ///< grid units inside a tree, scene units outside
-  uint32_t number = kNone;                                  ///< of the segment, as SnappedStrands counts
+  uint32_t number = kNone;                                  ///< segment number as in SnappedStrands
   float u = 0;                                              ///< along the segment, in (0, 1]
   float h = 0;                                              ///< across it, as Hit::v
 
   explicit operator bool() const { return number != kNone; }
-  /// Nearer, or as near and of the smaller number.
+  /// Nearer, or equally near with a smaller number.
   bool precedes(const FurHit& o) const {
     return distance != o.distance ? distance < o.distance : number < o.number;
   }
 };
 
-/// What rays cost.
+/// Cost of rays.
 struct FurTests {
   int64_t boxes = 0;     ///< four per node
-  int64_t segments = 0;  ///< four per block of a leaf, empty lanes included
+  int64_t segments = 0;  ///< four per block of a leaf, including empty lanes
 
   FurTests& operator+=(const FurTests& o) {
     boxes += o.boxes, segments += o.segments;
@@ -42,7 +43,7 @@ struct FurTests {
   }
 };
 
-/// Is told of hits, in any order and possibly several times of the same; decides whether they count.
+/// Receives hits, in any order and possibly the same several times; decides whether they count.
 class FurFilter {
  public:
   virtual ~FurFilter() = default;

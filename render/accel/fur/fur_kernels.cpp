@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once per instruction set. Lanes never meet, products and sums are never fused and nothing is
-// approximated, so that every set gives the same bits.
+// Compiled once per instruction set. Lanes are independent, products and sums are never fused, and no
+// approximations are used, so that every instruction set gives the same bits.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// The narrowest and AVX2 are enough to look for wrong accesses: each set takes minutes to compile then.
+// The smallest set and AVX2 suffice to find invalid accesses: compiling takes minutes per set then.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
 #else
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #endif
-// The plain fallback is four lanes too. What g++ before 12.3 gets wrong there (high halves of 16-bit
-// products) is not used here.
+// The scalar fallback also has four lanes. It does not use what g++ before 12.3 compiles wrongly (high halves
+// of 16-bit products).
 #define HWY_BROKEN_EMU128 0
 #include <algorithm>
 #include <bit>

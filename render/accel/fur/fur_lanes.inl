@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: four numbers side by side, or as many as the instruction set has up to a
+// Part of fur_kernels.cpp: vectors of four numbers, or as many as the instruction set supports up to a
 // block's 16.
 
 using Floats = hn::Full128<float>;
@@ -33,7 +33,7 @@ HWY_INLINE V bytes_at(const std::byte* place) {
                        hn::PromoteTo(kInts, hn::LoadU(bytes, reinterpret_cast<const uint8_t*>(place))));
 }
 
-/// Numbers of a block from its number `first` on, all but those of its first points set to zero; or those.
+/// Numbers of a block from index `first` on, with those of its first points set to zero, or all others.
 template <class D>
 HWY_INLINE hn::Vec<D> of_first_point(D d, size_t first, hn::Vec<D> v) {
   if (first > 0) return hn::Zero(d);

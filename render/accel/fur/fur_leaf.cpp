@@ -8,7 +8,7 @@
 namespace pelage {
 namespace {
 
-constexpr float kExactWhole = 0x1p24f;  // up to here floats hold every whole number
+constexpr float kExactWhole = 0x1p24f;  // floats hold every integer up to here
 constexpr float kWidestDifference = 65535;
 constexpr float kRadiusSteps = 255;
 
@@ -30,7 +30,7 @@ size_t value_offset(const FurBlockSizes& sizes, size_t value_bytes, size_t lane,
          (point * FurBlockHeader::kLanes + lane) * value_bytes;
 }
 
-/// Lowest and highest coordinates along an axis.
+/// Min and max coordinates along an axis.
 std::array<float, 2> reach(std::span<const SnappedSegment> segments, size_t axis) {
   float low = segments[0][0][axis], high = low;
   for (const SnappedSegment& segment : segments) {
@@ -71,7 +71,7 @@ void write_block(const FurBlockContents& contents, int motion_keys, bool wide, s
   const size_t lanes = contents.segments.size() / keys;
   for (int key = 0; key < motion_keys; ++key) {
     for (size_t lane = 0; lane < FurBlockHeader::kLanes; ++lane) {
-      // An empty lane is one point, which belongs to the block and has no length.
+      // An empty lane is a single point inside the block, without length.
       SnappedSegment segment{};
       if (lane < lanes) {
         segment = contents.segments[lane * keys + static_cast<size_t>(key)];

@@ -10,23 +10,23 @@
 
 namespace pelage {
 
-/// Four segments side by side, as leaves keep them: there is no other copy of the points.
+/// Four segments side by side, as stored in leaves: the only copy of the points.
 ///
-/// A block is a header and then, for each motion key, the coordinates by axis, Bezier point and lane, and the
-/// radii by Bezier point and lane. A narrow block holds coordinates as 16-bit differences from its origin and
-/// radii as the 8-bit numbers whose squares over 256 they are; a block that has no room for that is wide and
-/// holds the same values as floats. Both decode to the same bits.
+/// A block is a header followed, for each motion key, by the coordinates by axis, Bezier point and lane, and
+/// the radii by Bezier point and lane. A narrow block stores coordinates as 16-bit differences from its
+/// origin, and radii as 8-bit numbers whose squares over 256 they are; a wide block, used where these ranges
+/// do not suffice, stores the same values as floats. Both decode to the same bits.
 struct FurBlockHeader {
-  static constexpr uint32_t kNone = ~0u;  ///< number of a lane without a segment: its points are all the same
+  static constexpr uint32_t kNone = ~0u;  ///< number of a lane without a segment: its points are all equal
   static constexpr size_t kLanes = 4;
 
   int32_t origin[3];
   uint32_t unused;
-  uint32_t number[kLanes];  ///< of the segments, as SnappedStrands counts them
+  uint32_t number[kLanes];  ///< segment numbers as in SnappedStrands
 };
 static_assert(sizeof(FurBlockHeader) == 32);
 
-/// Bytes of the parts of a block.
+/// Sizes of the parts of a block.
 struct FurBlockSizes {
   size_t axis, radii;
   constexpr size_t key() const { return 3 * axis + radii; }
@@ -36,18 +36,18 @@ struct FurBlockSizes {
 };
 inline constexpr FurBlockSizes kNarrowBlock{32, 16}, kWideBlock{64, 64};
 
-/// What a block is made of: its segments (at most four), key by key.
+/// Input of a block: its segments (at most four), key by key.
 struct FurBlockContents {
   std::array<uint32_t, FurBlockHeader::kLanes> numbers{FurBlockHeader::kNone, FurBlockHeader::kNone,
                                                        FurBlockHeader::kNone, FurBlockHeader::kNone};
-  std::span<const SnappedSegment> segments;  ///< lane by lane; of each all keys in turn
+  std::span<const SnappedSegment> segments;  ///< lane by lane; for each lane all keys
 };
 
-/// Whether a narrow block can hold these.
+/// Whether a narrow block can represent these.
 bool fits_narrow_block(const FurBlockContents& contents);
-/// Writes a block; `out` has room for it.
+/// Writes a block; `out` must be large enough.
 void write_block(const FurBlockContents& contents, int motion_keys, bool wide, std::byte* out);
-/// What one lane holds at one key.
+/// Segment of one lane at one key.
 SnappedSegment read_block(const std::byte* block, bool wide, size_t lane, int key);
 
 }  // namespace pelage

@@ -50,8 +50,8 @@ void write_quantised_node(int motion_keys, std::span<const FurChild> children, s
   float scale[3];
   for (size_t axis = 0; axis < 3; ++axis) {
     const float extent = whole.high[axis] - whole.low[axis];
-    // A little more than needed, so that the last step lies beyond the high side in floats too; and not below
-    // what a float can add there.
+    // Slightly larger than needed, so that the last step is beyond the high side in float as well; and not
+    // below the precision of float there.
     const float reach = std::max(std::abs(whole.low[axis]), std::abs(whole.high[axis]));
     scale[axis] = std::max({extent / (kMaxSteps - 1), reach * 0x1p-23f, 0x1p-40f});
   }

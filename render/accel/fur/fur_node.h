@@ -10,11 +10,11 @@
 
 namespace pelage {
 
-/// How nodes keep the boxes of their four children: as floats, 128 bytes in all [Neulander13], or as 8-bit
-/// numbers on a grid of the node's own, 64 bytes.
+/// How nodes store the boxes of their four children: as floats, 128 bytes in total [Neulander13], or as 8-bit
+/// numbers on a grid per node, 64 bytes.
 enum class FurNodeLayout : uint8_t { kFloat, kQuantised };
 
-/// An axis-aligned box in grid units; inside out when nothing is in it.
+/// An axis-aligned box in grid units; inverted when empty.
 struct FurBox {
   std::array<float, 3> low{1e30f, 1e30f, 1e30f};
   std::array<float, 3> high{-1e30f, -1e30f, -1e30f};
@@ -30,8 +30,8 @@ struct FurChild {
   std::span<const FurBox> boxes;  ///< one per motion key
 };
 
-/// Float layout: by motion key and axis the low and then the high sides of four children; then their
-/// references, from references() on.
+/// Float layout: by motion key and axis, the low and then the high sides of four children; then their
+/// references, starting at references().
 struct FurFloatNode {
   static constexpr size_t kKey = 96, kAxis = 32, kSide = 16;
   static constexpr size_t references(int motion_keys) { return kKey * static_cast<size_t>(motion_keys); }
@@ -49,15 +49,16 @@ struct FurQuantisedNode {
 };
 
 size_t node_size(FurNodeLayout layout, int motion_keys);
-/// Writes a node of 1 to 4 children. What is decoded holds the boxes, up to the rounding of one product and
-/// one sum.
+/// Writes a node of 1 to 4 children. The decoded boxes contain the given ones, up to the rounding of one
+/// product and one sum.
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
 
-/// Child `i` of a node that write_node() wrote; none where there are fewer.
+/// Child `i` of a node written by write_node(); none where there are fewer.
 FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
 void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
                          FurReference reference);
-/// The box of child `i` at one key as rays see it; holds the one that was written, rounding included.
+/// The box of child `i` at one key as used by ray tracing; contains the box that was written, including
+/// rounding.
 FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key);
 
 }  // namespace pelage

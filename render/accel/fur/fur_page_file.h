@@ -11,18 +11,17 @@ namespace pelage {
 
 class Workers;
 
-/// Fur trees on disk: an entry of kind "fur" of a content store. Its sections are the pages, each with a
-/// checksum of its own, and then the table: counts, trees, treelets, boxes. Pages are read one by one, never
-/// mapped; every page that is read is checked, and found possible, before a ray sees it.
+/// Fur trees on disk: an entry of kind "fur" in a content store. Its sections are the pages, each with its
+/// own checksum, followed by the table: counts, trees, treelets, boxes. Pages are read one by one, never
+/// mapped; every page is verified and validated before it is traced.
 ///
 /// Thread safety: const members may be called from any thread.
 class FurPageFile {
  public:
-  /// Counts up whenever the same strands would give other pages.
+  /// Incremented whenever the same strands would give different pages.
   static constexpr uint32_t kVersion = 3;
 
-  /// Writes an entry, tree by tree; it exists from commit() on. What the file system refuses is told to
-  /// commit()'s `warn`.
+  /// Writes an entry, tree by tree; it exists after commit(), which reports file system errors to `warn`.
   class Writer {
    public:
     Writer(const ContentStore& store, const ContentHash& key, size_t page_bytes = FurCutter::kPageBytes);
@@ -34,27 +33,27 @@ class FurPageFile {
     FurCutter cutter_;
   };
 
-  /// Nothing when there is no such entry, or one that is damaged or foreign as far as its table tells: then
-  /// `warn` has been told.
+  /// Empty when the entry is missing, or when its table shows that it is damaged or foreign; the latter call
+  /// `warn`.
   static std::optional<FurPageFile> open(const ContentStore& store, const ContentHash& key,
                                          const WarningSink& warn);
-  /// A file by itself, whatever its name. Throws Error (kInput).
+  /// Opens a file, whatever its name. Throws Error (kInput).
   explicit FurPageFile(StoredSections file);
 
   const FurPageTable& table() const { return table_; }
-  /// What this object holds.
+  /// Memory of this object.
   size_t bytes() const {
     return file_.bytes() + table_.bytes() + first_treelet_.capacity() * sizeof(uint32_t);
   }
 
   /// The treelets of a page: from first_treelet(page) to first_treelet(page + 1).
   uint32_t first_treelet(uint32_t page) const { return first_treelet_[page]; }
-  /// Reads one page; `out` is as long as it and aligned to 64 bytes. Throws Error (kInput) when it cannot be
-  /// read or is not what was written.
+  /// Reads one page into `out`, which must have its length and be aligned to 64 bytes. Throws Error (kInput)
+  /// when it cannot be read or its checksum is wrong.
   void read(uint32_t page, std::span<std::byte> out) const;
-  /// Says that a page will be read next: the system may fetch it meanwhile.
+  /// Announces that a page will be read next, so that the system may load it.
   void prefetch(uint32_t page) const { file_.prefetch(page); }
-  /// Reads all pages once. Whether they are what was written; otherwise `warn` has been told.
+  /// Reads and verifies all pages. Returns whether they are intact; calls `warn` otherwise.
   bool check_all(const Workers& workers, const WarningSink& warn) const;
 
  private:

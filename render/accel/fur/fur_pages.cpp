@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kTreeletAlignment = 64, kLeafAlignment = 16;
 constexpr size_t kSmallestPage = size_t(4) << 10;
-constexpr int kDeepest = 80;  // levels of a tree: the kernels' stack holds what waits of so many
+constexpr int kDeepest = 80;  // max levels of a tree: the kernels' stack holds the pending nodes of this many
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 size_t aligned(size_t bytes) {
@@ -26,8 +26,8 @@ size_t leaf_size(FurReference leaf, int motion_keys) {
   return leaf.blocks() * (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(motion_keys);
 }
 
-/// From grid units to those of the scene, outward. Where boxes are turned, rounding may have moved points by
-/// up to 6 units in the last place of the largest.
+/// Converts grid units to scene units, rounding outward. For rotated boxes, rounding may have moved points by
+/// up to 6 units in the last place of the largest coordinate.
 Box3f scene_box(const FurPagedTree& tree, const FurBox& box) {
   Box3f result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,8 +89,8 @@ bool FurPageTable::is_possible() const {
   return true;
 }
 
-/// A tree as it stands in memory: nodes in the order of a walk down, leaves in the order of their nodes, so
-/// that every subtree is a piece of both.
+/// A tree in memory order: nodes in depth-first order, leaves in the order of their nodes, so that every
+/// subtree is a range of both.
 class FurCutter::Subtrees {
  public:
   explicit Subtrees(const FurTree& tree)
@@ -137,7 +137,7 @@ class FurCutter::Subtrees {
     }
     return result;
   }
-  /// Of all children.
+  /// Boxes of all children.
   std::vector<FurBox> boxes(uint32_t n) const {
     std::vector<FurBox> result(keys);
     for (size_t i = 0; i < 4 && !child(n, i).is_none(); ++i) {
@@ -152,7 +152,7 @@ class FurCutter::Subtrees {
 
  private:
   std::vector<uint32_t> ends_;        // one past the last node of each subtree
-  std::vector<uint64_t> first_leaf_;  // where the leaves of each subtree begin
+  std::vector<uint64_t> first_leaf_;  // start of each subtree's leaves
 };
 
 FurCutter::FurCutter(Sink sink, size_t page_bytes)
@@ -193,7 +193,7 @@ void FurCutter::place(const Subtrees& tree, uint32_t node, std::span<const FurBo
   }
 }
 
-/// The children of a node one by one; its leaves make a treelet of their own.
+/// Adds the children of a node one by one; its leaves form their own treelet.
 void FurCutter::open(const Subtrees& tree, uint32_t node) {
   std::array<std::vector<FurBox>, 4> boxes;
   std::array<FurChild, 4> leaves;
@@ -227,7 +227,7 @@ void FurCutter::open(const Subtrees& tree, uint32_t node) {
   }
 }
 
-/// Room for a treelet, in this page or the next.
+/// Allocates space for a treelet, in this page or the next.
 std::byte* FurCutter::begin_treelet(size_t node_bytes, size_t leaf_bytes, std::span<const FurBox> boxes) {
   const size_t bytes = node_bytes + leaf_bytes;
   if (used_ > 0 && used_ + bytes > capacity_) close_page();
@@ -237,7 +237,7 @@ std::byte* FurCutter::begin_treelet(size_t node_bytes, size_t leaf_bytes, std::s
   const auto end = static_cast<uint32_t>(used_ + bytes);
   table_.treelets.push_back({static_cast<uint32_t>(table_.page_bytes.size()),
                              static_cast<uint32_t>(table_.trees.size() - 1), nodes, leaves, end});
-  // Between two keys boxes are linear; where there are more, one box holds all of them.
+  // Boxes are linear between two keys; with more keys, one box contains all of them.
   const FurPagedTree& tree = table_.trees.back();
   FurBox all;
   for (const FurBox& box : boxes) all.extend(box);
@@ -286,7 +286,7 @@ bool is_possible_treelet(const FurTreeView& view, const FurTreelet& treelet) {
   const size_t node_bytes = treelet.leaves - treelet.nodes, leaf_bytes = treelet.end - treelet.leaves;
   const size_t count = node_bytes / size;
   if (count == 0 || node_bytes % size != 0) return false;
-  // Nodes come in the order of a walk down, so that one pass sees parents before their children.
+  // Nodes are in depth-first order, so that one pass sees parents before their children.
   std::vector<uint8_t> depth(count, 0);
   depth[0] = 1;
   for (size_t n = 0; n < count; ++n) {

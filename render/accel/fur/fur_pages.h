@@ -13,7 +13,7 @@
 
 namespace pelage {
 
-/// One of the fur trees that lie in pages: what all its treelets have in common.
+/// A fur tree that is stored in pages: data that all its treelets share.
 struct FurPagedTree {
   FurNodeLayout layout = FurNodeLayout::kQuantised;
   int32_t motion_keys = 1;
@@ -23,8 +23,8 @@ struct FurPagedTree {
   FurFrame frame;
 };
 
-/// A part of a fur tree that is a fur tree by itself, and where it stands: nodes (the root first) and then
-/// leaves, in one page. Its references count from the beginning of its own nodes and leaves.
+/// A part of a fur tree that is a fur tree of its own, and its location: nodes (the root first) followed by
+/// leaves, in one page. References are relative to its own nodes and leaves.
 struct FurTreelet {
   uint32_t page = 0;
   uint32_t tree = 0;
@@ -33,42 +33,43 @@ struct FurTreelet {
   uint32_t end = 0;     ///< of the leaves
 };
 
-/// What is known of all treelets without a page at hand. Treelets are in the order of their pages.
+/// Data about all treelets that is available without their pages. Treelets are in the order of their pages.
 struct FurPageTable {
   std::vector<FurPagedTree> trees;
   std::vector<FurTreelet> treelets;
   int box_keys = 1;
-  /// By treelet and key, in scene units along the axes of its tree's frame: FurFrame of points of the scene.
-  /// Two keys stand at shutter open and close.
+  /// By treelet and key, in scene units along the axes of its tree's frame: FurFrame applied to points of the
+  /// scene. With two keys: at shutter open and close.
   std::vector<Box3f> boxes;
   std::vector<uint32_t> page_bytes;
 
   uint64_t total_page_bytes() const;
   uint32_t largest_page() const;
-  /// What this object holds.
+  /// Memory of this object.
   size_t bytes() const;
-  /// Whether all numbers fit together: pages, trees and offsets exist, boxes are finite, axes are axes.
+  /// Whether all numbers are consistent: pages, trees and offsets exist, boxes are finite, axes are
+  /// orthonormal.
   bool is_possible() const;
 };
 
-/// Cuts fur trees into pages. A page holds treelets that follow each other in the tree, and therefore lie
-/// close together; what is above all treelets is left to a tree over their boxes.
+/// Cuts fur trees into pages. A page contains consecutive treelets of a tree, which are therefore close
+/// together in space; the levels above all treelets are replaced by a tree over their boxes.
 ///
-/// A subtree that fits what is left of a page becomes a treelet. Of one that does not, the children are
-/// tried, unless the page is nearly full: then it is closed. So pages are at least kFull full, up to the
-/// last.
+/// A subtree that fits the remaining space of a page becomes a treelet. Otherwise its children are tried,
+/// unless the page is nearly full, in which case it is closed. Pages are therefore filled to at least kFull,
+/// except for the last.
 class FurCutter {
  public:
   using Sink = std::function<void(std::span<const std::byte>)>;
   static constexpr size_t kPageBytes = size_t(128) << 10;
 
-  /// `sink` is given page after page; it copies what it needs.
+  /// `sink` receives page after page; it must copy what it needs.
   explicit FurCutter(Sink sink, size_t page_bytes = kPageBytes);
   ~FurCutter();
 
-  /// Trees get the numbers 0, 1, 2 ... One that holds nothing has no treelets.
+  /// Trees are numbered 0, 1, 2 ... An empty tree has no treelets.
   void add(const FurTree& tree);
-  /// Closes the last page. Nothing is added afterwards.
+  /// Closes the last page. Nothing may be added afterwards.
   FurPageTable finish();
 
  private:
@@ -87,10 +88,10 @@ class FurCutter {
   FurPageTable table_;
 };
 
-/// The tree of one treelet in its page. The page has been found possible.
+/// The tree of one treelet in its page. The page must have been validated.
 FurTreeView treelet_view(const FurPagedTree& tree, const FurTreelet& treelet, const std::byte* page);
-/// Whether rays can be traced through a treelet: every reference leads to where there is something, every
-/// node is the child of one other, and the tree is not deeper than trees are.
+/// Whether a treelet can be traced: every reference is valid, every node is the child of exactly one other,
+/// and the depth is within the limit.
 bool is_possible_treelet(const FurTreeView& view, const FurTreelet& treelet);
 
 }  // namespace pelage

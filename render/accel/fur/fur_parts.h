@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Boxes of the largest subtrees of a tree: at least `parts` of them, as far as there are leaves. Scene
-/// space, over the whole shutter; linear in time when there is motion. They hold every hit.
+/// Boxes of the largest subtrees of a tree: at least `parts` of them, if there are enough leaves. Scene
+/// space, over the whole shutter; linear in time when there is motion. They contain every hit.
 ChunkBounds subtree_bounds(const FurTreeView& tree, size_t parts);
 
 }  // namespace pelage

@@ -73,7 +73,7 @@ void add_parts(const Moving& part, CurvePart name, int cuts, std::vector<FurPiec
   add_parts(right, {name.number, 2 * name.part + 1}, cuts - 1, pieces);
 }
 
-/// Area that halving a segment saves.
+/// Area saved by halving a segment.
 float saving(const Moving& part) {
   Moving left(part.size()), right(part.size());
   for (size_t key = 0; key < part.size(); ++key) part[key].halve(left[key], right[key]);
@@ -84,7 +84,7 @@ class Cutter {
  public:
   Cutter(const SnappedStrands& strands, const FurFrame& frame) : strands_(strands), frame_(frame) {}
 
-  /// All keys of a segment; false when it is not drawable.
+  /// Reads all keys of a segment; false when it cannot be rendered.
   bool read(SnappedStrands::Place place, Moving& part) const {
     part.clear();
     for (int key = 0; key < strands_.motion_keys(); ++key) {
@@ -95,8 +95,7 @@ class Cutter {
     return true;
   }
 
-  /// How often each segment is halved, so that the pieces beyond one per segment are at most `budget` and
-  /// most area is saved by them.
+  /// Number of halvings of each segment that saves most area, with at most `budget` additional pieces.
   std::vector<uint8_t> choose_cuts(size_t budget) const {
     struct Gain {
       float area;
@@ -111,8 +110,8 @@ class Cutter {
       return a.area != b.area ? a.area > b.area : a.number < b.number;
     });
     std::vector<uint8_t> cuts(strands_.segment_count());
-    // Halving halves what there is to gain by about four: the longest are halved again when they stand that
-    // far out.
+    // Halving reduces the remaining gain to about a fourth: the longest segments are halved again if their
+    // gain is that much larger than the others'.
     for (size_t i = 0, used = 0; i < gains.size() && used < budget; ++i) {
       int levels = 1;
       const float typical = gains[gains.size() / 2].area;

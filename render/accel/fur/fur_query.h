@@ -10,12 +10,12 @@
 #include "render/accel/fur/fur_hit.h"
 #include "render/accel/fur/fur_ray.h"
 
-// What the kernels do with one lane at a time.
+// The scalar part of the kernels, for single lanes.
 namespace pelage {
 
-/// One lane of what is known of a block's curves.
+/// One lane of a block's curves.
 struct FurLane : PlaneCurve {
-  float z, dz[3];  ///< how far along the ray: the first point, and differences as those of x and y
+  float z, dz[3];  ///< distance along the ray: the first point, and differences as for x and y
   float r[4];
 
   float depth(float u) const {
@@ -27,15 +27,15 @@ struct FurLane : PlaneCurve {
     const float s = 1 - u;
     return (s * s * s * p[0] + 3 * (s * s * u) * p[1]) + (3 * (s * u * u) * p[2] + u * u * u * p[3]);
   }
-  /// From the differences of points.
+  /// Sums the differences of points.
   static float first(const float (&d)[3], float u) {
     const float s = 1 - u;
     return 3 * (s * s * d[0] + 2 * s * u * d[1] + u * u * d[2]);
   }
 };
 
-/// Whether a hit is but the strand that the ray starts on, near the start: within two widths of it both along
-/// the ray and along the strand.
+/// Whether a hit is a self-intersection with the ray's own strand near the start: within two of its widths
+/// both along the ray and along the strand.
 inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, float u, float distance) {
   const float twice = 4 * FurLane::value(lane.r, u);
   if (!(distance < twice)) return false;
@@ -53,7 +53,7 @@ class NearestFur {
   float far() const { return hit.distance; }
   static constexpr bool kOrdered = true, kCounts = false;
 
-  /// Whether a hit at this distance may stand before what there is.
+  /// Whether a hit at this distance may precede the current one.
   bool wants(float distance, uint32_t number) const {
     return distance > near_ &&
            (distance < hit.distance || (hit && distance == hit.distance && number < hit.number));
@@ -93,7 +93,7 @@ class AnyFur {
   FurFilter* filter_;
 };
 
-/// A query that counts what it costs.
+/// A query that counts its cost.
 template <class Query>
 class Counting : public Query {
  public:
@@ -106,8 +106,7 @@ inline bool is_on_start(const FurRay& ray, uint32_t number) {
   return number - ray.start.first_segment < ray.start.segment_count;
 }
 
-/// A curve whose distance to the ray may have several minima. True when nothing more need be known of this
-/// ray.
+/// Tests a curve whose distance to the ray may have several minima. Returns true when the ray is finished.
 template <class Query>
 bool test_folded(const FurLane& lane, uint32_t number, const FurRay& ray, Query& query) {
   float us[3];

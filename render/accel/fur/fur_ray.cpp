@@ -7,11 +7,11 @@
 namespace pelage {
 namespace {
 
-// What rounding may move a box by, relative to the largest number that goes in: 32 units in the last place,
-// of which slabs take less than half. Points in ray space that floats make are off by less than
-// 35, turned frames (in which numbers may be smaller by the root of 3) included.
+// Max rounding error of a box, relative to the largest input: 32 units in the last place, of which slabs take
+// less than half. Points in ray space computed in float have an error below 35 units, including rotated
+// frames (where numbers may be smaller by the square root of 3).
 constexpr float kErrorBound = 0x1p-19f;
-constexpr float kSmallest = 1e-18f;  // of a direction: its inverse times any coordinate is finite
+constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
 
 bool is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
@@ -81,7 +81,7 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
   far = ray.far * grid;
   start = from;
   if (!is_transformed_ || !(frame_ == tree.frame)) transform_to(tree.frame);
-  // Turning rounds boxes and rays by a few units more.
+  // Rotation adds a few units of rounding to boxes and rays.
   const float reach = slab_reach_ + tree.reach;
   const float error_bound = (tree.frame.turned ? 2 * kErrorBound : kErrorBound) * reach;
   point_error_bound = 2 * kErrorBound * reach;

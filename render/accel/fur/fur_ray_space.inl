@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: the curves of a block as a ray sees them.
+// Part of fur_kernels.cpp: transforms the curves of a block to ray space.
 
-/// The first points of a block as the ray sees them, off by at most its point_error_bound, and the
-/// differences of the others, off by no more than belongs to their size.
+/// The first points of a block in ray space, with an error of at most point_error_bound, and the differences
+/// of the others, with an error relative to their size.
 template <class Curves>
 HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& flat) {
   alignas(64) float xs[16], ys[16];
@@ -27,9 +27,8 @@ HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& fla
   }
 }
 
-/// One Bezier point of all curves as the ray sees it: a function of the ray and the point, so that it is the
-/// same for both segments at a joint. Rounded once where nothing moves: a product of two floats fits a
-/// double.
+/// One Bezier point of all curves in ray space. A function of the ray and the point, so that both segments at
+/// a joint get the same. Rounded once without motion: the product of two floats is exact in double.
 template <class Curves>
 HWY_INLINE void flatten_point(const Curves& curves, const FurRay& ray, size_t point, V& x, V& y) {
   const hn::Rebind<float, Doubles> floats;
@@ -51,7 +50,7 @@ HWY_INLINE void flatten_point(const Curves& curves, const FurRay& ray, size_t po
   y = hn::Sub(hn::Mul(wide_y, all(ray.scale_y)), hn::Mul(wide_x, all(ray.shear_y)));
 }
 
-/// How far along the ray four curves are: at the first point, rounded once, and from there on by differences.
+/// Distance of four curves along the ray: of the first point, rounded once, and by differences from there on.
 struct Depths {
   V first, differences[3];
 

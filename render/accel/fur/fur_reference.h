@@ -5,11 +5,11 @@
 
 namespace pelage {
 
-/// Where a child of a node is, in 32 bits that hold wherever the tree is: offsets count from the start of the
-/// nodes or of the leaves, in units of 16 bytes.
+/// Position of a node's child, in 32 bits that stay valid when the tree is moved: offsets are relative to the
+/// start of the nodes or of the leaves, in units of 16 bytes.
 ///
-/// Inner: 0 | offset:31. Leaf: 1 | wide:1 | blocks-1:2 | offset:28. No child is the root, so that 0 is free
-/// to say that there is none.
+/// Inner: 0 | offset:31. Leaf: 1 | wide:1 | blocks-1:2 | offset:28. The root is never a child, so that 0
+/// means none.
 class FurReference {
  public:
   static constexpr uint32_t kUnit = 16;

@@ -9,12 +9,12 @@
 
 namespace pelage {
 
-/// Where each segment of a fur tree stands in its leaves: the way back from numbers to points. Two bytes per
-/// segment where the tree is small and has no wide leaf, otherwise four. Thread safety: immutable.
+/// Maps segment numbers of a fur tree to their position in its leaves. Two bytes per segment where the tree
+/// is small and has no wide leaf, otherwise four. Thread safety: immutable.
 class FurSegmentLookup {
  public:
   FurSegmentLookup() = default;
-  /// Walks through a tree over segments 0 .. segment_count - 1.
+  /// Traverses a tree over segments 0 .. segment_count - 1.
   FurSegmentLookup(const FurTreeView& tree, uint32_t segment_count);
 
   /// A lane of a block.
@@ -23,7 +23,7 @@ class FurSegmentLookup {
     size_t lane = 0;
     bool wide = false;
   };
-  /// `tree` as it was, wherever it stands now.
+  /// `tree` must be unchanged, but may have moved in memory.
   Place find(const FurTreeView& tree, uint32_t number) const;
 
   size_t bytes() const { return block_.bytes(); }

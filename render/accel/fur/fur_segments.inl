@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: blocks of four segments against a ray.
+// Part of fur_kernels.cpp: intersection of a ray with blocks of four segments.
 
-/// The curves of one block against the ray. True when nothing more need be known of this ray.
+/// Tests the curves of one block. Returns true when the ray is finished.
 template <bool kWide, bool kMoving, class Query>
 HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
   const Block<kWide, kMoving> curves(block, ray);
   FlatCurves flat;
   flatten(curves, ray, flat);
 
-  // The curve lies within a strip along its chord: a cubic strays from the chord by at most 3/4 of what its
-  // inner points do.
+  // The curve lies within a strip along its chord: a cubic deviates from the chord by at most 3/4 of the
+  // deviation of its inner points.
   const V to_third_x = hn::Add(flat.dx[0], flat.dx[1]), to_third_y = hn::Add(flat.dy[0], flat.dy[1]);
   const V ex = hn::Add(to_third_x, flat.dx[2]), ey = hn::Add(to_third_y, flat.dy[2]);
   const V c0 = cross(ex, ey, flat.x[0], flat.y[0]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: the boxes of nodes against a ray.
+// Part of fur_kernels.cpp: intersection of a ray with the boxes of nodes.
 
-/// A ray against the four boxes of a node of floats.
+/// A ray against the four boxes of a float node.
 template <bool kMoving>
 class FloatSlabs {
  public:
@@ -42,7 +42,7 @@ class FloatSlabs {
   size_t near_side_[3];
 };
 
-/// The same of a quantised node.
+/// The same for a quantised node.
 template <bool kMoving>
 class QuantisedSlabs {
  public:

@@ -13,9 +13,10 @@ namespace {
 
 constexpr size_t kLanes = FurBlockHeader::kLanes;
 constexpr size_t kBins = 16;
-constexpr size_t kSweep = 96;   // sets up to here are swept exactly
-constexpr size_t kFewest = 32;  // pieces that a bin split leaves on a side, unless they fill their blocks
-constexpr int kDeepest = 40;    // levels of binary splits by area; below they are halved
+constexpr size_t kSweep = 96;  // sets up to this size are swept exactly
+constexpr size_t kFewest =
+    32;                       // min number of pieces on a side of a bin split, unless they fill their blocks
+constexpr int kDeepest = 40;  // max levels of binary splits by area; deeper ranges are halved
 constexpr float kFar = 1e30f;
 
 size_t blocks(size_t pieces) { return (pieces + kLanes - 1) / kLanes; }
@@ -35,7 +36,7 @@ struct Bounds {
 struct Split {
   float cost = kFar;
   int axis = -1;
-  size_t place = 0;  // bins, or pieces, on the left
+  size_t place = 0;  // number of bins, or pieces, on the left
 };
 
 class Builder {
@@ -66,7 +67,7 @@ class Builder {
     Range children[4] = {range};
     size_t count = 1;
     while (count < 4) {
-      // The widest that can still be split.
+      // The largest range that can still be split.
       Range* widest = nullptr;
       for (Range& child : std::span(children, count)) {
         if (child.block_count() > 1 && (!widest || child.area > widest->area)) widest = &child;
@@ -129,7 +130,7 @@ class Builder {
       centres.extend(centre, centre);
     }
     const Four extent = centres.high - centres.low;
-    // Flat axes have one bin.
+    // Flat axes have a single bin.
     const Four scale = extent > four(0) ? four(0.9999f * kBins) / extent : four(0);
     const auto bins_of = [&](const FurPiece& piece) {
       return __builtin_convertvector((piece.low + piece.high - centres.low) * scale,
@@ -170,7 +171,7 @@ class Builder {
       left.extend(bins[i - 1].low, bins[i - 1].high);
       count += counts[i - 1];
       if (count == 0 || count == all) continue;
-      // Or the number of half filled blocks would know no limit.
+      // Otherwise the number of half-filled blocks would be unbounded.
       if (std::min(count, all - count) < kFewest && count % kLanes != 0) continue;
       const float cost = left.area() * static_cast<float>(blocks(count)) +
                          right_area[i] * static_cast<float>(blocks(all - count));
@@ -178,7 +179,7 @@ class Builder {
     }
   }
 
-  /// Orders the pieces along the best axis; the best place that is a multiple of four from the beginning.
+  /// Sorts the pieces along the best axis; returns the best split position that is a multiple of four.
   size_t sweep(const Range& range) {
     const size_t n = range.size();
     const FurPiece* pieces = &pieces_[range.begin];
@@ -215,7 +216,7 @@ class Builder {
     return range.begin + best.place;
   }
 
-  /// Ascends with x.
+  /// Monotonic in x.
   static uint64_t sortable(float x) {
     const auto bits = std::bit_cast<uint32_t>(x);
     return bits >> 31 != 0 ? ~bits : bits | 0x80000000u;
@@ -239,8 +240,8 @@ CurvePart FurPiece::part() const {
 }
 
 FurTopologySize topology_bound(size_t pieces) {
-  // A split makes one more block half empty than there was, unless it falls between blocks: that happens only
-  // where both sides are large. Nodes above other nodes have four children, the others two blocks or more.
+  // A split adds one partially filled block, unless it falls between blocks; that happens only where both
+  // sides are large. Nodes above other nodes have four children, the others two blocks or more.
   const size_t max = blocks(pieces) + pieces / kFewest;
   return {2 * max / 3 + 1, max};
 }

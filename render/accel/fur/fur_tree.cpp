@@ -28,8 +28,7 @@ FurBox hull(const SnappedSegment& segment) {
 
 }  // namespace
 
-/// Writes a topology. Nodes stand in the order of a walk down the tree, and so do leaves, those of one node
-/// side by side.
+/// Writes a topology. Nodes are in depth-first order, and so are leaves; those of one node are adjacent.
 class FurTree::Writer {
  public:
   Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout,
@@ -42,18 +41,18 @@ class FurTree::Writer {
         node_bytes_(topology.nodes.size() * node_size(layout, strands.motion_keys())),
         wide_(topology.nodes.size() * 4) {}
 
-  /// Where leaves begin.
+  /// Offset of the leaves.
   size_t leaves() const { return leaves_offset(node_bytes_); }
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
-  /// What is held while it writes, for so many nodes.
+  /// Temporary memory for this number of nodes.
   static size_t scratch_bytes(size_t nodes, size_t keys) {
     return nodes * (4 * keys * sizeof(FurBox) + keys * sizeof(FurBox) + 4 * sizeof(FurReference) + 1) +
            FurBlockHeader::kLanes * keys * sizeof(SnappedSegment);
   }
 
-  /// Nodes, and leaves behind them. At first all leaves are taken to be narrow; which are not is known once
-  /// they were written, and where there are any, all is written again.
+  /// Writes the nodes followed by the leaves. All leaves are assumed narrow at first; wide ones are found
+  /// when they are written, and then everything is written again.
   PageBlock write(PagePool* pool) {
     while (true) {
       place_leaves();
@@ -64,9 +63,9 @@ class FurTree::Writer {
       }
     }
   }
-  /// Boxes of everything in the frame, one per key.
+  /// Boxes of the whole tree in its frame, one per key.
   std::span<const FurBox> boxes() const { return std::span(node_boxes_).first(keys_); }
-  /// The box of everything along the grid.
+  /// The box of the whole tree along the grid's axes.
   const FurBox& whole() const { return whole_; }
 
  private:
@@ -95,7 +94,7 @@ class FurTree::Writer {
       throw Error(ErrorKind::kMemory, "one fur tree would need more than 4 GiB; reduce leaf_strands");
   }
 
-  /// False when leaves turned out to be wide for which narrow places were kept.
+  /// False when leaves with space for narrow blocks turned out to be wide.
   bool write_leaves(std::byte* leaves) {
     boxes_.assign(topology_.nodes.size() * 4 * keys_, {});
     bool all_fit = true;
@@ -140,7 +139,7 @@ class FurTree::Writer {
     return block;
   }
 
-  /// False when the leaf is to be narrow and has no room for its segments.
+  /// False when the leaf should be narrow but cannot represent its segments.
   bool write_leaf(const FurTopology::Child& child, bool wide, std::byte* out, FurBox* boxes) {
     for (size_t first = 0; first < child.count; first += FurBlockHeader::kLanes) {
       const FurBlockContents block = contents(child, first);
@@ -223,7 +222,7 @@ FurTree::FurTree(const SnappedStrands& strands, const FurTreeOptions& options) {
 }
 
 size_t FurTree::build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options) {
-  // What a frame is chosen from is gone before, and never as much.
+  // The samples for choosing a frame are freed before and never take as much memory.
   const size_t pieces = piece_count_bound(segments, options.build.cuts);
   const FurTopologySize size = topology_bound(pieces);
   const size_t topology = size.nodes * sizeof(FurTopology::Node) + pieces * sizeof(CurvePart);

@@ -16,44 +16,44 @@ namespace pelage {
 struct FurTreeOptions {
   FurNodeLayout layout = FurNodeLayout::kQuantised;
   FurBuildOptions build;
-  PagePool* pool = nullptr;  ///< where the tree's memory comes from, if not from the system
+  PagePool* pool = nullptr;  ///< provides the tree's memory; null: the system
 };
 
-/// What tracing needs of a tree: nodes and leaves wherever they stand. References are relative to the two
-/// pointers, which are aligned to 64 and 16 bytes.
+/// The data needed to trace a tree: nodes and leaves, wherever they are stored. References are relative to
+/// the two pointers, which are aligned to 64 and 16 bytes.
 struct FurTreeView {
-  const std::byte* nodes = nullptr;  ///< the root first; null: nothing to meet
+  const std::byte* nodes = nullptr;  ///< the root first; null: empty
   const std::byte* leaves = nullptr;
   FurNodeLayout layout = FurNodeLayout::kQuantised;
   int motion_keys = 1;
   float step = 1;   ///< of the grid
   V3f anchor{0};    ///< of the grid
-  float reach = 0;  ///< largest coordinate of the boxes, in grid units
-  FurFrame frame;   ///< in which the boxes of nodes stand
+  float reach = 0;  ///< max coordinate of the boxes, in grid units
+  FurFrame frame;   ///< frame of the nodes' boxes
 };
 
-/// Rays against the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments, four of them to a
-/// block, which are ribbons that face every ray: the ray meets the segment at parameter u where its distance
-/// to the axis has a local minimum that is less than the radius. Whether and where is a function of the ray
-/// and the segment alone: neither the tree's shape and layout nor the instruction set nor the ray's far end
-/// reaches it.
+/// Intersection of rays with the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments in
+/// blocks of four, which are ribbons that face every ray. A ray hits a segment at parameter u where its
+/// distance to the axis has a local minimum below the radius. The result is a function of the ray and the
+/// segment only: it depends neither on the tree's structure and layout, nor on the instruction set or the
+/// ray's far end.
 ///
-/// Everything is one block of memory that holds no pointer. Points are snapped (see FurGrid), and the tree
-/// has the only copy of them. Strands of no length or no width are never met. Thread safety: immutable. Each
-/// query inside a FlushDenormals scope.
+/// Everything is in one block of memory without pointers. Points are snapped (see FurGrid), and the tree has
+/// the only copy of them. Strands without length or width are never hit. Thread safety: immutable. Each query
+/// must be inside a FlushDenormals scope.
 class FurTree {
  public:
-  /// Built by the calling thread alone. The strands are not needed afterwards.
+  /// Built by the calling thread only. The strands are not needed afterwards.
   FurTree(const SnappedStrands& strands, const FurTreeOptions& options);
 
-  /// The tree that was kept in a file: nodes at the beginning of the block, leaves from leaves_offset() on.
-  /// `like` says the rest of its view. They have been found possible.
+  /// A tree read from a file: nodes at the beginning of the block, leaves from leaves_offset() on. `like`
+  /// provides the rest of its view. The contents must have been validated.
   FurTree(const FurTreeView& like, const FurBox& box, PageBlock block, size_t node_bytes, size_t leaf_bytes);
   static size_t leaves_offset(size_t node_bytes);
-  /// The memory for a tree; `pool` as FurTreeOptions.
+  /// Allocates memory for a tree; `pool` as in FurTreeOptions.
   static PageBlock make_block(PagePool* pool, size_t bytes);
 
-  /// The hit in (near, far) that stands first; `filter` may be null.
+  /// The first hit in (near, far) by precedes(); `filter` may be null.
   FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
   /// Whether there is any hit in (near, far) that `filter`, if any, accepts.
   bool occluded(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
@@ -62,9 +62,9 @@ class FurTree {
   /// Box of everything, in grid units and along the grid, over all motion keys.
   const FurBox& box() const { return box_; }
   size_t bytes() const { return block_.bytes(); }
-  /// Most that was held while it was built, itself included.
+  /// Max memory in use while it was built, including itself.
   size_t build_bytes() const { return build_bytes_; }
-  /// At least build_bytes() of every tree over so many segments.
+  /// Upper bound of build_bytes() for any tree over this number of segments.
   static size_t build_bytes_bound(size_t segments, int motion_keys, const FurTreeOptions& options);
   size_t node_bytes() const { return node_bytes_; }
   size_t leaf_bytes() const { return leaf_bytes_; }
@@ -78,7 +78,7 @@ class FurTree {
   FurBox box_;
 };
 
-/// The queries of FurTree on any view. What they cost is added to `tests`, unless it is null.
+/// The queries of FurTree on any view. Adds their cost to `tests`, unless it is null.
 FurHit closest_fur(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,
                    FurTests* tests = nullptr);
 bool fur_occludes(const FurTreeView& tree, const Ray& ray, const FurStart& start, FurFilter* filter,

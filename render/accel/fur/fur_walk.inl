@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Part of fur_kernels.cpp: the way of a ray through a tree.
+// Part of fur_kernels.cpp: traversal of a tree.
 
-constexpr size_t kDeferred = 6;  // leaves that may wait: enough to hide the way to memory
-// Nodes that may wait. A walk in depth keeps three per level, and trees have less than 70 levels; beyond
-// kMixed the walk is one in depth.
+constexpr size_t kDeferred = 6;  // leaves that may be deferred: enough to hide the memory latency
+// Nodes that may be deferred. A depth-first traversal keeps three per level, and trees have less than 70
+// levels; beyond kMixed the traversal is depth-first.
 constexpr size_t kStack = 512, kMixed = 256;
 
 HWY_INLINE void fetch_lines(const std::byte* place, size_t bytes) {
   for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(place + i);
 }
 
-/// Adds the lanes `chosen` to a list in their order, without a branch; how many there are. The list has room
-/// for four.
+/// Appends the lanes `chosen` to a list in their order, without a branch; returns their number. The list must
+/// have room for four.
 HWY_INLINE size_t append(hn::Vec<Words> children, V enter, hn::Mask<Floats> chosen, uint32_t* references,
                          float* enters) {
   const auto packed = hn::BitCast(kWords, hn::Compress(hn::BitCast(kFloats, children), chosen));
@@ -20,7 +20,7 @@ HWY_INLINE size_t append(hn::Vec<Words> children, V enter, hn::Mask<Floats> chos
   return hn::CountTrue(kFloats, chosen);
 }
 
-/// Brings two to four entries in order: the nearest comes last.
+/// Sorts two to four entries: the nearest comes last.
 HWY_INLINE void order(size_t count, uint32_t* references, float* enters) {
   for (size_t i = 1; i < count; ++i) {
     const uint32_t reference = references[i];
@@ -35,8 +35,8 @@ HWY_INLINE void order(size_t count, uint32_t* references, float* enters) {
   }
 }
 
-/// Through the tree, more or less front to back. What will be visited later is fetched ahead: leaves wait
-/// until a few of them have come together, and where the order does not matter every node waits for one
+/// Traverses the tree, roughly front to back. Prefetches what will be visited later: leaves are deferred
+/// until a few of them have accumulated, and where the order does not matter every node is deferred for one
 /// visit.
 template <class Slabs, bool kMoving, class Query>
 HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
@@ -66,7 +66,7 @@ HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
       const size_t more_leaves =
           append(references, enter, hn::And(met, is_leaf), leaves + leaf_count, leaf_enters + leaf_count);
       if (Query::kOrdered && more_nodes > 1) order(more_nodes, nodes + node_count, node_enters + node_count);
-      // All four, whatever there is: a loop that ends sooner costs more than fetching what is not needed.
+      // Always all four: a loop with an early exit costs more than unnecessary prefetches.
       for (size_t i = 0; i < 4; ++i)
         fetch_lines(tree.nodes + FurReference::from_bits(nodes[node_count + i]).node_offset(), 64);
       for (size_t i = 0; i < 4; ++i)

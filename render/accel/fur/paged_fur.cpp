@@ -24,7 +24,7 @@ bool is_finite(const Ray& ray) {
   return std::isfinite(sum) && !std::isnan(ray.far);
 }
 
-/// That of all trees, or the scene's.
+/// The frame shared by all trees, or the scene's.
 FurFrame frame_of(const FurPageTable& table) {
   if (table.treelets.empty()) return {};
   const FurFrame& frame = table.trees[table.treelets[0].tree].frame;
@@ -70,8 +70,8 @@ size_t waiting_bytes(const FurPageTable& table, const PagedFurOptions& options) 
 
 }  // namespace
 
-/// Reads pages into frames of equal size. Frames of dropped pages are used again, so that a page costs no
-/// new memory; at most one per thread lies idle.
+/// Reads pages into buffers of equal size. Buffers of evicted pages are reused, so that a page needs no new
+/// memory; at most one per thread is idle.
 class PagedFur::Pages final : public Grower {
  public:
   Pages(const FurPageFile& file, const PagedFurOptions& options)
@@ -161,7 +161,7 @@ uint64_t PagedFur::bytes_read() const { return pages_->bytes_read(); }
 
 ChunkWalk PagedFur::walk(const Ray& ray, ChunkWalk::Order order) const {
   if (!frame_.turned) return {*tree_, ray, order};
-  // Turned in double precision: of what boxes are allowed to be wrong by that is one part more in 16.
+  // Rotated in double precision: this adds one sixteenth to the error that boxes allow for.
   Ray here = ray;
   here.origin = turned(frame_, ray.origin);
   here.direction = turned(frame_, ray.direction);
@@ -216,7 +216,7 @@ bool PagedFur::occluded(const Ray& ray, const PagedFurStart& start, int thread,
   return hit != 0;
 }
 
-/// Many rays of one thread on their way.
+/// Traces many rays of one thread.
 template <class Query>
 class PagedFur::Batch {
  public:
@@ -261,7 +261,7 @@ class PagedFur::Batch {
   Query query(size_t i) { return {rays_[i], start_of(starts_, i), answers_[i]}; }
   bool is_resident(uint32_t treelet) const { return fur_.is_resident(treelet); }
 
-  /// The page after this one, which the system fetches while rays go through this one.
+  /// The page after this one, which the system loads while rays traverse this one.
   std::optional<uint32_t> expect_next() const {
     if (waiting_.is_empty()) return {};
     const uint32_t page = waiting_.fullest();
@@ -269,8 +269,8 @@ class PagedFur::Batch {
     return page;
   }
 
-  /// Through what is resident, as a ray does alone. What is left when it comes to something that is not, is
-  /// kept for later.
+  /// Traverses the resident treelets, like a single ray. Keeps what is left at the first treelet that is not
+  /// resident.
   void set_out(size_t i) {
     answers_[i] = {};
     if (!is_finite(rays_[i])) return;
@@ -290,15 +290,15 @@ class PagedFur::Batch {
     wait(slot);
   }
 
-  /// Goes through the treelets in the ray's way. Those that `is_for_later` go into `upcoming` as far as there
-  /// is room, the others are visited. False when the ray has its answer.
+  /// Visits the treelets that a ray intersects. Those selected by `is_for_later` are added to `upcoming`
+  /// while there is space, the others are visited. False when the ray is finished.
   template <class IsForLater>
   bool look(Query& asks, UpcomingSteps& upcoming, const IsForLater& is_for_later) {
     ChunkWalk way = fur_.walk(asks.ray, Query::kOrder);
     Step step;
     bool open = true;
     while (open) {
-      // What the walk comes to in order and behind a full list would not be kept.
+      // With a full list, later treelets in order would not be kept.
       const bool no_farther = Query::kNearestFirst && upcoming.is_full();
       const float far = no_farther ? std::min(asks.far(), upcoming.back().entry) : asks.far();
       if (!way.next(far, step.treelet, step.entry)) break;
@@ -316,7 +316,7 @@ class PagedFur::Batch {
     waiting_.wait(slot, fur_.table().treelets[waiting_[slot].upcoming.front().treelet].page);
   }
 
-  /// The page that the ray waits for is read if need be, and the ray goes through all that is resident.
+  /// Reads the page that the ray waits for, if necessary, and traverses everything resident.
   void advance(uint32_t slot) {
     WaitingRays::Ray& ray = waiting_[slot];
     Query asks = query(ray.number);
@@ -326,7 +326,7 @@ class PagedFur::Batch {
       ray.upcoming.pop();
       if (!fur_.visit(treelet, asks, thread_, counts_)) break;
       if (ray.upcoming.is_empty() && !find_next(ray, asks)) break;
-      // What only has to be met may be met anywhere.
+      // For occlusion, the order does not matter.
       if (!Query::kNearestFirst) ray.upcoming.bring_forward(resident);
       if (ray.upcoming.front().entry > asks.far()) break;
       if (!is_resident(ray.upcoming.front().treelet)) return wait(slot);
@@ -334,7 +334,7 @@ class PagedFur::Batch {
     waiting_.end(slot);
   }
 
-  /// What comes after all that was ahead. False if there is nothing.
+  /// Finds the steps after all that were upcoming. False if there are none.
   bool find_next(WaitingRays::Ray& ray, Query& asks) {
     if (ray.is_complete) return false;
     const Step last = ray.upcoming.last();

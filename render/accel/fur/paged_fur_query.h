@@ -10,22 +10,22 @@
 
 namespace pelage {
 
-/// Of one ray what it asks of one treelet after the other, as long as it need not wait.
+/// State of one ray that queries treelets one after the other.
 struct PagedFur::Nearest {
   using Answer = PagedFurHit;
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kFrontToBack;
   static constexpr bool kNearestFirst = true;
 
-  /// `so_far` is made better.
+  /// Improves `so_far`.
   Nearest(const Ray& of, const PagedFurStart& from, PagedFurHit& so_far)
       : ray(of), start(from), best(so_far) {}
 
-  /// As far as something can still stand before what there is: as near, too.
+  /// Max distance at which a hit can still precede the current one: inclusive for ties.
   float far() const {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     return best ? std::min(ray.far, std::nextafter(best.hit.distance, kInfinity)) : ray.far;
   }
-  /// False when nothing more need be asked.
+  /// False when the ray is finished.
   bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
     Ray shorter = ray;
     shorter.far = far();

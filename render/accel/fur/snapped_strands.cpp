@@ -51,9 +51,8 @@ SnappedSegment SnappedStrands::segment(Place place, int key) const {
   return snapped;
 }
 
-/// From the curve's point at a joint to the next Bezier point, and from the one before: the same floats for
-/// both segments. `otherwise` where there is nothing to agree about, or in a basis whose curves need not be
-/// smooth.
+/// Direction from the curve's point at a joint to the next Bezier point, and from the previous one: the same
+/// floats for both segments. `otherwise` at the ends, and in bases whose curves need not be smooth.
 V3f SnappedStrands::smooth_tangent(uint32_t strand, uint32_t joint, int key, const V3f& otherwise) const {
   const CurveBasis basis = strands_.basis();
   if (basis == CurveBasis::kLinear || basis == CurveBasis::kBezier) return otherwise;

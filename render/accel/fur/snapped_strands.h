@@ -13,22 +13,23 @@ namespace pelage {
 /// One segment at one motion key in grid units: Bezier points as x, y, z, radius.
 using SnappedSegment = std::array<std::array<float, 4>, 4>;
 
-/// Strands as the fur tree sees them: every segment, of whatever basis, as a cubic Bezier curve on the grid.
-/// Neighbouring segments share their end point exactly, because both snap the same float; and so they do the
-/// direction there where the strand is smooth, because inner points are kept as snapped differences from the
-/// ends. Were inner points snapped by themselves, strands would have kinks, and ribbons, which are cut off
-/// across the direction at their ends, wedges missing there. Ends are off by half a step at most, inner
-/// points by a whole one.
+/// Strands as stored in the fur tree: every segment, of whatever basis, as a cubic Bezier curve on the grid.
+/// Neighbouring segments share their end point exactly, because both snap the same float; where the strand is
+/// smooth they also share the tangent, because inner points are stored as snapped differences from the ends.
+/// If inner points were snapped independently, strands would have kinks, and ribbons, which are cut
+/// perpendicular to the tangent at their ends, would have wedge-shaped gaps there. Ends have an error of at
+/// most half a step, inner points of one step.
 ///
-/// Segments are numbered along the strands, strands in ascending order of their ids (then of their place in
-/// the batch), so that of two segments the one with the smaller number stands first where distances are
+/// Segments are numbered along the strands, strands in ascending order of their ids (then of their index in
+/// the batch), so that of two segments at equal distance the one with the smaller number comes first. Refers
+/// to the strands. Thread safety: immutable.
 /// equal. Borrows the strands. Thread safety: immutable.
 class SnappedStrands {
  public:
   SnappedStrands(const Strands& strands, const FurGrid& grid);
 
   struct Place {
-    uint32_t strand = 0;  ///< in the batch
+    uint32_t strand = 0;  ///< index in the batch
     uint32_t segment = 0;
   };
 
@@ -43,7 +44,7 @@ class SnappedStrands {
   /// The number of a strand's first segment.
   uint32_t first_segment(uint32_t strand) const { return first_segment_[rank_[strand]]; }
   SnappedSegment segment(Place place, int key) const;
-  /// Calls use(number, place) for every segment in turn.
+  /// Calls use(number, place) for every segment in order.
   template <class Use>
   void for_each_segment(const Use& use) const {
     for (size_t i = 0; i < order_.size(); ++i) {
@@ -52,10 +53,10 @@ class SnappedStrands {
       }
     }
   }
-  /// Held beside the strands, for so many of them.
+  /// Memory in addition to the strands, for this number of them.
   static size_t bytes(size_t strands) { return 3 * sizeof(uint32_t) * (strands + 1); }
-  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Others are left
-  /// out of trees: nothing meets them.
+  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Other segments are
+  /// omitted from trees and never hit.
   static bool is_drawable(const SnappedSegment& segment);
 
  private:
@@ -65,9 +66,9 @@ class SnappedStrands {
   const Strands& strands_;
   FurGrid grid_;
   std::vector<uint32_t> order_;          // strands by id
-  std::vector<uint32_t> rank_;           // where each strand stands there
-  std::vector<uint32_t> first_segment_;  // by rank, and the number of all at the end
-  uint32_t segments_per_strand_ = 0;     // when all strands have equally many; otherwise 0
+  std::vector<uint32_t> rank_;           // index of each strand in that order
+  std::vector<uint32_t> first_segment_;  // by rank; the last entry is the total number
+  uint32_t segments_per_strand_ = 0;     // when all strands have the same number; otherwise 0
 };
 
 }  // namespace pelage

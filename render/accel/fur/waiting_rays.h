@@ -9,13 +9,14 @@
 
 namespace pelage {
 
-/// The rays of one thread that wait for pages of fur: of each where it goes next, and of each page who waits
-/// for it. Takes its memory once.
+/// The rays of one thread that wait for pages of fur: the next steps of each ray, and a queue of rays per
+/// page. Allocates its memory once.
 class WaitingRays {
  public:
   static constexpr uint32_t kNone = ~0u;
 
-  /// A treelet on the way of a ray, and where the ray enters its box. No two of a ray are equal.
+  /// A treelet intersected by a ray, with the entry distance of its box. The steps of a ray are all
+  /// different.
   struct Step {
     float entry = 0;
     uint32_t treelet = 0;
@@ -23,8 +24,7 @@ class WaitingRays {
     bool operator<(const Step& o) const { return entry != o.entry ? entry < o.entry : treelet < o.treelet; }
   };
 
-  /// The first few of the steps that a ray has before it. Those behind them are found again when it gets
-  /// there.
+  /// The next few steps of a ray. Later steps are searched again when the ray gets there.
   class UpcomingSteps {
    public:
     static constexpr size_t kMaxSteps = 6;
@@ -36,9 +36,10 @@ class WaitingRays {
     const Step& back() const { return steps_[size_t(end_) - 1]; }
     void pop() { ++begin_; }
     void clear() { begin_ = end_ = 0; }
-    /// Into its place, before any is popped; the last one makes room for it, unless it would be the last.
+    /// Inserts a step in order, before any is popped. When full, the last step is dropped, which may be the
+    /// new one.
     void add(const Step& step);
-    /// The first of them of whose treelet it is true, if there is any, comes to the front.
+    /// Moves the first step whose treelet satisfies the predicate, if any, to the front.
     template <class Is>
     void bring_forward(const Is& is) {
       for (size_t i = begin_; i < end_; ++i) {
@@ -47,7 +48,7 @@ class WaitingRays {
         return;
       }
     }
-    /// The last in order of those that were added.
+    /// The last of the added steps in order.
     Step last() const;
 
    private:
@@ -56,13 +57,13 @@ class WaitingRays {
   };
 
   struct Ray {
-    uint32_t number = 0;       ///< among the rays that are asked for
-    uint32_t next = kNone;     ///< the slot of the next ray that waits for the same page, or that is free
-    bool is_complete = false;  ///< no steps come after those ahead
+    uint32_t number = 0;       ///< index among the query's rays
+    uint32_t next = kNone;     ///< slot of the next ray waiting for the same page, or next free slot
+    bool is_complete = false;  ///< there are no steps after the upcoming ones
     UpcomingSteps upcoming;
   };
 
-  /// Room for so many rays; none: no memory.
+  /// For at most this number of rays; 0 allocates nothing.
   WaitingRays(size_t pages, size_t rays);
   static size_t bytes(size_t pages, size_t rays);
 
@@ -70,18 +71,19 @@ class WaitingRays {
   bool is_empty() const { return waiting_.empty(); }
   Ray& operator[](uint32_t slot) { return rays_[slot]; }
 
-  /// A slot for one ray more, unless it is full. Rays are in slots from here to end(), whether they wait or
-  /// not.
+  /// Returns a slot for one more ray; there must be a free one. A ray occupies its slot from here to end(),
+  /// waiting or not.
   uint32_t begin();
   void end(uint32_t slot);
 
-  /// The ray joins the end of a page's queue.
+  /// Appends the ray to a page's queue.
   void wait(uint32_t slot, uint32_t page);
-  /// The page that most rays wait for; of equal ones the one that was waited for first. Unless it is empty.
+  /// The page that most rays wait for; in case of a tie the one with the longest wait. There must be a
+  /// waiting ray.
   uint32_t fullest() const;
-  /// Ends the queue of a page: its first slot.
+  /// Removes the queue of a page and returns its first slot.
   uint32_t release(uint32_t page);
-  /// All slots are free again.
+  /// Frees all slots.
   void clear();
 
  private:
@@ -91,7 +93,7 @@ class WaitingRays {
 
   std::vector<Ray> rays_;
   std::vector<Queue> queues_;      // by page
-  std::vector<uint32_t> waiting_;  // pages whose queues are not empty
+  std::vector<uint32_t> waiting_;  // pages with a non-empty queue
   uint32_t free_ = kNone;
 };
 

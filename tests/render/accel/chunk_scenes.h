@@ -18,7 +18,7 @@
 
 namespace pelage {
 
-/// Chunks that stand ready and are handed out as copies, each time they are grown.
+/// Existing chunks, copied each time they are grown.
 class TestChunks final : public ChunkGrower {
  public:
   ChunkContents grow(uint32_t chunk) const override {

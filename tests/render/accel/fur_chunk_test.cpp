@@ -172,7 +172,7 @@ TEST_F(FurChunkTest, HandsOutTheStrandThatWasHit) {
               const CubicSegment a = bezier_segment_at(fur->strands, s, k, time),
                                  b = bezier_segment_at(met, 0, k, time);
               for (size_t p = 0; p < 4; ++p) {
-                // Inner points stand where the ends and two snapped differences put them.
+                // Inner points are the ends plus two snapped differences.
                 const V3f d = (p == 0 || p == 3 ? 1.0f : 0.5f) * (a.p[p] - b.p[p]);
                 off = std::max({off, std::abs(double(d.x)), std::abs(double(d.y)), std::abs(double(d.z))});
               }

@@ -138,7 +138,7 @@ TEST(AdaptivePath, ATimeLimitLeavesAWholePicture) {
   }
 }
 
-/// Notes what the bar is told.
+/// Records the reported progress.
 class Bar final : public Progress {
  public:
   void begin(std::string_view, double total) override {

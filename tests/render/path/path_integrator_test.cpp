@@ -116,7 +116,7 @@ class Impatient final : public Progress {
   std::atomic<double> done_{0};
 };
 
-/// Asks to stop when it has been asked so many times since rendering began.
+/// Asks to stop after this many checks since rendering began.
 class Restless final : public Progress {
  public:
   void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }

@@ -74,7 +74,7 @@ TEST(FurFrame, is_told_by_all_parts_of_strands_however_many_segments_they_have) 
     }
     return Strands(std::move(a));
   };
-  // Whoever looks at every n-th segment of so many sees first ones only.
+  // Regular sampling of every n-th segment would see only the first ones of strands with n segments.
   for (uint32_t segments : {7u, 8u, 14u}) {
     EXPECT_FALSE(frame_of(half_combed(segments, true)).turned) << segments;
     EXPECT_TRUE(frame_of(half_combed(segments, false)).turned) << segments;

@@ -82,7 +82,7 @@ void for_each_curve(const FurTreeView& view, size_t node_bytes, int key, const L
   }
 }
 
-/// The bytes of a page where a page would stand.
+/// A page in memory with the alignment of pages.
 PageBlock placed(const std::vector<std::byte>& page) {
   PageBlock block(page.size());
   std::memcpy(block.data(), page.data(), page.size());
