@@ -11,7 +11,7 @@
 #include "base/ledger.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "base/stopwatch.h"
 #include "render/accel/embree_fur.h"
 #include "render/accel/flush_denormals.h"
