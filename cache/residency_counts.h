@@ -7,7 +7,6 @@
 namespace pelage {
 
 /// What a Residency did. Sums of several are of residencies that lived one after the other.
-// Tested in tests/world/statistics_test.cpp.
 struct ResidencyCounts {
   int64_t expansions = 0;    ///< units grown
   int64_t reexpansions = 0;  ///< of these, of slots that had been grown before

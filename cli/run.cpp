@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/render_command_test.cpp.
 #include "cli/run.h"
 
 #include <exception>

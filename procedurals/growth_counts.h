@@ -8,7 +8,6 @@
 namespace pelage {
 
 /// What there is to grow, and what was grown for use.
-// Tested in tests/world/statistics_test.cpp.
 struct GrowthCounts {
   int64_t chunks = 0;   ///< leaves of coats and skins that could be grown
   int64_t strands = 0;  ///< grown, regrowth included

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/accelerators_test.cpp.
 #include "world/world.h"
 
 #include <fmt/format.h>

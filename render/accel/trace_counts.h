@@ -6,7 +6,6 @@
 namespace pelage {
 
 /// What tracing costs.
-// Tested in tests/world/statistics_test.cpp.
 struct TraceCounts {
   int64_t box_tests = 0;     ///< rays against boxes above the chunks
   int64_t chunk_visits = 0;  ///< rays against what a chunk holds

@@ -6,7 +6,6 @@
 namespace pelage {
 
 /// Rays traced, by kind; of one thread, of a frame or of a run.
-// Tested in tests/world/statistics_test.cpp.
 struct RayStatistics {
   int64_t camera = 0, shadow = 0, indirect = 0;
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "render/frame/frame_statistics.h"
+
 namespace pelage {
 namespace {
 
