@@ -4,15 +4,14 @@
 #include <filesystem>
 #include <string>
 
-#include "base/statistics.h"
+#include "world/statistics.h"
 
 namespace pelage {
 
 /// Version of the object that --stats writes: goes up when a name changes its meaning or vanishes.
 constexpr int kStatisticsSchema = 1;
 
-/// The numbers of a run as one JSON object (design.md section 7), names as in base/statistics.h, units in
-/// names.
+/// The numbers of a run as one JSON object (design.md section 7), units in names.
 std::string statistics_json(const Statistics& statistics);
 
 /// Writes it, whole or not at all. Throws Error (kFailed).

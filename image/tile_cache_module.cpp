@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/texture_library_test.cpp.
 // Tiles in OpenImageIO's image cache, which keeps the ones that were read lately within a limit of memory.
 #include <algorithm>
 #include <atomic>

@@ -13,6 +13,12 @@ namespace pelage {
 struct StrandRepairs {
   int64_t dropped = 0;   ///< strands without extent, with too few points or with points that are not finite
   int64_t repaired = 0;  ///< strands that lost repeated points or got a usable width
+
+  StrandRepairs& operator+=(const StrandRepairs& other) {
+    dropped += other.dropped;
+    repaired += other.repaired;
+    return *this;
+  }
 };
 
 struct StrandFile {

@@ -8,6 +8,7 @@
 #include "base/vector.h"
 #include "geom/strands.h"
 #include "geom/tessellation.h"
+#include "render/accel/trace_counts.h"
 
 namespace pelage {
 
@@ -54,12 +55,6 @@ struct Hit {
 struct HitGeometry {
   Strands strand;
   SkinMesh triangle;
-};
-
-/// What tracing costs.
-struct TraceCounts {
-  int64_t box_tests = 0;     ///< rays against boxes above the chunks
-  int64_t chunk_visits = 0;  ///< rays against what a chunk holds
 };
 
 /// What one thread needs while it traces.

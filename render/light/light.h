@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/vector.h"
 
@@ -29,7 +30,9 @@ struct LightHit {
 class Light {
  public:
   virtual ~Light() = default;
-  virtual const std::string& name() const = 0;
+  const std::string& name() const { return name_; }
+  /// Whether camera rays see it.
+  bool visible() const { return visible_; }
   /// A direction by solid angle importance; nothing when the light cannot reach `from`.
   virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
   /// Density with which sample() gives `direction`, by the branch that it would take.
@@ -37,13 +40,17 @@ class Light {
   /// The light along a ray (unit direction), for rays that leave the geometry or end beyond the light.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
   /// Solid angle x average radiance (luminance) as seen from `from`: the weight for choosing among lights
-  /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres;
-  /// the null vector when the point is not on a fibre.
-  virtual float importance(const V3f& from, const V3f& tangent) const = 0;
+  /// ["Rendering Fur in Life of Pi", stochastic light selection].
+  virtual float importance(const V3f& from) const = 0;
   /// Unit direction from `from` to its middle; nothing where it shines from all around.
   virtual std::optional<V3f> middle(const V3f& from) const = 0;
-  /// Whether camera rays see it.
-  virtual bool visible() const = 0;
+
+ protected:
+  Light(std::string name, bool visible) : name_(std::move(name)), visible_(visible) {}
+
+ private:
+  std::string name_;
+  bool visible_;
 };
 
 }  // namespace pelage

@@ -27,23 +27,21 @@ class LightSet {
     float probability = 0;  ///< 0 when no light can contribute
     float remapped = 0;     ///< `u` rescaled to [0, 1) within the choice
   };
-  Choice choose(const V3f& from, const V3f& tangent, float u) const;
-  float probability(const V3f& from, const V3f& tangent, size_t light) const;
-
-  /// The same in two steps, for those who need both at one point: probabilities of all lights into `out`
-  /// (size() entries; they sum to 1, or are all 0), then the choice.
-  void probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const;
   static Choice choose(std::span<const float> probabilities, float u);
 
-  /// The same where lobes scatter light with the density `lobes(direction)` per solid angle: lights towards
-  /// which they scatter much are chosen more often. A narrow lobe that points at a small bright light, which
-  /// is chosen by rare chance, is the brightest noise of paths through fur. Half of each importance does
-  /// without the density, since the middle of a large light says little about the rest of it. No tangent is
-  /// asked for: the bound on cos(theta_i) would dim lights along the fibre, which R, TT and TRT scatter as
-  /// brightly as others when the fibre is seen at a slant.
+  /// Probabilities of all lights into `out`: size() entries, which sum to 1 or are all 0.
+  void probabilities(const V3f& from, std::span<float> out) const;
+
+  /// The same where lobes
+  /// scatter light with the density `lobes(direction)` per solid angle: lights towards which they scatter
+  /// much are chosen more often. A narrow lobe that points at a small bright light, which is chosen by rare
+  /// chance, is the brightest noise of paths through fur. Half of each importance does without the density,
+  /// since the middle of a large light says little about the rest of it. No bound on cos(theta_i) enters: it
+  /// would dim lights along the fibre, which R, TT and TRT scatter as brightly as others when the fibre is
+  /// seen at a slant.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
-    importances(from, V3f(0), out);
+    importances(from, out);
     for (size_t i = 0; i < size() && size() > 1; ++i) {
       if (!(out[i] > 0.0f)) continue;
       const std::optional<V3f> middle = lights_[i]->middle(from);
@@ -53,7 +51,7 @@ class LightSet {
   }
 
  private:
-  void importances(const V3f& from, const V3f& tangent, std::span<float> out) const;
+  void importances(const V3f& from, std::span<float> out) const;
   /// Turns importances into probabilities.
   static void normalise(std::span<float> out);
 

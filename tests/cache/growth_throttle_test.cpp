@@ -8,7 +8,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class GrowthTurnsTest : public testing::Test {
+class GrowthThrottleTest : public testing::Test {
  protected:
   /// Lets threads grow one after the other, each if it may; of every ten growths, so many are again soon.
   void grow(int growths, int again_of_ten) {
@@ -28,25 +28,25 @@ class GrowthTurnsTest : public testing::Test {
   GrowthThrottle::Clock::time_point now_{};
 };
 
-TEST_F(GrowthTurnsTest, EverybodyMayGrowWhereUnitsStay) {
+TEST_F(GrowthThrottleTest, EverybodyMayGrowWhereUnitsStay) {
   grow(10000, 4);
   EXPECT_EQ(throttle_.concurrency(), 4);
   EXPECT_EQ(allowed(), 4);
 }
 
-TEST_F(GrowthTurnsTest, FewerMayWhereTheyTakeEachOthersUnits) {
+TEST_F(GrowthThrottleTest, FewerMayWhereTheyTakeEachOthersUnits) {
   grow(10000, 9);
   EXPECT_EQ(throttle_.concurrency(), 1);
   EXPECT_EQ(allowed(), 1);
 }
 
-TEST_F(GrowthTurnsTest, MoreMayOnceItIsOver) {
+TEST_F(GrowthThrottleTest, MoreMayOnceItIsOver) {
   grow(10000, 9);
   grow(10000, 0);
   EXPECT_EQ(throttle_.concurrency(), 4);
 }
 
-TEST_F(GrowthTurnsTest, WhoGrowsNothingLosesItsTurn) {
+TEST_F(GrowthThrottleTest, WhoGrowsNothingLosesItsTurn) {
   grow(10000, 9);
   int holder = 0;
   while (!throttle_.may_grow(holder, now_)) ++holder;
@@ -58,7 +58,7 @@ TEST_F(GrowthTurnsTest, WhoGrowsNothingLosesItsTurn) {
   EXPECT_FALSE(throttle_.may_grow(holder, now_ + 2 * GrowthThrottle::kIdleTimeout));
 }
 
-TEST_F(GrowthTurnsTest, OneThreadAlwaysMay) {
+TEST_F(GrowthThrottleTest, OneThreadAlwaysMay) {
   GrowthThrottle alone(1);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_TRUE(alone.may_grow(0, now_));

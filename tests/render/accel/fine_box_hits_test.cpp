@@ -31,10 +31,10 @@ double enter_box(const Box3f& box, const Ray& ray, double margin) {
   return enter <= leave ? enter : INFINITY;
 }
 
-class GrowthGate : public testing::TestWithParam<int> {};
+class FineBoxHitsTest : public testing::TestWithParam<int> {};
 
 // The slow truth beside it: each box by itself.
-TEST_P(GrowthGate, IsPassedAsItsBoxesAreOneByOne) {
+TEST_P(FineBoxHitsTest, IsPassedAsItsBoxesAreOneByOne) {
   const auto count = static_cast<size_t>(GetParam());
   const float distance = GetParam() % 2 == 0 ? 0.0f : 300.0f;
   const V3f place = distance * vector(count, 9);
@@ -94,9 +94,9 @@ TEST_P(GrowthGate, IsPassedAsItsBoxesAreOneByOne) {
   EXPECT_GT(missed, 20u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Boxes, GrowthGate, testing::Values(1, 4, 5, 37, 64, 175, 500));
+INSTANTIATE_TEST_SUITE_P(Boxes, FineBoxHitsTest, testing::Values(1, 4, 5, 37, 64, 175, 500));
 
-TEST(GrowthGate, NothingIsMetWhereThereAreNoBoxes) {
+TEST(FineBoxHitsTest, NothingIsMetWhereThereAreNoBoxes) {
   int64_t tests = 0;
   EXPECT_EQ(intersect_fine_boxes(FineBoxes(), RaySlabs(Ray(), 1), 1e9f, false, tests).entry, INFINITY);
   EXPECT_EQ(tests, 0);
