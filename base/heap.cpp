@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/base/page_block_test.cpp.
 #include "base/heap.h"
 
 #if defined(__GLIBC__)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/base/stored_sections_test.cpp.
 #include "base/open_file.h"
 
 #include <cerrno>

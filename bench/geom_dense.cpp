@@ -10,7 +10,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "geom/closest_point.h"
 #include "geom/io/obj_file.h"
 #include "geom/tessellation.h"

@@ -13,7 +13,7 @@
 #include <malloc.h>
 
 #include "base/parallel.h"
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "base/temporary_folder.h"
 #include "groom/cache_report.h"
 #include "groom/color.h"

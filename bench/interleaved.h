@@ -8,7 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/statistics.h"
+#include "base/process_usage.h"
 
 namespace pelage {
 

@@ -126,7 +126,7 @@ void fireflies(benchmark::State& state) {
   const Workers workers;
   MemoryLedger ledger;
   NoProgress progress;
-  Statistics statistics;
+  FrameStatistics statistics;
   const MaterialParams fibre = with_tables(model(state.range(0)), {workers, ledger, progress});
   RenderScene scene = ball_scene(make_bumpy_ball(20000), fibre,
                                  {kSize, kSize, 16, static_cast<int>(state.range(1)), 8000}, ledger);

@@ -11,7 +11,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "bench/furball.h"
 #include "render/accel/flush_denormals.h"
 #include "render/accel/fur/fur_tree.h"

@@ -58,7 +58,7 @@ void furball(benchmark::State& state) {
   const Workers workers;
   MemoryLedger ledger;
   NoProgress progress;
-  Statistics statistics;
+  FrameStatistics statistics;
   ChiangParams fibre;
   fibre.absorption = Rgb(0.10f, 0.18f, 0.38f);
   RenderScene scene = ball_scene(make_bumpy_ball(static_cast<size_t>(state.range(0))), fibre,
@@ -112,9 +112,8 @@ void furball(benchmark::State& state) {
     state.counters["cpu/16spp"] = cpu_16_s;
     state.counters["relMSE16"] = error_16;
     state.counters["relMSE64"] = error_64;
-    double rays = 0;
-    for (const auto& [kind, count] : statistics.rays) rays += static_cast<double>(count);
-    state.counters["rays/path"] = rays / static_cast<double>(statistics.rays["camera"]);
+    state.counters["rays/path"] =
+        static_cast<double>(statistics.rays.total()) / static_cast<double>(statistics.rays.camera);
   }
 }
 BENCHMARK(furball)

@@ -59,7 +59,7 @@ class IncoherentRays {
   Workers workers_;
   MemoryLedger ledger_;
   NoProgress progress_;
-  Statistics statistics_;
+  FrameStatistics statistics_;
   RenderScene scene_;
   std::unique_ptr<const FrameGeometry> geometry_;
   TraceThread thread_;

@@ -99,7 +99,7 @@ void path_over_bare_rays(benchmark::State& state) {
   const Workers workers;
   MemoryLedger ledger;
   NoProgress progress;
-  Statistics statistics;
+  FrameStatistics statistics;
   const BumpyBall ball = make_bumpy_ball(static_cast<size_t>(state.range(0)));
   const RenderScene scene =
       ball_scene(ball, ConeShellParams{}, {kWidth, kHeight, 16, static_cast<int>(state.range(1))}, ledger);

@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "base/statistics.h"
+#include "base/process_usage.h"
 
 namespace pelage {
 

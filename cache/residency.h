@@ -19,6 +19,7 @@
 #include "base/job.h"
 #include "cache/clock_ring.h"
 #include "cache/growth_throttle.h"
+#include "cache/residency_counts.h"
 
 namespace pelage {
 
@@ -52,18 +53,6 @@ class Grower {
 /// The part of `render.memory` available to everything that MemoryLedger::budgeted() counts.
 struct MemoryBudget {
   uint64_t limit = 0;  ///< bytes; 0 is no limit
-};
-
-struct ResidencyCounts {
-  int64_t expansions = 0;    ///< units grown
-  int64_t reexpansions = 0;  ///< of these, of slots that had been grown before
-  int64_t evictions = 0;
-  int64_t touched = 0;            ///< distinct slots that were grown
-  int64_t false_expansions = 0;   ///< units evicted, or held now, without a mark_hit()
-  int64_t working_set_bytes = 0;  ///< total size of all distinct slots ever grown
-  int64_t peak_bytes = 0;         ///< max held at once, including reservations
-  int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
-  double waited_s = 0;            ///< time asleep waiting for others, summed over threads
 };
 
 /// A fixed number of slots whose units are grown on first visit, kept while the budget allows, and grown

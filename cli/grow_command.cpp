@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/grow_export_test.cpp.
 #include <algorithm>
 #include <atomic>
 #include <iostream>
@@ -183,10 +184,7 @@ int run_grow(const Options& options) {
     return 0;
   }
   World world = run.stage("pose", [&] { return compose(scene, *assets, frame, run.job()); });
-  run.statistics().strands_described = world.strands_described;
-  run.statistics().strands_unique = world.strands_unique;
-  run.statistics().characters = world.characters;
-  run.statistics().characters_in_frame = world.characters_in_frame;
+  run.statistics().world = world.counts;
 
   std::vector<Strands> grown;
   std::vector<MemoryCharge> charges;
@@ -200,9 +198,10 @@ int run_grow(const Options& options) {
     Growth growth = grow(part, !options.output.empty(), run);
     if (run.display().cancelled()) return SignalGuard::exit_code();
     report(part.name, growth, run.workers().thread_count());
-    run.statistics().strands_generated += static_cast<int64_t>(growth.strands);
-    run.statistics().chunks += static_cast<int64_t>(growth.leaves.size());
-    run.statistics().expansions += static_cast<int64_t>(growth.leaves.size());
+    const auto leaf_count = static_cast<int64_t>(growth.leaves.size());
+    run.statistics().frames.growth +=
+        {.chunks = leaf_count, .strands = static_cast<int64_t>(growth.strands), .area = {}};
+    run.statistics().frames.residency.expansions += leaf_count;
     run.statistics().stages_s["grow"] += growth.seconds;
     charges.push_back(std::move(growth.charge));
     if (!options.output.empty())

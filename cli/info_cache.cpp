@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/info_test.cpp.
 #include <algorithm>
 
 #include <fmt/format.h>

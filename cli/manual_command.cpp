@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/output_test.py.
 #include <iostream>
 
 #include "cli/commands.h"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/post_commands_test.cpp.
 #include "cli/post_flags.h"
 
 #include <cmath>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -41,14 +40,6 @@ std::string samples_text(const FrameResult& result) {
   return fmt::format("{:.1f} samples on average", result.mean_samples);
 }
 
-// Adds the results of a frame to the statistics of the run.
-void count(const FrameResult& result, double posed_s, double share, Statistics& statistics) {
-  if (statistics.first_pixel_s == 0) statistics.first_pixel_s = posed_s + result.first_tile_s;
-  statistics.samples_per_pixel += result.mean_samples * share;
-  statistics.noise = std::max(statistics.noise, result.noise);
-  statistics.time_limited |= result.time_limited;
-}
-
 void note_no_output(const std::string& path, Run& run) {
   run.display().warn(path + ": stopped before the first sample; nothing was written");
 }
@@ -65,13 +56,10 @@ std::string place_of(const FrameResult& result, const std::string& path) {
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
   const double began = run.seconds();
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
-  run.statistics().strands_described += world.strands_described;
-  run.statistics().strands_unique += world.strands_unique;
-  run.statistics().characters += world.characters;
-  run.statistics().characters_in_frame += world.characters_in_frame;
+  run.statistics().world += world.counts;
   const double posed = run.seconds();
-  const FrameResult result = render(world, run.job(), run.statistics());
-  count(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()), run.statistics());
+  const FrameResult result = render(world, run.job());
+  run.statistics().add(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()));
   if (result.mean_samples == 0) {
     note_no_output(path, run);
     return false;
@@ -109,10 +97,7 @@ int run_render(const Options& options) {
   try {
     MemoryCharge film = reserve_film(scene, run.job());
     const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
-    for (const auto& [name, groom] : assets->grooms) {
-      run.statistics().strands_dropped += groom->strands_dropped();
-      run.statistics().strands_repaired += groom->strands_repaired();
-    }
+    for (const auto& [name, groom] : assets->grooms) run.statistics().repairs += groom->repairs();
     film = {};  // each frame makes its own
     for (size_t i = 0; i < scene.frames.frames.size() && complete; ++i) {
       path = frame_file_name(output, scene.frames.frames[i]);

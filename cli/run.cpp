@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/render_command_test.cpp.
 #include "cli/run.h"
 
 #include <exception>
@@ -11,17 +12,17 @@ namespace {
 // Without --sample-memory only the peak is used.
 constexpr double kSampleMemory_s = 0.05;
 
-Statistics baseline() {
-  Statistics statistics;
-  statistics.baseline_rss_bytes = current_rss_bytes();
-  statistics.baseline_anonymous_bytes = resident_memory().anonymous;
-  return statistics;
+ProcessUsage baseline() {
+  ProcessUsage usage;
+  usage.baseline_rss_bytes = current_rss_bytes();
+  usage.baseline_anonymous_bytes = resident_memory().anonymous;
+  return usage;
 }
 
 }  // namespace
 
 Run::Run(const Options& options)
-    : statistics_(baseline()),
+    : statistics_{.process = baseline()},
       keeps_timeline_(options.sample_memory_s.has_value()),
       sampler_(ledger_, start_, options.sample_memory_s.value_or(kSampleMemory_s)),
       workers_(options.threads),
@@ -32,17 +33,18 @@ double Run::seconds() const {
 }
 
 void Run::finish(const Options& options) {
-  statistics_.wall_s = seconds();
-  statistics_.cpu_s = cpu_seconds();
-  statistics_.peak_rss_bytes = peak_rss_bytes();
+  ProcessUsage& process = statistics_.process;
+  process.wall_s = seconds();
+  process.cpu_s = cpu_seconds();
+  process.peak_rss_bytes = peak_rss_bytes();
   const MemoryHistory& memory = sampler_.stop();
-  statistics_.peak_anonymous_bytes = memory.highest.resident.anonymous;
-  statistics_.unexplained_bytes =
-      memory.highest.resident.anonymous - statistics_.baseline_anonymous_bytes - memory.highest.tagged();
-  if (keeps_timeline_) statistics_.timeline = memory.timeline;
+  process.peak_anonymous_bytes = memory.highest.resident.anonymous;
+  process.unexplained_bytes =
+      memory.highest.resident.anonymous - process.baseline_anonymous_bytes - memory.highest.tagged();
+  if (keeps_timeline_) process.timeline = memory.timeline;
   for (int tag = 0; tag < static_cast<int>(MemoryTag::kCount); ++tag) {
     const auto memory_tag = static_cast<MemoryTag>(tag);
-    statistics_.memory_bytes[std::string(memory_tag_name(memory_tag))] = ledger_.peak(memory_tag);
+    process.memory_bytes[std::string(memory_tag_name(memory_tag))] = ledger_.peak(memory_tag);
   }
   if (options.stats) write_statistics(*options.stats, statistics_);
 }

@@ -7,10 +7,10 @@
 #include "base/ledger.h"
 #include "base/memory_sampler.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
 #include "cli/options.h"
 #include "cli/progress_display.h"
 #include "cli/signals.h"
+#include "world/statistics.h"
 
 namespace pelage {
 

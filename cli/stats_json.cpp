@@ -22,53 +22,65 @@ nlohmann::ordered_json timeline_row(const MemorySample& sample) {
   return row;
 }
 
+// Nothing where no frame was traced.
+nlohmann::ordered_json rays_json(const RayStatistics& rays) {
+  if (rays.total() == 0) return nlohmann::ordered_json::object();
+  return {{"camera", rays.camera}, {"indirect", rays.indirect}, {"shadow", rays.shadow}};
+}
+
+std::map<std::string, double> stages_json(const Statistics& s) {
+  std::map<std::string, double> stages_s = s.stages_s;
+  for (const auto& [stage, seconds] : s.frames.stages_s) stages_s[stage] += seconds;
+  return stages_s;
+}
+
 }  // namespace
 
 std::string statistics_json(const Statistics& s) {
   nlohmann::ordered_json json{
       {"schema", kStatisticsSchema},
       {"version", version()},
-      {"wall_s", s.wall_s},
-      {"cpu_s", s.cpu_s},
+      {"wall_s", s.process.wall_s},
+      {"cpu_s", s.process.cpu_s},
       {"first_pixel_s", s.first_pixel_s},
-      {"peak_rss_bytes", s.peak_rss_bytes},
-      {"baseline_rss_bytes", s.baseline_rss_bytes},
-      {"peak_anonymous_bytes", s.peak_anonymous_bytes},
-      {"baseline_anonymous_bytes", s.baseline_anonymous_bytes},
-      {"unexplained_bytes", s.unexplained_bytes},
-      {"memory_bytes", s.memory_bytes},
-      {"working_set_bytes", s.working_set_bytes},
-      {"strands_described", s.strands_described},
-      {"strands_unique", s.strands_unique},
-      {"strands_generated", s.strands_generated},
-      {"strands_dropped", s.strands_dropped},
-      {"strands_repaired", s.strands_repaired},
-      {"characters", s.characters},
-      {"characters_in_frame", s.characters_in_frame},
-      {"chunks", s.chunks},
-      {"chunks_touched", s.chunks_touched},
-      {"expansions", s.expansions},
-      {"reexpansions", s.reexpansions},
-      {"false_expansions", s.false_expansions},
-      {"evictions", s.evictions},
-      {"chunks_read", s.chunks_read},
-      {"chunk_bytes_read", s.chunk_bytes_read},
-      {"residency_wait_s", s.residency_wait_s},
-      {"bounds_area", s.bounds_area},
-      {"part_bounds_area", s.part_bounds_area},
-      {"box_tests", s.box_tests},
-      {"chunk_visits", s.chunk_visits},
+      {"peak_rss_bytes", s.process.peak_rss_bytes},
+      {"baseline_rss_bytes", s.process.baseline_rss_bytes},
+      {"peak_anonymous_bytes", s.process.peak_anonymous_bytes},
+      {"baseline_anonymous_bytes", s.process.baseline_anonymous_bytes},
+      {"unexplained_bytes", s.process.unexplained_bytes},
+      {"memory_bytes", s.process.memory_bytes},
+      {"working_set_bytes", s.frames.residency.working_set_bytes},
+      {"strands_described", s.world.strands_described},
+      {"strands_unique", s.world.strands_unique},
+      {"strands_generated", s.frames.growth.strands},
+      {"strands_dropped", s.repairs.dropped},
+      {"strands_repaired", s.repairs.repaired},
+      {"characters", s.world.characters},
+      {"characters_in_frame", s.world.characters_in_frame},
+      {"chunks", s.frames.growth.chunks},
+      {"chunks_touched", s.frames.residency.touched},
+      {"expansions", s.frames.residency.expansions},
+      {"reexpansions", s.frames.residency.reexpansions},
+      {"false_expansions", s.frames.residency.false_expansions},
+      {"evictions", s.frames.residency.evictions},
+      {"chunks_read", s.frames.reads.chunks},
+      {"chunk_bytes_read", s.frames.reads.bytes},
+      {"residency_wait_s", s.frames.residency.waited_s},
+      {"bounds_area", s.frames.growth.area.chunks},
+      {"part_bounds_area", s.frames.growth.area.parts},
+      {"box_tests", s.frames.trace.box_tests},
+      {"chunk_visits", s.frames.trace.chunk_visits},
       {"samples_per_pixel", s.samples_per_pixel},
       {"noise", s.noise},
       {"time_limited", s.time_limited},
-      {"samples_rejected", s.samples_rejected},
+      {"samples_rejected", s.frames.samples_rejected},
       {"clamped_fraction", s.clamped_fraction},
-      {"rays", s.rays},
-      {"stages_s", s.stages_s},
+      {"rays", rays_json(s.frames.rays)},
+      {"stages_s", stages_json(s)},
   };
-  if (!s.timeline.empty()) {
+  if (!s.process.timeline.empty()) {
     json["timeline_columns"] = timeline_columns();
-    for (const MemorySample& sample : s.timeline) json["timeline"].push_back(timeline_row(sample));
+    for (const MemorySample& sample : s.process.timeline) json["timeline"].push_back(timeline_row(sample));
   }
   return json.dump(2) + "\n";
 }

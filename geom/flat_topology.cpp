@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/geom/flat_surface_test.cpp.
 #include "geom/flat_topology.h"
 
 #include <algorithm>

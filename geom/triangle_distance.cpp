@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/geom/closest_point_test.cpp.
 #include "geom/triangle_distance.h"
 
 #include <algorithm>

@@ -19,11 +19,8 @@ Groom::~Groom() = default;
 const FollicleTree& Groom::follicles() const { return impl_->source.follicles(); }
 StrandRole Groom::role() const { return impl_->role; }
 bool Groom::needs_closest_point() const { return impl_->stack->needs_closest_point(); }
-int64_t Groom::strands_dropped() const {
-  return impl_->source.imported ? impl_->source.imported->repairs().dropped : 0;
-}
-int64_t Groom::strands_repaired() const {
-  return impl_->source.imported ? impl_->source.imported->repairs().repaired : 0;
+StrandRepairs Groom::repairs() const {
+  return impl_->source.imported ? impl_->source.imported->repairs() : StrandRepairs();
 }
 bool Groom::grows_on_skin() const { return impl_->source.rest != nullptr; }
 const ContentHash& Groom::content_hash() const { return impl_->hash; }

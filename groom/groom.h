@@ -8,6 +8,7 @@
 #include "base/content_store.h"
 #include "base/ledger.h"
 #include "geom/closest_point.h"
+#include "geom/io/strand_file.h"
 #include "geom/limit_surface.h"
 #include "geom/strand_counts.h"
 #include "geom/strands.h"
@@ -71,9 +72,8 @@ class Groom {
   const ContentStore* store() const;
   /// State of the cache; null without one (groom/cache_report.h).
   const GroomCacheReport* cache_report() const;
-  /// Repairs made to the strands file: numbers of strands dropped and repaired.
-  int64_t strands_dropped() const;
-  int64_t strands_repaired() const;
+  /// Repairs made to the strands file.
+  StrandRepairs repairs() const;
 
   /// All strands of a leaf in a pose, ids ascending. They have the attribute "color" (3 components) when an
   /// operator colours them: constant, per strand or per point, the smallest that can hold the colours. With

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/guides_test.cpp.
 #include "groom/guide_set.h"
 
 #include <algorithm>

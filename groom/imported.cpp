@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/groom_test.cpp.
 #include "groom/imported.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/noise_test.cpp.
 #include "groom/octave_grid.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/follicles_test.cpp.
 #include "groom/progressive_order.h"
 
 #include <algorithm>

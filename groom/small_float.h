@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/strand_codes_test.cpp.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/groom/groom_cache_test.cpp.
 #include "groom/strand_layer.h"
 
 #include <algorithm>

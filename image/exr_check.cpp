@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/exr_test.cpp.
 #include "image/exr_check.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/exr_test.cpp.
 #include "image/exr_stream.h"
 
 #include <cstddef>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/field_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

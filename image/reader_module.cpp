@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/texture_test.cpp.
 #include "image/reader_module.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/texture_test.cpp.
 #include "image/texel_decoder.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/image/texture_library_test.cpp.
 #include "image/tile_file.h"
 
 #include <algorithm>

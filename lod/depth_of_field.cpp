@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lod/measures_test.cpp.
 #include "lod/depth_of_field.h"
 
 #include <algorithm>

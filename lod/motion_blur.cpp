@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lod/measures_test.cpp.
 #include "lod/motion_blur.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lod/fewer_points_test.cpp.
 #include "lod/point_fit.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/blur_file_test.cpp.
 #include "post/band_job.h"
 
 #include <algorithm>
@@ -25,7 +26,24 @@ constexpr int64_t kMebibyte = int64_t{1} << 20;
                           needed / kMebibyte + 1, static_cast<double>(budget) / kMebibyte));
 }
 
+void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
+                    const std::string& flag, const std::string& where, PostReport& report) {
+  if (survey.not_finite() > 0) {
+    report.notes.push_back(
+        fmt::format("{} vectors{} are not finite and count as none", survey.not_finite(), where));
+  }
+  const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
+  const bool is_ours = part.attributes.contains("pelage:version");
+  const auto warning = survey.warning(params, flag, part.display.width(), is_ours);
+  if (warning) report.warnings.push_back(*warning + where);
+}
+
 }  // namespace
+
+PostSource::PostSource(const std::filesystem::path& path, int threads)
+    : reader(path, threads), channels(name_channels(reader.parts())) {
+  if (channels.empty()) throw Error(ErrorKind::kInput, {path.string(), 0, 0}, "has no channels");
+}
 
 void check_field_memory(const ViewImage& image, int64_t held, int64_t budget) {
   const int64_t pixels = int64_t{image.canvas().width()} * image.canvas().height();
@@ -46,16 +64,13 @@ void check_named_layers(const std::vector<MovingView>& views, const LayerChoice&
   }
 }
 
-void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
-                    const std::string& flag, const std::string& where, PostReport& report) {
-  if (survey.not_finite() > 0) {
-    report.notes.push_back(
-        fmt::format("{} vectors{} are not finite and are treated as zero", survey.not_finite(), where));
-  }
-  const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
-  const bool is_ours = part.attributes.contains("pelage:version");
-  const auto warning = survey.warning(params, flag, part.display.width(), is_ours);
-  if (warning) report.warnings.push_back(*warning + where);
+std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, size_t> layer,
+                                     const VectorParams& params, const std::string& flag,
+                                     const std::string& where, PostReport& report) {
+  VectorSurvey survey(static_cast<float>(image.largest_reach()));
+  std::vector<Flow> vectors = image.read_vectors(layer, params, survey);
+  report_vectors(survey, image, params, flag, where, report);
+  return vectors;
 }
 
 std::string layer_label(const std::string& what, const std::string& name) {
@@ -73,7 +88,7 @@ WarpTarget BandJob::target(const MovingView& view) const {
 }
 
 int64_t BandJob::fixed_bytes() const {
-  return scratch_bytes + 2 * reader->buffer_bytes() + field_bytes();  // reads and writes
+  return scratch_bytes + 2 * source_.reader.buffer_bytes() + field_bytes();  // reads and writes
 }
 
 int64_t BandJob::field_bytes() const {
@@ -87,8 +102,8 @@ int64_t BandJob::field_bytes() const {
 }
 
 int64_t BandJob::band_bytes(Band band) const {
-  const int64_t planes = static_cast<int64_t>(channels->size() + extra_planes);
-  // A result in floats, and in halves while it is written.
+  const int64_t planes = static_cast<int64_t>(source_.channels.size() + extra_planes);
+  // A result of floats, and halves while it is written.
   int64_t bytes = planes * window.width() * (band.last - band.first) * 6;
   int64_t max_source = 0;  // one view at a time
   for (const MovingView& view : views) {
@@ -107,7 +122,7 @@ BandJob::Band BandJob::next_band(int first) const {
     if (needed <= std::min(room, kEnoughBytes)) return band;
     if (rows > kFewestRows) continue;
     if (needed <= room) return band;
-    fail_memory(reader->path(), "about", fixed_bytes() + needed, memory);
+    fail_memory(source_.reader.path(), "about", fixed_bytes() + needed, memory);
   }
 }
 
@@ -117,26 +132,26 @@ Plane BandJob::plane(size_t number, Band band) const {
           band.first};
 }
 
-Plane BandJob::extra_plane(size_t extra) const { return plane(channels->size() + extra, band_); }
+Plane BandJob::extra_plane(size_t extra) const { return plane(source_.channels.size() + extra, band_); }
 
 void BandJob::make_band(Band band) {
   band_ = band;
-  const size_t planes = channels->size() + extra_planes;
+  const size_t planes = source_.channels.size() + extra_planes;
   result_.assign(planes * static_cast<size_t>(window.width()) * static_cast<size_t>(band.last - band.first),
                  0);
   for (const MovingView& view : views) {
     const std::vector<size_t>& own = view.image->own();
     const RowRange rows = reach(view, target(view), band);
-    view.image->read(own, rows.first, rows.last, source_);
+    view.image->read(own, rows.first, rows.last, pixels_);
     const auto width = static_cast<size_t>(view.image->canvas().width());
     const size_t plane_size = width * static_cast<size_t>(rows.last - rows.first);
     PostLayers layers;
-    std::vector<size_t> number(channels->size());
+    std::vector<size_t> number(source_.channels.size());
     for (size_t i = 0; i < own.size(); ++i) {
       number[own[i]] = i;
       layers.channels.push_back(
           {view.image->layers().role(own[i]),
-           {source_.data() + i * plane_size, 1, static_cast<ptrdiff_t>(width), rows.first},
+           {pixels_.data() + i * plane_size, 1, static_cast<ptrdiff_t>(width), rows.first},
            plane(own[i], band)});
     }
     for (RankedMatte matte : view.image->layers().mattes()) {
@@ -165,8 +180,8 @@ void BandJob::write_band(ExrWriter& writer, Band band, const Workers& workers) {
 void BandJob::run(const std::filesystem::path& output, const Job& job, PostReport& report) {
   std::vector<ExrOutputPart> headers;
   for (const Part& part : parts) headers.push_back(part.part);
-  next_band(0);  // rejects a budget that is too small before writing anything
-  ExrWriter writer(output, *reader, std::move(headers), job.workers.thread_count());
+  next_band(0);  // refuses a budget that is too small before anything is written
+  ExrWriter writer(output, source_.reader, std::move(headers), job.workers.thread_count());
   const MemoryCharge fixed(job.ledger, MemoryTag::kFilm, fixed_bytes());
   report.bands = 0;
   report.window = window;

@@ -33,6 +33,14 @@ struct PostFileParams {
   int64_t memory = int64_t{4} << 30;  ///< max bytes of pixels, vectors and work buffers
 };
 
+/// The file that a tool reads. Throws Error (kInput) when it cannot be read or has no channels.
+struct PostSource {
+  PostSource(const std::filesystem::path& path, int threads);
+
+  ExrReader reader;
+  const std::vector<NamedChannel> channels;
+};
+
 /// A view whose pixels move; without a field they are copied.
 struct MovingView {
   std::unique_ptr<ViewImage> image;
@@ -60,15 +68,20 @@ class BandJob {
     std::vector<size_t> planes;
   };
 
-  ExrReader* reader = nullptr;
-  const std::vector<NamedChannel>* channels = nullptr;
+  /// `source` outlives it. `fill`: pixels of a gap that are filled unless `params` say otherwise.
+  BandJob(PostSource& source, const PostFileParams& params, int fill)
+      : scale(params.scale),
+        longest_fill(params.longest_fill.value_or(fill)),
+        memory(params.memory),
+        source_(source) {}
+
   std::vector<MovingView> views;
   std::vector<Part> parts;
   PixelBox window;  ///< of the result; contains all its parts
   size_t extra_planes = 0;
-  int scale = 4;
-  int longest_fill = 0;  ///< max number of pixels to fill in a gap
-  int64_t memory = 0;
+  const int scale;
+  const int longest_fill;  ///< max number of pixels to fill in a gap
+  const int64_t memory;
   int64_t scratch_bytes = 0;
   Process process;
   Reach reach;
@@ -95,7 +108,8 @@ class BandJob {
   void write_band(ExrWriter& writer, Band band, const Workers& workers);
   Plane plane(size_t number, Band band) const;
 
-  std::vector<float> source_, result_;
+  PostSource& source_;
+  std::vector<float> pixels_, result_;
   Band band_{0, 0};
 };
 
@@ -106,9 +120,11 @@ void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 /// Throws Error (kInput) naming a layer that was declared as data or colours but is found in no view.
 void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
 
-/// Adds the findings of a survey of vectors to the report. `where` names the view, or is empty.
-void report_vectors(const VectorSurvey& survey, const ViewImage& image, const VectorParams& params,
-                    const std::string& flag, const std::string& where, PostReport& report);
+/// The vectors of a layer by `params`. Reports those that are not finite, and warns of a wrong unit; `flag`
+/// is the beginning of the flags that say it, `where` ends every message.
+std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, size_t> layer,
+                                     const VectorParams& params, const std::string& flag,
+                                     const std::string& where, PostReport& report);
 
 /// "depth", or "depth 'far'" if it was named.
 std::string layer_label(const std::string& what, const std::string& name);

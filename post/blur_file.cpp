@@ -66,9 +66,8 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const BlurFilePara
   std::vector<uint8_t> edges;
   std::vector<float> depth =
       image.read_depth(without_depth ? std::nullopt : layers.depth(), layers.alpha(), edges);
-  VectorSurvey survey(static_cast<float>(image.largest_reach()));
-  std::vector<Flow> vectors = image.read_vectors(*motion, params.file.vectors, survey);
-  report_vectors(survey, image, params.file.vectors, "--motion", of_view(view), report);
+  std::vector<Flow> vectors =
+      read_layer_vectors(image, *motion, params.file.vectors, "--motion", of_view(view), report);
   join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
   const ShutterParams& shutter = params.shutter;
   LinkLimits limits;
@@ -92,18 +91,12 @@ int64_t scratch_bytes(const BlurFileParams& params, size_t channels, int threads
 PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
                      const BlurFileParams& params, const Job& job) {
   PostReport report;
-  ExrReader reader(input, job.workers.thread_count());
-  const std::vector<NamedChannel> channels = name_channels(reader.parts());
-  if (channels.empty()) throw Error(ErrorKind::kInput, {input.string(), 0, 0}, "has no channels");
-
+  PostSource source(input, job.workers.thread_count());
+  ExrReader& reader = source.reader;
+  const std::vector<NamedChannel>& channels = source.channels;
   check_sharp(reader.parts().front(), report);
 
-  BandJob bands;
-  bands.reader = &reader;
-  bands.channels = &channels;
-  bands.scale = params.file.scale;
-  bands.longest_fill = params.file.longest_fill.value_or(kDefaultSeam);
-  bands.memory = params.file.memory;
+  BandJob bands(source, params.file, kDefaultSeam);
   bands.scratch_bytes = scratch_bytes(params, channels.size(), job.workers.thread_count());
   for (const std::string& view : views_of(channels, reader.parts())) {
     MovingView moving;

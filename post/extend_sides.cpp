@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/motion_blur_test.cpp.
 #include "post/extend_sides.h"
 
 #include <algorithm>

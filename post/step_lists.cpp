@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/motion_blur_test.cpp.
 #include "post/step_lists.h"
 
 #include <algorithm>

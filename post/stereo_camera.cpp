@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/stereo_file_test.cpp.
 #include <cmath>
 
 #include "post/stereo_file.h"

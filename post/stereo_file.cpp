@@ -145,9 +145,7 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
   } else {
     const auto uv = layers.vectors(params.parallax);
     if (!uv) fail_missing(image, "layer " + quote(params.parallax), "give another --parallax-layer");
-    VectorSurvey survey(static_cast<float>(image.largest_reach()));
-    vectors = image.read_vectors(*uv, params.file.vectors, survey);
-    report_vectors(survey, image, params.file.vectors, "--parallax", "", report);
+    vectors = read_layer_vectors(image, *uv, params.file.vectors, "--parallax", "", report);
     join_soft_edges(image.canvas().width(), image.canvas().height(), edges, depth, vectors);
   }
   return std::make_unique<FlowField>(image.canvas().width(), image.canvas().height(), std::move(vectors),
@@ -159,16 +157,12 @@ std::unique_ptr<FlowField> make_field(const ViewImage& image, const StereoFilePa
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
                        const StereoFileParams& params, const Job& job) {
   PostReport report;
-  ExrReader reader(input, job.workers.thread_count());
-  const std::vector<NamedChannel> channels = name_channels(reader.parts());
-  if (channels.empty()) refuse(reader, "has no channels");
+  PostSource source(input, job.workers.thread_count());
+  ExrReader& reader = source.reader;
+  const std::vector<NamedChannel>& channels = source.channels;
   const std::string view = pick_view(reader, views_of(channels, reader.parts()), params);
 
-  BandJob bands;
-  bands.reader = &reader;
-  bands.channels = &channels;
-  bands.scale = params.file.scale;
-  bands.memory = params.file.memory;
+  BandJob bands(source, params.file, kFillEverything);
   bands.extra_planes = 2;
   MovingView moving;
   moving.image = std::make_unique<ViewImage>(reader, channels, view, params.file.layers);
@@ -206,7 +200,6 @@ PostReport stereo_file(const std::filesystem::path& input, const std::filesystem
           (is_box ? 0
                   : LanczosResolve::bytes_needed(bands.window.width(), image.own().size(), bands.scale))) *
       job.workers.thread_count();
-  bands.longest_fill = params.file.longest_fill.value_or(kFillEverything);
   bands.reach = [&](const MovingView& v, const WarpTarget& target, BandJob::Band band) {
     return rows_reaching(*v.field, target, bands.window.width(), std::max(0, band.first - margin),
                          std::min(height, band.last + margin), {1.0f});

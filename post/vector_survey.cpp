@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/blur_file_test.cpp.
 #include "post/vector_survey.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/blur_file_test.cpp.
 #include "post/view_image.h"
 
 #include <algorithm>

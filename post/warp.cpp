@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/post/flow_field_test.cpp.
 #include "post/warp.h"
 
 namespace pelage {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/procedurals/remembered_bounds_test.cpp.
 #include "procedurals/bounds_file.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/procedurals/thinned_fur_test.cpp.
 #include "procedurals/coat_detail.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/path/path_integrator_test.cpp.
 #include "render/render_frame.h"
 
 #include <algorithm>
@@ -34,15 +35,14 @@ std::unique_ptr<const SampleIntegrator> make_integrator(const RenderScene& scene
 
 }  // namespace
 
-FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
-                         const PathOptions& options) {
+FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOptions& options) {
   const Stopwatch clock;
   const FilmLayers layers = film_layers(scene);
   job.ledger.set_limit(scene.render.memory.bytes);
   require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers),
                "the frame buffer");
   FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
-  const auto geometry = FrameGeometry::make(scene, job, statistics);
+  const auto geometry = FrameGeometry::make(scene, job, result.statistics);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 
@@ -57,9 +57,9 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& s
   result.mean_samples = loop.mean_samples();
   result.noise = frame_noise(result.film.moments());
   result.first_tile_s = loop.first_tile_s();
-  loop.add_to(statistics);
-  geometry->add_to(statistics);
-  statistics.stages_s["render"] += clock.seconds() - prepared_s;
+  loop.add_to(result.statistics);
+  geometry->add_to(result.statistics);
+  result.statistics.stages_s["render"] += clock.seconds() - prepared_s;
   return result;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/job.h"
-#include "base/statistics.h"
 #include "render/frame/frame_result.h"
 #include "render/path/path_tracer.h"
 #include "render/scene/render_scene.h"
@@ -13,10 +12,8 @@ namespace pelage {
 /// samples in passes over the whole image (SampleSchedule), so that a picture cancelled at any time is valid,
 /// with fewer samples.
 ///
-/// The same scene gives the same film for any number of threads, unless the time limit is reached. Adds rays,
-/// strands, rejected samples and stage times to `statistics`. Throws Error; exceptions never leave the render
-/// loops directly.
-FrameResult render_frame(const RenderScene& scene, const Job& job, Statistics& statistics,
-                         const PathOptions& options = {});
+/// The same scene gives the same film for any number of threads, unless the time limit is reached. Throws
+/// Error; exceptions never leave the render loops directly.
+FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOptions& options = {});
 
 }  // namespace pelage

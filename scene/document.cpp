@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/scene/include_test.cpp.
 #include "scene/document.h"
 
 #include <algorithm>

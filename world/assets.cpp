@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/compose_test.cpp.
 #include "world/assets.h"
 
 #include <fmt/format.h>

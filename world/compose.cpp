@@ -55,8 +55,8 @@ class Composer {
     for (size_t part = 0; part < character.params->parts.size(); ++part)
       add_part(character, part, reduced, box);
     if (!has_coat(character)) return;
-    ++world_.characters;
-    if (world_.scene.camera.may_see(box)) ++world_.characters_in_frame;
+    ++world_.counts.characters;
+    if (world_.scene.camera.may_see(box)) ++world_.counts.characters_in_frame;
   }
 
   void add_part(const DrawnCharacter& character, size_t index, bool reduced, Box3f& box) {
@@ -103,9 +103,9 @@ class Composer {
 
   void count(const Groom& groom, const PosedCharacterSkin& skin) {
     const auto strands = static_cast<int64_t>(groom.follicles().size());
-    world_.strands_described += strands;
+    world_.counts.strands_described += strands;
     if (seen_.emplace(&groom, skin.hash().low, skin.hash().high, skin.length()).second)
-      world_.strands_unique += strands;
+      world_.counts.strands_unique += strands;
   }
 
   void charge(size_t bytes) {

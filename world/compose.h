@@ -11,14 +11,27 @@
 
 namespace pelage {
 
-/// One frame, ready to be rendered.
-struct World {
-  RenderScene scene;
-  int64_t strands_described = 0;
+/// What a frame has, or all frames of a run together.
+struct WorldCounts {
+  int64_t strands_described = 0;    ///< before level of detail
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
   int64_t characters = 0;           ///< those with a coat
   int64_t characters_in_frame = 0;  ///< of these, those whose bound intersects the camera's view
-  FrameHeader header;               ///< of the EXR; write_frame() adds the results of rendering
+
+  WorldCounts& operator+=(const WorldCounts& other) {
+    strands_described += other.strands_described;
+    strands_unique += other.strands_unique;
+    characters += other.characters;
+    characters_in_frame += other.characters_in_frame;
+    return *this;
+  }
+};
+
+/// One frame, ready to be rendered.
+struct World {
+  RenderScene scene;
+  WorldCounts counts;
+  FrameHeader header;  ///< of the EXR; write_frame() adds the results of rendering
   std::vector<MemoryCharge> charges;
 };
 

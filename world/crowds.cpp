@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/crowd_test.cpp.
 #include "world/crowds.h"
 
 #include <algorithm>

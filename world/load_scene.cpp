@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/scene_schema_test.cpp.
 #include <algorithm>
 #include <map>
 #include <set>

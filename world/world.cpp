@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/accelerators_test.cpp.
 #include "world/world.h"
 
 #include <fmt/format.h>
 
 #include "base/memory_budget.h"
+#include "base/process_usage.h"
 #include "image/exr.h"
 #include "render/frame/frame_layers.h"
 #include "render/render_frame.h"
 
 namespace pelage {
 
-FrameResult render(const World& world, const Job& job, Statistics& statistics) {
-  return render_frame(world.scene, job, statistics);
-}
+FrameResult render(const World& world, const Job& job) { return render_frame(world.scene, job); }
 
 void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
                  double seconds, const Job& job) {

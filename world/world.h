@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "base/job.h"
-#include "base/statistics.h"
 #include "render/frame/frame_result.h"
 #include "world/assets.h"
 #include "world/compose.h"
@@ -26,8 +25,8 @@
 
 namespace pelage {
 
-/// Renders a composed frame with the integrator of the scene, see render_frame(). Adds to `statistics`.
-FrameResult render(const World& world, const Job& job, Statistics& statistics);
+/// Renders a composed frame with the integrator of the scene, see render_frame().
+FrameResult render(const World& world, const Job& job);
 
 /// Writes a rendered frame as EXR, completely or not at all. `seconds`: time it took to make, for the header.
 /// Throws Error (kFailed).

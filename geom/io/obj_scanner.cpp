@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/geom/io/obj_file_test.cpp.
 #include "geom/io/obj_scanner.h"
 
 #include <algorithm>

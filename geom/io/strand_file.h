@@ -13,6 +13,12 @@ namespace pelage {
 struct StrandRepairs {
   int64_t dropped = 0;   ///< strands without extent, with too few points, or with non-finite points
   int64_t repaired = 0;  ///< strands with repeated points removed or an unusable width replaced
+
+  StrandRepairs& operator+=(const StrandRepairs& other) {
+    dropped += other.dropped;
+    repaired += other.repaired;
+    return *this;
+  }
 };
 
 struct StrandFile {

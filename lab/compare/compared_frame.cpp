@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lab/compare/comparison_test.cpp.
 #include "lab/compare/compared_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "base/stopwatch.h"
 #include "lab/compare/light_side.h"
 #include "lab/pictures/picture_difference.h"
@@ -30,12 +31,6 @@ class QuietProgress final : public Progress {
  private:
   Progress& outer_;
 };
-
-double total_rays(const Statistics& statistics) {
-  double sum = 0;
-  for (const auto& [kind, count] : statistics.rays) sum += static_cast<double>(count);
-  return sum;
-}
 
 Picture mean_picture(const Film& a, const Film& b) {
   ExrImage image;
@@ -102,13 +97,12 @@ ComparedFrame FrameComparer::render(const std::vector<MaterialParams>& materials
   std::vector<double> cpu_s;
   const auto half = [&](int64_t seed) {
     world.scene.render.seed = seed;
-    Statistics statistics;
     const Stopwatch wall;
     const double began = cpu_seconds();
-    FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress}, statistics);
+    FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress});
     frame.wall_s += wall.seconds();
     cpu_s.push_back(cpu_seconds() - began);
-    frame.rays += total_rays(statistics);
+    frame.rays += static_cast<double>(result.statistics.rays.total());
     return std::move(result.film);
   };
   const Film first = half(2 * scene_.render.seed), second = half(2 * scene_.render.seed + 1);
@@ -130,8 +124,7 @@ double FrameComparer::furnace(const std::vector<MaterialParams>& materials) {
   assets_.materials = materials;
   const World world = compose(scene, assets_, scene.frames.frames.front(), job_);
   QuietProgress progress(job_.progress);
-  Statistics statistics;
-  const FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress}, statistics);
+  const FrameResult result = render_frame(world.scene, {job_.workers, job_.ledger, progress});
   double sum = 0, count = 0;
   for (int y = 0; y < result.film.height(); ++y) {
     for (int x = 0; x < result.film.width(); ++x) {

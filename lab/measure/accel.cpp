@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/measure_test.py.
 #include <cmath>
 #include <string>
 

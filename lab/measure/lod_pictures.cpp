@@ -75,16 +75,15 @@ std::optional<Picture> detail_picture(const std::filesystem::path& file) {
     const ExrChannel* alpha = image.find("A");
     if (!layer || !alpha) return {};
     Picture picture;
-    picture.caption = "Fraction of strands removed: blue none, green four fifths, red 99 %.";
+    picture.caption = "Fraction of strands removed: blue none, purple four fifths, red 99 %.";
     picture.width = image.width;
     picture.height = image.height;
     for (size_t p = 0; p < layer->pixels.size(); ++p) {
       const float left = std::clamp(1 - layer->pixels[p], 0.0f, 1.0f);
       const float x = std::min(1.4f * (1 - std::sqrt(std::sqrt(left))), 1.0f);
       const float a = std::clamp(alpha->pixels[p], 0.0f, 1.0f);
-      const float rgb[] = {2 * x - 1, 1 - std::abs(2 * x - 1), 1 - 2 * x};
-      for (const float c : rgb)
-        picture.pixels.push_back(static_cast<unsigned char>(std::lround(255 * a * std::max(c, 0.0f))));
+      for (const float c : {x, 0.0f, 1 - x})  // as tools/exr_to_png
+        picture.pixels.push_back(static_cast<unsigned char>(std::lround(255 * a * c)));
     }
     return picture;
   } catch (const Error&) {

@@ -25,8 +25,8 @@ PictureChange change_between(const std::filesystem::path& from, const std::files
 std::optional<Picture> picture_sheet(const std::vector<std::filesystem::path>& files, size_t columns,
                                      int max_width, const std::string& caption);
 
-/// The layer `lod` in false colours: from blue, every strand, through green to red, one in a hundred; black
-/// where there is nothing. Empty without the layer.
+/// The layer `lod` in the colours of tools/exr_to_png: from blue, every strand, to red, one in a hundred;
+/// black where there is nothing. Empty without the layer.
 std::optional<Picture> detail_picture(const std::filesystem::path& file);
 
 }  // namespace pelage

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/measure_test.py.
 #include "lab/rays/lab_rays.h"
 
 #include <algorithm>
@@ -149,6 +150,7 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
   LabRays gather{"gather", false, {}, {}, {}}, shadow{"shadow", true, {}, {}, {}},
       deep{"deep", true, {}, {}, {}};
   Box3f box;
+  std::vector<float> lights(scene.lights.size());
   for (size_t i = 0; i < max; ++i) {
     // In the order of the hits, several from each if there are few.
     const Place& from = hits[i * hits.size() / max];
@@ -159,7 +161,8 @@ std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& stra
     add(deep, place_on(snapped, strands, segment, number(i, 20), number(i, 21)), direction(i, 22),
         std::numeric_limits<float>::infinity());
     if (scene.lights.size() == 0) continue;
-    const LightSet::Choice choice = scene.lights.choose(from.position, V3f(0), number(i, 30));
+    scene.lights.probabilities(from.position, lights);
+    const LightSet::Choice choice = LightSet::choose(lights, number(i, 30));
     if (choice.probability <= 0) continue;
     const auto light = scene.lights.light(choice.light).sample(from.position, {number(i, 31), number(i, 32)});
     if (light) add(shadow, from, light->direction, light->distance * (1 - 1e-4f));

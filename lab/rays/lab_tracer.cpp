@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/measure_test.py.
 #include "lab/rays/lab_tracer.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 #include "base/ledger.h"
 #include "base/nearest_name.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "base/stopwatch.h"
 #include "render/accel/embree_fur.h"
 #include "render/accel/flush_denormals.h"

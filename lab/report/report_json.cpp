@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lab/report/report_test.cpp.
 #include "lab/report/report_json.h"
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/lab/runs/variant_test.cpp.
 #include "lab/runs/spread.h"
 
 #include <fmt/format.h>

@@ -9,6 +9,7 @@
 #include "geom/strands.h"
 #include "geom/tessellation.h"
 #include "render/accel/strand_handle.h"
+#include "render/accel/trace_counts.h"
 
 namespace pelage {
 
@@ -60,12 +61,6 @@ struct Hit {
 struct HitGeometry {
   Strands strand;
   SkinMesh triangle;
-};
-
-/// Cost of tracing.
-struct TraceCounts {
-  int64_t box_tests = 0;     ///< rays against boxes above the chunks
-  int64_t chunk_visits = 0;  ///< rays against the contents of chunks
 };
 
 /// Per-thread state of tracing.

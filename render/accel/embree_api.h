@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/accel/embree_accel_test.cpp.
 #pragma once
 
 // The only file that includes Embree or knows its version: 3.13 and 4 differ in how a query is described.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/accel/embree_accel_test.cpp.
 #include "render/accel/embree_curves.h"
 
 #include <algorithm>

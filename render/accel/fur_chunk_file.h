@@ -58,8 +58,9 @@ class FurChunkFile {
 
   /// Memory of this object.
   size_t bytes() const { return sizeof(*this) + file_.bytes() + chunk_count() * sizeof(lost_[0]); }
-  int64_t chunks_read() const { return chunks_read_.load(std::memory_order_relaxed); }
-  int64_t bytes_read() const { return bytes_read_.load(std::memory_order_relaxed); }
+  StoredReads reads() const {
+    return {chunks_read_.load(std::memory_order_relaxed), bytes_read_.load(std::memory_order_relaxed)};
+  }
 
  private:
   static constexpr size_t kSections = 4;

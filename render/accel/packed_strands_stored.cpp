@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/accel/packed_strands_test.cpp.
 #include <cstring>
 #include <type_traits>
 

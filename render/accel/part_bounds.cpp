@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/accel/chunk_accel_test.cpp.
 #include "render/accel/part_bounds.h"
 
 #include <algorithm>

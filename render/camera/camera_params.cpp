@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/camera/camera_test.cpp.
 #include "base/value_readers.h"
 #include "render/camera/camera.h"
 

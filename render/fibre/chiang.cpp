@@ -15,7 +15,7 @@ float chiang_scale(float beta_n) {
 }
 
 ChiangMaterial::ChiangMaterial(const ChiangParams& params)
-    : eta_(params.eta), absorption_(params), by_color_(params.beta_n) {
+    : SeparableMaterial(params.eta, params, params.beta_n) {
   const float v = chiang_variance(params.beta_m);
   widths_.longitudinal = {LongitudinalLobe(v), LongitudinalLobe(v / 4), LongitudinalLobe(4 * v),
                           LongitudinalLobe(4 * v)};
@@ -24,15 +24,6 @@ ChiangMaterial::ChiangMaterial(const ChiangParams& params)
   widths_.set_tilt(0, 2 * alpha);
   widths_.set_tilt(1, -alpha);
   widths_.set_tilt(2, -4 * alpha);
-}
-
-ChiangBsdf ChiangMaterial::at(const FibreFrame& frame, float h, const Rgb& color) const {
-  const FibreCrossing crossing(eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
-  const Rgb sigma = fibre_absorption(absorption_, by_color_, color);
-  return {widths_,
-          frame,
-          {crossing.exit_azimuth(0), crossing.exit_azimuth(1), crossing.exit_azimuth(2)},
-          attenuations(crossing.reflectance, transmittance(sigma, crossing.leg()))};
 }
 
 }  // namespace pelage

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/separable_bsdf.h"
-#include "render/material/absorption.h"
+#include "render/fibre/separable_material.h"
 #include "render/material/fibre_params.h"
 
 namespace pelage {
@@ -15,16 +14,9 @@ using ChiangBsdf = SeparableBsdf<TrimmedLogistic>;
 ///
 /// The tilt of the cuticle's scales, whose free edges point to the tip, is added to theta_o: +2 alpha for R,
 /// -alpha for TT and -4 alpha for TRT, with T from root to tip.
-class ChiangMaterial {
+class ChiangMaterial : public SeparableMaterial<TrimmedLogistic> {
  public:
   explicit ChiangMaterial(const ChiangParams& params);
-  ChiangBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
-
- private:
-  float eta_;
-  AbsorptionParams absorption_;
-  ColorToAbsorption by_color_;
-  LobeWidths<TrimmedLogistic> widths_;
 };
 
 /// Variance of the R lobe by longitudinal roughness [Chiang16, equation 7].

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "render/fibre/azimuthal.h"
-#include "render/fibre/separable_bsdf.h"
-#include "render/material/absorption.h"
+#include "render/fibre/separable_material.h"
 #include "render/material/fibre_params.h"
 
 namespace pelage {
@@ -19,16 +18,9 @@ inline constexpr float kColorRoughness = 0.3f;
 /// are sampled exactly.
 ///
 /// The far field is the average over h.
-class DeonMaterial {
+class DeonMaterial : public SeparableMaterial<WrappedGaussian> {
  public:
   explicit DeonMaterial(const DeonParams& params);
-  DeonBsdf at(const FibreFrame& frame, float h, const Rgb& color) const;
-
- private:
-  float eta_;
-  AbsorptionParams absorption_;
-  ColorToAbsorption by_color_;
-  LobeWidths<WrappedGaussian> widths_;
 };
 
 }  // namespace pelage

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/fibre/medulla_tables_test.cpp.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/path/path_integrator_test.cpp.
 #include "render/frame/frame_geometry.h"
-
-#include <algorithm>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -20,7 +19,7 @@ FrameGeometry::FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vec
       accel_(std::move(bounds), *chunks_, options, job) {}
 
 std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scene, const Job& job,
-                                                         Statistics& statistics) try {
+                                                         FrameStatistics& statistics) try {
   const Stopwatch preparing;
   auto chunks = std::make_unique<const FrameChunks>(scene, job);
   const Stopwatch bounding;
@@ -29,9 +28,8 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const double bound_s = bounding.seconds();
   statistics.stages_s["bound"] += bound_s;
   if (job.progress.cancelled()) return nullptr;
-  statistics.chunks += static_cast<int64_t>(chunks->size());
-  statistics.bounds_area += found.area.chunks;
-  statistics.part_bounds_area += found.area.parts;
+  statistics.growth.chunks += static_cast<int64_t>(chunks->size());
+  statistics.growth.area += found.area;
 
   ResidentChunksOptions options;
   options.kind = scene.render.accel;
@@ -67,20 +65,10 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   return nullptr;
 }
 
-void FrameGeometry::add_to(Statistics& statistics) const {
-  const ResidencyCounts counts = chunks().counts();
-  statistics.strands_generated += chunks_->strands_grown();
-  if (stored_) {
-    statistics.chunks_read += stored_->chunks_read();
-    statistics.chunk_bytes_read += stored_->bytes_read();
-  }
-  statistics.chunks_touched += counts.touched;
-  statistics.expansions += counts.expansions;
-  statistics.reexpansions += counts.reexpansions;
-  statistics.false_expansions += counts.false_expansions;
-  statistics.evictions += counts.evictions;
-  statistics.residency_wait_s += counts.waited_s;
-  statistics.working_set_bytes = std::max(statistics.working_set_bytes, counts.working_set_bytes);
+void FrameGeometry::add_to(FrameStatistics& statistics) const {
+  statistics.growth.strands += chunks_->strands_grown();
+  statistics.residency += chunks().counts();
+  if (stored_) statistics.reads += stored_->reads();
 }
 
 }  // namespace pelage

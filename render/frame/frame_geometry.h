@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "base/job.h"
-#include "base/statistics.h"
 #include "render/accel/chunk_accel.h"
 #include "render/frame/frame_chunks.h"
+#include "render/frame/frame_statistics.h"
 
 namespace pelage {
 
@@ -17,7 +17,7 @@ class FrameGeometry {
   /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
   /// the largest chunk. Returns null when cancelled.
   static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Job& job,
-                                                   Statistics& statistics);
+                                                   FrameStatistics& statistics);
 
   const Accel& accel() const { return accel_; }
   /// The same chunks, for who wants strands and boxes of them.
@@ -25,7 +25,7 @@ class FrameGeometry {
   /// Whether all chunks together fit the budget, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }
   /// Adds what was grown, evicted and tested.
-  void add_to(Statistics& statistics) const;
+  void add_to(FrameStatistics& statistics) const;
 
  private:
   FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/path/path_integrator_test.cpp.
 #include "render/frame/frame_loop.h"
 
 #include <algorithm>
@@ -110,16 +111,12 @@ double FrameLoop::cost(size_t pixel) const {
   return tile.samples > 0 ? tile.seconds / tile.samples : 0;
 }
 
-void FrameLoop::add_to(Statistics& statistics) const {
+void FrameLoop::add_to(FrameStatistics& statistics) const {
   statistics.samples_rejected += rejected_;
   for (const auto& scratch : scratch_) {
-    statistics.box_tests += scratch->thread.counts.box_tests;
-    statistics.chunk_visits += scratch->thread.counts.chunk_visits;
-    statistics.rays["camera"] += scratch->rays.camera;
-    statistics.rays["shadow"] += scratch->rays.shadow;
-    statistics.rays["indirect"] += scratch->rays.indirect;
+    statistics.trace += scratch->thread.counts;
+    statistics.rays += scratch->rays;
   }
-  statistics.clamped_fraction = std::max(statistics.clamped_fraction, clamped_fraction());
 }
 
 double FrameLoop::clamped_fraction() const {

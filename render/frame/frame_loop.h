@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/job.h"
-#include "base/statistics.h"
 #include "base/stopwatch.h"
 #include "render/film/film.h"
+#include "render/frame/frame_statistics.h"
 #include "render/frame/sample_integrator.h"
 #include "render/frame/tile_order.h"
 
@@ -46,7 +46,7 @@ class FrameLoop {
   double cost(size_t pixel) const;
   /// Time on the clock when the first tile was finished.
   double first_tile_s() const { return first_tile_s_; }
-  void add_to(Statistics& statistics) const;
+  void add_to(FrameStatistics& statistics) const;
   /// Fraction of the indirect light that render.clamp_indirect removed.
   double clamped_fraction() const;
 

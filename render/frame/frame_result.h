@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/film/film.h"
+#include "render/frame/frame_statistics.h"
 
 namespace pelage {
 
@@ -15,6 +16,7 @@ struct FrameResult {
   bool time_limited = false;    ///< render.time_limit decided how many samples there are
   bool partial = false;         ///< cancelled: some pixels have fewer than asked for, perhaps none
   double first_tile_s = 0;      ///< seconds until the first tile had its first samples
+  FrameStatistics statistics = {};
 };
 
 }  // namespace pelage

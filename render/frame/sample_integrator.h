@@ -8,13 +8,9 @@
 #include "render/accel/accel.h"
 #include "render/film/film.h"
 #include "render/film/indirect_clamp.h"
+#include "render/frame/ray_statistics.h"
 
 namespace pelage {
-
-/// Rays traced, by kind.
-struct RayCounts {
-  int64_t camera = 0, shadow = 0, indirect = 0;
-};
 
 /// Per-thread memory, reused from sample to sample. Integrators derive from it.
 struct SampleScratch {
@@ -22,7 +18,7 @@ struct SampleScratch {
 
   FilmSample sample;          ///< the result
   std::vector<Rgb> by_layer;  ///< its radiance divided among the layers of the film
-  RayCounts rays;
+  RayStatistics rays;
   IndirectClamp clamp;
   TraceThread thread;
 };

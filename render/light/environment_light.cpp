@@ -15,24 +15,20 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 }
 
 EnvironmentLight::EnvironmentLight(std::string name, const Rgb& radiance, bool visible)
-    : name_(std::move(name)),
-      radiance_(radiance),
-      importance_(4.0f * kPi * luminance(radiance)),
-      visible_(visible) {}
+    : Light(std::move(name), visible), radiance_(radiance), importance_(4.0f * kPi * luminance(radiance)) {}
 
 EnvironmentLight::EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture,
                                    const Rgb& factor, const M33f& to_world, bool visible,
                                    MemoryLedger& ledger, const std::function<void()>& check_stop)
-    : name_(std::move(name)),
+    : Light(std::move(name), visible),
       radiance_(factor),
       to_world_(to_world),
-      charge_(reserve(
-          ledger, MemoryTag::kTextures,
-          static_cast<int64_t>(EnvironmentMap::bytes_for(texture->width(), texture->height())),
-          fmt::format("sampling light '{}' ({} x {} texels)", name_, texture->width(), texture->height()))),
+      charge_(reserve(ledger, MemoryTag::kTextures,
+                      static_cast<int64_t>(EnvironmentMap::bytes_for(texture->width(), texture->height())),
+                      fmt::format("sampling light '{}' ({} x {} texels)", this->name(), texture->width(),
+                                  texture->height()))),
       map_(std::make_unique<EnvironmentMap>(std::move(texture), factor, check_stop)),
-      importance_(static_cast<float>(map_->power())),
-      visible_(visible) {}
+      importance_(static_cast<float>(map_->power())) {}
 
 std::optional<LightSample> EnvironmentLight::sample(const V3f&, const V2f& u) const {
   if (!(importance_ > 0.0f)) return std::nullopt;
@@ -51,7 +47,7 @@ std::optional<LightHit> EnvironmentLight::intersect(const V3f&, const V3f& direc
   return LightHit{kInfinity, map_ ? map_->radiance(map_->texel_of(to_map(direction))) : radiance_};
 }
 
-float EnvironmentLight::importance(const V3f&, const V3f&) const { return importance_; }
+float EnvironmentLight::importance(const V3f&) const { return importance_; }
 
 V3f EnvironmentLight::to_map(const V3f& world) const {
   // The inverse of a rotation is its transpose.

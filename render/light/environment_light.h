@@ -23,24 +23,20 @@ class EnvironmentLight final : public Light {
                    const M33f& to_world, bool visible, MemoryLedger& ledger,
                    const std::function<void()>& check_stop = {});
 
-  const std::string& name() const override { return name_; }
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
-  float importance(const V3f& from, const V3f& tangent) const override;
+  float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f&) const override { return std::nullopt; }
-  bool visible() const override { return visible_; }
 
  private:
   V3f to_map(const V3f& world) const;
 
-  std::string name_;
   Rgb radiance_;                               ///< of the constant environment
   M33f to_world_;                              ///< for row vectors, as all Imath matrices
   MemoryCharge charge_;                        ///< of the map
   std::unique_ptr<const EnvironmentMap> map_;  ///< null when constant
   float importance_;
-  bool visible_;
 };
 
 /// Rotation about x, then y, then z, by degrees, for row vectors.

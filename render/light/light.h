@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/vector.h"
 
@@ -29,7 +30,9 @@ struct LightHit {
 class Light {
  public:
   virtual ~Light() = default;
-  virtual const std::string& name() const = 0;
+  const std::string& name() const { return name_; }
+  /// Whether camera rays see it.
+  bool visible() const { return visible_; }
   /// Samples a direction; empty when no light can reach `from`.
   virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
   /// Density of sample() for `direction`, using the same strategy.
@@ -37,13 +40,17 @@ class Light {
   /// The light along a ray (unit direction) that leaves the scene or ends beyond the light.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
   /// Solid angle x mean radiance (luminance) as seen from `from`: the weight for selecting among lights
-  /// ["Rendering Fur in Life of Pi", stochastic light selection]. `tangent` bounds cos(theta_i) on fibres;
-  /// pass the null vector for points that are not on a fibre.
-  virtual float importance(const V3f& from, const V3f& tangent) const = 0;
+  /// ["Rendering Fur in Life of Pi", stochastic light selection].
+  virtual float importance(const V3f& from) const = 0;
   /// Unit direction from `from` to the centre of the light; empty when it surrounds the scene.
   virtual std::optional<V3f> middle(const V3f& from) const = 0;
-  /// Whether camera rays see it.
-  virtual bool visible() const = 0;
+
+ protected:
+  Light(std::string name, bool visible) : name_(std::move(name)), visible_(visible) {}
+
+ private:
+  std::string name_;
+  bool visible_;
 };
 
 }  // namespace pelage

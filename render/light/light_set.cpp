@@ -2,7 +2,6 @@
 #include "render/light/light_set.h"
 
 #include <algorithm>
-#include <array>
 
 #include "render/sampling/warp.h"
 
@@ -12,28 +11,16 @@ namespace {
 
 constexpr double kUniformShare = 0.1;
 
-/// Storage for one number per light: on the stack for the number of lights that scenes usually have.
-class LightScratch {
- public:
-  explicit LightScratch(size_t count) : many_(count > few_.size() ? count : 0), count_(count) {}
-  std::span<float> span() { return {many_.empty() ? few_.data() : many_.data(), count_}; }
-
- private:
-  std::array<float, 32> few_;
-  std::vector<float> many_;
-  size_t count_;
-};
-
 }  // namespace
 
 LightSet::LightSet(std::vector<std::unique_ptr<Light>> lights) : lights_(std::move(lights)) {}
 
-void LightSet::importances(const V3f& from, const V3f& tangent, std::span<float> out) const {
-  for (size_t i = 0; i < lights_.size(); ++i) out[i] = lights_[i]->importance(from, tangent);
+void LightSet::importances(const V3f& from, std::span<float> out) const {
+  for (size_t i = 0; i < lights_.size(); ++i) out[i] = lights_[i]->importance(from);
 }
 
-void LightSet::probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const {
-  importances(from, tangent, out);
+void LightSet::probabilities(const V3f& from, std::span<float> out) const {
+  importances(from, out);
   normalise(out);
 }
 
@@ -62,18 +49,6 @@ LightSet::Choice LightSet::choose(std::span<const float> probabilities, float u)
     rest -= p;  // the last light gets the rounding remainder
   }
   return choice;
-}
-
-LightSet::Choice LightSet::choose(const V3f& from, const V3f& tangent, float u) const {
-  LightScratch scratch(size());
-  probabilities(from, tangent, scratch.span());
-  return choose(scratch.span(), u);
-}
-
-float LightSet::probability(const V3f& from, const V3f& tangent, size_t light) const {
-  LightScratch scratch(size());
-  probabilities(from, tangent, scratch.span());
-  return scratch.span()[light];
 }
 
 }  // namespace pelage

@@ -27,23 +27,20 @@ class LightSet {
     float probability = 0;  ///< 0 when no light can contribute
     float remapped = 0;     ///< `u` rescaled to [0, 1) within the choice
   };
-  Choice choose(const V3f& from, const V3f& tangent, float u) const;
-  float probability(const V3f& from, const V3f& tangent, size_t light) const;
-
-  /// The same in two steps, for callers that need both at one point: writes the probabilities of all lights
-  /// to `out` (size() entries; they sum to 1, or are all 0), then selects.
-  void probabilities(const V3f& from, const V3f& tangent, std::span<float> out) const;
   static Choice choose(std::span<const float> probabilities, float u);
+
+  /// Writes the probabilities of all lights to `out`: size() entries, which sum to 1 or are all 0.
+  void probabilities(const V3f& from, std::span<float> out) const;
 
   /// The same for lobes that scatter with density `lobes(direction)` per solid angle: lights in directions of
   /// strong scattering are selected more often. A narrow lobe that points at a small bright light with a low
   /// probability of selection causes the brightest noise of paths through fur. Half of each importance
-  /// ignores the density, since the middle of a large light says little about the rest of it. Does not use
-  /// the tangent: the bound on cos(theta_i) would dim lights along the fibre, although R, TT and TRT scatter
-  /// these as brightly as others when the fibre is seen at a slant.
+  /// ignores the density, since the middle of a large light says little about the rest of it. There is no
+  /// bound on cos(theta_i): it would dim lights along the fibre, although R, TT and TRT scatter these as
+  /// brightly as others when the fibre is seen at a slant.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
-    importances(from, V3f(0), out);
+    importances(from, out);
     for (size_t i = 0; i < size() && size() > 1; ++i) {
       if (!(out[i] > 0.0f)) continue;
       const std::optional<V3f> middle = lights_[i]->middle(from);
@@ -53,7 +50,7 @@ class LightSet {
   }
 
  private:
-  void importances(const V3f& from, const V3f& tangent, std::span<float> out) const;
+  void importances(const V3f& from, std::span<float> out) const;
   /// Normalises importances to probabilities.
   static void normalise(std::span<float> out);
 

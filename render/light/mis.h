@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/light/direct_light_test.cpp.
 #pragma once
 
 namespace pelage {

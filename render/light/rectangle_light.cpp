@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/light/area_light_test.cpp.
 #include "render/light/rectangle_light.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "render/light/fibre_bound.h"
 #include "render/light/spherical_rectangle.h"
 
 namespace pelage {
@@ -22,14 +22,12 @@ SphericalRectangle seen_from(const Rectangle& shape, const V3f& normal, const V3
 
 RectangleLight::RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided,
                                bool visible)
-    : name_(std::move(name)),
+    : Light(std::move(name), visible),
       shape_(shape),
       normal_(shape.x.cross(shape.y)),
       radiance_(radiance),
       luminance_(luminance(radiance)),
-      radius_(shape.half_size.length()),
-      two_sided_(two_sided),
-      visible_(visible) {}
+      two_sided_(two_sided) {}
 
 double RectangleLight::solid_angle(const V3f& from) const {
   return seen_from(shape_, normal_, from).solid_angle();
@@ -67,10 +65,9 @@ std::optional<LightHit> RectangleLight::intersect(const V3f& from, const V3f& di
   return LightHit{distance, radiance_, normal_};
 }
 
-float RectangleLight::importance(const V3f& from, const V3f& tangent) const {
+float RectangleLight::importance(const V3f& from) const {
   if (!emits_toward((from - shape_.center).dot(normal_))) return 0.0f;
-  return luminance_ * static_cast<float>(solid_angle(from)) *
-         fibre_cosine_bound(shape_.center - from, radius_, tangent);
+  return luminance_ * static_cast<float>(solid_angle(from));
 }
 
 }  // namespace pelage

@@ -19,13 +19,11 @@ class RectangleLight final : public Light {
  public:
   RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);
 
-  const std::string& name() const override { return name_; }
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
-  float importance(const V3f& from, const V3f& tangent) const override;
+  float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f& from) const override { return (shape_.center - from).normalized(); }
-  bool visible() const override { return visible_; }
 
   /// Solid angle from `from`, on either side.
   double solid_angle(const V3f& from) const;
@@ -33,14 +31,11 @@ class RectangleLight final : public Light {
  private:
   bool emits_toward(float height) const { return two_sided_ ? height != 0.0f : height > 0.0f; }
 
-  std::string name_;
   Rectangle shape_;
   V3f normal_;
   Rgb radiance_;
   float luminance_;
-  float radius_;  ///< of the circumscribed circle
   bool two_sided_;
-  bool visible_;
 };
 
 }  // namespace pelage

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/light/area_light_test.cpp.
 #include "render/light/sphere_light.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "render/light/fibre_bound.h"
 #include "render/sampling/warp.h"
 
 namespace pelage {
@@ -18,12 +18,11 @@ float cone_height(float sin2) { return sin2 / (1.0f + std::sqrt(1.0f - sin2)); }
 }  // namespace
 
 SphereLight::SphereLight(std::string name, const V3f& center, float radius, const Rgb& radiance, bool visible)
-    : name_(std::move(name)),
+    : Light(std::move(name), visible),
       center_(center),
       radius_(radius),
       radiance_(radiance),
-      luminance_(luminance(radiance)),
-      visible_(visible) {}
+      luminance_(luminance(radiance)) {}
 
 float SphereLight::solid_angle(const V3f& from) const {
   const V3f to_center = center_ - from;
@@ -80,8 +79,6 @@ std::optional<LightHit> SphereLight::intersect(const V3f& from, const V3f& direc
   return LightHit{distance, radiance_, (distance * direction - to_center).normalized()};
 }
 
-float SphereLight::importance(const V3f& from, const V3f& tangent) const {
-  return luminance_ * solid_angle(from) * fibre_cosine_bound(center_ - from, radius_, tangent);
-}
+float SphereLight::importance(const V3f& from) const { return luminance_ * solid_angle(from); }
 
 }  // namespace pelage

@@ -11,24 +11,20 @@ class SphereLight final : public Light {
  public:
   SphereLight(std::string name, const V3f& center, float radius, const Rgb& radiance, bool visible);
 
-  const std::string& name() const override { return name_; }
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
-  float importance(const V3f& from, const V3f& tangent) const override;
+  float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f& from) const override { return (center_ - from).normalized(); }
-  bool visible() const override { return visible_; }
 
   /// Solid angle from `from`; 4 pi inside.
   float solid_angle(const V3f& from) const;
 
  private:
-  std::string name_;
   V3f center_;
   float radius_;
   Rgb radiance_;
   float luminance_;
-  bool visible_;
 };
 
 }  // namespace pelage

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/fibre/yan_test.cpp.
 #include "render/material/yan_params.h"
 
 #include "render/material/absorption.h"

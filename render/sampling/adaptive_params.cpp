@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/sampling/adaptive_rule_test.cpp.
 #include "render/sampling/adaptive_params.h"
 
 namespace pelage {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
-#include "base/statistics.h"
+#include "base/process_usage.h"
 
 namespace pelage {
 namespace {

@@ -12,18 +12,19 @@ namespace {
 
 TEST(StatsJson, HoldsWhatIsPromised) {
   Statistics statistics;
-  statistics.wall_s = 1.5;
-  statistics.peak_rss_bytes = int64_t(1) << 40;
-  statistics.rays = {{"camera", 3}, {"shadow", 5}};
-  statistics.memory_bytes = {{"film", 7}};
-  statistics.stages_s = {{"grow", 0.25}};
+  statistics.process.wall_s = 1.5;
+  statistics.process.peak_rss_bytes = int64_t(1) << 40;
+  statistics.frames.rays = {.camera = 3, .shadow = 5, .indirect = 0};
+  statistics.process.memory_bytes = {{"film", 7}};
+  statistics.stages_s = {{"grow", 0.25}, {"read", 1}};
+  statistics.frames.stages_s = {{"grow", 0.5}, {"render", 2}};
   const auto json = nlohmann::json::parse(statistics_json(statistics));
   EXPECT_EQ(json.at("schema"), 1);
   EXPECT_EQ(json.at("wall_s"), 1.5);
   EXPECT_EQ(json.at("peak_rss_bytes"), int64_t(1) << 40);
   EXPECT_EQ(json.at("rays").at("shadow"), 5);
   EXPECT_EQ(json.at("memory_bytes").at("film"), 7);
-  EXPECT_EQ(json.at("stages_s").at("grow"), 0.25);
+  EXPECT_EQ(json.at("stages_s"), nlohmann::json({{"grow", 0.75}, {"read", 1.0}, {"render", 2.0}}));
   for (const char* name : {"cpu_s",
                            "baseline_rss_bytes",
                            "working_set_bytes",
@@ -55,7 +56,7 @@ TEST(StatsJson, HoldsATimelineWhenThereIsOne) {
   sample.seconds = 0.5;
   sample.resident = {300, 200};
   sample.tags[static_cast<size_t>(MemoryTag::kFilm)] = 70;
-  statistics.timeline = {{}, sample};
+  statistics.process.timeline = {{}, sample};
   const auto json = nlohmann::json::parse(statistics_json(statistics));
   const auto& columns = json.at("timeline_columns");
   ASSERT_EQ(json.at("timeline").size(), 2u);

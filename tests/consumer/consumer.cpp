@@ -20,10 +20,9 @@ int main(int argc, char** argv) try {
   const pelage::SceneDescription scene = pelage::load_scene(argv[1]);
   const auto assets = pelage::load_assets(scene, job);
   const pelage::World world = pelage::compose(scene, *assets, scene.frames.frames.front(), job);
-  pelage::Statistics statistics;
-  const pelage::FrameResult result = pelage::render(world, job, statistics);
+  const pelage::FrameResult result = pelage::render(world, job);
   pelage::write_frame(argv[2], world, result, clock.seconds(), job);
-  std::printf("%s: %lld strands\n", argv[2], static_cast<long long>(world.strands_described));
+  std::printf("%s: %lld strands\n", argv[2], static_cast<long long>(world.counts.strands_described));
 } catch (const pelage::Error& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

@@ -230,7 +230,8 @@ TEST_F(GroomMemoryTest, LongStrandsAreRefusedWithWhatDoesForAPicture) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
     // Two blocks of 7 KiB a point, and the strand.
-    EXPECT_NE(std::string(error.what()).find("growing strands with 20000 points for groom 'long' needs 278"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("growing strands with 20000 points for groom 'long' needs 278"),
+              std::string::npos)
         << error.what();
   }
 }

@@ -54,8 +54,7 @@ render: {samples: 64, bounces: 3}
       QuietJob job(2, ledger);
       const std::unique_ptr<Assets> assets = load_assets(scene, job);
       const World world = compose(scene, *assets, 0, job);
-      Statistics statistics;
-      const FrameResult result = render(world, job, statistics);
+      const FrameResult result = render(world, job);
       double picture = 0;
       for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 40; ++x) {

@@ -56,7 +56,7 @@ TEST_P(ColonyTest, IsInTheFrameAndTallInFront) {
     if (!part.name.ends_with(".rat")) continue;
     heights.push_back(visible_height(part, world.scene.camera, scene_.image));
   }
-  EXPECT_GE(world.characters_in_frame, rats * 9 / 10);
+  EXPECT_GE(world.counts.characters_in_frame, rats * 9 / 10);
   std::sort(heights.rbegin(), heights.rend());
   if (rats >= 100) {
     EXPECT_EQ(scene_.image.height, 720);

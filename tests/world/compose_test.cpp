@@ -42,9 +42,9 @@ TEST_F(ComposeTest, EveryPartOfTheSceneIsInTheWorld) {
   EXPECT_EQ(world.scene.fur[0].name, "walker.coat");
   EXPECT_EQ(world.scene.fur[0].material, 1u);
   EXPECT_EQ(world.scene.lights.size(), 2u);
-  EXPECT_EQ(world.strands_described, 400);
-  EXPECT_EQ(world.characters, 1);  // the post has no coat
-  EXPECT_EQ(world.characters_in_frame, 1);
+  EXPECT_EQ(world.counts.strands_described, 400);
+  EXPECT_EQ(world.counts.characters, 1);  // the post has no coat
+  EXPECT_EQ(world.counts.characters_in_frame, 1);
 }
 
 TEST_F(ComposeTest, PosesFollowTheShutterAndTheTransform) {

@@ -48,7 +48,7 @@ TEST_F(CrowdCompositionTest, APrototypeIsNotDrawnByItself) {
   EXPECT_EQ(count_named(world, "herd."), 20u);
   EXPECT_EQ(world.scene.fur.size(), 20u);
   EXPECT_EQ(world.scene.fur[7].name, "herd.7.coat");
-  EXPECT_EQ(world.strands_described, 20 * 400);
+  EXPECT_EQ(world.counts.strands_described, 20 * 400);
   const World both = compose_frame(1, {crowd("seed: 1"), {"characters.walker.drawn", "true"}});
   EXPECT_EQ(count_named(both, "walker"), 1u);
   EXPECT_EQ(count_named(compose_frame(1, {{"characters.post.drawn", "false"}}), "post"), 0u);
@@ -63,15 +63,15 @@ TEST_F(CrowdCompositionTest, EveryPosedCageIsItsOwn) {
     hashes.emplace(skin->hash().low, skin->hash().high);
   }
   EXPECT_EQ(hashes.size(), 21u);
-  EXPECT_EQ(world.strands_unique, world.strands_described);
+  EXPECT_EQ(world.counts.strands_unique, world.counts.strands_described);
 }
 
 TEST_F(CrowdCompositionTest, CoatsOfEqualPosesAreUniqueOnce) {
   const World world = compose_frame(1, {{"characters.twin",
                                          "{parts: [{skin: cube, material: hide, grooms: {coat: "
                                          "fur}}], transform: {scale: 2, translate: [0, 1, 0]}}"}});
-  EXPECT_EQ(world.strands_described, 800);
-  EXPECT_EQ(world.strands_unique, 400);
+  EXPECT_EQ(world.counts.strands_described, 800);
+  EXPECT_EQ(world.counts.strands_unique, 400);
 }
 
 TEST_F(CrowdCompositionTest, APartMayHavePosesOfItsOwn) {
@@ -138,15 +138,15 @@ TEST_F(CrowdCompositionTest, HairIsLongerButNotThicker) {
 }
 
 TEST_F(CrowdCompositionTest, OnlyWhatTheCameraSeesIsInTheFrame) {
-  EXPECT_EQ(compose_frame(1).characters_in_frame, 1);
+  EXPECT_EQ(compose_frame(1).counts.characters_in_frame, 1);
   const World away = compose_frame(1, {{"camera.look_at", "[1, 0, 30]"}});
-  EXPECT_EQ(away.characters_in_frame, 0);
+  EXPECT_EQ(away.counts.characters_in_frame, 0);
   const World half = compose_frame(1, {crowd("seed: 5"),
                                        {"camera.position", "[0, 2, 0]"},
                                        {"camera.look_at", "[0, 2, -1]"},
                                        {"camera.fov", "90"}});
-  EXPECT_GT(half.characters_in_frame, 2);
-  EXPECT_LT(half.characters_in_frame, 15);
+  EXPECT_GT(half.counts.characters_in_frame, 2);
+  EXPECT_LT(half.counts.characters_in_frame, 15);
 }
 
 TEST_F(CrowdCompositionTest, SharingATopologyChangesNothingButMemory) {

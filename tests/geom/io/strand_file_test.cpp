@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/statistics.h"
+#include "base/process_usage.h"
 #include "base/temporary_folder.h"
 #include "tests/geom/random_strands.h"
 #include "tests/support/data.h"

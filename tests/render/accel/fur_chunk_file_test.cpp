@@ -72,7 +72,7 @@ TEST_P(FurChunkFileScenes, answer_as_chunks_that_are_grown) {
   ASSERT_TRUE(options.file);
   const auto read = make(chunks, chunks.bounds(8), options);
   expect_same(*grown, *read, 1, 1500);
-  EXPECT_GT(options.file->chunks_read(), 0);
+  EXPECT_GT(options.file->reads().chunks, 0);
   EXPECT_EQ(read->chunks().counts().overruns, 0);
   const auto boxed = make(chunks, chunks.measured_bounds(1), options);
   expect_same(*grown, *boxed, 2, 1000);
@@ -107,7 +107,7 @@ TEST_F(FurChunkFileTest, is_read_again_under_a_budget) {
   const auto read = make(chunks, chunks.bounds(8), options);
   expect_same(*grown, *read, 5, 300);
   EXPECT_GT(read->chunks().counts().evictions, 0);
-  EXPECT_GT(options.file->chunks_read(), static_cast<int64_t>(chunks.contents.size()) / 2);
+  EXPECT_GT(options.file->reads().chunks, static_cast<int64_t>(chunks.contents.size()) / 2);
   EXPECT_EQ(read->chunks().counts().overruns, 0);
 }
 
@@ -186,7 +186,7 @@ TEST_F(FurChunkFileTest, chunks_that_are_damaged_are_grown) {
     for (uint32_t c = 0; c < chunks.contents.size(); ++c) lost += !options.file->has(c);
     EXPECT_GT(lost, 3u);
     EXPECT_LT(lost, chunks.contents.size() - 3);
-    EXPECT_GT(options.file->chunks_read(), 3);
+    EXPECT_GT(options.file->reads().chunks, 3);
     EXPECT_EQ(progress_.warnings, limited ? 2 : 1);
     EXPECT_FALSE(std::filesystem::exists(place));
     EXPECT_EQ(mixed->chunks().counts().overruns, 0);

@@ -89,12 +89,12 @@ TEST(PathEstimators, MoreLightSamplesChangeTheNoiseOnly) {
   // Errors of errors: those of 100 runs are known to 7 %, and differ by 15.
   constexpr int kMany = 100;
   const Estimate one = estimate(scene, {}, 500, kMany);
-  const int64_t shadow_rays = scene.statistics.rays["shadow"];
+  const int64_t shadow_rays = scene.statistics.rays.shadow;
   scene.render.light_samples = 3;
   const Estimate three = estimate(scene, {}, 600, kMany);
   expect_same(one, three);
   EXPECT_LT(three.standard_error, one.standard_error);
-  EXPECT_GT(scene.statistics.rays["shadow"], 3 * shadow_rays);
+  EXPECT_GT(scene.statistics.rays.shadow, 3 * shadow_rays);
 }
 
 TEST(PathEstimators, RouletteChangesNoMean) {
@@ -103,10 +103,10 @@ TEST(PathEstimators, RouletteChangesNoMean) {
   PathOptions with, without;
   without.roulette = false;
   const Estimate a = estimate(scene, with, 300);
-  const int64_t with_rays = scene.statistics.rays["indirect"];
+  const int64_t with_rays = scene.statistics.rays.indirect;
   const Estimate b = estimate(scene, without, 400);
   expect_same(a, b);
-  EXPECT_LT(with_rays, scene.statistics.rays["indirect"] - with_rays);
+  EXPECT_LT(with_rays, scene.statistics.rays.indirect - with_rays);
 }
 
 /// A light that is seldom chosen, on a surface so dark that few paths go on: were roulette not counted in the

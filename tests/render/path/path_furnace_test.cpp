@@ -31,8 +31,8 @@ TEST(PathFurnace, AnEmptySceneIsItsEnvironment) {
       EXPECT_EQ(result.film.surface(x, y).depth, std::numeric_limits<float>::infinity());
     }
   }
-  EXPECT_EQ(scene.statistics.rays["camera"], 8 * 6 * 64);
-  EXPECT_EQ(scene.statistics.rays["shadow"], 0);
+  EXPECT_EQ(scene.statistics.rays.camera, 8 * 6 * 64);
+  EXPECT_EQ(scene.statistics.rays.shadow, 0);
 }
 
 TEST(PathFurnace, WithoutLightsAllIsBlack) {
@@ -92,7 +92,7 @@ TEST(PathFurnace, ATangleOfWhiteFibresVanishes) {
   PathOptions options;
   options.roulette = false;
   const FrameResult result = scene.run(options);
-  EXPECT_GT(scene.statistics.rays["indirect"], scene.statistics.rays["camera"] / 20);
+  EXPECT_GT(scene.statistics.rays.indirect, scene.statistics.rays.camera / 20);
   expect_white(result, 2e-3);
 }
 
@@ -167,8 +167,8 @@ TEST(PathFurnace, AWhiteFurballVanishes) {
     const FrameResult result = scene.run();
     EXPECT_EQ(result.film.alpha(0, 10), 1.0f);
     EXPECT_NEAR(luminance(picture_mean(result.film).mean), 1, 0.01);
-    const auto& rays = scene.statistics.rays;
-    EXPECT_GT(rays.at("indirect"), 4 * rays.at("camera")) << "dense enough to scatter again and again";
+    const RayStatistics& rays = scene.statistics.rays;
+    EXPECT_GT(rays.indirect, 4 * rays.camera) << "dense enough to scatter again and again";
     expect_white(result, 2.5e-3);
   }
 }

@@ -87,14 +87,14 @@ TEST(PathIntegrator, CountsWhatItDid) {
   const FrameResult result = scene.run();
   EXPECT_EQ(result.samples, 8u);
   EXPECT_FALSE(result.partial);
-  EXPECT_EQ(scene.statistics.rays["camera"], 40 * 30 * 8);
-  EXPECT_GT(scene.statistics.rays["shadow"], 1000);
-  EXPECT_GT(scene.statistics.rays["indirect"], 500);
+  EXPECT_EQ(scene.statistics.rays.camera, 40 * 30 * 8);
+  EXPECT_GT(scene.statistics.rays.shadow, 1000);
+  EXPECT_GT(scene.statistics.rays.indirect, 500);
   EXPECT_EQ(scene.statistics.samples_rejected, 0);
-  EXPECT_EQ(scene.statistics.strands_generated, 300);
-  EXPECT_EQ(scene.statistics.chunks, 4) << "two batches of strands, two skins";
-  EXPECT_EQ(scene.statistics.expansions, scene.statistics.chunks_touched);
-  EXPECT_GT(scene.statistics.box_tests, scene.statistics.chunk_visits);
+  EXPECT_EQ(scene.statistics.growth.strands, 300);
+  EXPECT_EQ(scene.statistics.growth.chunks, 4) << "two batches of strands, two skins";
+  EXPECT_EQ(scene.statistics.residency.expansions, scene.statistics.residency.touched);
+  EXPECT_GT(scene.statistics.trace.box_tests, scene.statistics.trace.chunk_visits);
   EXPECT_EQ(scene.ledger.current(MemoryTag::kChunks), 0);
   EXPECT_GT(scene.ledger.peak(MemoryTag::kChunks), 0);
 }

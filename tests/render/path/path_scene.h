@@ -72,7 +72,8 @@ class PathScene {
                       Camera(camera, 1, image.width, image.height),
                       image,
                       render};
-    FrameResult result = render_frame(scene, {workers, ledger, progress}, statistics, options);
+    FrameResult result = render_frame(scene, {workers, ledger, progress}, options);
+    statistics += result.statistics;
     fur = std::move(scene.fur);
     return result;
   }
@@ -85,7 +86,7 @@ class PathScene {
   std::vector<MaterialParams> materials;
   std::vector<std::pair<std::string, LightParams>> lights;
   MemoryLedger ledger;
-  Statistics statistics;
+  FrameStatistics statistics;  ///< of all runs
 };
 
 /// One strand through the given points.

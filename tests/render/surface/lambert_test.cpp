@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/surface/lambert.h"
+
 #include <gtest/gtest.h>
 
 #include "render/surface/glossy.h"
-#include "render/surface/lambert.h"
 #include "tests/render/random.h"
 #include "tests/render/sphere_statistics.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/statistics.h"
+#include "base/process_usage.h"
 
 #include <cstring>
 #include <memory>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/compare/comparison.h"
+
 #include <gtest/gtest.h>
 
-#include "lab/compare/comparison.h"
 #include "lab/compare/contact_sheet.h"
 #include "lab/compare/light_side.h"
 #include "lab/compare/single_fibre.h"

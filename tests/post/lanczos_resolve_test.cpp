@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "post/lanczos_resolve.h"
+
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include "post/lanczos_resolve.h"
 #include "tests/post/picture.h"
 
 namespace pelage {

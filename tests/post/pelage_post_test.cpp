@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "post/pelage_post.h"
+
 #include <gtest/gtest.h>
 
-#include "post/pelage_post.h"
 #include "tests/post/picture.h"
 
 extern "C" {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures that are kept in tiles against all of their texels in memory.
+#include "image/texture_library.h"
+
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -13,7 +15,6 @@
 #include "base/temporary_folder.h"
 #include "image/exr.h"
 #include "image/image_reader.h"
-#include "image/texture_library.h"
 #include "tests/support/effort.h"
 
 namespace pelage {

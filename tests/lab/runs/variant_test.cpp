@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lab/runs/variant.h"
+
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -12,7 +14,6 @@
 #include "lab/report/machine.h"
 #include "lab/runs/process.h"
 #include "lab/runs/spread.h"
-#include "lab/runs/variant.h"
 
 namespace pelage {
 namespace {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace pelage {
+
+/// What a Residency did. Sums of several are of residencies that lived one after the other.
+struct ResidencyCounts {
+  int64_t expansions = 0;    ///< units grown
+  int64_t reexpansions = 0;  ///< of these, of slots that had been grown before
+  int64_t evictions = 0;
+  int64_t touched = 0;            ///< distinct slots grown
+  int64_t false_expansions = 0;   ///< units dropped, or held now, without a mark_hit
+  int64_t working_set_bytes = 0;  ///< of all distinct slots ever grown; in a sum, the largest
+  int64_t peak_bytes = 0;         ///< most held at once, reservations included
+  int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
+  double waited_s = 0;            ///< sum over threads, asleep until another had grown or let go
+
+  ResidencyCounts& operator+=(const ResidencyCounts& other) {
+    expansions += other.expansions;
+    reexpansions += other.reexpansions;
+    evictions += other.evictions;
+    touched += other.touched;
+    false_expansions += other.false_expansions;
+    working_set_bytes = std::max(working_set_bytes, other.working_set_bytes);
+    peak_bytes = std::max(peak_bytes, other.peak_bytes);
+    overruns += other.overruns;
+    waited_s += other.waited_s;
+    return *this;
+  }
+};
+
+}  // namespace pelage

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pelage {
+
+/// What tracing costs.
+struct TraceCounts {
+  int64_t box_tests = 0;     ///< rays against boxes above the chunks
+  int64_t chunk_visits = 0;  ///< rays against what a chunk holds
+
+  TraceCounts& operator+=(const TraceCounts& other) {
+    box_tests += other.box_tests;
+    chunk_visits += other.chunk_visits;
+    return *this;
+  }
+};
+
+/// Chunks that were read from a file instead of grown.
+struct StoredReads {
+  int64_t chunks = 0, bytes = 0;
+
+  StoredReads& operator+=(const StoredReads& other) {
+    chunks += other.chunks;
+    bytes += other.bytes;
+    return *this;
+  }
+};
+
+}  // namespace pelage

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/fibre/chiang_test.cpp.
+#pragma once
+
+#include "render/fibre/separable_bsdf.h"
+#include "render/material/absorption.h"
+#include "render/material/fibre_params.h"
+
+namespace pelage {
+
+/// Constants of a material whose lobes are a SeparableBsdf. A model derives from it and sets the widths.
+template <class Azimuth>
+class SeparableMaterial {
+ public:
+  /// Refers to the material.
+  SeparableBsdf<Azimuth> at(const FibreFrame& frame, float h, const Rgb& color) const {
+    const FibreCrossing crossing(eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
+    const Rgb sigma = fibre_absorption(absorption_, by_color_, color);
+    return {widths_,
+            frame,
+            {crossing.exit_azimuth(0), crossing.exit_azimuth(1), crossing.exit_azimuth(2)},
+            attenuations(crossing.reflectance, transmittance(sigma, crossing.leg()))};
+  }
+
+ protected:
+  /// `color_roughness`: azimuthal, of the fit from colour to absorption.
+  SeparableMaterial(float eta, const AbsorptionParams& absorption, float color_roughness)
+      : eta_(eta), absorption_(absorption), by_color_(color_roughness) {}
+
+  LobeWidths<Azimuth> widths_;
+
+ private:
+  float eta_;
+  AbsorptionParams absorption_;
+  ColorToAbsorption by_color_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/statistics_test.cpp.
+#include "render/frame/frame_statistics.h"
+
+namespace pelage {
+
+FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
+  growth += other.growth;
+  residency += other.residency;
+  reads += other.reads;
+  trace += other.trace;
+  rays += other.rays;
+  samples_rejected += other.samples_rejected;
+  for (const auto& [stage, seconds] : other.stages_s) stages_s[stage] += seconds;
+  return *this;
+}
+
+}  // namespace pelage

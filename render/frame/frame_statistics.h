@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "cache/residency_counts.h"
+#include "procedurals/growth_counts.h"
+#include "render/accel/trace_counts.h"
+#include "render/frame/ray_statistics.h"
+
+namespace pelage {
+
+/// What rendering a frame took, or several frames one after the other. A value: each part is filled by the
+/// room that counts it.
+struct FrameStatistics {
+  GrowthCounts growth;
+  ResidencyCounts residency;
+  StoredReads reads;  ///< expansions that were read from render.bvh.file
+  TraceCounts trace;
+  RayStatistics rays;
+  int64_t samples_rejected = 0;            ///< camera samples that were not finite; more than zero is a bug
+  std::map<std::string, double> stages_s;  ///< wall seconds by stage
+
+  FrameStatistics& operator+=(const FrameStatistics& other);
+};
+
+}  // namespace pelage
