@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/groom/follicles_test.cpp.
 #include "groom/progressive_order.h"
 
 #include <algorithm>
