@@ -256,22 +256,6 @@ TEST_F(GroomTest, FieldsMayReadTheRandomNumbersOfStrandsAndClumps) {
   }
 }
 
-TEST_F(GroomTest, AnUnknownAttributeIsNamedAtItsOperatorWithTheNearest) {
-  for (const char* root :
-       {"{attribute: randon}", "{product: [2, {attribute: random}, {attribute: randon}]}"}) {
-    try {
-      grow_coat("- color:\n- width: {root: " + std::string(root) + "}\n");
-      ADD_FAILURE() << root;
-    } catch (const Error& error) {
-      EXPECT_NE(std::string(error.what())
-                    .find("'width' reads the unknown attribute 'randon'; did you mean 'random'?"),
-                std::string::npos)
-          << error.what();
-      EXPECT_EQ(error.problems().front().position.line, 3);
-    }
-  }
-}
-
 TEST_F(GroomTest, ImportedStrandsFollowTheSkin) {
   // A coat written to a file and read back grows as itself, on the rest skin and, to the rounding of the
   // binding to triangles, in a pose.
