@@ -79,7 +79,6 @@ std::vector<Scene> scenes() {
 struct Fibre {
   std::string name;
   ConeShellBsdf bsdf;
-  V3f tangent;
 };
 
 std::vector<Fibre> fibres() {
@@ -96,8 +95,7 @@ std::vector<Fibre> fibres() {
       const V3f bent = (tangent + V3f(0.1f, 0, -0.2f)).normalized();
       result.push_back(
           {std::string(variant == ShellVariant::kWigner ? "wigner " : "literal ") + std::to_string(width),
-           ConeShellBsdf(ConeShellMaterial(params), Rgb(0.6f, 0.5f, 0.4f), {tangent, bent, tangent}, wo),
-           tangent});
+           ConeShellBsdf(ConeShellMaterial(params), Rgb(0.6f, 0.5f, 0.4f), {tangent, bent, tangent}, wo)});
     }
   }
   return result;
@@ -105,9 +103,15 @@ std::vector<Fibre> fibres() {
 
 const V3f kFrom(0.1f, -0.2f, 0.3f);
 
+std::vector<float> probabilities(const LightSet& lights) {
+  std::vector<float> p(lights.size());
+  lights.probabilities(kFrom, p);
+  return p;
+}
+
 /// Light through a light sample; weighted against the lobes when `mis`.
 double by_light(const Scene& scene, const Fibre& fibre, const V2f& u, bool mis) {
-  const LightSet::Choice choice = scene.lights.choose(kFrom, fibre.tangent, u.x);
+  const LightSet::Choice choice = LightSet::choose(probabilities(scene.lights), u.x);
   if (!(choice.probability > 0)) return 0;
   const std::optional<LightSample> s = scene.lights.light(choice.light).sample(kFrom, {choice.remapped, u.y});
   if (!s) return 0;
@@ -125,7 +129,7 @@ double by_lobe(const Scene& scene, const Fibre& fibre, const V3f& u, bool mis) {
     const Light& light = scene.lights.light(k);
     const std::optional<LightHit> hit = light.intersect(kFrom, s->wi);
     if (!hit) continue;
-    const float pdf = light.pdf(kFrom, s->wi) * scene.lights.probability(kFrom, fibre.tangent, k);
+    const float pdf = light.pdf(kFrom, s->wi) * probabilities(scene.lights)[k];
     sum += luminance(s->value.total() * hit->radiance) / s->value.pdf *
            (mis ? power_weight(s->value.pdf, pdf) : 1.0f);
   }
