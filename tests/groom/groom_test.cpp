@@ -251,7 +251,7 @@ TEST_F(GroomTest, FieldsMayReadTheRandomNumbersOfStrandsAndClumps) {
     grow_coat("- color:\n- width: {root: {attribute: color}}\n");
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("'width' has no largest value"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("'width' has no upper limit"), std::string::npos);
     EXPECT_EQ(error.problems().front().position.line, 3);
   }
 }
