@@ -226,7 +226,7 @@ TEST_F(GroomTest, CombinationsThatMakeNoSenseAreRefused) {
   };
   EXPECT_NE(refused("strands: 10\n", nullptr).find("needs a skin"), std::string::npos);
   EXPECT_NE(refused("skin: ball\n", rest_).find("strands"), std::string::npos);
-  EXPECT_NE(refused("skin: ball\nstrands: 10\nstrands_file: a.hair\n", rest_).find("neither"),
+  EXPECT_NE(refused("skin: ball\nstrands: 10\nstrands_file: a.hair\n", rest_).find("must not be given"),
             std::string::npos);
   EXPECT_NE(refused("strands_file: nowhere.hair\n", nullptr).find("nowhere.hair"), std::string::npos);
 }
