@@ -377,7 +377,7 @@ TEST_F(ResidencyTest, SaysSoWhenASlotThatTakesMoreDoesNotFit) {
   const int64_t limit = index_bytes(grower, 6, 1) + int64_t(2.5 * kBytes);
   Residency residency(grower, 6, 1, MemoryBudget{static_cast<uint64_t>(limit)}, ledger_, MemoryTag::kChunks);
   residency.visit(1, 0, [](Resident&) {});
-  EXPECT_NE(text_of([&] { residency.visit(3, 0, [](Resident&) {}); }, ErrorKind::kMemory).find("is used up"),
+  EXPECT_NE(text_of([&] { residency.visit(3, 0, [](Resident&) {}); }, ErrorKind::kMemory).find("is full"),
             std::string::npos);
   residency.visit(2, 0, [](Resident&) {});
 }

@@ -132,7 +132,7 @@ TEST(SurfaceTopology, RefusesWhatHasNoSurface) {
     cage.face_sizes.insert(cage.face_sizes.end(), poles.face_sizes.begin(), poles.face_sizes.end());
     for (uint32_t v : poles.face_vertices) cage.face_vertices.push_back(first + v);
   }
-  EXPECT_EQ(message(cage).substr(0, 46), "cage.obj: too many vertices of many faces and ");
+  EXPECT_EQ(message(cage).substr(0, 46), "cage.obj: too many vertices with many faces an");
   cage = cube_cage();
   cage.creases = {{0, 7, 1}};
   EXPECT_EQ(message(cage), "cage.obj: the crease from vertex 1 to 8 is not an edge of any face");

@@ -41,7 +41,7 @@ TEST_F(SkinRoomTest, DenseMeshesAreToldOfSchemeNone) {
   reserve_skin("bust", params(SubdivisionScheme::kCatmullClark), dense, job_);
   EXPECT_EQ(progress_.text.find("scene.yaml:3:20: skin 'bust' with the 21012 faces of scan.obj"), 0u)
       << progress_.text;
-  EXPECT_NE(progress_.text.find("scheme: none takes polygons as they are"), std::string::npos);
+  EXPECT_NE(progress_.text.find("scheme: none uses the polygons as they are"), std::string::npos);
 }
 
 TEST_F(SkinRoomTest, WhatDoesNotFitIsRefusedByName) {
