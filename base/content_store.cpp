@@ -81,7 +81,7 @@ std::optional<File> ContentStore::open_as(const std::string& kind, const Content
     }
     return stored;
   } catch (const Error& e) {
-    // Removed by another process between the question and the opening: as good as never there.
+    // Removed by another process between the check and the opening: the same as missing.
     if (std::filesystem::exists(path, error)) warn(std::string(e.what()) + "; it is made again");
     return {};
   }

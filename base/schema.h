@@ -62,7 +62,7 @@ struct KeyInfo {
   std::string type;
   std::string default_text;
   KeyOptions options;
-  std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that may stand here
+  std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that are allowed here
   /// Visits the blocks directly under a value of this key. A malformed value has none.
   std::function<void(Value&, const BlockVisitor&)> visit_blocks;
 

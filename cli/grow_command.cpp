@@ -142,7 +142,7 @@ std::string groom_of(const FurPart& part) { return part.name.substr(part.name.rf
 int run_grow(const Options& options) {
   Run run(options);
   SceneDescription scene = read_scene(options, run.display());
-  // What other programs are given must not depend on the picture's size or the camera.
+  // Strands for other programs must not depend on the picture's size or the camera.
   if (!options.output.empty() && !options.lod) scene.render.lod.enabled = false;
   if (!options.groom.empty() && !scene.grooms.find(options.groom)) {
     throw Error(ErrorKind::kArguments, "there is no groom '" + options.groom + "'" +

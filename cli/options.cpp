@@ -32,7 +32,7 @@ constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
 
 void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("SCENE", options.input, "Scene file")->required();
-  // Not greedy: `--set a=1 scene.yaml` must leave the scene alone.
+  // Not greedy: `--set a=1 scene.yaml` must not consume the scene.
   command.add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)
       ->type_name("KEY=VALUE");
@@ -142,7 +142,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
 void add_trace(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* trace = app.add_subcommand(
       "trace", "Run one variant of 'measure accel': trace rays through the fur of a scene and time them");
-  trace->group("");  // run by measure
+  trace->group("");  // used by measure only
   add_scene_flags(*trace, options, texts);
   trace->add_option("--variant", options.trace_variant, "prepare, or a structure to trace")
       ->type_name("NAME");

@@ -201,8 +201,8 @@ void FollicleCandidates::try_all(uint64_t begin, uint64_t end, const CandidateSh
   }
 }
 
-// Small faces are done together and large ones in parts, whatever the threads; what a few parts hold beside
-// the result is little.
+// Small faces are grouped and large ones divided, independent of the threads; temporary memory of the parts
+// is small.
 constexpr uint64_t kPart = 4096, kGroup = 64;
 
 CandidateSurvey FollicleCandidates::survey(const Job& job) const {

@@ -30,7 +30,7 @@ struct FollicleCandidate {
   float x = 0, y = 0, z = 0;
   uint32_t normal = 0;   ///< packed, see pack_normal
   float spacing = 1;     ///< 1 / sqrt(density)
-  uint32_t attempt = 0;  ///< its number among all places that were tried: FollicleCandidates::root()
+  uint32_t attempt = 0;  ///< its number among all attempts, see FollicleCandidates::root()
   uint32_t number = 0;   ///< random, by which they are in order; later its rank in that order
 };
 

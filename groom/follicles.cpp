@@ -98,11 +98,11 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, si
   return progressive_order(supply, count, mass, whole, job);
 }
 
-/// Places of follicles in their progressive order.
+/// Positions of follicles in their progressive order.
 void place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
            size_t count, double mass, const Job& job, std::vector<V3f>& positions,
            std::vector<RootAddress>& roots) {
-  // How many candidates pass is random: ask again with more in the rare case that they are too few.
+  // The number of candidates that pass is random: repeats with more in the rare case of too few.
   MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     if (round > 0) {

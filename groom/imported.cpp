@@ -31,7 +31,7 @@ ImportedStrands::ImportedStrands(const GroomParams& params, const LimitSurface* 
       reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(claimed * (kMaking + kKept)),
               fmt::format("reading the roots of {} strands of {} for {}", claimed,
                           params.strands_file.path.string(), owner));
-  // The file is read twice, a point in some 0.1 us each time.
+  // The file is read twice, at about 0.1 us per point each time.
   constexpr size_t kMinForProgress = 2'000'000;
   const ProgressStage stage(job.progress, "read strands", 2 * static_cast<double>(claimed),
                             reader_.points_in_file() >= kMinForProgress);

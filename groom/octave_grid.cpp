@@ -24,7 +24,7 @@ int32_t cell_of(float coordinate) {
 
 void OctaveGrid::rebuild(size_t expected, float radius) {
   cell_ = 2.0f * radius * smallest_;
-  release(heads_);  // the old ones go before the new ones are made
+  release(heads_);  // frees the old ones before making new ones
   heads_.assign(head_count(expected), kNone);
   for (uint32_t i = 0; i < items_.size(); ++i) link(i);
 }

@@ -33,7 +33,7 @@ std::string unknown_attribute(const Operator& op, std::span<const std::string> k
   return {};
 }
 
-/// Bounds need the largest value of every field; attributes of strands have none.
+/// Bounds need the max value of every field; attributes of strands have none.
 void check_bounded(const Operator& op, const SourcePosition& position) {
   const StrandReach after = op.reach_after({});
   if (std::isfinite(after.length) && std::isfinite(after.distance) && std::isfinite(after.radius)) return;

@@ -25,7 +25,7 @@ constexpr double kExpectedFill = 0.5;
 constexpr int kSpareLevels = 1;
 /// Part of what is expected that is found at least, but for a few levels.
 constexpr double kFill = 0.5;
-/// Candidates that take part per follicle expected: a fifth more than there are per follicle in the end.
+/// Active candidates per expected follicle: a fifth more than the final number per follicle.
 constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
 /// Down to a radius of 1e-11 of the first: only coincident candidates remain.
 constexpr int kLevels = 400;
@@ -77,7 +77,7 @@ uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse)
          spread((c.z - origin.z) * inverse) << 2;
 }
 
-/// The last level may find more than are wanted, of which the last go again.
+/// The last level may find more than wanted, the last of which are removed again.
 size_t with_overshoot(size_t count) { return count + count / 6; }
 
 /// One run of progressive_order().
@@ -158,7 +158,7 @@ bool DartThrowing::throw_at(int level) {
 
 /// Gathers what is tried at a level, neighbours together.
 bool DartThrowing::collect(int level, double radius) {
-  // Regions hold some thousand follicles, so that what is looked at together stays in the cache.
+  // Regions contain some thousand follicles, so that those examined together stay in the cache.
   const CandidateSurvey& survey = supply_.survey();
   const float inverse =
       std::min(1.0f / (64.0f * static_cast<float>(radius) * survey.smallest_spacing), 1023.0f / extent_);
@@ -172,7 +172,7 @@ bool DartThrowing::collect(int level, double radius) {
   const size_t wanted = waiting_.size(level) + joining - joined_;
   tried_.clear();
   if (wanted > tried_.capacity()) {
-    release(tried_);  // the old ones go before room for more is made
+    release(tried_);  // frees the old ones before allocating more
     tried_.reserve(wanted);
   }
   const auto add = [&](uint32_t place) {
@@ -245,7 +245,7 @@ void DartThrowing::forget_the_hopeless(int level) {
   waiting_.drop_from(last_ + 1);
 }
 
-/// Which of a level come first must not depend on where they are.
+/// Which candidates of a level come first must not depend on their positions.
 void DartThrowing::append_accepted() {
   stoppable_sort(job_, accepted_.begin(), accepted_.end(), [](const Accepted& a, const Accepted& b) {
     const uint64_t ha = hash64(a.rank, random_use("follicle order")),

@@ -43,7 +43,7 @@ struct HeldCandidates {
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
                                                        const HeldCandidates& held, const Job& job);
 
-/// Upper bound of the bytes that making `count` follicles from `candidates` takes at any moment.
+/// Upper bound of the memory in use at any moment while `count` follicles are made from `candidates`.
 size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held);
 
 }  // namespace pelage

@@ -103,7 +103,7 @@ int64_t BandJob::field_bytes() const {
 
 int64_t BandJob::band_bytes(Band band) const {
   const int64_t planes = static_cast<int64_t>(source_.channels.size() + extra_planes);
-  // A result of floats, and halves while it is written.
+  // A result in floats, and in halves while it is written.
   int64_t bytes = planes * window.width() * (band.last - band.first) * 6;
   int64_t max_source = 0;  // one view at a time
   for (const MovingView& view : views) {
@@ -180,7 +180,7 @@ void BandJob::write_band(ExrWriter& writer, Band band, const Workers& workers) {
 void BandJob::run(const std::filesystem::path& output, const Job& job, PostReport& report) {
   std::vector<ExrOutputPart> headers;
   for (const Part& part : parts) headers.push_back(part.part);
-  next_band(0);  // refuses a budget that is too small before anything is written
+  next_band(0);  // rejects a budget that is too small before writing anything
   ExrWriter writer(output, source_.reader, std::move(headers), job.workers.thread_count());
   const MemoryCharge fixed(job.ledger, MemoryTag::kFilm, fixed_bytes());
   report.bands = 0;

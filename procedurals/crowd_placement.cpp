@@ -25,9 +25,9 @@ constexpr size_t kBodiesPerJump = 100;
 constexpr size_t kMaxComparisons = 100'000'000, kMaxVisits = 200'000'000;
 constexpr size_t kMinForProgress = 20'000;       // animals, however they stand
 constexpr size_t kVisitsWorthShowing = 400'000;  // some tenths of a second
-constexpr int kJumps = 100;                      // places that are tried for one that is stuck
-constexpr float kMargin = 1e-3f;     // of the distance: pushed a little too far, so that an end is reached
-constexpr double kDensest = 0.9069;  // of equal discs in the plane
+constexpr int kJumps = 100;                      // places tried for an animal that is stuck
+constexpr float kMargin = 1e-3f;     // of the distance: pushes slightly too far, so that sweeps terminate
+constexpr double kDensest = 0.9069;  // area fraction of equal discs in the plane
 constexpr float kPi = std::numbers::pi_v<float>;
 
 V2f turned(const V2f& v, float s, float c) { return {c * v.x + s * v.y, c * v.y - s * v.x}; }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kIncludeKey = "include";
 
-// Reads a file and what it includes, keeping track of what is being read (cycles) and has been read (limits).
+// Reads a file and its includes; keeps track of files being read (cycles) and of the total (limits).
 class Loader {
  public:
   Loader(Problems& problems, RenamedKeys* renamed) : problems_(problems), renamed_(renamed) {}

@@ -37,9 +37,9 @@ struct RenamedKeys {
   std::vector<Problem> warnings = {};  ///< one for every old name, with its place and the new name
 };
 
-/// The same for callers that go on to check the values and report all mistakes together: problems are added,
-/// not thrown, unless the scene file itself cannot be opened. Nothing is returned when some file could not be
-/// read or is not YAML: what such a document lacks means nothing.
+/// The same for callers that continue to validate the values and report all mistakes together: problems are
+/// added instead of thrown, unless the scene file itself cannot be opened. Empty when a file could not be
+/// read or is not YAML, because missing keys of such a document are no mistakes.
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
 

@@ -119,7 +119,7 @@ LabFur grow_lab_fur(const RenderScene& scene, const Job& job) {
     }
   }
   if (gatherer.empty()) throw Error(ErrorKind::kArguments, "the scene has no fur to trace rays through");
-  // One tree has one grid: wide enough that most strands fit narrow leaves.
+  // One tree has one grid: coarse enough that most strands fit narrow leaves.
   const auto percentile = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() * 9 / 10);
   std::nth_element(widths.begin(), percentile, widths.end());
   fur.root_width = *percentile;

@@ -46,7 +46,7 @@ struct Hit {
   uint32_t segment = 0;    ///< of the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
-  StrandStart start = {};     ///< for rays that go on from here
+  StrandStart start = {};     ///< for rays that continue from here
   uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }

@@ -11,14 +11,14 @@
 namespace pelage {
 namespace {
 
-// Boxes that were learned are worth a test before a visit, which is cheap, only where they are this many
-// times finer than the given ones; before a chunk is grown, always.
+// Testing learned boxes before a visit, which is cheap, is worthwhile only where they are this many times
+// finer than the given ones; before a chunk is grown, always.
 constexpr size_t kFiner = 8;
 constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine ones
 
 }  // namespace
 
-/// What one thread needs to know of the ray that it traces.
+/// Per-thread state of the current ray.
 struct alignas(64) ChunkAccel::Scratch {
   struct Waiting {
     float entry;
@@ -56,8 +56,8 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
 
 ChunkAccel::~ChunkAccel() = default;
 
-/// Calls visit(chunk) for every chunk that the ray may meet before far(), which may become smaller from visit
-/// to visit; ends when a visit returns false.
+/// Calls visit(chunk) for every chunk that the ray may hit before far(), which may decrease between visits;
+/// ends when a visit returns false.
 template <class Far, class Visit>
 void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
                               const Visit& visit) const {
@@ -95,8 +95,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   bool goes_on = true;
   while (goes_on && walk.next(far(), chunk, entry)) {
     if (!scratch.first_time(chunk)) {
-      // Boxes do not come strictly in order: one of a chunk that waits may be entered before those seen so
-      // far. Finer ones were looked at all together.
+      // Boxes are not strictly ordered: one of a pending chunk may be entered before those seen so far. Fine
+      // boxes were all tested together.
       if (boxes.has_fine(chunk)) continue;
       for (Scratch::Waiting& waiting : scratch.waiting) {
         if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
@@ -125,7 +125,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   const float looked_until = far();
   for (Waiting& waiting : scratch.waiting) {
     if (waiting.entry > far()) continue;
-    // Since then the ray may have become shorter, and another thread may have grown the chunk.
+    // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
     const bool tells_more = far() < looked_until || boxes.learned(waiting.chunk);
     if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
     if (!visit_one(waiting.chunk)) return;
@@ -146,7 +146,7 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
         if (found) nearest_chunk = chunk;
         return true;
       });
-  // Only the answer counts: what else was hit on the way depends on the order of the visits.
+  // Only the final answer counts: other hits on the way depend on the order of visits.
   if (nearest_chunk) chunks_.mark_hit(*nearest_chunk);
   return nearest.hit;
 }

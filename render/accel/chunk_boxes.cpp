@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-/// No strand in a box is wider than the box.
+/// Upper bound: no strand is wider than its box.
 float widest_radius(const ChunkBounds& bounds) {
   const Box3f box = bounds.whole();
   const V3f size = box.isEmpty() ? V3f(0) : box.size();
@@ -37,7 +37,7 @@ ChunkBoxes::ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower
       bounds = std::move(bounds).in_one_part();
     }
     known.fine = std::move(bounds.fine);
-    // Of a chunk that moves, boxes over a longer time than the shutter tell less than what it learns.
+    // For a moving chunk, boxes over a longer time than the shutter are less tight than learned ones.
     known.learns = known.fine.count() == 0 || (counts.motion_keys > 1 && bounds.keys == 1);
     bytes_bound_ += known.fine.bytes();
     if (known.learns)

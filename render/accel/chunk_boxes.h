@@ -48,7 +48,7 @@ class ChunkBoxes {
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
   bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
   const FineBoxes& fine(uint32_t chunk) const { return known_[chunk].fine; }
-  /// By how much fine boxes have to be larger.
+  /// By how much fine boxes must be enlarged.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
   /// Whether measuring the chunk would tell more than is known of it.

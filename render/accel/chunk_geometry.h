@@ -51,7 +51,7 @@ class ChunkGeometry : public Resident {
   /// Ray::start of a ray that leaves strand `index` at `place`: segment + parameter in it.
   virtual StrandStart start_on(uint32_t index, float place) const = 0;
 
-  /// What is held, this object included.
+  /// Memory in use, including this object.
   virtual size_t bytes() const = 0;
   /// Max memory in use while it was made.
   virtual size_t build_peak_bytes() const = 0;

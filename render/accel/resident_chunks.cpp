@@ -85,7 +85,7 @@ Grower::Grown ResidentChunks::grow(uint32_t chunk) {
       const size_t bytes = fur->bytes();
       return {std::move(fur), bytes};
     }
-    // It is no longer stored: growing it takes more than reading it was thought to.
+    // It is no longer in the file: growing it needs more memory than was estimated for reading it.
     const size_t needed = reserve_bytes(chunk);
     if (needed > options_.file->bytes_bound(chunk)) return {nullptr, needed};
   }

@@ -22,12 +22,12 @@
 namespace pelage {
 
 struct ResidentChunksOptions {
-  AccelKind kind = AccelKind::kEmbree;  ///< of flat strands; round ones and skins are Embree's
+  AccelKind kind = AccelKind::kEmbree;  ///< for flat strands; round ones and skins always use Embree
   EmbreeChunkOptions chunk;
   FurChunkOptions fur;
   bool eager = false;         ///< everything is grown before the first visit
   bool opaque = false;        ///< every strand is known to be opaque
-  uint64_t memory_limit = 0;  ///< bytes that the ledger's budgeted tags may reach; 0 = no limit
+  uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
   int threads = 1;            ///< workers that visit are below it
   /// Where chunks of fur are read instead of being grown, unless all are grown before the first visit; or
   /// null. What is damaged there is grown.
@@ -95,7 +95,7 @@ class ResidentChunks final : private Grower {
   void expect_patterns();
   void find_whether_all_fit(const MemoryLedger& ledger);
 
-  PagePool pool_;  // of all trees
+  PagePool pool_;  // for all trees
   const ChunkGrower& grower_;
   const ResidentChunksOptions options_;
   FurChunkOptions fur_;

@@ -5,10 +5,10 @@
 
 namespace pelage {
 
-/// What tracing costs.
+/// Cost of tracing.
 struct TraceCounts {
   int64_t box_tests = 0;     ///< rays against boxes above the chunks
-  int64_t chunk_visits = 0;  ///< rays against what a chunk holds
+  int64_t chunk_visits = 0;  ///< rays against the contents of chunks
 
   TraceCounts& operator+=(const TraceCounts& other) {
     box_tests += other.box_tests;

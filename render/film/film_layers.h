@@ -48,8 +48,8 @@ struct FilmLayers {
 
   std::vector<std::string> names;  ///< "key.diffuse" ...; empty when light layers are off
   int groups = 0;
-  bool noise = false;                ///< whether the film keeps how much the samples of each pixel vary
-  bool lod = false;                  ///< whether it shows how much detail was left out
+  bool noise = false;                ///< whether the film stores the variance of each pixel's samples
+  bool lod = false;                  ///< whether the film shows how much detail was omitted
   std::optional<PixelFilter> splat;  ///< by which samples count for the pixels around them; none: drawn
 
   bool empty() const { return names.empty(); }

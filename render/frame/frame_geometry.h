@@ -24,7 +24,7 @@ class FrameGeometry {
   const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Whether all chunks together fit the budget, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }
-  /// Adds what was grown, evicted and tested.
+  /// Adds the numbers of units grown, evicted and tested.
   void add_to(FrameStatistics& statistics) const;
 
  private:

@@ -25,9 +25,9 @@ struct PathState {
 
   SampleStream stream;
   uint32_t vertex = 0;
-  uint32_t random = 0;  ///< decides at semi-transparent crossings
+  uint32_t random = 0;  ///< used at semi-transparent crossings
   float time = 0;
-  Ray ray;                 ///< that led to `hit`
+  Ray ray;                 ///< the ray that hit `hit`
   Hit hit;                 ///< at the current vertex
   Rgb first[kLobeGroups];  ///< rho / pdf of the first vertex, by lobe group
   Rgb throughput{1};       ///< of the vertices after the first
@@ -162,7 +162,7 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                       });
 }
 
-/// Follows a direction drawn from the lobes to the next vertex. Returns false where the path ends.
+/// Traces a direction sampled from the lobes to the next vertex. Returns false where the path ends.
 template <class Sink>
 bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
                                   SampleScratch& scratch, Sink& sink) const {

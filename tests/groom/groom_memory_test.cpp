@@ -236,7 +236,7 @@ TEST_F(GroomMemoryTest, LongStrandsAreRefusedWithWhatDoesForAPicture) {
   }
 }
 
-/// Asks to stop after so many looks.
+/// Asks to stop after this many checks.
 class StopsAfterLooks final : public Progress {
  public:
   explicit StopsAfterLooks(int looks) : left_(looks) {}

@@ -101,7 +101,7 @@ TEST(Yaml, SyntaxMistakes) {
             Lines{"s.yaml:2:4: a scene must not contain control characters"});
 }
 
-// yaml-cpp takes the end of the file for a closing quote.
+// yaml-cpp accepts the end of the file as a closing quote.
 TEST(Yaml, QuotesMustEnd) {
   EXPECT_EQ(problems("a: \"b\nc: 3\n"), Lines{"s.yaml:1:4: unterminated quoted text"});
   EXPECT_EQ(problems("a: 'b'' c\n"), Lines{"s.yaml:1:4: unterminated quoted text"});
