@@ -21,6 +21,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "base/process_usage.h"
 #include "bench/ball_scene.h"
 #include "image/texture_library.h"
 #include "render/fibre/fibre_material.h"

@@ -28,6 +28,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "base/process_usage.h"
 #include "bench/ball_scene.h"
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_loop.h"

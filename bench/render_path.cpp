@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "base/process_usage.h"
 #include "bench/ball_scene.h"
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"

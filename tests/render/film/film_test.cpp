@@ -63,7 +63,7 @@ TEST(Film, KeepsTheDataOfTheFrontMostSampleWithinThePixel) {
     FilmSample sample;
     sample.surface.depth = depth;
     sample.surface.id = id;
-    sample.inside_pixel = inside;
+    sample.offset = V2f(inside ? 0.0f : 0.9f);
     film.add(0, 0, sample, {});
   };
   EXPECT_EQ(film.surface(0, 0).depth, kInfinity);
