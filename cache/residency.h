@@ -61,8 +61,8 @@ struct MemoryBudget {
 /// Guarantees:
 /// - The budget never changes what a visit sees.
 /// - A unit stays alive until the visits that use it end.
-/// - A slot is grown only after its upper bound has been charged to the ledger, and it is charged only if the
-///   sum of the budgeted tags then stays within the budget.
+/// - A slot is grown only after its upper bound has been charged to the ledger, and the bound is charged only
+///   if the sum of the budgeted tags then stays within the budget.
 /// - Visits make progress with every budget that holds the largest slot in addition to everything else on the
 ///   budgeted tags. The constructor refuses smaller budgets.
 ///
@@ -98,8 +98,8 @@ class Residency {
 
   /// Calls use(Resident&) and returns its result. If the unit is not resident, first grows it, or waits while
   /// another thread grows it. `use` must not visit any slot, which is checked, and must not keep a reference.
-  /// If the grower throws, this and every later visit of the slot throw the same exception. Throws Error
-  /// (kMemory) when other users of the budget have left too little for the slot.
+  /// If the grower throws, all visits that wait for the slot and all later ones throw the same exception.
+  /// Throws Error (kMemory) when other users of the budget have left too little for the slot.
   template <class Use>
   decltype(auto) visit(uint32_t slot, int thread, Use&& use) {
     Resident& unit = pin(slot, thread);

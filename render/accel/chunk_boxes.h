@@ -24,9 +24,8 @@ class Workers;
 class ChunkBoxes {
  public:
   /// `given`: one per chunk, over the whole shutter. `fur_trees`: fur chunks are traced by fur trees. The
-  /// boxes of such chunks are widened by the max displacement of snapping to the grid (FurGrid), and those of
-  /// all parts are merged into one: for a resident chunk, tracing its tree costs less than testing more
-  /// boxes.
+  /// boxes of such a chunk are enlarged by the max displacement of snapping to the grid (FurGrid) and merged
+  /// into one: once the chunk is resident, tracing its tree costs less than testing the boxes of its parts.
   ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower, bool fur_trees);
   ~ChunkBoxes();
   ChunkBoxes(const ChunkBoxes&) = delete;
@@ -52,7 +51,7 @@ class ChunkBoxes {
   /// By how much fine boxes must be enlarged.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
-  /// Whether boxes measured on the chunk would be tighter than the given ones.
+  /// Whether boxes measured on the chunk may be tighter than the given ones.
   bool may_learn(uint32_t chunk) const { return known_[chunk].learns; }
   /// The measured boxes; null before the chunk is first grown, and always if may_learn() is false.
   const PartBoxes* learned(uint32_t chunk) const { return learned_[chunk].load(std::memory_order_acquire); }

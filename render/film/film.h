@@ -46,8 +46,7 @@ struct FilmSample {
 /// or, if none is within the pixel, from the front-most sample of all.
 ///
 /// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. One thread at a time adds the
-/// samples of a tile, always in the same order, so the sums do not depend on the number of
-/// threads.
+/// samples of a tile, always in the same order, so the sums do not depend on the number of threads.
 class Film {
  public:
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);

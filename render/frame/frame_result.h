@@ -9,7 +9,7 @@ namespace pelage {
 /// A rendered frame.
 struct FrameResult {
   Film film;
-  uint32_t samples = 0;         ///< min number of paths of a pixel
+  uint32_t samples = 0;         ///< min number of paths per pixel
   double mean_samples = 0;      ///< mean number of paths per pixel
   double clamped_fraction = 0;  ///< fraction of the indirect light that render.clamp_indirect removed
   double noise = 0;             ///< frame_noise(); 0 where the film keeps no moments

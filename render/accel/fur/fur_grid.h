@@ -52,7 +52,7 @@ class FurGrid {
   static constexpr float kReach = 0x1p56f;
 
  private:
-  static constexpr float kRootsPerUnit = 16;  // steps per unit of the square roots of radii
+  static constexpr float kRootsPerUnit = 16;  // steps per unit in the square root of a radius
 
   /// Like std::nearbyint(), without a function call: beyond 2^51 every number is an integer.
   static double whole(double x) {

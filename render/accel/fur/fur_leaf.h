@@ -17,8 +17,7 @@ namespace pelage {
 /// its origin, and a radius k^2 / 256 as the 8-bit number k. A wide block is used if these ranges do not
 /// suffice; it stores the same values as floats. Both decode to the same bits.
 struct FurBlockHeader {
-  static constexpr uint32_t kNone =
-      ~0u;  ///< number of a lane without a segment; the points of such a lane are all equal
+  static constexpr uint32_t kNone = ~0u;  ///< number of an empty lane, whose points are all equal
   static constexpr size_t kLanes = 4;
 
   int32_t origin[3];
