@@ -44,7 +44,7 @@ class PageBlock {
 
   std::byte* data_ = nullptr;
   size_t bytes_ = 0;
-  PagePool* pool_ = nullptr;  // returns there when freed
+  PagePool* pool_ = nullptr;  // takes the memory back when the block is freed; null: the system does
 };
 
 }  // namespace pelage

@@ -21,8 +21,8 @@ double seconds_per_call(Work&& work, int calls = 200000, int runs = 15) {
   return best;
 }
 
-/// Stands before the loop of a benchmark and adds a column: how many times longer an iteration took than the
-/// yardstick.
+/// Adds a column to a benchmark: the time of one iteration divided by the yardstick's time. Construct it just
+/// before the benchmark's loop.
 class RatioTo {
  public:
   RatioTo(benchmark::State& state, const char* column, double yardstick_seconds)

@@ -43,10 +43,10 @@ class Grower {
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
   /// Name of the slot's owner for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Grows the unit of a slot: same slot, same content. Called by a thread that pins nothing; must not visit
-  /// the Residency itself. May throw. If the slot turns out to need more than was reserved, returns no unit
-  /// and the required size in `bytes`; reserve_bytes() returns that size from then on, and grow() is called
-  /// again with that reservation. It must hold no memory in between.
+  /// Grows the unit of a slot; a slot always has the same content. Called by a thread that pins nothing; must
+  /// not visit the Residency itself. May throw. If the slot needs more memory than reserved, returns no unit
+  /// and the required size in `bytes`. reserve_bytes() must return that size from then on, and the Residency
+  /// calls grow() again with that reservation. The Grower must hold no memory for the slot in between.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
@@ -55,30 +55,38 @@ struct MemoryBudget {
   uint64_t limit = 0;  ///< bytes; 0 is no limit
 };
 
-/// A fixed number of slots whose units are grown on first visit, kept while the budget allows, and grown
-/// again when they are needed after an eviction. The amount of memory never changes what a visit sees.
+/// Holds a fixed number of slots within a memory budget. A slot's unit is grown on the first visit, kept
+/// while the budget allows, and grown again if a visit needs it after an eviction.
 ///
-/// Visits are lock-free: a visit pins its unit with one store to a slot of its thread (a hazard pointer
-/// [Michael04]) and then checks the index again. Growth and eviction are rare and synchronised by one mutex,
-/// which is released while units are grown or freed. A unit is freed after it was removed from the index and
-/// no thread was found to pin it; if a thread does pin it, the unit is put back.
+/// Guarantees:
+/// - The budget never changes what a visit sees.
+/// - A unit stays alive until the visits that use it end.
+/// - A slot is grown only after its upper bound has been charged to the ledger, and the bound is charged only
+///   if the sum of the budgeted tags then stays within the budget.
+/// - Visits make progress with every budget that holds the largest slot in addition to everything else on the
+///   budgeted tags. The constructor refuses smaller budgets.
 ///
-/// Every budget that holds the largest slot makes progress. Reservations are all or nothing: a thread
-/// reserves the upper bound of a slot before it claims the slot, and while it waits it holds no memory, no
-/// pin and no claim. It can therefore obtain everything that the other threads do not pin or grow at that
-/// moment, and those finish. With a budget for the largest slots of all threads at once, no thread waits for
-/// memory. When the working sets of the threads do not fit together, fewer threads may grow at a time
-/// (GrowthThrottle).
+/// Why visits make progress: a thread reserves the upper bound of a slot, all or nothing, before it claims
+/// the slot. While it waits, it holds no memory, no pin and no claim. It can therefore obtain everything that
+/// the other threads do not pin or grow at that moment, and those threads finish. If the budget holds the
+/// largest slots of all threads at once, no thread waits for memory. If the working sets of the threads do
+/// not fit together, fewer threads may grow at a time (GrowthThrottle).
 ///
-/// Other charges to budgeted tags are taken into account by the next reservation. Charge memory that may grow
-/// while a Residency is in use, such as poses, at its maximum beforehand.
+/// How: a visit of a resident unit takes no lock. It pins the unit with one store to its thread's hazard
+/// pointer [Michael04] and then reads the index again. Growth and eviction are rare and share one mutex,
+/// which is released while units are grown or freed. Eviction removes a unit from the index and then looks
+/// for pins: it puts a pinned unit back and frees the others.
 ///
-/// Thread safety: visit, is_resident, mark_hit and counts may be called from any thread, but each `thread`
-/// number from one thread at a time. The other members from one thread, without concurrent visits.
+/// Other users of the budgeted tags may charge memory at any time; the next reservation takes it into
+/// account. Memory that may grow while a Residency is in use, such as poses, must be charged at its maximum
+/// beforehand.
+///
+/// Thread safety: visit, is_resident, mark_hit and counts may be called from any thread, but only one thread
+/// at a time may use a `thread` number. Call the other members from one thread, without concurrent visits.
 class Residency {
  public:
-  /// `threads`: visits pass 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the largest
-  /// slot in addition to what the ledger already contains.
+  /// Visits pass thread numbers 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the
+  /// largest slot in addition to the memory already charged to the budgeted tags.
   Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget, MemoryLedger& ledger,
             MemoryTag tag);
   /// Frees everything. There must be no concurrent visit.
@@ -88,10 +96,10 @@ class Residency {
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
 
-  /// Calls use(Resident&) and returns what it returns, growing the unit before or waiting for the thread that
-  /// does. `use` visits nothing itself, which is checked, and keeps no reference. What a grower throws,
-  /// everybody who visits that slot gets, now and later. Throws Error (kMemory) when the rest of the budget
-  /// was taken by others.
+  /// Calls use(Resident&) and returns its result. If the unit is not resident, first grows it, or waits while
+  /// another thread grows it. `use` must not visit any slot, which is checked, and must not keep a reference.
+  /// If the grower throws, all visits that wait for the slot and all later ones throw the same exception.
+  /// Throws Error (kMemory) when other users of the budget have left too little for the slot.
   template <class Use>
   decltype(auto) visit(uint32_t slot, int thread, Use&& use) {
     Resident& unit = pin(slot, thread);
@@ -107,8 +115,8 @@ class Residency {
   /// Records that the unit was useful, for false_expansions.
   void mark_hit(uint32_t slot) { set_flag(slots_[slot].hit); }
 
-  /// Grows all units and never evicts afterwards; call before the first visit. Returns early when `progress`
-  /// is cancelled. Throws Error (kMemory) when not everything fits.
+  /// Grows all units and never evicts afterwards; call before the first visit. Returns early when the job's
+  /// progress is cancelled. Throws Error (kMemory) when not everything fits.
   void grow_all(const Job& job);
 
   size_t slot_count() const { return slots_.size(); }
@@ -119,7 +127,7 @@ class Residency {
     std::atomic<Resident*> unit{nullptr};
     std::atomic<bool> used{false};  // since the last visit of the clock's hand
     std::atomic<bool> hit{false};   // since it was grown
-    bool growing = false;           // from here on: guarded by mutex_
+    bool growing = false;           // this and the following members: guarded by mutex_
     bool touched = false;
     uint8_t credit = 0;       // rounds of the clock's hand that it may stay unused
     uint32_t dropped_at = 0;  // number of expansions at the time of its eviction
@@ -150,7 +158,7 @@ class Residency {
     std::atomic<Resident*>& hazard = hazards_[static_cast<size_t>(thread)].unit;
     PELAGE_CHECK(hazard.load(std::memory_order_relaxed) == nullptr);  // visits do not nest
     if (never_evicts_) {
-      // Nobody looks for pins: only so that a visit within this one is noticed without a budget, too.
+      // Nothing is evicted, so the pin serves only to detect nested visits.
       if (!unit) unit = &pin_slowly(slot, thread);
       hazard.store(unit, std::memory_order_relaxed);
       return *unit;
@@ -202,8 +210,8 @@ class Residency {
 
   mutable std::mutex mutex_;
   std::condition_variable
-      changed_;      // a growth ended, or something was released while a thread waited for memory
-  ClockRing clock_;  // slots with a unit; from here on: guarded by mutex_
+      changed_;      // a growth ended, or memory or a pin was released while a thread waited for memory
+  ClockRing clock_;  // slots with a unit; this and the following: guarded by mutex_
   GrowthThrottle throttle_;
   std::map<uint32_t, std::exception_ptr> failures_;
   int growing_ = 0;

@@ -96,7 +96,7 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   grow->add_flag("--explain", options.explain,
                  "For each operator in a cache, say whether it was stale and why");
   grow->add_flag("--prune", options.prune,
-                 "Delete cache files that no groom of the scene needs and nothing used for an hour");
+                 "Delete cache files that no groom of the scene needs and that no run has used for an hour");
   grow->add_option("--frames", texts.frames,
                    "Frames to compute bounding boxes for; strands grow at the first frame")
       ->type_name("FRAMES");
@@ -126,8 +126,8 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("N");
   measure
       ->add_option("--characters", options.characters,
-                   "lod: full-detail characters in each run; all of the crowd is extrapolated from these "
-                   "runs (default: 10,20,40)")
+                   "lod: number of full-detail characters in each run; the cost of the whole crowd is "
+                   "extrapolated from these runs (default: 10,20,40)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 1 << 30))
@@ -204,7 +204,7 @@ void add_post(CLI::App& app, Options& options, Texts& texts) {
   add_run_flags(*motion_blur, options, texts, kPostMemory);
 
   CLI::App* stereo =
-      app.add_subcommand("stereo", "Make the picture of the second eye from that of the first (any EXR)");
+      app.add_subcommand("stereo", "Make the second eye's picture from the first eye's (any EXR)");
   add_stereo_flags(*stereo, options, texts.post);
   add_run_flags(*stereo, options, texts, kPostMemory);
 }

@@ -8,7 +8,7 @@
 namespace pelage {
 
 /// During its lifetime, std::cout writes to a descriptor through this object, which records failures. Only
-/// one at a time. Line-buffered on a terminal, otherwise in blocks.
+/// one instance may exist at a time. Line-buffered on a terminal, otherwise in blocks.
 class StandardOutput final : private std::streambuf {
  public:
   explicit StandardOutput(int descriptor);

@@ -50,8 +50,8 @@ const Schema<CombParams>& CombParams::schema() {
          .min = 0,
          .max = 1});
     s.key("curve", &CombParams::curve,
-          {.help = "Length over which a strand turns, from the root, as a fraction of the strand; 0 turns "
-                   "the whole strand at the root",
+          {.help = "Fraction of the strand, from the root, over which it turns; 0 turns the whole "
+                   "strand at the root",
            .min = 0,
            .max = 1});
     return s;

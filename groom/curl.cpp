@@ -46,8 +46,7 @@ const Schema<CurlParams>& CurlParams::schema() {
            .max = 1,
            .old_names = {"random"}});
     s.key("start", &CurlParams::start,
-          {.help = "Length over which the radius grows to its full size, from the root, as a fraction of the "
-                   "strand",
+          {.help = "Fraction of the strand, from the root, over which the radius grows to its full size",
            .min = 0,
            .max = 1});
     return s;

@@ -39,7 +39,7 @@ const Schema<FrizzParams>& FrizzParams::schema() {
   static const Schema<FrizzParams> table = [] {
     Schema<FrizzParams> s("frizz",
                           "Displaces each strand sideways by its own random waves. The root stays in place; "
-                          "the amplitude is full from half the length on. Strands become longer.");
+                          "the waves reach their full amplitude at half the length. Strands become longer.");
     s.set_example(R"(grooms:
   coat:
     skin: patch

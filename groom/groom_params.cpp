@@ -34,7 +34,7 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
         "Stores the result of the frozen operators between runs. For each groom the folder keeps the last "
         "eight states and all states used within a day; a state that is unused for thirty days is deleted "
         "when something new is stored. `pelage grow SCENE --prune` deletes everything that the scene does "
-        "not need. Programs built from the same growth sources share a folder.");
+        "not need. Builds of Pelage with the same source code for growth share stored results.");
     s.set_example(R"(grooms:
   coat:
     skin: rat
@@ -109,15 +109,15 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("operators", &GroomParams::operators,
           {.help = "Operators that shape the strands, in order. Every strand starts straight and one scene "
                    "unit long"});
-    s.key(
-        "leaf_strands", &GroomParams::leaf_strands,
-        {.help = "Maximum number of strands that grow together; changes no pixel. By default Pelage takes "
-                 "500 with render.bvh.file, 8000 for coats with a cache, and otherwise the largest of 8000, "
-                 "2000, 500 and 125 (for long strands also 31 and 7) at which 400 chunks fit render.memory, "
-                 "counting 80 bytes per control point (32 for strands from a file, 8 if all fur fits)",
-         .min = 1,
-         .max = 1e6,
-         .default_text = "8000 or less"});
+    s.key("leaf_strands", &GroomParams::leaf_strands,
+          {.help =
+               "Maximum number of strands that grow together; changes no pixel. By default Pelage takes 500 "
+               "with render.bvh.file, 8000 for coats with a cache, and otherwise the largest of 8000, 2000, "
+               "500 and 125 (for long strands also 31 and 7) at which 400 chunks fit render.memory (32 "
+               "chunks for strands from a file, 8 if all fur fits), counting 80 bytes per control point",
+           .min = 1,
+           .max = 1e6,
+           .default_text = "8000 or less"});
     s.key("cache", &GroomParams::cache,
           {.help = "Stores the result of frozen operators between runs", .default_text = "none"});
     return s;

@@ -11,14 +11,14 @@ namespace pelage {
 
 class ProgressStage;
 
-/// The strands of a file as the start of a groom: each is bound to the nearest point of the rest skin, or has
-/// no skin. The strands stay in the file; only their positions are kept in memory. Immutable. Thread safety:
-/// const members may be called from any thread.
+/// The strands of a file that a groom starts from: each is bound to the nearest point of the rest skin, or
+/// none has a skin. The strands stay in the file; only their positions are kept in memory. Immutable. Thread
+/// safety: const members may be called from any thread.
 class ImportedStrands {
  public:
-  /// Throws Error (kInput) when the file cannot be read, Error (kMemory) before reading it, Error (kStopped).
-  /// `rest` may be null; `owner` is for messages. Warns the job of strands that are too far from the skin to
-  /// follow it.
+  /// `rest` may be null: no skin. `owner` is for messages. Warns through the job about strands that are too
+  /// far from the skin to follow it. Throws Error (kInput) when the file cannot be read, Error (kMemory)
+  /// before reading it when it does not fit, and Error (kStopped) when the job is stopped.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 
@@ -36,15 +36,15 @@ class ImportedStrands {
   size_t run_length(size_t begin, size_t end) const;
   /// Rest roots of strands without a skin: their first points, with frames along the axes.
   void place_free(StrandBatch& batch, size_t begin) const;
-  /// Points and radii from the file, as offsets from the rest roots that are set.
+  /// Sets points and radii from the file; points are offsets from the rest roots, which must be set before.
   void start(StrandBatch& batch, size_t begin) const;
   /// Properties of the strands of a leaf.
   const StrandReach& reach(size_t leaf) const { return reach_[leaf]; }
   /// First point of the strand of a follicle without a skin, in the space of the file.
   const V3f& first_point(size_t follicle) const { return free_roots_[follicle]; }
-  /// Attributes from the file for some follicles, all except `except`.
+  /// Attributes from the file for the given follicles: all attributes except the one named `except`.
   std::vector<StrandAttribute> attributes(std::span<const uint32_t> follicles, std::string_view except) const;
-  /// Number of floats of these attributes for the follicles [begin, end).
+  /// Number of floats that attributes() returns for the follicles [begin, end).
   size_t attribute_floats(size_t begin, size_t end, std::string_view except) const;
   size_t bytes() const;
 
@@ -57,7 +57,7 @@ class ImportedStrands {
   StrandReader reader_;
   bool free_ = true;
   FollicleTree follicles_;
-  std::vector<uint32_t> place_;     // empty where every strand of the file is usable: its id is its index
+  std::vector<uint32_t> place_;     // empty if every strand of the file is usable: then its id is its index
   std::vector<V3f> free_roots_;     // of strands without a skin
   std::vector<StrandReach> reach_;  // per leaf
 };

@@ -59,8 +59,8 @@ struct StrandBatch {
   StrandRow u, v;                          ///< texture coordinates of the roots
   StrandRow clump;                         ///< random number of the strand's clump, or of the strand itself
   const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that need it
-  float scale = 1;     ///< of the character: length of an operator's scene unit in this space
-  bool posed = false;  ///< whether the batch's space is that of a pose
+  float scale = 1;     ///< scale of the character: length of an operator's scene unit in the batch's space
+  bool posed = false;  ///< whether the batch's space is a posed space
 
   /// Memory of a batch of strands with this number of points.
   static int64_t bytes(int points, bool colored) {

@@ -248,7 +248,7 @@ const Schema<MapForm>& MapForm::schema() {
     s.set_picture("Left: constant length. Right: length from an image, short where it is dark.");
     s.key("map", &MapForm::map, {.help = "Image file of any common format", .required = true});
     s.key("channel", &MapForm::channel, {.help = "Channel to read as data. Without it the map is a colour"});
-    s.key("range", &MapForm::range, {.help = "Values that stored 0 and 1 map to"});
+    s.key("range", &MapForm::range, {.help = "Values of the field where the image holds 0 and 1"});
     s.key("space", &MapForm::space,
           {.help = "Colour space of stored values. `auto`: integer formats are sRGB, unless a channel is "
                    "given; floating-point formats are linear"});

@@ -60,7 +60,7 @@ void add_simplification_keys(Schema<P>& s) {
        .min = 0,
        .max = 1});
   key("min_fraction", &Base::min_share,
-      {.help = "Minimum fraction of the strands that is always kept",
+      {.help = "Minimum fraction of the strands to keep",
        .min = 1e-4,
        .max = 1,
        .old_names = {"least_share"}});

@@ -18,13 +18,12 @@ inline constexpr uint8_t kFilled = 1;    ///< in a gap, by fill_gaps
 inline constexpr uint8_t kExtended = 2;  ///< beyond a side of the picture, by extend_sides
 
 /// Fills the gaps of a row of samples, including seams, from the farther of their two borders, because a gap
-/// uncovers the background. The row beyond that border is mirrored into the gap, skipping samples nearer than
-/// the border by more than 5 % of 1 / depth: for a thin strand in front of a sky, the strand and the sky
-/// beside it are mirrored, and the strand is not stretched. Where the row ends, or beyond twice the gap's
-/// length, the last sample is repeated. At most `longest` samples of a gap are filled, starting at the
-/// border; the rest stays empty. For equally far borders the left one is used. A gap at an end of the row has
-/// one border; it is filled if `ends` declares the picture cut off there. A row without any sample stays
-/// empty.
+/// uncovers the background. The row beyond that border is mirrored into the gap, so that a thin strand at the
+/// border is copied once, with the sky beside it, and not stretched. Samples nearer than the border by more
+/// than 5 % of 1 / depth are skipped. Where the row ends, or beyond twice the gap's length, the last sample
+/// is repeated. At most `longest` samples of a gap are filled, starting at the border; the rest stays empty.
+/// For equally far borders the left one is used. A gap at an end of the row has one border; it is filled if
+/// `ends` declares the picture cut off there. A row without any sample stays empty.
 ///
 /// `filled`, as long as the row, marks invented samples; those marked kFilled are not mirrored again.
 void fill_gaps(std::span<Sample> row, std::span<uint8_t> filled, int longest, RowEnds ends = {});

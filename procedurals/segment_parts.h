@@ -27,8 +27,8 @@ struct SegmentDivision {
 };
 
 /// The segments of a batch in groups of neighbours. The groups ignore strands: the box of pieces of many
-/// strands is much smaller than that of a few whole strands, and a batch is stored by priority, so that each
-/// of its prefixes is spread everywhere.
+/// strands is much smaller than the box of a few whole strands. Nor are consecutive strands
+/// neighbours: a batch is stored by priority, so that each of its prefixes is spread over the whole leaf.
 ///
 /// The batch is divided into cells with about the same number of segments, by recursive halving at the median
 /// along the longest axis; the position of a segment is the centre of its box at the first motion key. Parts

@@ -15,7 +15,7 @@ bool ValueReader<FormatVersion>::read(const Value& value, const KeyOptions&, For
 
 const Schema<UnitsParams>& UnitsParams::schema() {
   static const Schema<UnitsParams> table = [] {
-    Schema<UnitsParams> s("units", "Length of a scene unit and of a frame.");
+    Schema<UnitsParams> s("units", "Length of a scene unit, and frame rate.");
     s.set_example(R"(units: {meters_per_unit: 0.01, fps: 24}   # one scene unit is a centimetre)");
     s.key("meters_per_unit", &UnitsParams::meters_per_unit,
           {.unit = "m", .help = "Length of one scene unit", .min = 0, .above_min = true});
@@ -123,10 +123,11 @@ const Schema<CharacterParams>& CharacterParams::schema() {
     s.key("frame_offset", &CharacterParams::frame_offset,
           {.unit = "frames",
            .help = "Frames added to the current frame to choose the pose; may be fractional"});
-    s.key("footprint", &CharacterParams::footprint,
-          {.unit = "scene units",
-           .help = "Ground that the character covers in a crowd: discs [x, z, radius] about its origin",
-           .default_text = "its origin"});
+    s.key(
+        "footprint", &CharacterParams::footprint,
+        {.unit = "scene units",
+         .help = "Ground that the character covers in a crowd: discs [x, z, radius], relative to its origin",
+         .default_text = "its origin"});
     s.key("drawn", &CharacterParams::drawn,
           {.help = "Whether the character appears by itself",
            .default_text = "true, or false if a crowd uses it"});
@@ -144,16 +145,16 @@ const Schema<SceneDescription>& SceneDescription::schema() {
         "or a list of files, reads other scene files first; maps are merged, and the including file "
         "overrides the included ones. A number or vector marked \"or keys\" may be `{keys: {1: a, 48: b}}`, "
         "which interpolates linearly between frames. A field is a number, a colour or one of the blocks "
-        "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value; the name "
-        "of a list item is its index from 0, or its only key. A key marked \"formerly\" also accepts its old "
-        "name, with a warning; giving both names in one file is an error.");
+        "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value; a list "
+        "item is addressed by its index from 0, or by its key if it has only one. A key marked \"formerly\" "
+        "also accepts its old name, with a warning; giving both names in one file is an error.");
     s.set_example(R"(pelage: 1
 include: [animals.yaml, lights.yaml]
 frames: 1-48
 camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0], fov: 24})");
     s.key("pelage", &SceneDescription::pelage, {.help = "Version of the scene format", .required = true});
     s.key("units", &SceneDescription::units,
-          {.help = "Length of a scene unit and of a frame", .default_text = "cm, 24 fps"});
+          {.help = "Length of a scene unit, and frame rate", .default_text = "cm, 24 fps"});
     s.key("frames", &SceneDescription::frames, {.help = "Frames to render: 1, 1-48, 1-48x2 or 1,5,9-12"});
     s.key("camera", &SceneDescription::camera,
           {.help = "Position, direction and shutter of the camera", .default_text = "see camera"});

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// Difference of two pictures with one camera and one seed: in luminance, relative to the mean luminance of
-/// pixels with alpha.
+/// Difference in luminance between two pictures with the same camera and seed, relative to the mean luminance
+/// of the pixels with alpha.
 struct PictureChange {
   double largest = NAN, rms = NAN;  ///< over pixels
   double largest_block = NAN;       ///< over means of kChangeBlock^2 pixels, which average out noise
@@ -25,7 +25,7 @@ PictureChange change_between(const std::filesystem::path& from, const std::files
 std::optional<Picture> picture_sheet(const std::vector<std::filesystem::path>& files, size_t columns,
                                      int max_width, const std::string& caption);
 
-/// The layer `lod` in the colours of tools/exr_to_png: from blue, every strand, to red, one in a hundred;
+/// The layer `lod` in the colours of tools/exr_to_png: from blue (every strand) to red (one in a hundred);
 /// black where there is nothing. Empty without the layer.
 std::optional<Picture> detail_picture(const std::filesystem::path& file);
 

@@ -16,33 +16,33 @@ namespace pelage {
 
 class Workers;
 
-/// Where the chunks of a frame are, as far as that is known: the boxes that were given before anything was
-/// grown, and those that were measured on a chunk when it was first grown.
+/// The known boxes of the chunks of a frame: those given before any chunk was grown, and those measured when
+/// a chunk was first grown.
 ///
-/// Thread safety: const members from any thread, learn() from any thread for different chunks beside them;
-/// the others before.
+/// Thread safety: const members may be called from any thread, and at the same time learn() from any thread,
+/// for different chunks. Call the other members before.
 class ChunkBoxes {
  public:
-  /// `given`: one per chunk, over the whole shutter. Of chunks that will stand in fur trees it widens the
-  /// boxes by what snapping to a grid may add, and makes one of those of all parts: what a ray meets of a
-  /// chunk that is resident, its tree tells at less cost than boxes above it.
+  /// `given`: one per chunk, over the whole shutter. `fur_trees`: fur chunks are traced by fur trees. The
+  /// boxes of such a chunk are enlarged by the max displacement of snapping to the grid (FurGrid) and merged
+  /// into one: once the chunk is resident, tracing its tree costs less than testing the boxes of its parts.
   ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower, bool fur_trees);
   ~ChunkBoxes();
   ChunkBoxes(const ChunkBoxes&) = delete;
   ChunkBoxes& operator=(const ChunkBoxes&) = delete;
 
-  /// Makes the tree over what was given.
+  /// Builds the tree over the given boxes.
   void build_tree(const Workers& workers);
-  /// The same over what was learned, of all chunks.
+  /// Builds the tree over the measured boxes. Every chunk must have learned its own.
   void build_tree_of_learned(const Workers& workers);
 
   size_t size() const { return known_.size(); }
-  /// Null before it was built.
+  /// Null before the tree is built.
   const ChunkTree* tree() const { return tree_.get(); }
-  /// Holds all of the chunk at all times of the shutter; world space; empty for a chunk of nothing. Once
-  /// there is a tree. (With `bounds: user` as loose or as tight as the user wants it.)
+  /// Box that contains the whole chunk at all times of the shutter, in world space; empty for an empty chunk.
+  /// Requires the tree. (With `bounds: user` the box is as loose or as tight as the user chose.)
   const Box3f& whole(uint32_t chunk) const { return whole_[chunk]; }
-  /// Boxes of the chunk in the tree.
+  /// Number of the chunk's boxes in the tree.
   size_t parts_in_tree(uint32_t chunk) const { return tree_parts_[chunk]; }
 
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
@@ -51,17 +51,17 @@ class ChunkBoxes {
   /// By how much fine boxes must be enlarged.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
-  /// Whether measuring the chunk would tell more than is known of it.
+  /// Whether boxes measured on the chunk may be tighter than the given ones.
   bool may_learn(uint32_t chunk) const { return known_[chunk].learns; }
-  /// What was measured; null before the chunk was first grown, and where the fine boxes say as much.
+  /// The measured boxes; null before the chunk is first grown, and always if may_learn() is false.
   const PartBoxes* learned(uint32_t chunk) const { return learned_[chunk].load(std::memory_order_acquire); }
-  /// Once for each chunk.
+  /// Stores measured boxes. Call at most once per chunk.
   void learn(uint32_t chunk, const ChunkBounds& measured);
-  /// How many boxes are learned of a chunk with so many segments or triangles.
+  /// Number of boxes to measure on a chunk with `primitives` segments or triangles.
   static size_t learned_parts(size_t primitives);
   static constexpr size_t kPrimitivesPerPart = 1024, kMaxParts = 64;
 
-  /// Of all but the tree, with all that may be learned.
+  /// Max memory without the tree, including all boxes that may be learned.
   size_t bytes_bound() const { return bytes_bound_; }
 
  private:

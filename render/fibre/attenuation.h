@@ -8,7 +8,8 @@
 
 namespace pelage {
 
-/// Number of lobes: light paths with p internal legs are R, TT, TRT, and all longer ones together.
+/// Number of lobes: R, TT and TRT, whose light paths have p = 0, 1 and 2 internal legs, and one lobe for all
+/// longer paths.
 inline constexpr int kFibreLobes = 4;
 
 /// Geometry of light that hits a dielectric cylinder at h [Marschner03, section 4]; independent of colour.

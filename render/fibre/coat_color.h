@@ -10,20 +10,20 @@
 namespace pelage {
 
 /// Converts the colour of dense fur to the absorption of a single fibre of a model, so that `color` means the
-/// same for every model: an infinite medium of such fibres is as bright as one of Chiang fibres whose
-/// absorption follows the fit of [Chiang16]. That fit was made for another scene but matches the colour of
-/// the medium to a few hundredths.
+/// same for every model. The reference is an infinite medium of Chiang fibres whose absorption follows the
+/// fit of [Chiang16]: a medium of the converted fibres has the same brightness. The fit was made for another
+/// scene but matches the colour of the medium to a few hundredths.
 ///
-/// A table over the logarithm of the colour, computed by random walks on construction. Bit-identical for any
-/// number of threads.
+/// Uses a table over the logarithm of the colour, computed by random walks on construction. The table is
+/// bit-identical for any number of threads.
 class CoatColor {
  public:
-  /// `scatter(t, hit, u)` is a fibre with absorption `t`: per radius for translucent fibres; opaque ones have
-  /// an albedo of exp(-t). What it scatters must decrease as t increases.
+  /// `scatter(t, hit, u)` samples a fibre with absorption `t`, which is per radius for translucent fibres;
+  /// opaque fibres have the albedo exp(-t). The scattered light must decrease as t increases.
   using Scatter = std::function<std::optional<FibreSample>(float, const TangleHit&, const V3f&)>;
   CoatColor(const Scatter& scatter, const Workers& workers);
 
-  /// The t of each channel; 0 where even a fibre without absorption is too dark.
+  /// The absorption t of each channel; 0 where even a fibre without absorption is too dark.
   Rgb operator()(const Rgb& color) const;
 
   static constexpr int kColors = 11;
@@ -31,7 +31,7 @@ class CoatColor {
   static const std::array<float, kColors> kColor, kBrightness;
 
  private:
-  std::array<float, kColors> root_{};  // of t
+  std::array<float, kColors> root_{};  // square root of t for each colour
 };
 
 }  // namespace pelage

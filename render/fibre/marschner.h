@@ -38,8 +38,8 @@ class MarschnerMaterial {
 /// azimuth. Averaging N over h replaces the paper's root finding and caustics. The path length in the fibre
 /// is 2 cos(gamma_t) / cos(theta_t); the formula printed in the paper is known to be wrong.
 ///
-/// Reflects nearly twice the incoming energy: unit area in theta_h is area 2 in theta_i. Refers to
-/// `material`.
+/// Reflects nearly twice the incoming energy: unit area in theta_h is area 2 in theta_i. Keeps a
+/// reference to `material`.
 class MarschnerBsdf {
  public:
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);

@@ -42,10 +42,11 @@ struct FilmSample {
 
 /// Sums over all samples of a picture, per pixel.
 ///
-/// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. The samples of a tile are
-/// added by one thread at a time in an order of their own, so the sums do not depend on the number of
-/// threads. Data that cannot be averaged (depth, normal, id ...) is that of the front-most sample, of those
-/// within the pixel if there are any.
+/// Data that cannot be averaged (depth, normal, id ...) comes from the front-most sample within the pixel,
+/// or, if none is within the pixel, from the front-most sample of all.
+///
+/// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. One thread at a time adds the
+/// samples of a tile, always in the same order, so the sums do not depend on the number of threads.
 class Film {
  public:
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
@@ -62,7 +63,7 @@ class Film {
   /// `by_layer`: the radiance divided among layers(). Returns false and leaves the pixel unchanged when a
   /// value is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
-  /// Adds light to a sample that was added before, which then had less.
+  /// Adds further light to a sample that was added before.
   bool add_light(int x, int y, const V2f& offset, const Rgb& radiance, std::span<const Rgb> by_layer);
 
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }

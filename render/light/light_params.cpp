@@ -9,7 +9,7 @@ const KeyOptions kRadiance{.unit = "W/(sr m2), or any unit used throughout the s
                            .help = "Emitted radiance: a colour or one number",
                            .min = 0};
 const KeyOptions kIntensity{.help = "Factor on the radiance", .min = 0};
-const KeyOptions kVisible{.help = "Whether the camera sees the light directly; fur and skin always do"};
+const KeyOptions kVisible{.help = "Whether camera rays see the light; it always lights fur and skin"};
 
 }  // namespace
 

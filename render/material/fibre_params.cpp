@@ -43,7 +43,7 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
     s.key("specular", &P::specular,
           {.help = "Albedo of the highlight, independent of color", .min = 0, .max = 1});
     s.key("exponent", &P::exponent,
-          {.help = "Exponent of the highlight; larger values are sharper", .min = 1, .max = 1000});
+          {.help = "Exponent of the highlight; larger values make it sharper", .min = 1, .max = 1000});
     return s;
   }();
   return table;
@@ -79,8 +79,8 @@ const Schema<MarschnerParams>& MarschnerParams::schema() {
          .min = 0.5,
          .max = 60});
     s.key("variant", &P::variant,
-          {.help = "`published`: the lobes as published; `halved`: half as high, which about restores energy "
-                   "conservation"});
+          {.help = "`published`: the lobes as published; `halved`: half as high, which nearly restores "
+                   "energy conservation"});
     return s;
   }();
   return table;

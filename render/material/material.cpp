@@ -72,7 +72,7 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "Shift of the point whose tangent sets the highlight, along the strand. Negative values "
+           .help = "Shift along the strand of the point whose tangent places the highlight. Negative values "
                    "move the highlight toward the tip",
            .min = -1,
            .max = 1});
@@ -104,8 +104,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
     s.key("secondary_tilt", &P::secondary_tilt,
           {.unit = "degrees", .help = "As primary_tilt", .min = -45, .max = 45});
     s.key("variant", &P::variant,
-          {.help = "Profile across a shell: `wigner` has soft edges, which the sampler draws exactly; "
-                   "`literal` is the published cosine"});
+          {.help = "Profile across a shell: `wigner` has soft edges and is sampled exactly; `literal` is the "
+                   "published cosine"});
     return s;
   }();
   return table;

@@ -19,16 +19,16 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
                  "a pixel may stop before it meets rare bright paths, so the picture becomes too dark"});
     s.key("noise", &AdaptiveParams::noise,
           {.help = "Noise budget: half of the 95 % confidence interval of a pixel's luminance, divided by "
-                   "the luminance. In `two-stage`, a pixel darker than a tenth of the picture's mean counts "
-                   "as that bright",
+                   "the luminance. `two-stage` treats pixels darker than a tenth of the picture's mean as if "
+                   "they had a tenth of the mean",
            .min = 1e-4,
            .max = 10});
     s.key("goal", &AdaptiveParams::goal,
           {.help = "For `two-stage`. `frame`: the root mean square over the noisy pixels of the frame meets "
                    "the budget, with the minimum number of samples; `pixel`: each pixel meets it"});
     s.key("pilot", &AdaptiveParams::pilot,
-          {.help = "For `two-stage`: samples per pixel in the pilot pass. A pixel in which nothing is hit "
-                   "and nothing varies gets a quarter of them",
+          {.help = "For `two-stage`: samples per pixel in the pilot pass. Pixels in areas where nothing is "
+                   "hit and nothing varies get a quarter of them",
            .min = 4,
            .max = 65536});
     s.key("batch", &AdaptiveParams::batch,

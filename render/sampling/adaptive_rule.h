@@ -13,9 +13,9 @@ namespace pelage {
 /// Half of a 95 % confidence interval, in standard errors.
 inline constexpr double kConfidence = 1.96;
 
-/// Whether the seed's rule would stop here: 1.96 sigma / sqrt(n) <= noise * mean. Where rare bright samples
-/// dominate the mean, a pixel is likely to stop before it has one: because mean and stopping time depend on
-/// the same samples, stopped pixels are too dark on average.
+/// Whether `rule: seed` would stop sampling this pixel: 1.96 sigma / sqrt(n) <= noise * mean. Where rare
+/// bright samples dominate the mean, a pixel is likely to stop before it has one: because mean and stopping
+/// time depend on the same samples, stopped pixels are too dark on average.
 inline bool looks_converged(const PixelMoments& pixel, double noise) {
   return kConfidence * pixel.error() <= noise * pixel.mean;
 }
@@ -42,15 +42,16 @@ std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 /// real number without limits, except that pixels of which the pilot knows nothing get `max`.
 ///
 /// The counts of one colour depend on the pilot of the other colour only. Samples of different pixels are
-/// independent, so a pixel's count is independent of all its own samples, and the plain mean of all of them,
-/// including the pilot, is unbiased: no sample is discarded. (A count that depends on the pixel's own pilot
-/// makes any mean of both stages weighted by number biased.)
+/// independent, so a pixel's count is independent of all its own samples, and their plain mean, including the
+/// pilot, is unbiased: no sample is discarded. (If the count depended on the pixel's own pilot, the plain
+/// mean of both stages would be biased.)
 ///
 /// The relative variance of a pixel is the mean variance over the 12 pixels of the other colour in its 5 x 5
-/// neighbourhood, over their squared mean. For the frame as a whole, counts are proportional to its square
-/// root [Neyman34], which meets the mean of variance / count with the smallest sum of counts; for each pixel,
-/// to the variance. Where brightness varies from pixel to pixel, the neighbourhood's mean hides dark pixels,
-/// and the remaining noise is slightly above the budget: frame_noise() reports it.
+/// neighbourhood, divided by the square of their mean. With `goal: frame`, counts are proportional to the
+/// square root of this variance [Neyman34]: no smaller sum of counts reaches the required mean of variance /
+/// count. With `goal: pixel`, counts are proportional to the variance itself. Where brightness varies from
+/// pixel to pixel, the neighbourhood's mean hides dark pixels, and the remaining noise is slightly above the
+/// budget: frame_noise() reports it.
 std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max);
 
 /// The nearest number of the form 4, 5, 6, 7 times a power of two. A pixel's samples are a sequence whose

@@ -29,8 +29,9 @@ const Schema<LodParams>& LodParams::schema() {
         {.help = "Camera that decides the level of detail by its view, shutter and lens. Use one camera for "
                  "both eyes of a stereo pair, or for all shots that show the same hair"});
     s.key("full_detail_characters", &LodParams::full_detail,
-          {.help = "Number of characters with a coat that keep every strand, chosen evenly by their distance "
-                   "from that camera. Use it to measure what level of detail saves",
+          {.help = "Number of characters with a coat that keep every strand; Pelage takes them at equal "
+                   "steps through all such characters, sorted by distance from the level-of-detail camera. "
+                   "Use it to measure what level of detail saves",
            .min = 0,
            .old_names = {"in_full"}});
     add_simplification_keys(s);
@@ -60,10 +61,10 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.set_example(R"(render: {samples: 256, bounces: 8, memory: 8G})");
     s.key("integrator", &RenderParams::integrator, {.help = "Method"});
     s.key("accel", &RenderParams::accel,
-          {.help = "Ray-tracing structure for strands. `fur`: Pelage's own tree, two thirds as large; "
-                   "`embree`: Embree's curves. Both give the same result except at the edges of strands, "
-                   "because our tree rounds control points and Embree splits curves into straight pieces. "
-                   "Embree always traces skins and strands with curves: round"});
+          {.help = "Ray-tracing structure for strands. `fur`: Pelage's own tree, two thirds the size of "
+                   "Embree's; `embree`: Embree's curves. Both give the same result except at the edges of "
+                   "strands, because our tree rounds control points and Embree splits curves into straight "
+                   "pieces. Embree always traces skins, and with `curves: round` also strands"});
     s.key("curves", &RenderParams::curves,
           {.help = "`flat`: strands are ribbons that face each ray; `round`: strands are round tubes "
                    "(slower, for close-ups; Embree traces them)"});

@@ -8,13 +8,13 @@
 
 namespace pelage {
 
-/// How wild the strands of a test are.
+/// Size and shape of random test strands.
 struct RandomStrandOptions {
   size_t strands = 50;
   uint32_t min_points = 2;
   uint32_t max_points = 12;
   int motion_keys = 1;
-  float step = 0.1f;     ///< mean distance of points
+  float step = 0.1f;     ///< mean distance between points
   float wander = 1.0f;   ///< 0: straight; 1: every step in a new direction
   float radius = 0.02f;  ///< largest
   float motion = 0.2f;   ///< how far points move between keys
@@ -22,7 +22,7 @@ struct RandomStrandOptions {
   CurveBasis basis = CurveBasis::kPinnedBSpline;
 };
 
-/// A batch whose every number comes from `seed`.
+/// A batch of random strands; all its numbers come from `seed`.
 inline Strands random_strands(uint64_t seed, const RandomStrandOptions& o = {}) {
   uint64_t draw = 0;
   const auto next = [&] { return signed_float(hash64(seed, draw++, random_use("random strands"))); };

@@ -10,7 +10,7 @@
 
 namespace pelage::shapes {
 
-/// A cage of quads with texture coordinates, by a function from (u, v) in [0, 1]^2, n x m faces.
+/// A cage of n x m quads with texture coordinates; `place` maps (u, v) in [0, 1]^2 to a position.
 template <class Place>
 ControlMesh grid_cage(int n, int m, const Place& place) {
   ControlMesh mesh;

@@ -14,16 +14,16 @@ namespace pelage {
 /// its origin on the position of the character, so that every tree over a strand decodes the same floats,
 /// whatever its chunk.
 ///
-/// In grid units, coordinates are integers. Floats beyond 2^24 are integers already, so that large
-/// coordinates need no special case. Radii are squares of integers over 256: finer at a tip (2 % of a radius
-/// that is a tenth of the root's), and with an error of at most 0.7 % at the root.
+/// In grid units, coordinates are integers. Floats beyond 2^24 are integers already, so large coordinates
+/// need no special case. Radii have the form k^2 / 256 with an integer k, so their steps are finer at the
+/// tip: the error is at most 0.7 % at the root, and 2 % for a radius of a tenth of the root's.
 class FurGrid {
  public:
-  /// `root_width`: of the groom's strands, in scene units. The step is the power of two for which this width
-  /// has 192 to 384 steps; a width that is not a positive number counts as 2^-12. `anchor`: any finite point
-  /// near all strands of the groom, the same for all of them.
+  /// `root_width`: width of the groom's strands at the root, in scene units. The step is the power of two for
+  /// which this width has 192 to 384 steps; a width that is not a positive number is replaced by 2^-12.
+  /// `anchor`: any finite point near all strands of the groom, the same for all of them.
   explicit FurGrid(float root_width, const V3f& anchor = V3f(0));
-  /// That of a coat.
+  /// The grid of a coat.
   explicit FurGrid(const StrandScale& scale) : FurGrid(scale.width, scale.anchor) {}
 
   float step() const { return step_; }
@@ -52,7 +52,7 @@ class FurGrid {
   static constexpr float kReach = 0x1p56f;
 
  private:
-  static constexpr float kRootsPerUnit = 16;  // of radii: number of steps of their square roots
+  static constexpr float kRootsPerUnit = 16;  // steps per unit in the square root of a radius
 
   /// Like std::nearbyint(), without a function call: beyond 2^51 every number is an integer.
   static double whole(double x) {

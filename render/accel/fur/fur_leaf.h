@@ -12,12 +12,12 @@ namespace pelage {
 
 /// Four segments side by side, as stored in leaves: the only copy of the points.
 ///
-/// A block is a header followed, for each motion key, by the coordinates by axis, Bezier point and lane, and
-/// the radii by Bezier point and lane. A narrow block stores coordinates as 16-bit differences from its
-/// origin, and radii as 8-bit numbers whose squares over 256 they are; a wide block, used where these ranges
-/// do not suffice, stores the same values as floats. Both decode to the same bits.
+/// A block is a header and then, for each motion key, the coordinates, indexed [axis][Bezier point][lane],
+/// and the radii, indexed [Bezier point][lane]. A narrow block stores coordinates as 16-bit differences from
+/// its origin, and a radius k^2 / 256 as the 8-bit number k. A wide block is used if these ranges do not
+/// suffice; it stores the same values as floats. Both decode to the same bits.
 struct FurBlockHeader {
-  static constexpr uint32_t kNone = ~0u;  ///< number of a lane without a segment: its points are all equal
+  static constexpr uint32_t kNone = ~0u;  ///< number of an empty lane, whose points are all equal
   static constexpr size_t kLanes = 4;
 
   int32_t origin[3];
