@@ -17,7 +17,8 @@ const Schema<ImageParams>& ImageParams::schema() {
                "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent of "
                "each other. `splatted`: samples are spread evenly, and each one counts for all pixels near "
                "it. With `blackman-harris` this halves the variance of the same samples, but neighbouring "
-               "pixels share their noise. Not available with `adaptive`"});
+               "pixels share their noise. There are no samples beyond the border of the picture, so the "
+               "filter of the outermost pixels ends there. Not available with `adaptive`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key("noise_layers", &ImageParams::noise_layers,
