@@ -78,7 +78,7 @@ size_t candidates_for(size_t count) { return count * kCandidatesPerFollicle + kM
 std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, size_t count, double mass,
                                             bool few_will_do, const FollicleOptions& options,
                                             const Job& job) {
-  const HeldCandidates held = HeldCandidates::of(source.wanted(), count);
+  const HeldCandidates held = HeldCandidates::of(FollicleCandidates::max_of(source.wanted()), count);
   size_t all = 0;
   {
     CandidateSupply supply(source, held.parts, job);
@@ -106,7 +106,8 @@ void place(const LimitSurface& rest, const FollicleDensity& density, const Folli
   MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     if (round > 0) {
-      const size_t bytes = progressive_order_bytes(wanted, count, HeldCandidates::of(wanted, count));
+      const HeldCandidates held = HeldCandidates::of(FollicleCandidates::max_of(wanted), count);
+      const size_t bytes = progressive_order_bytes(wanted, count, held);
       more = {};
       more =
           reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes),

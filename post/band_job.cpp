@@ -30,7 +30,7 @@ void report_vectors(const VectorSurvey& survey, const ViewImage& image, const Ve
                     const std::string& flag, const std::string& where, PostReport& report) {
   if (survey.not_finite() > 0) {
     report.notes.push_back(
-        fmt::format("{} vectors{} are not finite and count as none", survey.not_finite(), where));
+        fmt::format("{} vectors{} are not finite and are treated as zero", survey.not_finite(), where));
   }
   const ExrPart& part = image.reader().parts()[image.channels()[image.own().front()].part];
   const bool is_ours = part.attributes.contains("pelage:version");

@@ -53,7 +53,7 @@ class Loader {
   Value parse(std::string text, const std::string& name) {
     std::optional<Value> root = read_yaml(std::move(text), name, {}, limits_, problems_);
     if (root && root->is_map()) {
-      if (renamed_) rename_old_keys(*root, BothNames::kRefuse, *renamed_, problems_);
+      if (renamed_) rename_old_keys(*root, *renamed_, problems_);
       return with_includes(std::move(*root));
     }
     if (root && !root->is_null()) {
@@ -64,8 +64,8 @@ class Loader {
   }
 
   void apply(const Override& override, Value& document) {
-    apply_override(override, document, limits_, problems_);
-    if (renamed_) rename_old_keys(document, BothNames::kOldNameWins, *renamed_, problems_);
+    apply_override(override, document, limits_, problems_, renamed_);
+    if (renamed_) rename_old_keys(document, *renamed_, problems_);
   }
 
   /// Whether some file could not be read, which might contain keys that seem to be missing.

@@ -31,7 +31,7 @@ Value load_document(const std::filesystem::path& path, const std::vector<Overrid
 
 /// The keys that had other names before. A document may use the old name; the loader puts the new one in its
 /// place, before the files are merged, so that the including file and the overrides win under either name. A
-/// file that gives a key under both names is a problem.
+/// file or an override that gives a key under both names is a problem.
 struct RenamedKeys {
   const SchemaInfo& root;              ///< table of the whole document
   std::vector<Problem> warnings = {};  ///< one for every old name, with its place and the new name

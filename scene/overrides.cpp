@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
 
 #include "base/nearest_name.h"
+#include "scene/renamed_keys.h"
 
 namespace pelage {
 namespace {
@@ -92,19 +94,28 @@ Value* find_entry(Value& block, const std::string& name, bool leads_on, const So
 
 }  // namespace
 
-void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems) {
+void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems,
+                    RenamedKeys* renamed) {
   const SourcePosition where{"--set " + override.key, 0, 0};
   const std::vector<std::string> names = split(override.key);
   if (std::any_of(names.begin(), names.end(), [](const std::string& name) { return name.empty(); })) {
     problems.add(where, "expected names separated by single dots");
     return;
   }
+  std::optional<RenamedPath> path;
+  if (renamed) path.emplace(document, *renamed);
   Value* target = &document;
-  for (size_t i = 0; i < names.size(); ++i) {
-    target = target->is_list() ? find_item(*target, names[i], where, problems)
-                               : find_entry(*target, names[i], i + 1 < names.size(), where, problems);
-    if (!target) return;
+  for (size_t i = 0; i < names.size() && target; ++i) {
+    Value& block = *target;
+    if (block.is_list()) {
+      target = find_item(block, names[i], where, problems);
+      continue;
+    }
+    const std::string name = path ? path->present_name(block, names[i], where) : names[i];
+    target = find_entry(block, name, i + 1 < names.size(), where, problems);
+    if (path && target) path->enter(block, name, *target);
   }
+  if (!target) return;
   std::optional<Value> value = read_yaml(override.value, where.file, where, limits, problems);
   if (!value) return;
   value->set_position(where);

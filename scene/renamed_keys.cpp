@@ -27,40 +27,39 @@ void merge_maps(Value& base, Value& over) {
 }
 
 // A file that is included twice is warned about once.
-void warn(const Value::Entry& entry, const KeyInfo& key, std::vector<Problem>& warnings) {
-  const std::string message = quote(entry.key) + " is now called " + quote(key.name);
+void warn(const std::string& old_name, const SourcePosition& where, const KeyInfo& key,
+          std::vector<Problem>& warnings) {
+  const std::string message = quote(old_name) + " is now called " + quote(key.name);
   const bool known = std::any_of(warnings.begin(), warnings.end(), [&](const Problem& problem) {
-    return to_string(problem.position) == to_string(entry.key_position) && problem.message == message;
+    return to_string(problem.position) == to_string(where) && problem.message == message;
   });
-  if (!known) warnings.push_back({entry.key_position, message});
+  if (!known) warnings.push_back({where, message});
 }
 
-void rename_in_block(Value& block, const SchemaInfo& table, BothNames both, RenamedKeys& renamed,
-                     Problems& problems) {
+const KeyInfo* find_only_renamed(const SchemaInfo& table, const std::string& name) {
+  return table.find(name) ? nullptr : table.find_renamed(name);
+}
+
+void rename_in_block(Value& block, const SchemaInfo& table, RenamedKeys& renamed, Problems& problems) {
   if (!block.is_map()) return;
   std::vector<Value::Entry>& entries = block.entries();
   for (size_t i = 0; i < entries.size(); ++i) {
-    const KeyInfo* key = table.find(entries[i].key) ? nullptr : table.find_renamed(entries[i].key);
+    const KeyInfo* key = find_only_renamed(table, entries[i].key);
     if (!key) continue;
-    warn(entries[i], *key, renamed.warnings);
-    Value* present = block.find(key->name);
-    if (!present) {
+    warn(entries[i].key, entries[i].key_position, *key, renamed.warnings);
+    if (!block.find(key->name)) {
       entries[i].key = key->name;
       continue;
     }
-    if (both == BothNames::kRefuse) {
-      problems.add(entries[i].key_position, quote(entries[i].key) + " is the old name of " +
-                                                quote(key->name) + "; give only one of them");
-    } else {
-      merge_into(*present, std::move(entries[i].value));
-    }
+    problems.add(entries[i].key_position, quote(entries[i].key) + " is the old name of " + quote(key->name) +
+                                              "; give only one of them");
     entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(i--));
   }
   for (Value::Entry& entry : entries) {
     const KeyInfo* key = table.find(entry.key);
     if (!key) continue;
     key->visit_blocks(entry.value, [&](Value& inner, const SchemaInfo& inner_table) {
-      rename_in_block(inner, inner_table, both, renamed, problems);
+      rename_in_block(inner, inner_table, renamed, problems);
     });
   }
 }
@@ -75,8 +74,37 @@ void merge_into(Value& base, Value over) {
   }
 }
 
-void rename_old_keys(Value& document, BothNames both, RenamedKeys& renamed, Problems& problems) {
-  rename_in_block(document, renamed.root, both, renamed, problems);
+void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems) {
+  rename_in_block(document, renamed.root, renamed, problems);
+}
+
+RenamedPath::RenamedPath(Value& document, RenamedKeys& renamed)
+    : renamed_(renamed), blocks_{{&document, &renamed.root}} {}
+
+const SchemaInfo* RenamedPath::table_of(const Value& block) const {
+  const auto known =
+      std::find_if(blocks_.begin(), blocks_.end(), [&](const auto& b) { return b.first == &block; });
+  return known == blocks_.end() ? nullptr : known->second;
+}
+
+std::string RenamedPath::present_name(const Value& block, const std::string& name,
+                                      const SourcePosition& where) {
+  const SchemaInfo* table = table_of(block);
+  const KeyInfo* key = table ? find_only_renamed(*table, name) : nullptr;
+  if (!key) return name;
+  warn(name, where, *key, renamed_.warnings);
+  return key->name;
+}
+
+void RenamedPath::enter(const Value& block, const std::string& name, Value& value) {
+  const SchemaInfo* table = table_of(block);
+  if (!table && !value.is_null()) return;  // a name of the user: the blocks are still ahead
+  blocks_.clear();
+  const KeyInfo* key = table ? table->find(name) : nullptr;
+  if (!key) return;
+  key->visit_blocks(value, [&](Value& inner, const SchemaInfo& inner_table) {
+    blocks_.emplace_back(&inner, &inner_table);
+  });
 }
 
 }  // namespace pelage

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "base/error.h"
 #include "base/value.h"
 #include "scene/document.h"
 
 namespace pelage {
 
-/// What to do where a block has a key under its old and its new name.
-enum class BothNames {
-  kRefuse,       ///< two keys of one file: a problem
-  kOldNameWins,  ///< the old name is that of an override
-};
+/// Gives every key of a document its present name and adds a warning for every old one. A block that has a
+/// key under both names is a problem.
+void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems);
 
-/// Gives every key of a document its present name and adds a warning for every old one.
-void rename_old_keys(Value& document, BothNames both, RenamedKeys& renamed, Problems& problems);
+/// Follows the path of an override through a document whose keys have their present names.
+class RenamedPath {
+ public:
+  RenamedPath(Value& document, RenamedKeys& renamed);
+  /// The present name of a key of `block`. Adds a warning, at `where`, for an old one.
+  std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
+  /// The path leads from `block`, by a present name, to `value`.
+  void enter(const Value& block, const std::string& name, Value& value);
+
+ private:
+  const SchemaInfo* table_of(const Value& block) const;
+
+  RenamedKeys& renamed_;
+  std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // that are next on the path
+};
 
 /// Moves `over` into `base`: entries of maps one by one, everything else as a whole. `over` wins.
 void merge_into(Value& base, Value over);

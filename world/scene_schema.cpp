@@ -147,7 +147,7 @@ const Schema<SceneDescription>& SceneDescription::schema() {
         "which interpolates linearly between frames. A field is a number, a colour or one of the blocks "
         "whose names end in \"field\". `--set a.b.c=value` on the command line overrides any value; a list "
         "item is addressed by its index from 0, or by its key if it has only one. A key marked \"formerly\" "
-        "also accepts its old name, with a warning; giving both names in one file is an error.");
+        "also accepts its old name, with a warning; giving both names in one file or override is an error.");
     s.set_example(R"(pelage: 1
 include: [animals.yaml, lights.yaml]
 frames: 1-48

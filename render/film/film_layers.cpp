@@ -17,12 +17,16 @@ const Schema<ImageParams>& ImageParams::schema() {
                "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent of "
                "each other. `splatted`: samples are spread evenly, and each one counts for all pixels near "
                "it. With `blackman-harris` this halves the variance of the same samples, but neighbouring "
-               "pixels share their noise. Not available with `adaptive`"});
+               "pixels share their noise. There are no samples beyond the border of the picture, so the "
+               "filter of the outermost pixels ends there. Not available with `adaptive`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key("noise_layers", &ImageParams::noise_layers,
-          {.help = "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of "
-                   "the luminance). Adaptive sampling always adds them"});
+          {.help =
+               "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of "
+               "the luminance). Adaptive sampling always adds them. With `filter_samples: splatted`, `noise` "
+               "covers only the samples of the pixel itself and is too high: about 1.5 times with "
+               "`blackman-harris`"});
     s.key("lod_layer", &ImageParams::lod_layer,
           {.help = "Adds the layer `lod`: the fraction of strands that render.lod removed at the front-most "
                    "surface, 0 on skins. `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});

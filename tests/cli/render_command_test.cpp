@@ -110,7 +110,7 @@ TEST_F(RenderCommandTest, BudgetThatIsTooSmallSaysForWhat) {
                 .find("the frame buffer alone"),
             std::string::npos);
   EXPECT_NE(refused({{"render.memory", "2M"}, {"grooms.coat.strands", "100000"}})
-                .find("placing 100000 strands of groom 'coat' needs 23."),
+                .find("placing 100000 strands of groom 'coat' needs 12."),
             std::string::npos);
   // The same that would do, whether strands are measured first or not.
   const auto too_large = [&](const std::string& bounds) {

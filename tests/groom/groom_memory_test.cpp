@@ -58,6 +58,13 @@ TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
   }
 }
 
+TEST_F(GroomMemoryTest, PlacingInPartsHoldsWhatItAsksForFromTheFirstNumberOn) {
+  // Candidates are expected to be as many as are made at once, and may become more.
+  const int64_t count = 21'500;
+  const int64_t peak = peak_of([&] { FollicleTree::build(*rest_, options(count), job_); });
+  EXPECT_LE(peak, follicle_temporary_bytes(count) + (3 << 20));
+}
+
 TEST_F(GroomMemoryTest, WhatDoesNotFitIsRefusedByNameBeforeItIsMade) {
   ledger_.set_limit(64 << 20);
   const int64_t peak = peak_of([&] {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
@@ -133,6 +135,32 @@ TEST_F(RenamedKeysTest, OverridesWinUnderEitherName) {
   }
   load("coats: {fox: {detail: {fraction: 0.5}}}\n", {{"coats.fox.detail.share", "0.25"}});
   EXPECT_EQ(warnings_, Lines{"--set coats.fox.detail.share: 'share' is now called 'fraction'"});
+}
+
+TEST_F(RenamedKeysTest, OverridesReplaceBlocksUnderEitherName) {
+  for (const char* name : {"lod", "detail"}) {
+    const std::string key = "coats.fox." + std::string(name);
+    load("coats: {fox: {detail: {fraction: 0.5, other: 1}}}\n", {{key, "{share: 0.25}"}});
+    EXPECT_EQ(document_, "{coats: {fox: {detail: {fraction: 0.25}}}}");
+    load("coats: {fox: {detail: {fraction: 0.5, other: 1}}}\n", {{key + ".share", "0.25"}});
+    EXPECT_EQ(document_, "{coats: {fox: {detail: {fraction: 0.25, other: 1}}}}");
+    load("coats: {fox: {}}\n", {{key + ".share", "0.5"}, {key + ".share", "0.25"}});
+    EXPECT_EQ(document_, "{coats: {fox: {detail: {fraction: 0.25}}}}");
+    EXPECT_EQ(problems_, Lines{});
+    EXPECT_NE(std::find(warnings_.begin(), warnings_.end(),
+                        "--set " + key + ".share: 'share' is now called 'fraction'"),
+              warnings_.end());
+  }
+  load("coats: {fox: {levels: [{fraction: 0.1}]}}\n",
+       {{"coats.fox.levels.0.part", "0.2"}, {"coats.wolf.lod.part", "0.3"}});
+  EXPECT_EQ(document_, "{coats: {fox: {levels: [{fraction: 0.2}]}, wolf: {detail: {fraction: 0.3}}}}");
+  EXPECT_EQ(problems_, Lines{});
+}
+
+TEST_F(RenamedKeysTest, BothNamesInOneOverrideAreAnError) {
+  load("coats: {fox: {}}\n", {{"coats.fox.lod", "{share: 0.5, fraction: 0.4}"}});
+  EXPECT_EQ(problems_,
+            Lines{"--set coats.fox.lod: 'share' is the old name of 'fraction'; give only one of them"});
 }
 
 TEST_F(RenamedKeysTest, MalformedBlocksAreLeftToTheirReaders) {

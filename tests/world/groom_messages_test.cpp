@@ -55,7 +55,7 @@ TEST_F(GroomMessagesTest, AGroomOnHolesAloneGivesOneWarningAtTheGroom) {
   files_.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nt hole 1/0/0 0\n");
   load("skin: cube, strands: 10");
   ASSERT_EQ(warnings_.list.size(), 1u);
-  for (const char* part : {"scene.yaml:4:", "groom 'coat'", "nothing grows", "holes", "skin 'cube'"})
+  for (const char* part : {"scene.yaml:4:", "groom 'coat'", "grows nothing", "holes", "skin 'cube'"})
     EXPECT_NE(warnings_.list[0].find(part), std::string::npos) << warnings_.list[0];
 }
 
