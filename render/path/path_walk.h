@@ -62,15 +62,14 @@ class PathWalk {
         options_(options),
         direct_(scene.lights, scene.render.light_samples, options.direct) {}
 
-  /// Follows a path from its first vertex, whose scattering is `point`, to its end.
-  void walk(ScatterPoint point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
+  /// Follows a path from its first vertex, whose scattering is `first`, to its end.
+  void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
-    for (;;) {
-      direct_.begin(point, lights);
-      if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
-      if (!sample_lobes(point, path, lights, scratch, sink)) return;
+    bool goes_on = scatter(first, path, lights, scratch, sink);
+    while (goes_on) {
       ++path.vertex;
-      point = shading_.scatter_point(path.ray, path.hit, scratch.thread.met);
+      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
+                        sink);
     }
   }
 
@@ -88,6 +87,13 @@ class PathWalk {
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
+  /// Light at the current vertex, and the way to the next one. Returns false where the path ends.
+  bool scatter(const ScatterPoint& point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
+               Sink& sink) const {
+    direct_.begin(point, lights);
+    if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
+    return sample_lobes(point, path, lights, scratch, sink);
+  }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
   void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
