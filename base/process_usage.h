@@ -16,7 +16,7 @@ struct ProcessUsage {
   double cpu_s = 0;
   int64_t peak_rss_bytes = 0;
   int64_t baseline_rss_bytes = 0;        ///< resident set when the command line had been parsed
-  int64_t peak_anonymous_bytes = 0;      ///< highest resident anonymous pages that sampling met
+  int64_t peak_anonymous_bytes = 0;      ///< highest resident anonymous memory that was sampled
   int64_t baseline_anonymous_bytes = 0;  ///< those when the command line had been parsed
   int64_t unexplained_bytes = 0;  ///< peak - baseline of these - all ledger tags at that moment (law 5)
   std::map<std::string, int64_t> memory_bytes;  ///< peak by ledger tag

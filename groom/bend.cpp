@@ -19,8 +19,8 @@ constexpr float kRadians = std::numbers::pi_v<float> / 180;
 const Schema<BendParams>& BendParams::schema() {
   static const Schema<BendParams> table = [] {
     Schema<BendParams> s("bend",
-                         "Bends strands toward a direction. The bend grows from root to tip and stops at the "
-                         "direction. Lengths are kept.");
+                         "Bends strands toward a direction. The bend grows from root to tip and never goes "
+                         "beyond the target direction. Lengths are kept.");
     s.set_example(R"(grooms:
   coat:
     skin: patch

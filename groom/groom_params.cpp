@@ -31,10 +31,11 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
   static const Schema<GroomCacheParams> table = [] {
     Schema<GroomCacheParams> s(
         "groom cache",
-        "Stores the result of the frozen operators between runs. For each groom the folder keeps the last "
-        "eight states and all states used within a day; a state that is unused for thirty days is deleted "
-        "when something new is stored. `pelage grow SCENE --prune` deletes everything that the scene does "
-        "not need. Builds of Pelage with the same source code for growth share stored results.");
+        "Stores the result of the frozen operators between runs. For each groom, the folder keeps the "
+        "results for its last eight states of editing, and for all states used within a day. A result that "
+        "is unused for thirty days is deleted when something new is stored. `pelage grow SCENE --prune` "
+        "deletes everything that the scene does not need. Builds of Pelage with the same source code for "
+        "growth share stored results.");
     s.set_example(R"(grooms:
   coat:
     skin: rat
@@ -46,9 +47,10 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
       - width: {root: 0.008, tip: 0.001}
     cache: {directory: cache, freeze: frizz}   # width runs in every frame)");
     s.key("directory", &GroomCacheParams::directory,
-          {.help = "Cache folder. The name of a file is made from its inputs. You may delete files at any "
-                   "time, but must not overwrite them while a run reads them. Pelage ignores files of other "
-                   "users, except in folders that the environment variable PELAGE_SHARED_CACHES names",
+          {.help = "Cache folder. Stored results are in files named by a hash of everything that "
+                   "determines them. You may delete files at any time, but must not overwrite them while a "
+                   "run reads them. Pelage ignores files of other users, except in folders that the "
+                   "environment variable PELAGE_SHARED_CACHES names",
            .default_text = "`cache` in the current folder"});
     s.key("freeze", &GroomCacheParams::freeze,
           {.help = "Last frozen operator. It and the operators before it run once, and the result is stored "
@@ -84,8 +86,8 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("attach", &GroomParams::attach,
           {.help = "Whether the strands of strands_file follow the skin. `skin`: they follow it. `none`: "
                    "they keep their positions from the file and move only with the character. `auto`: they "
-                   "follow the skin, unless half of the roots are farther from it than a tenth of its "
-                   "diagonal; then Pelage warns and uses `none`"});
+                   "follow the skin, unless half of the roots are farther from it than a tenth of the "
+                   "diagonal of its bounding box; then Pelage warns and uses `none`"});
     s.key("basis", &GroomParams::basis,
           {.help = "How control points of strands_file define curves",
            .default_text = "the basis in the file"});
@@ -110,11 +112,11 @@ const Schema<GroomParams>& GroomParams::schema() {
           {.help = "Operators that shape the strands, in order. Every strand starts straight and one scene "
                    "unit long"});
     s.key("leaf_strands", &GroomParams::leaf_strands,
-          {.help =
-               "Maximum number of strands that grow together; changes no pixel. By default Pelage takes 500 "
-               "with render.bvh.file, 8000 for coats with a cache, and otherwise the largest of 8000, 2000, "
-               "500 and 125 (for long strands also 31 and 7) at which 400 chunks fit render.memory (32 "
-               "chunks for strands from a file, 8 if all fur fits), counting 80 bytes per control point",
+          {.help = "Maximum number of strands that grow together; changes no pixel. The default is 500 with "
+                   "render.bvh.file and 8000 for coats with a cache. Otherwise it is the largest of 8000, "
+                   "2000, 500 and 125 (for long strands also 31 and 7) at which several chunks fit into "
+                   "render.memory together, counting 80 bytes per control point: 8 chunks if all fur fits, "
+                   "else 32 for strands from a file and 400 for other coats",
            .min = 1,
            .max = 1e6,
            .default_text = "8000 or less"});

@@ -178,7 +178,7 @@ const Schema<PushOutParams>& PushOutParams::schema() {
     s.set_picture("Left: strands bent into the skin. Right: the same strands pushed out of it.");
     s.key("offset", &PushOutParams::offset,
           {.unit = "scene units",
-           .help = "Minimum distance between strands and skin, away from the roots",
+           .help = "Minimum distance between strands and skin, except near the roots",
            .min = 0});
     s.key("iterations", &PushOutParams::iterations,
           {.help = "Maximum number of passes", .min = 1, .max = 64});

@@ -55,8 +55,8 @@ void add_simplification_keys(Schema<P>& s) {
   key("whisker", &Base::whisker, {.help = "The same factor for role whisker", .min = 0.01, .max = 1000});
   key("blur_strength", &Base::blur_strength,
       {.help =
-           "How strongly blur thins out a coat. 1: as many strands contribute to a pixel as without blur; "
-           "0: blur removes no strands",
+           "How strongly blur thins out a coat. 1: strands are removed until only as many contribute to a "
+           "pixel as without blur; 0: blur removes no strands",
        .min = 0,
        .max = 1});
   key("min_fraction", &Base::min_share,

@@ -120,8 +120,9 @@ const Schema<CrowdParams>& CrowdParams::schema() {
         "crowd",
         "Many animals from a few characters. Each has its own pose, size, hair length and colour. Pelage "
         "spreads them evenly over an area and pushes apart animals that are too close; a crowd also keeps "
-        "clear of the crowds above it in the scene. Every random number depends on the seed and the name, "
-        "not on the frame. A character in `of` does not appear by itself, unless it has `drawn: true`.");
+        "clear of the crowds listed before it in the scene. Every random number depends on the seed and "
+        "the name of the crowd, not on the frame. A character in `of` does not appear by itself, unless it "
+        "has `drawn: true`.");
     s.set_example(R"(crowds:
   herd:
     of: [rat]

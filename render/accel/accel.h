@@ -50,7 +50,7 @@ struct Hit {
   uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
-  /// Where the strand is held; none of a skin, and where the accelerator has no chunks.
+  /// Where the strand is held; an empty handle for a skin, or if the accelerator has no chunks.
   StrandHandle handle() const { return {start.chunk, strand_index}; }
   /// Of a strand.
   StrandKey key() const { return {part, strand_id}; }

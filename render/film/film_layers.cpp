@@ -12,13 +12,14 @@ const Schema<ImageParams>& ImageParams::schema() {
     s.key("height", &ImageParams::height, {.unit = "pixels", .help = "Height", .min = 1, .max = 65536});
     s.key("filter", &ImageParams::filter,
           {.help = "Pixel filter: `box` is one pixel wide, `blackman-harris` three"});
-    s.key("filter_samples", &ImageParams::filter_samples,
-          {.help =
-               "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent of "
-               "each other. `splatted`: samples are spread evenly, and each one counts for all pixels near "
-               "it. With `blackman-harris` this halves the variance of the same samples, but neighbouring "
-               "pixels share their noise. There are no samples beyond the border of the picture, so the "
-               "filter of the outermost pixels ends there. Not available with `adaptive`"});
+    s.key(
+        "filter_samples", &ImageParams::filter_samples,
+        {.help = "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent "
+                 "of each other. `splatted`: samples are spread evenly, and each one counts for all pixels "
+                 "near it. With `blackman-harris` this halves the variance at the same number of samples, "
+                 "but the noise of neighbouring pixels is correlated. There are no samples beyond the border "
+                 "of the picture, so the filter of the outermost pixels ends there. Not available with "
+                 "`adaptive`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key("noise_layers", &ImageParams::noise_layers,

@@ -34,7 +34,8 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
   fur: {model: kajiya-kay, color: [0.5, 0.3, 0.15], exponent: 60})");
     add_color_keys(
         s,
-        "Colour of a dense coat, converted to albedo. If diffuse is given, the colour of the diffuse term");
+        "Colour of a dense coat, converted to albedo. If diffuse is given, it is not converted: it is the "
+        "colour of the diffuse term");
     s.key(
         "diffuse", &P::diffuse,
         {.help = "Albedo of the diffuse term, multiplied by color. Without it, the albedo follows from color",

@@ -52,7 +52,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
   fur: {model: cone-shell, color: {attribute: color}})");
     add_color_keys(
         s,
-        "Colour of a dense coat, converted to albedo. If diffuse is given, the colour of the fibre's lobes");
+        "Colour of a dense coat, converted to albedo. If diffuse is given, it is not converted: it is the "
+        "colour of the fibre's lobes");
     s.key("diffuse", &P::diffuse,
           {.help = "Albedo of the diffuse lobe, multiplied by color. Without it, the albedo follows from "
                    "color, so that a white fibre absorbs nothing",
@@ -72,8 +73,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "Shift along the strand of the point whose tangent places the highlight. Negative values "
-                   "move the highlight toward the tip",
+           .help = "The tangent that places the highlight is taken from a point shifted along the strand "
+                   "by this amount. Negative values move the highlight toward the tip",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,

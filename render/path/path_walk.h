@@ -37,16 +37,18 @@ struct PathState {
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
 /// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes;
 /// roulette is part of the density of the latter. At most `bounces` scatterings follow the first; roulette
-/// ends paths early with the probability of losing their weight.
+/// may end a path earlier, the more likely the lower its weight (survival()).
 ///
 /// A Sink has
-///   proposed(path, points, count)     called once a vertex: the points on lights among which the shadow
-///                                     rays choose, `count` of them tried, those without light left out
+///   proposed(path, points, count)     called once per vertex: shadow rays choose their targets among these
+///                                     points on lights; `count` were tried, and those from which no light
+///                                     arrives are left out of `points`
 ///   shadow(path, point, factor, through)
-///                                     one shadow ray: point.arriving * factor reaches the vertex, but for
-///                                     the fraction 1 - through that is blocked
+///                                     one shadow ray: of point.arriving * factor, the fraction `through`
+///                                     reaches the vertex; the rest is blocked
 ///   met(path, light, radiance, weight, through)
-///                                     the same of a light along the ray drawn from the lobes
+///                                     a light that the ray drawn from the lobes hits: of radiance * weight,
+///                                     the fraction `through` reaches the vertex; the rest is blocked
 ///   static constexpr bool kUnoccluded whether the first vertex reports lights with through = 0, too
 ///
 /// Thread safety: const members may be called from any thread, each with a scratch of its own.
@@ -75,15 +77,17 @@ class PathWalk {
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Fraction of the light about it that a surface shows: roughly, between pale fur and skin.
+  /// Rough guess at how bright a surface looks, as a fraction of the light around it: between pale fur and
+  /// skin.
   static constexpr float kShown = 0.5f;
 
   static void seek(PathState& path, Draw draw) {
     path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
   }
-  /// Probability with which roulette lets a path of this weight go on: what it may still bring, over what the
-  /// pixel shows [Vorba16]. By the weight alone, paths would end that bring as much as others: in pale fur a
-  /// quarter fewer rays, and two thirds more variance.
+  /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
+  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, paths would
+  /// end that contribute as much as others: in pale fur, that takes a quarter fewer rays, but has two thirds
+  /// more variance.
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 

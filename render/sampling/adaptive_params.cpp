@@ -24,8 +24,9 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
            .min = 1e-4,
            .max = 10});
     s.key("goal", &AdaptiveParams::goal,
-          {.help = "For `two-stage`. `frame`: the root mean square over the noisy pixels of the frame meets "
-                   "the budget, with the minimum number of samples; `pixel`: each pixel meets it"});
+          {.help = "For `two-stage`. `frame`: the noise of the frame, as the root mean square over its "
+                   "noisy pixels, meets the budget with the minimum number of samples; `pixel`: the noise "
+                   "of each pixel meets it"});
     s.key("pilot", &AdaptiveParams::pilot,
           {.help = "For `two-stage`: samples per pixel in the pilot pass. Pixels in areas where nothing is "
                    "hit and nothing varies get a quarter of them",

@@ -29,8 +29,8 @@ const Schema<LodParams>& LodParams::schema() {
         {.help = "Camera that decides the level of detail by its view, shutter and lens. Use one camera for "
                  "both eyes of a stereo pair, or for all shots that show the same hair"});
     s.key("full_detail_characters", &LodParams::full_detail,
-          {.help = "Number of characters with a coat that keep every strand; Pelage takes them at equal "
-                   "steps through all such characters, sorted by distance from the level-of-detail camera. "
+          {.help = "Number of furred characters that keep every strand. Pelage sorts all furred characters "
+                   "by distance from the level-of-detail camera and selects this many at even intervals. "
                    "Use it to measure what level of detail saves",
            .min = 0,
            .old_names = {"in_full"}});
@@ -46,9 +46,10 @@ const Schema<BvhParams>& BvhParams::schema() {
                         "Stores fur and its ray-tracing trees, so that later runs need not grow them.");
     s.set_example(R"(render: {bvh: {file: bvh}})");
     s.key("file", &BvhParams::file,
-          {.help = "Folder that stores the fur of each frame with its trees. The name of a file is made from "
-                   "all its inputs. Later runs read chunks from the file when rays need them, within "
-                   "`memory`, instead of growing them. Requires accel: fur, flat strands and opaque coats",
+          {.help = "Folder that stores the fur of each frame with its trees. Each file is named by a hash "
+                   "of everything that determines its content. Later runs read chunks from the file when "
+                   "rays need them, within `memory`, instead of growing them. Requires accel: fur, flat "
+                   "strands and opaque coats",
            .default_text = "none"});
     return s;
   }();
@@ -79,8 +80,8 @@ const Schema<RenderParams>& RenderParams::schema() {
            .min = 0,
            .max = 1e7});
     s.key("light_samples", &RenderParams::light_samples,
-          {.help = "Shadow rays per scattering event. More rays reduce noise and take longer, about as much "
-                   "as more samples",
+          {.help = "Shadow rays per scattering event. More rays reduce noise but take longer, much like "
+                   "more samples",
            .min = 1,
            .max = 64});
     s.key("bounces", &RenderParams::bounces,
@@ -91,15 +92,16 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("clamp_indirect", &RenderParams::clamp_indirect,
           {.unit = "radiance",
            .help = "Maximum luminance of the indirect light of one path. It removes fireflies and darkens "
-                   "the picture; 0 is no limit. Pelage reports the fraction of indirect light that is lost "
-                   "at the end of each frame, and in `--stats` as `clamped_fraction`",
+                   "the picture; 0 is no limit. At the end of each frame, Pelage reports the fraction of "
+                   "indirect light that is lost; `--stats` has it as `clamped_fraction`",
            .min = 0});
     s.key("seed", &RenderParams::seed, {.help = "Seed of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,
-          {.help = "Maximum memory for everything a scene needs, including temporary memory: strands, trees, "
-                   "skins, grooms, crowds, caches, textures and film. The program and its libraries are not "
-                   "counted. When memory runs short, Pelage drops data that it can make again; if anything "
-                   "else does not fit, Pelage refuses it by name before making it"});
+          {.help = "Maximum memory for everything a scene needs, including temporary memory: strands, "
+                   "trees, skins, grooms, crowds, caches, textures and film. The program and its libraries "
+                   "are not counted. When memory runs short, Pelage drops data that it can make again; "
+                   "anything else that does not fit is refused before it is made, with an error that names "
+                   "it"});
     s.key("bvh", &RenderParams::bvh, {.help = "Stored trees for later runs", .default_text = "none"});
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Stores colours of grown strands with as few values and bits as possible without visible "
