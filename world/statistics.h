@@ -11,8 +11,8 @@
 
 namespace pelage {
 
-/// Numbers of one run, as `--stats` writes them: what each room counted, over all frames. A value: whoever
-/// runs something adds what it returned; nothing registers itself.
+/// Numbers of one run, as `--stats` writes them: what each room counted, over all frames. A value: the caller
+/// of each part adds the counts that the part returned; nothing registers itself.
 struct Statistics {
   ProcessUsage process = {};
   WorldCounts world = {};

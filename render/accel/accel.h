@@ -50,9 +50,9 @@ struct Hit {
   uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
-  /// Where the strand is held; none of a skin, and where the accelerator has no chunks.
+  /// Where the strand is stored; no strand for a hit on a skin or an accelerator without chunks.
   StrandHandle handle() const { return {start.chunk, strand_index}; }
-  /// Of a strand.
+  /// Which strand was hit; meaningless for a skin.
   StrandKey key() const { return {part, strand_id}; }
 };
 

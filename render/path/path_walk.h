@@ -35,18 +35,19 @@ struct PathState {
 };
 
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
-/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes;
-/// roulette is part of the density of the latter. At most `bounces` scatterings follow the first; roulette
-/// ends paths early with the probability of losing their weight.
+/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes; the
+/// density of this direction includes roulette. At most `bounces` scatterings follow the first. Roulette ends
+/// a path early with probability 1 - survival(weight).
 ///
 /// A Sink has
-///   proposed(path, points, count)     called once a vertex: the points on lights among which the shadow
-///                                     rays choose, `count` of them tried, those without light left out
+///   proposed(path, points, count)     called once per vertex: the points on lights among which the shadow
+///                                     rays choose. `count` points were tried; points without light are
+///                                     omitted
 ///   shadow(path, point, factor, through)
-///                                     one shadow ray: point.arriving * factor reaches the vertex, but for
-///                                     the fraction 1 - through that is blocked
+///                                     one shadow ray: point.arriving * factor reaches the vertex, except
+///                                     for the fraction 1 - through that is blocked
 ///   met(path, light, radiance, weight, through)
-///                                     the same of a light along the ray drawn from the lobes
+///                                     the same for a light along the ray drawn from the lobes
 ///   static constexpr bool kUnoccluded whether the first vertex reports lights with through = 0, too
 ///
 /// Thread safety: const members may be called from any thread, each with a scratch of its own.
@@ -76,15 +77,17 @@ class PathWalk {
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Fraction of the light about it that a surface shows: roughly, between pale fur and skin.
+  /// Assumed fraction of the surrounding light that a surface sends to the camera: a rough value between
+  /// those of pale fur and of skin.
   static constexpr float kShown = 0.5f;
 
   static void seek(PathState& path, Draw draw) {
     path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
   }
-  /// Probability with which roulette lets a path of this weight go on: what it may still bring, over what the
-  /// pixel shows [Vorba16]. By the weight alone, paths would end that bring as much as others: in pale fur a
-  /// quarter fewer rays, and two thirds more variance.
+  /// Probability with which roulette continues a path of this weight: the light that the path may still
+  /// bring, relative to the light that the pixel shows [Vorba16]. With the weight alone as probability,
+  /// roulette would also end paths that bring as much light as others: in pale fur, it would trace a quarter
+  /// fewer rays, but with two thirds more variance.
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
