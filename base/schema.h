@@ -95,7 +95,7 @@ class SchemaInfo {
   const std::string& help() const { return help_; }
   const std::vector<KeyInfo>& keys() const { return keys_; }
   std::vector<std::string> key_names() const;
-  /// The key of this name, or nullptr; the key that had this name before, or nullptr.
+  /// The key with this name, or nullptr. find_renamed() looks up former names instead.
   const KeyInfo* find(std::string_view name) const;
   const KeyInfo* find_renamed(std::string_view old_name) const;
 

@@ -152,7 +152,8 @@ struct ValueReader<Rgb> {
 namespace detail {
 bool read_enum(const Value&, std::span<const char* const> names, int& out, Problems&);
 std::string enum_type_name(std::span<const char* const> names);
-/// The value of `key` in a block of several kinds; otherwise nullptr, and a problem that lists the kinds.
+/// The value of `key`, which selects the kind of a block. Returns nullptr and adds a problem that lists
+/// `kinds` when it is none of them.
 const Value* find_type(const Value& block, const char* key, std::span<const std::string> kinds, Problems&);
 }  // namespace detail
 

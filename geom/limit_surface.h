@@ -42,8 +42,8 @@ class SurfaceTopology {
                                                        const Job& job);
   ~SurfaceTopology();
 
-  /// Maximum number of faces around a vertex and of corners around a face: the number of weights around it
-  /// grows with the square. A cage may have ten of the largest.
+  /// Max number of faces around a vertex, and of corners of a face. The number of subdivision weights grows
+  /// with the square of each. A cage may contain ten such vertices or faces.
   static constexpr uint32_t kMaxValence = 1000;
   /// Above this number of faces a mesh is probably not a cage made for subdivision: scheme none serves as
   /// well.
@@ -63,8 +63,8 @@ class SurfaceTopology {
   /// has none.
   V2f texture_coordinates(uint32_t face, float u, float v) const;
   /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0; triangles: v = 0, u + v = 1, u = 0) of `face`;
-  /// -1 at a boundary and where more than two faces meet. Where a quad borders an n-gon, whose ptex faces
-  /// have half its edge: the one at the edge's first corner, counterclockwise around `face`.
+  /// -1 at a boundary and where more than two faces meet. Where a quad borders an n-gon, two ptex faces of
+  /// the n-gon share the edge: returns the one at the edge's first corner, counterclockwise around `face`.
   int neighbour(uint32_t face, int edge) const;
   /// Hash of everything that the topology depends on; meshes with equal hashes share one topology.
   ContentHash hash() const;
@@ -100,10 +100,11 @@ struct SurfacePoint {
 ///
 /// Exact up to rounding at all (u, v) that are multiples of 1/8 and wherever the cage is regular. In the last
 /// eighth around an extraordinary vertex, positions are off by up to 1e-4 of the size of the faces (1e-3 for
-/// a valence above five), and the normal at the vertex itself by 4e-3 rad. In cages of more than 6,000 faces
-/// eighths become quarters, above kDenseFaces halves; positions are then off by up to 1e-5 of the size of the
-/// cage, normals by 1e-2 rad. Creases are resolved up to sharpness 6. Scheme none evaluates the triangles
-/// themselves with smooth frames: angle-weighted vertex normals are interpolated, and sharpness is ignored.
+/// a valence above five), and the normal at the vertex itself by 4e-3 rad. In cages of more than 6,000 faces,
+/// quarters take the place of eighths; above kDenseFaces, halves do. Positions are then off by up to 1e-5 of
+/// the size of the cage, normals by 1e-2 rad. Creases are resolved up to sharpness 6. Scheme none evaluates
+/// the triangles themselves with smooth frames: angle-weighted vertex normals are interpolated, and sharpness
+/// is ignored.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class LimitSurface {

@@ -14,9 +14,8 @@ struct Job;
 
 /// A part of a skin that is tessellated separately (tessellate_faces).
 struct SkinPiece {
-  std::vector<uint32_t>
-      faces;            ///< ptex faces, ascending, all of each of some cage faces; empty: all there are
-  size_t vertices = 0;  ///< size of its tessellation, for one motion key
+  std::vector<uint32_t> faces;  ///< ascending ptex faces: all those of some cage faces; empty: the whole skin
+  size_t vertices = 0;          ///< size of its tessellation, for one motion key
   size_t triangles = 0;
 
   bool is_whole() const { return faces.empty(); }
@@ -36,8 +35,8 @@ std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const Vie
 
 /// Ptex faces of the cage faces that share a vertex with those of `faces`, including these. Ascending.
 std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<const uint32_t> faces);
-/// Vertices of the cage that shape `around`, ascending. The limit surface of the faces in its middle lies
-/// within their hull, to the accuracy of LimitSurface.
+/// Vertices of the cage faces of `around`, ascending. If `around` is faces_around(faces), the limit surface
+/// of `faces` lies within the hull of these vertices, to the accuracy of LimitSurface.
 std::vector<uint32_t> vertices_of(const SurfaceTopology& topology, std::span<const uint32_t> around);
 
 }  // namespace pelage

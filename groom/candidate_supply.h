@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Candidates in their order, a few at a time. What was made once is forgotten: where not all are made at
-/// once, each is made twice, first for the survey. Refers to the source.
+/// Candidates in their order, a few at a time. Does not keep candidates that it has returned. With more than
+/// one part, every candidate is made twice: first for the survey, then for next(). Refers to the source.
 class CandidateSupply {
  public:
   /// Candidates come in `parts` of about the same size. The same candidates for any number of parts.
@@ -19,13 +19,13 @@ class CandidateSupply {
   /// How many were returned by next().
   size_t supplied() const { return supplied_; }
   bool ended() const { return part_ == parts_; }
-  /// The next ones, with their ranks as numbers.
+  /// The candidates of the next part. FollicleCandidate::number is the rank of each.
   std::vector<FollicleCandidate> next(const Job& job);
 
  private:
   const FollicleCandidates& source_;
   size_t parts_, part_ = 0, supplied_ = 0;
-  std::vector<FollicleCandidate> all_;  // where they are one part, until next() is called
+  std::vector<FollicleCandidate> all_;  // all candidates if there is only one part, until next() is called
   CandidateSurvey survey_;
 };
 

@@ -43,11 +43,11 @@ struct KeptStrands {
 /// A coat on a skin: follicles and the operators that shape their strands.
 ///
 /// Operators that only read rest state run on the rest surface; the follicle frames carry the result to each
-/// pose (root + frame * offset * scale). From the first operator that reads live state on, operators run on
-/// the posed strands of every motion key. With `cache:`, the result of the operators up to the one named by
-/// `freeze` is kept in files, quantised (groom/frozen_leaf.h); strands are then always grown from the
-/// quantised data, whether just computed or read. Every strand is a pure function of the groom, its id and
-/// the pose (law 1). Strands of a file grow the same way: their points are the state before the first
+/// pose (root + frame * offset * scale). The first operator that reads live state, and all operators after
+/// it, run on the posed strands of every motion key. With `cache:`, the result of the operators up to the one
+/// named by `freeze` is kept in files, quantised (groom/frozen_leaf.h); strands are then always grown from
+/// the quantised data, whether just computed or read. Every strand is a pure function of the groom, its id
+/// and the pose (law 1). Strands of a file grow the same way: their points are the state before the first
 /// operator, their ids the order of the file, their roots the nearest points of the rest skin.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
@@ -76,12 +76,13 @@ class Groom {
   StrandRepairs repairs() const;
 
   /// All strands of a leaf in a pose, ids ascending. They have the attribute "color" (3 components) when an
-  /// operator colours them: constant, per strand or per point, the smallest that can hold the colours. With
-  /// `kept`, only some of the strands; growing then costs as much as growing all up to the last of these.
+  /// operator colours them: constant, per strand or per point, the smallest of these that can hold the
+  /// colours. With `kept`, only some of the strands; growing them costs as much as growing every strand up to
+  /// the last one kept.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
-  /// Exact counts of grow() for the whole leaf or its first `count` strands. The number of motion keys is the
-  /// pose's and not included.
+  /// Exact counts of grow() for the whole leaf or its first `count` strands. The number of motion keys is not
+  /// included, because it depends on the pose.
   StrandCounts counts(size_t leaf, size_t count = SIZE_MAX) const;
 
   bool grows_on_skin() const;

@@ -44,7 +44,7 @@ struct StrandReach {
   }
 };
 
-/// Which part of the rest skin's roots is read.
+/// Which data of the roots on the rest skin an operator reads.
 enum class RestUse { kNone, kPositions, kFrames };
 
 /// Inputs of prepare(), before strands are grown. Rest state only.

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Candidates that wait for a level of progressive_order() each, at most so many at a time: where there are
-/// more, those of the furthest levels are dropped. Levels are 0 .. `levels` - 1.
+/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` of them: when
+/// full, drops those that wait for the highest levels. Levels are 0 .. `levels` - 1.
 class WaitingCandidates {
  public:
   static constexpr uint32_t kNone = 0xffffffffu;
@@ -17,19 +17,19 @@ class WaitingCandidates {
 
   WaitingCandidates(int levels, size_t max);
 
-  /// Its place until it is removed; kNone, and it is not held, where nothing is left to be dropped.
+  /// Returns the candidate's place, valid until it is removed; kNone if there is no room and nothing to drop.
   uint32_t add(const FollicleCandidate& candidate);
   void remove(uint32_t place);
   const FollicleCandidate& operator[](uint32_t place) const { return items_[place].candidate; }
 
-  /// One that waits for no level waits for this one now. It may be dropped from now on.
+  /// Makes a candidate that waits for no level wait for this one. It may be dropped from now on.
   void wait_for(int level, uint32_t place);
   size_t size(int level) const { return sizes_[static_cast<size_t>(level)]; }
-  /// Calls visit(place) for each that waits for the level. They wait for none from now on.
+  /// Calls visit(place) for each candidate that waits for the level. These wait for no level afterwards.
   template <class Visit>
   void take(int level, const Visit& visit);
 
-  /// Forgets whatever waits for this level or a later one.
+  /// Drops all candidates that wait for this level or a higher one.
   void drop_from(int level);
   /// The lowest level whose candidates were dropped, or the number of levels.
   int dropped() const { return dropped_; }
@@ -46,7 +46,7 @@ class WaitingCandidates {
 
   size_t max_, held_ = 0;
   int dropped_;
-  int highest_ = -1;  // none waits for a later level
+  int highest_ = -1;  // no candidate waits for a higher level
   std::vector<Item> items_;
   uint32_t unused_ = kNone;
   std::vector<uint32_t> heads_;

@@ -51,9 +51,9 @@ class Simplification {
   /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but at least large enough that a widened strand
   /// stays below hypot(1, a tenth of the blur across it) pixels and a quarter of its own length: otherwise
   /// widths would grow without bound where a coat becomes small. lambda_size = w^(2 ln(1/2) / ln h) for a
-  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur keeps the number of strands that contribute
-  /// to a pixel (to the power blur_strength). Back-facing skin keeps less, down to a fifth; its strands may
-  /// be wider accordingly.
+  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur is raised to the power blur_strength; at 1,
+  /// it keeps the number of strands that contribute to a pixel as it is without blur. Back-facing skin keeps
+  /// less, down to a fifth; its strands may be wider accordingly.
   float share(const RootPlace& root) const;
   /// Upper bound of share() for roots at this distance from the camera or farther away.
   float max_share(float distance) const;
@@ -69,9 +69,10 @@ class Simplification {
   /// For strands at random positions the factor is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], with r the
   /// area_share. When positions are evenly spread, wide strands overlap less than thin ones. The strands over
   /// a point of the skin have their roots in a strip of one strand's width and length. For strips narrower
-  /// than the distance between roots, these are intervals on a line with a minimum distance: with mean number
-  /// mu and a fraction x of the line taken up by the distances, the probability of none is (1 - x) exp(-(mu -
-  /// x) / (1 - x)). As x grows with the width, mu must shrink.
+  /// than the distance between roots, the strands are modelled as intervals on a line, with a minimum
+  /// distance between them. Let mu be their mean number over a point, and x the fraction of the line that the
+  /// minimum distances take up: the point is uncovered with probability (1 - x) exp(-(mu - x) / (1 - x)). As
+  /// x grows with the width, mu must shrink.
   float width_factor(float share, float priority) const;
   /// The same for strands that do not fade.
   float gain(float share) const;
@@ -86,7 +87,8 @@ class Simplification {
   float own_shadow(float share) const;
   /// Factor on the deviation of a strand's colour from the mean [Cook07, eq. 22].
   float contrast(float share) const;
-  /// How far fewer control points may move a strand, in scene units; 0: not allowed.
+  /// Max distance by which a refit with fewer control points may move a strand, in scene units; 0: no refit
+  /// is allowed.
   float tolerance(const V3f& root_at_open) const;
 
   /// Hash of everything that affects the result.

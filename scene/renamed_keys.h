@@ -21,7 +21,7 @@ class RenamedPath {
   RenamedPath(Value& document, RenamedKeys& renamed);
   /// The present name of a key of `block`. Adds a warning, at `where`, for an old one.
   std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
-  /// The path leads from `block`, by a present name, to `value`.
+  /// Takes the next step of the path: from `block`, by the present name of a key, to its `value`.
   void enter(const Value& block, const std::string& name, Value& value);
 
  private:

@@ -21,8 +21,8 @@
 
 namespace pelage {
 
-// The scene file as one value; docs/MANUAL.md has its keys. What is below a block of another room is that
-// room's.
+// The scene file as one value; docs/MANUAL.md has its keys. A block that belongs to another room is described
+// in that room.
 
 /// `pelage:`, the version of the scene format.
 struct FormatVersion {
@@ -82,7 +82,7 @@ struct CharacterParams {
   TransformParams transform;
   float frame_offset = 0;     ///< added to the frame to get the pose
   Footprint footprint;        ///< discs (x, z, radius) on the ground, of an animal of scale 1
-  std::optional<bool> drawn;  ///< empty: unless a crowd uses it
+  std::optional<bool> drawn;  ///< empty: drawn unless a crowd uses it
   static const Schema<CharacterParams>& schema();
 };
 

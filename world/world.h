@@ -12,8 +12,9 @@
 // Pelage as a library: from a scene file to a picture in five calls.
 //
 //   load_scene     reads the scene file                                       world/scene_schema.h
-// load_assets    reads the files it names, places follicles, prepares grooms  world/assets.h
-// compose        poses everything for one frame                               world/compose.h
+//   load_assets    reads the files it names, places follicles,
+//                  prepares grooms                                            world/assets.h
+//   compose        poses everything for one frame                             world/compose.h
 //   render         grows and traces; the result is a film
 //   write_frame    writes it as an EXR file
 //

@@ -28,7 +28,7 @@ class StrandReader {
 
   /// Number of strands that the file claims to have, for estimates before scan().
   size_t strands_in_file() const;
-  /// Number of points of all of them.
+  /// Number of points that the file claims to have.
   size_t points_in_file() const;
   /// Reads the whole file once, a few strands at a time, and passes all usable strands to `visit` in order;
   /// `first` is the number of the first strand passed. Must be called once, before the members below. Throws

@@ -52,8 +52,8 @@ struct FibreOracle {
       float theta_o, int paths, const Look& look = [] {}) const;
 };
 
-/// For a fibre material with this absorption per radius, or an opaque one as bright as a clear fibre with it.
-/// `params` must belong to a fibre model.
+/// The oracle of a fibre material whose absorption per radius is replaced by `absorption`. An opaque material
+/// becomes as bright as a clear fibre with this absorption. `params` must belong to a fibre model.
 FibreOracle fibre_oracle(const MaterialParams& params, float absorption);
 
 /// Scene names of all fibre models, from the simplest to the most complex.

@@ -36,7 +36,7 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
 /// Reduced detail against full detail. `parts`: names from kLodParts, or empty for all:
 ///   crowd   cost of the whole crowd in full detail, extrapolated from `full_detail` characters
 ///   detail  hairs, working set, time and error by criterion, distance, blur and focus
-///   wedge   distances by qualities
+///   wedge   contact sheet: a row per distance, a column per quality
 ///   dolly   change of the picture while the LOD camera moves
 Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
                      const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);

@@ -46,7 +46,7 @@ struct Series {
   std::vector<std::pair<double, double>> points;  ///< x ascending; the line breaks where y is not finite
 };
 
-/// Lines over x, above stacked areas. Areas share their x.
+/// Lines over x, drawn on top of stacked areas. Areas share their x.
 struct LinePlot {
   std::string caption;
   Axis x, y;

@@ -52,7 +52,7 @@ struct Hit {
   explicit operator bool() const { return kind != HitKind::kNone; }
   /// Where the strand is held; an empty handle for a skin, or if the accelerator has no chunks.
   StrandHandle handle() const { return {start.chunk, strand_index}; }
-  /// Of a strand.
+  /// Which strand was hit; meaningless for a skin.
   StrandKey key() const { return {part, strand_id}; }
 };
 

@@ -28,29 +28,31 @@ struct ResidentChunksOptions {
   bool eager = false;         ///< everything is grown before the first visit
   bool opaque = false;        ///< every strand is known to be opaque
   uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
-  int threads = 1;            ///< workers that visit are below it
-  /// Where chunks of fur are read instead of being grown, unless all are grown before the first visit; or
-  /// null. What is damaged there is grown.
+  int threads = 1;            ///< every `worker` passed to visit() is below it
+  /// Source of fur chunks that are read instead of grown; null: none. Not used with `eager`. Damaged chunks
+  /// are grown.
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
-/// The chunks of a frame. Each is grown when somebody visits it, dropped when the memory limit needs its
-/// room, and grown again; neither the limit nor what is resident reaches what a visit sees. Rays go through
-/// them by ChunkAccel; who wants strands and not rays visits one chunk after the other.
+/// The chunks of a frame. A chunk is grown when it is visited, dropped when the memory limit needs its room,
+/// and grown again at the next visit. A visit sees the same contents whatever the limit and whatever is
+/// resident. ChunkAccel traces rays through the chunks; code that needs strands rather than rays visits one
+/// chunk after the other.
 ///
-/// Between what strands and skins are made by (Procedural, DeferredSkin) and what keeps them (Residency)
-/// there are two classes. A ChunkGrower, in a frame FrameChunks, knows the scene: it numbers the chunks and
-/// makes the plain contents of one. This one knows no scene: it makes of contents what rays are traced with,
-/// says what that takes, and remembers their boxes.
+/// Procedural and DeferredSkin make strands and skins; Residency keeps them. Two classes connect these. A
+/// ChunkGrower, which is FrameChunks for a frame, knows the scene: it numbers the chunks and makes the plain
+/// contents of each. ResidentChunks does not know the scene: it turns contents into geometry that rays are
+/// traced against, states how much memory this needs, and stores the boxes of the chunks.
 ///
-/// Thread safety: const members from any thread; each number `worker` is used by one thread at a time. The
-/// others before. What a grower throws passes through visit().
+/// Thread safety: const members from any thread; each number `worker` is used by one thread at a time. Call
+/// all other members before. visit() passes on the exceptions of the grower.
 class ResidentChunks final : private Grower {
  public:
-  /// `bounds`: one per chunk, over the whole shutter; what they say is not read with `eager`, where boxes are
-  /// measured on what was grown. Grower and `progress`, which is told of chunks of the file that are damaged,
-  /// outlive this. When `progress` is cancelled meanwhile, nothing may be visited.
-  /// Throws Error: kMemory when the limit is too small, and what the grower throws where all is grown.
+  /// `bounds`: one per chunk, over the whole shutter; with `eager` only their number is used, because boxes
+  /// are measured on the grown chunks. `grower` and `job.progress`, which receives warnings of damaged chunks
+  /// in the file, must outlive this object. If `job.progress` is cancelled during construction, no chunk may
+  /// be visited. Throws Error (kMemory) when the limit is too small and, with `eager`, what the grower
+  /// throws.
   ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
                  const ResidentChunksOptions& options, const Job& job);
 
@@ -59,25 +61,25 @@ class ResidentChunks final : private Grower {
   /// Which coat of which character, or which skin.
   uint32_t part(uint32_t chunk) const { return grower_.part(chunk); }
   bool opaque() const { return options_.opaque; }
-  /// ChunkBoxes::whole() is what there is to sort chunks into buckets by, grown or not.
+  /// ChunkBoxes::whole() serves to sort chunks into buckets: it is known for grown and other chunks.
   const ChunkBoxes& boxes() const { return boxes_; }
 
-  /// Calls use(const ChunkGeometry&), growing the chunk before if it is not resident, and returns a copy of
-  /// what it returns. The chunk stays while `use` runs and may be gone afterwards. A worker is in one visit
-  /// at a time: within `use` nothing is visited and no ray is traced, which is checked whatever the limit.
+  /// Grows the chunk if it is not resident, calls use(const ChunkGeometry&), and returns a copy of its
+  /// result. The chunk stays resident while `use` runs and may be dropped afterwards. A worker may make only
+  /// one visit at a time: `use` must not visit a chunk or trace a ray. This is checked whatever the limit.
   template <class Use>
   auto visit(uint32_t chunk, int worker, Use&& use) const {
     return residency_->visit(chunk, worker, [&](Resident& unit) {
       return std::forward<Use>(use)(static_cast<const ChunkGeometry&>(unit));
     });
   }
-  /// The strand of a handle: ChunkGeometry::strand() in a visit of its chunk.
+  /// Visits the chunk of a handle and copies the strand to `out`, as ChunkGeometry::strand() does.
   void copy_strand(StrandHandle handle, int worker, Strands& out) const {
     visit(handle.chunk, worker, [&](const ChunkGeometry& chunk) { chunk.strand(handle.index, out); });
   }
-  /// A hint: it may change at once.
+  /// A hint only: the answer may change at any time.
   bool is_resident(uint32_t chunk) const { return residency_->is_resident(chunk); }
-  /// Growing the chunk was of use, for ResidencyCounts::false_expansions.
+  /// Records that growing the chunk was useful, for ResidencyCounts::false_expansions.
   void mark_hit(uint32_t chunk) const { residency_->mark_hit(chunk); }
 
   /// Whether the memory limit held all chunks together when this was made.
@@ -103,7 +105,7 @@ class ResidentChunks final : private Grower {
   EmbreeDevice device_;
   SegmentPatterns patterns_;
   ChunkBoxes boxes_;
-  std::vector<std::atomic<uint32_t>> build_pages_;  // what a tree needed when it was built, once it was
+  std::vector<std::atomic<uint32_t>> build_pages_;  // peak of each build; 0: not built yet
   std::vector<MemoryCharge> charges_;
   mutable std::optional<Residency> residency_;
   bool fits_ = true;

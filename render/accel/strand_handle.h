@@ -6,11 +6,11 @@
 
 namespace pelage {
 
-/// Where a strand is held: in which chunk, and which of its strands it is. A handle names the same strand for
-/// any number of threads and any memory limit, and when its chunk was dropped and grown again, as long as the
-/// frame is divided into the same chunks and traced by the same kind of accelerator. The division itself may
-/// follow `render.memory`: no random number and no result may depend on a handle. That is what a StrandKey is
-/// for.
+/// Where a strand is stored: its chunk, and its index in that chunk. A handle identifies the same strand for
+/// any number of threads and any memory limit, even after its chunk was dropped and grown again. This holds
+/// as long as the frame is divided into the same chunks and traced by the same kind of accelerator. The
+/// division may depend on `render.memory`, so no random number and no result may depend on a handle: use a
+/// StrandKey for these.
 struct StrandHandle {
   static constexpr uint32_t kNone = ~0u;
 
@@ -21,7 +21,7 @@ struct StrandHandle {
   friend auto operator<=>(const StrandHandle&, const StrandHandle&) = default;
 };
 
-/// What a strand is called in its frame, however that is divided.
+/// Identifies a strand within its frame, however the frame is divided into chunks.
 struct StrandKey {
   uint32_t part = 0;  ///< which coat of which character
   uint64_t id = 0;    ///< within the part

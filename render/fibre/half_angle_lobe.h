@@ -15,8 +15,8 @@ namespace pelage {
 /// which truncates the Gaussian.
 ///
 /// With s in [0, 1] the cumulative distribution of the truncated Gaussian, the energy is interpolated
-/// linearly between a few values of s, so that both are sampled exactly; weights vary with the interpolation
-/// error.
+/// linearly between a few values of s, so that their product is sampled exactly; sample weights vary with the
+/// interpolation error.
 class HalfAngleLobe {
  public:
   HalfAngleLobe() = default;

@@ -16,8 +16,9 @@ using YanFastBsdf = MedullaBsdf<WignerScatter>;
 using YanBsdf = MedullaBsdf<TabulatedScatter>;
 
 /// Light at one h before the medulla scatters it [Yan17, section 4]. T is the fraction of a leg's light that
-/// stays unscattered, and R = F. The unscattered paths are those of a clear fibre whose legs transmit T; (1 -
-/// F) (1 - T) / (1 - F T) is scattered. All of them add up to 1.
+/// stays unscattered, and R = F. The unscattered paths are those of a clear fibre whose legs transmit T; the
+/// fraction (1 - F) (1 - T) / (1 - F T) is scattered. The fractions of all paths and of scattered light add
+/// up to 1.
 struct MedullaCrossing {
   MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h);
 

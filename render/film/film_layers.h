@@ -16,8 +16,8 @@ namespace pelage {
 
 /// How the samples of a picture meet the pixel filter (image.filter_samples).
 enum class FilterSamples {
-  kDrawn,    ///< each sample's place is drawn by the filter of one pixel, and counts for that pixel alone
-  kSplatted  ///< samples lie evenly, and each counts for all pixels around it, by their filters
+  kDrawn,    ///< the filter of a pixel draws the position of each sample, which counts for that pixel alone
+  kSplatted  ///< samples lie evenly; each counts for all pixels around it, weighted by their filters
 };
 template <>
 struct EnumNames<FilterSamples> {
@@ -50,7 +50,7 @@ struct FilmLayers {
   int groups = 0;
   bool noise = false;                ///< whether the film stores the variance of each pixel's samples
   bool lod = false;                  ///< whether the film shows how much detail was omitted
-  std::optional<PixelFilter> splat;  ///< by which samples count for the pixels around them; none: drawn
+  std::optional<PixelFilter> splat;  ///< filter of FilterSamples::kSplatted; empty: kDrawn
 
   bool empty() const { return names.empty(); }
   size_t size() const { return names.size(); }

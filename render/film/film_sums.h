@@ -13,10 +13,10 @@
 
 namespace pelage {
 
-/// Weighted sums of the channels of a picture. Without a splat filter a sample counts for its own pixel
-/// alone, with weight 1: its place was drawn by the filter. With one, a sample lies anywhere in its pixel and
-/// counts for every pixel whose filter reaches it, by the value of that filter. Twice as many samples then
-/// reach a pixel, at the price that neighbours share their noise.
+/// Weighted sums of the channels of a picture. Without a splat filter, the pixel filter has drawn the
+/// position of each sample, which counts for its own pixel alone, with weight 1. With a splat filter, a
+/// sample lies anywhere in its pixel and counts for every pixel whose filter reaches it, weighted by the
+/// value of that filter. Twice as many samples then reach a pixel, but neighbouring pixels share noise.
 ///
 /// Splatted samples are added to a buffer of their tile, which overlaps its neighbours by the reach of the
 /// filter; a pixel is the sum over at most four buffers, always in the same order. So the result does not
@@ -33,11 +33,11 @@ class FilmSums {
 
   /// The pixels that a sample counts for, and by how much.
   class Footprint;
-  /// Of a sample that lies `offset` pixels from the centre of its pixel, within half a pixel if it is
-  /// splatted.
+  /// Footprint of a sample that lies `offset` pixels from the centre of its pixel; with a splat filter, at
+  /// most half a pixel along each axis.
   Footprint footprint(const V2f& offset) const;
 
-  /// Adds `values`, one per channel from `first` on, of a sample of pixel (x, y).
+  /// Adds a sample of pixel (x, y): `values`, one per channel, starting with channel `first`.
   void add(int x, int y, const Footprint& footprint, size_t first, std::span<const float> values);
   /// Adds to the weights by which the sums of a pixel are divided; once per sample.
   void add_weight(int x, int y, const Footprint& footprint);

@@ -21,7 +21,8 @@ struct FibreParams {
 };
 
 /// Near field: scattering depends on where a ray hits across the fibre. Far field: it is averaged across the
-/// fibre, as if that were too thin to see; each sample draws one position, so that the mean is the far field.
+/// fibre, as if the fibre were too thin to see; each sample draws one position, so that the mean is the far
+/// field.
 enum class FibreField { kNear, kFar };
 template <>
 struct EnumNames<FibreField> {
@@ -75,7 +76,7 @@ struct AbsorptionParams {
   std::optional<float> pheomelanin;       ///< of the red and yellow one
 };
 
-/// Whether the lobes have the height of the paper or half of it, which roughly conserves energy.
+/// Height of the lobes: as in the paper, or half of that. Half the height roughly conserves energy.
 enum class MarschnerVariant { kPublished, kHalved };
 template <>
 struct EnumNames<MarschnerVariant> {
