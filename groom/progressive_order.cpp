@@ -259,9 +259,8 @@ void DartThrowing::append_accepted() {
 }  // namespace
 
 HeldCandidates HeldCandidates::of(size_t candidates, size_t count) {
-  // Up to 170,000 follicles, all candidates are made once and held: at most 42 MB, and a quarter less time.
-  // Of more, 1.8 per follicle are held on a plane, when half of them are placed.
-  constexpr size_t kFew = size_t(1) << 20, kParts = 16;
+  // Few are made once and held; of many, 1.8 per follicle are held on a plane, when half of them are placed.
+  constexpr size_t kFew = size_t(1) << 17, kParts = 16;
   if (candidates <= kFew) return all(candidates);
   return {kParts, std::min(candidates, 2 * count)};
 }

@@ -39,7 +39,7 @@ class GroomMemoryTest : public OperatorTest {
 
 TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
   for (const char* density : {"1", "{ramp: {along: y, knots: [[-1, 0.2], [1, 1]]}}"}) {
-    for (const int64_t count : {20'000, 190'000}) {
+    for (const int64_t count : {20'000, 60'000}) {
       const FollicleOptions wanted = options(count, density);
       FollicleTree tree;
       MemoryLedger ledger;
@@ -60,7 +60,7 @@ TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
 
 TEST_F(GroomMemoryTest, PlacingInPartsHoldsWhatItAsksForFromTheFirstNumberOn) {
   // Candidates are expected to be as many as are made at once, and may become more.
-  const int64_t count = 174'000;
+  const int64_t count = 21'500;
   const int64_t peak = peak_of([&] { FollicleTree::build(*rest_, options(count), job_); });
   EXPECT_LE(peak, follicle_temporary_bytes(count) + (3 << 20));
 }
@@ -260,7 +260,7 @@ TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
   // Placing this many looks some thousand times; each place where it looks is left by the same error.
   const Workers one(1);
   int stopped = 0, looks = 0;
-  for (bool ended = false; !ended; looks += 7) {
+  for (bool ended = false; !ended; looks += 31) {
     StopsAfterLooks progress(looks);
     try {
       FollicleTree::build(*rest_, options(30'000), Job{one, ledger_, progress});

@@ -83,7 +83,7 @@ TEST(ProgressiveOrder, HasNoResultRatherThanAnother) {
 
 TEST(ProgressiveOrder, OfANarrowSkinIsFoundWithoutForgetting) {
   // Follicles on a line shun each other at 1 / their number.
-  const int64_t count = 190'000;
+  const int64_t count = 30'000;
   const ControlMesh line = flattened(1e-5f, 1e-5f);
   Coat coat(line, "1", static_cast<size_t>(count));
   EXPECT_FALSE(coat.order(HeldCandidates::of(coat.source().wanted(), static_cast<size_t>(count))));
