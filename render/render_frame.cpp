@@ -10,6 +10,8 @@
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_loop.h"
 #include "render/frame/sample_schedule.h"
+#include "render/gather/gather_loop.h"
+#include "render/path/path_tracer.h"
 #include "render/sampling/adaptive_rule.h"
 
 namespace pelage {
@@ -23,14 +25,20 @@ FilmLayers film_layers(const RenderScene& scene) {
   return frame_layers(scene.image, scene.render, lights, scene.materials);
 }
 
-std::unique_ptr<const SampleIntegrator> make_integrator(const RenderScene& scene, const Accel& accel,
-                                                        const FilmLayers& layers,
-                                                        const PathOptions& options) {
-  switch (scene.render.integrator) {
-    case Integrator::kPath:
-      break;
-  }
-  return std::make_unique<PathTracer>(scene, accel, layers, options);
+/// Renders with one path after another.
+void trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
+                 const Job& job, const Stopwatch& clock, FrameResult& result) {
+  const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options);
+  FrameLoop loop(tracer, job, result.film, clock);
+  const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry.fits()).run();
+  result.partial = end.partial;
+  result.time_limited = end.time_limited;
+  result.samples = loop.min_samples();
+  result.clamped_fraction = loop.clamped_fraction();
+  result.mean_samples = loop.mean_samples();
+  result.noise = frame_noise(result.film.moments());
+  result.first_tile_s = loop.first_tile_s();
+  loop.add_to(result.statistics);
 }
 
 }  // namespace
@@ -41,23 +49,19 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOpt
   job.ledger.set_limit(scene.render.memory.bytes);
   require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers),
                "the frame buffer");
+  const bool gathers = scene.render.integrator == Integrator::kGather;
+  const MemoryCharge tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : MemoryCharge();
   FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
   const auto geometry = FrameGeometry::make(scene, job, result.statistics);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
-  const auto integrator = make_integrator(scene, geometry->accel(), result.film.layers(), options);
-  FrameLoop loop(*integrator, job, result.film, clock);
-  const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry->fits()).run();
-  result.partial = end.partial;
-  result.time_limited = end.time_limited;
-  result.samples = loop.min_samples();
-  result.clamped_fraction = loop.clamped_fraction();
-  result.mean_samples = loop.mean_samples();
-  result.noise = frame_noise(result.film.moments());
-  result.first_tile_s = loop.first_tile_s();
-  loop.add_to(result.statistics);
+  if (gathers) {
+    GatherLoop(scene, geometry->accel(), options, job, clock, result).run();
+  } else {
+    trace_paths(scene, *geometry, options, job, clock, result);
+  }
   geometry->add_to(result.statistics);
   result.statistics.stages_s["render"] += clock.seconds() - prepared_s;
   return result;

@@ -148,6 +148,17 @@ void check_filter_samples(const SceneDescription& scene, const Value& document, 
                "`filter_samples: splatted` does not work with `adaptive` sampling; remove one of them");
 }
 
+// Adaptive sampling and `noise` take the samples of a pixel for independent; those of `gather` share light.
+void check_gather(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (scene.render.integrator != Integrator::kGather) return;
+  const auto refuse = [&](const char* block, const char* key) {
+    problems.add(document.find(block)->find(key)->position(),
+                 fmt::format("`{}` does not work with `integrator: gather`; remove one of them", key));
+  };
+  if (scene.render.adaptive) refuse("render", "adaptive");
+  if (scene.image.noise_layers) refuse("image", "noise_layers");
+}
+
 void collect_files(const Value& value, std::set<std::string>& files) {
   if (value.position().line > 0) files.insert(value.position().file);  // flags have no lines
   if (value.is_map()) {
@@ -180,6 +191,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
       check_filter_samples(scene, *document, problems);
+      check_gather(scene, *document, problems);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));

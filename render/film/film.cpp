@@ -62,14 +62,17 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
   return true;
 }
 
-bool Film::add_light(int x, int y, const V2f& offset, const Rgb& radiance, std::span<const Rgb> by_layer) {
-  PELAGE_CHECK(by_layer.size() == layers_.size());
-  if (!is_finite(radiance) || !all_finite(by_layer)) return false;
-  const float light[] = {radiance.x, radiance.y, radiance.z};
-  const FilmSums::Footprint footprint = sums_.footprint(offset);
-  sums_.add(x, y, footprint, 0, light);
-  sums_.add(x, y, footprint, 4, channels_of(by_layer));
-  return true;
+void Film::clear_tile(int x, int y) {
+  sums_.clear_tile(x, y);
+  const int x0 = x - x % FilmSums::kTileSide, y0 = y - y % FilmSums::kTileSide;
+  for (int row = y0; row < std::min(height_, y0 + FilmSums::kTileSide); ++row) {
+    for (int column = x0; column < std::min(width_, x0 + FilmSums::kTileSide); ++column) {
+      const size_t pixel = index(column, row);
+      counts_[pixel] = 0;
+      surfaces_[pixel] = {};
+      if (!moments_.empty()) moments_[pixel] = {};
+    }
+  }
 }
 
 Rgb Film::radiance(int x, int y) const {

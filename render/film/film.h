@@ -63,8 +63,8 @@ class Film {
   /// `by_layer`: the radiance divided among layers(). Returns false and leaves the pixel unchanged when a
   /// value is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
-  /// Adds further light to a sample that was added before.
-  bool add_light(int x, int y, const V2f& offset, const Rgb& radiance, std::span<const Rgb> by_layer);
+  /// Removes all samples of the tile that contains the pixel.
+  void clear_tile(int x, int y);
 
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
   Rgb radiance(int x, int y) const;

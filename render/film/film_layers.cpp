@@ -19,7 +19,8 @@ const Schema<ImageParams>& ImageParams::schema() {
                  "near it. With `blackman-harris` this halves the variance at the same number of samples, "
                  "but the noise of neighbouring pixels is correlated. There are no samples beyond the border "
                  "of the picture, so the filter of the outermost pixels ends there. Not available with "
-                 "`adaptive`"});
+                 "`adaptive`",
+         .default_text = "drawn; splatted with `integrator: gather`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key("noise_layers", &ImageParams::noise_layers,
@@ -27,7 +28,7 @@ const Schema<ImageParams>& ImageParams::schema() {
                "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of "
                "the luminance). Adaptive sampling always adds them. With `filter_samples: splatted`, `noise` "
                "covers only the samples of the pixel itself and is too high: about 1.5 times with "
-               "`blackman-harris`"});
+               "`blackman-harris`. Not available with `integrator: gather`, whose samples share light"});
     s.key("lod_layer", &ImageParams::lod_layer,
           {.help = "Adds the layer `lod`: the fraction of strands that render.lod removed at the front-most "
                    "surface, 0 on skins. `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});

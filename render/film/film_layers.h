@@ -29,7 +29,7 @@ struct ImageParams {
   int width = 1280;
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
-  FilterSamples filter_samples = FilterSamples::kDrawn;
+  std::optional<FilterSamples> filter_samples;  ///< empty: kSplatted with the gather integrator, else kDrawn
   bool light_layers = true;  ///< one layer per light x lobe group
   bool noise_layers = false;
   bool lod_layer = false;

@@ -82,6 +82,12 @@ void FilmSums::add_weight(int x, int y, const Footprint& footprint) {
   for_each_pixel(x, y, footprint, [&](float* pixel, float weight) { pixel[stride_ - 1] += weight; });
 }
 
+void FilmSums::clear_tile(int x, int y) {
+  const auto side = static_cast<size_t>(buffer_side_);
+  const auto first = sums_.begin() + static_cast<ptrdiff_t>(tile_offset(x / kTileSide, y / kTileSide));
+  std::fill(first, first + static_cast<ptrdiff_t>(side * side * stride_), 0.0f);
+}
+
 float FilmSums::mean(int x, int y, size_t channel) const {
   float sum = 0, weight = 0;
   const int c0 = std::max(0, (x - reach_) / kTileSide), c1 = std::min(columns_ - 1, (x + reach_) / kTileSide);

@@ -42,6 +42,9 @@ class FilmSums {
   /// Adds to the weights by which the sums of a pixel are divided; once per sample.
   void add_weight(int x, int y, const Footprint& footprint);
 
+  /// Removes everything that was added for the pixels of the tile that contains pixel (x, y).
+  void clear_tile(int x, int y);
+
   /// Weighted mean of a channel; 0 where nothing was added.
   float mean(int x, int y, size_t channel) const;
 

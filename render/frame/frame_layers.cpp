@@ -26,7 +26,9 @@ FilmLayers frame_layers(const ImageParams& image, const RenderParams& render,
   }
   layers.lod = image.lod_layer;
   layers.noise = image.noise_layers || render.adaptive;
-  if (image.filter_samples == FilterSamples::kSplatted) layers.splat = image.filter;
+  const bool gathers = render.integrator == Integrator::kGather;
+  const FilterSamples usual = gathers ? FilterSamples::kSplatted : FilterSamples::kDrawn;
+  if (image.filter_samples.value_or(usual) == FilterSamples::kSplatted) layers.splat = image.filter;
   return layers;
 }
 

@@ -52,8 +52,8 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Points on lights that propose() tries; it leaves out those from which no light arrives.
-  uint32_t points_tried() const { return rays_ * kCandidates; }
+  /// Factor by which one candidate point's light counts: the mean over all points tried.
+  float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
 
   /// Computes the probabilities of the lights at a point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {

@@ -2,8 +2,6 @@
 // Tested in tests/render/path/path_furnace_test.cpp.
 #include "render/path/path_tracer.h"
 
-#include <span>
-
 #include "render/light/seen_lights.h"
 
 namespace pelage {
@@ -15,11 +13,7 @@ struct PathTracer::Scratch final : SampleScratch {
 /// Adds up what a path brings to its pixel, and divides it among the layers of the film.
 class PathTracer::FilmSink {
  public:
-  static constexpr bool kUnoccluded = false;
-
   FilmSink(const FilmLayers& layers, SampleScratch& scratch) : layers_(layers), scratch_(scratch) {}
-
-  void proposed(const PathState&, std::span<const LightPoint>, uint32_t) {}
 
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
     if (!(through > 0)) return;

@@ -40,16 +40,12 @@ struct PathState {
 /// may end a path earlier, the more likely the lower its weight (survival()).
 ///
 /// A Sink has
-///   proposed(path, points, count)     called once per vertex: shadow rays choose their targets among these
-///                                     points on lights; `count` were tried, and those from which no light
-///                                     arrives are left out of `points`
 ///   shadow(path, point, factor, through)
 ///                                     one shadow ray: of point.arriving * factor, the fraction `through`
 ///                                     reaches the vertex; the rest is blocked
 ///   met(path, light, radiance, weight, through)
 ///                                     a light that the ray drawn from the lobes hits: of radiance * weight,
 ///                                     the fraction `through` reaches the vertex; the rest is blocked
-///   static constexpr bool kUnoccluded whether the first vertex reports lights with through = 0, too
 ///
 /// Thread safety: const members may be called from any thread, each with a scratch of its own.
 template <class Sink>
@@ -67,13 +63,24 @@ class PathWalk {
   /// Follows a path from its first vertex, whose scattering is `first`, to its end.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
-    bool goes_on = scatter(first, path, lights, scratch, sink);
-    while (goes_on) {
-      ++path.vertex;
-      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
-                        sink);
-    }
+    if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
+  /// Follows a path whose direction at the first vertex was drawn before, along `ray`, without the lights
+  /// that this ray itself hits. `path.first` and `path.weight` include the density of that direction.
+  void follow(const Ray& ray, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
+              Sink& sink) const {
+    path.ray = ray;
+    path.ray.random = ++path.random;
+    ++scratch.rays.indirect;
+    path.hit = accel_.closest(path.ray, scratch.thread);
+    if (path.hit) walk_on(path, lights, scratch, sink);
+  }
+
+  /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
+  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, paths would
+  /// end that contribute as much as others: in pale fur, that takes a quarter fewer rays, but has two thirds
+  /// more variance.
+  static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
@@ -84,11 +91,15 @@ class PathWalk {
   static void seek(PathState& path, Draw draw) {
     path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
   }
-  /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
-  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, paths would
-  /// end that contribute as much as others: in pale fur, that takes a quarter fewer rays, but has two thirds
-  /// more variance.
-  static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
+  /// Continues a path that has hit its next vertex.
+  void walk_on(PathState& path, DirectLightScratch& lights, SampleScratch& scratch, Sink& sink) const {
+    bool goes_on = true;
+    while (goes_on) {
+      ++path.vertex;
+      goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
+                        sink);
+    }
+  }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
   /// Light at the current vertex, and the way to the next one. Returns false where the path ends.
@@ -141,7 +152,6 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   seek(path, kLight);
   const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
   const double total = direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
-  sink.proposed(path, lights.points, direct_.points_tried());
   if (!(total > 0)) return;
   seek(path, kLightChoice);
   direct_.choose(total, path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
@@ -158,10 +168,9 @@ template <class Sink>
 void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,
                                  SampleScratch& scratch, Sink& sink) const {
-  const bool all = Sink::kUnoccluded && path.vertex == 0;
-  direct_.find_lights(point, ray.direction, all ? ray.far : distance, lobe_pdf, lights,
+  direct_.find_lights(point, ray.direction, distance, lobe_pdf, lights,
                       [&](size_t light, const LightHit& hit, float weight) {
-                        float through = hit.distance > distance ? 0.0f : 1.0f;
+                        float through = 1;
                         if (shadowed) {
                           Ray shadow = ray;
                           shadow.far = hit.distance * DirectLight::kJustBefore;

@@ -10,13 +10,14 @@
 #include "procedurals/chunk_bounds.h"
 #include "render/camera/camera.h"
 #include "render/sampling/adaptive_params.h"
+#include "render/scene/gather_params.h"
 
 namespace pelage {
 
-enum class Integrator { kPath };
+enum class Integrator { kPath, kGather };
 template <>
 struct EnumNames<Integrator> {
-  static constexpr const char* names[] = {"path"};
+  static constexpr const char* names[] = {"path", "gather"};
 };
 enum class AccelKind { kEmbree, kFur };
 template <>
@@ -65,6 +66,7 @@ struct BvhParams {
 /// `render:` of a scene.
 struct RenderParams {
   Integrator integrator = Integrator::kPath;
+  GatherParams gather;
   AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;
   int samples = 64;  ///< with adaptive sampling, the maximum per pixel

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/gather/gather_integrator_test.cpp.
+#include "render/gather/gather_loop.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "base/memory_budget.h"
+#include "base/parallel.h"
+#include "render/accel/flush_denormals.h"
+
+namespace pelage {
+namespace {
+
+/// With so few samples, a first pass of one would take a large part of the time.
+constexpr uint32_t kFew = 4;
+
+}  // namespace
+
+MemoryCharge GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
+  const auto tile = static_cast<int64_t>(GatherTile::scratch_bytes(scene.lights.size()));
+  return reserve(job.ledger, MemoryTag::kReflectionCache, tile * job.workers.thread_count(),
+                 "the samples of one tile per thread");
+}
+
+GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options,
+                       const Job& job, const Stopwatch& clock, FrameResult& result)
+    : scene_(scene),
+      tile_(scene, accel, result.film.layers(), options),
+      job_(job),
+      clock_(clock),
+      result_(result),
+      tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)) {
+  for (int worker = 0; worker < job.workers.thread_count(); ++worker) {
+    scratch_.push_back(tile_.make_scratch());
+    scratch_.back()->thread.worker = worker;
+  }
+}
+
+/// Samples per pixel that fit into the time limit, at most `count`.
+uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
+  const float limit = scene_.render.time_limit;
+  if (!(limit > 0) || given == 0) return count;
+  const double fits = std::max(0.0, (limit - clock_.seconds()) / std::max(1e-9, sample_s_));
+  return static_cast<uint32_t>(std::min<double>(fits, count));
+}
+
+void GatherLoop::run() {
+  const auto samples = static_cast<uint32_t>(scene_.render.samples);
+  const bool limited = scene_.render.time_limit > 0;
+  const bool previews = limited || samples > kFew;
+  const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
+  job_.progress.begin("render", pixels * (samples + (previews ? 1 : 0)));
+  End end = previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : End::kDone;
+  const double deadline = limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
+  for (uint32_t given = 0; given < samples && end == End::kDone;) {
+    const uint32_t wanted = std::min(tile_.max_samples(), samples - given);
+    const uint32_t count = fitting(wanted, given + (previews ? 1 : 0));
+    if (count == 0) end = End::kOutOfTime;
+    if (end == End::kDone) end = trace({given, count, given == 0, false}, deadline);
+    given += count;
+    if (count < wanted && end == End::kDone) end = End::kOutOfTime;
+  }
+  job_.progress.end();
+  report(end);
+}
+
+GatherLoop::End GatherLoop::trace(const Pass& pass, double deadline_s) {
+  const double began = clock_.seconds();
+  const std::vector<Tile> tiles = pass.scattered ? scattered(tiles_) : tiles_;
+  std::atomic<bool> cancelled{false}, out_of_time{false};
+  job_.workers.for_each(tiles.size(), 1, [&](WorkRange range) {
+    const FlushDenormals flush;
+    GatherTile::Scratch& scratch = *scratch_[static_cast<size_t>(range.worker)];
+    for (size_t i = range.begin; i < range.end; ++i) {
+      if (clock_.seconds() > deadline_s) {
+        out_of_time = true;
+        return;
+      }
+      if (!tile_.trace(tiles[i], pass.first, pass.count, job_, scratch)) {
+        cancelled = true;
+        return;
+      }
+      land(pass, tiles[i], scratch);
+    }
+  });
+  sample_s_ = (clock_.seconds() - began) / pass.count;
+  if (cancelled) return End::kCancelled;
+  return out_of_time ? End::kOutOfTime : End::kDone;
+}
+
+void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch) {
+  for (int y = tile.y0; pass.replaces && y < tile.y1; y += FilmSums::kTileSide) {
+    for (int x = tile.x0; x < tile.x1; x += FilmSums::kTileSide) result_.film.clear_tile(x, y);
+  }
+  rejected_ += tile_.add_to(result_.film, scratch);
+  job_.progress.advance(static_cast<double>(pass.count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
+  double none = 0;
+  if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
+}
+
+void GatherLoop::report(End end) {
+  result_.partial = end == End::kCancelled;
+  result_.time_limited = end == End::kOutOfTime;
+  result_.first_tile_s = first_tile_s_;
+  result_.samples = result_.film.samples(0, 0);
+  double sum = 0;
+  for (int y = 0; y < result_.film.height(); ++y) {
+    for (int x = 0; x < result_.film.width(); ++x) {
+      result_.samples = std::min(result_.samples, result_.film.samples(x, y));
+      sum += result_.film.samples(x, y);
+    }
+  }
+  result_.mean_samples = sum / (static_cast<double>(result_.film.width()) * result_.film.height());
+  result_.statistics.samples_rejected += rejected_;
+  IndirectClamp clamp;
+  for (const auto& scratch : scratch_) {
+    result_.statistics.trace += scratch->thread.counts;
+    result_.statistics.rays += scratch->rays;
+    clamp.lost += scratch->clamp.lost;
+    clamp.indirect += scratch->clamp.indirect;
+  }
+  if (clamp.indirect > 0) {
+    result_.clamped_fraction = static_cast<double>(clamp.lost) / static_cast<double>(clamp.indirect);
+  }
+}
+
+}  // namespace pelage

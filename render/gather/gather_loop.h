@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "base/job.h"
+#include "base/ledger.h"
+#include "base/stopwatch.h"
+#include "render/frame/frame_result.h"
+#include "render/gather/gather_tile.h"
+
+namespace pelage {
+
+/// Renders a frame with GatherTile.
+///
+/// First, every pixel gets one sample, for a valid picture early: cancelled or out of time, a frame keeps it
+/// in the tiles that were not reached. Then each tile gets its samples, which replace the first. When there
+/// are more than GatherTile::max_samples(), further passes add to them. So the picture does not depend on
+/// threads or on the first pass, unless the time limit is reached.
+class GatherLoop {
+ public:
+  /// Memory of the tiles of all threads, to be reserved before chunks take the rest. Throws Error (kMemory)
+  /// when `render.memory` does not hold it.
+  static MemoryCharge reserve_tiles(const RenderScene& scene, const Job& job);
+
+  /// References are kept. `result.film` gets the samples. `clock`: starts when the time limit does.
+  GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Job& job,
+             const Stopwatch& clock, FrameResult& result);
+
+  /// Renders the frame into `result`.
+  void run();
+
+ private:
+  enum class End { kDone, kCancelled, kOutOfTime };
+  struct Pass {
+    uint32_t first = 0, count = 1;
+    bool replaces = false;  ///< earlier samples
+    bool scattered = false;
+  };
+  End trace(const Pass& pass, double deadline_s);
+  /// Samples of the next pass that fit the time limit; 0: none.
+  uint32_t fitting(uint32_t count, uint32_t given) const;
+  void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);
+  void report(End end);
+
+  const RenderScene& scene_;
+  const GatherTile tile_;
+  const Job job_;
+  const Stopwatch& clock_;
+  FrameResult& result_;
+  std::vector<Tile> tiles_;
+  std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;  // by worker
+  std::atomic<int64_t> rejected_{0};
+  std::atomic<double> first_tile_s_{0};
+  double sample_s_ = 0;  // wall seconds of one sample per pixel in the last pass
+};
+
+}  // namespace pelage

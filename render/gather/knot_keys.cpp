@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gather/knot_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/hash.h"
+#include "render/frame/skin_point.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kMaxLevel = 16;
+/// Parts of a strand, from root to tip, over which visibility is taken to be similar across a coat.
+constexpr float kLayers = 8;
+
+/// The smallest level at which 2^level parts of `length` are no longer than `spacing`.
+int level_of(float length, float spacing) {
+  if (!(length > spacing)) return 0;
+  return std::min(static_cast<int>(std::ceil(std::log2(length / spacing))), kMaxLevel);
+}
+
+/// One of the two knots around `place` in [0, 1], of 2^level + 1: the nearer it is, the more likely.
+uint32_t knot_near(float place, int level, float random) {
+  const float scaled = std::clamp(place, 0.0f, 1.0f) * static_cast<float>(1 << level);
+  const float before = std::floor(scaled);
+  return static_cast<uint32_t>(before) + (random < scaled - before ? 1 : 0);
+}
+
+uint64_t pack(int level, uint32_t knot) { return static_cast<uint64_t>(level) << 32 | knot; }
+
+float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
+  return a && b ? V2f(b->x - a->x, b->y - a->y).length() : 0;
+}
+
+}  // namespace
+
+KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random) const {
+  return hit.kind == HitKind::kStrand ? on_strand(hit, met.strand, random.x)
+                                      : on_skin(hit, met.triangle, random);
+}
+
+/// Pixels along the control polygon when the shutter opens, without what is behind the camera.
+float KnotKeys::length_in_picture(const Strands& strand) const {
+  float length = 0;
+  auto from = camera_.project(strand.point(0), 0);
+  for (uint32_t i = 1; i < strand.strand_points(0); ++i) {
+    const auto to = camera_.project(strand.point(i), 0);
+    length += distance(from, to);
+    from = to;
+  }
+  return length;
+}
+
+KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, float random) const {
+  const int level = level_of(length_in_picture(strand), params_.spacing);
+  const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
+  const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
+  const uint32_t knot = knot_near(place, level, random);
+  const float along = static_cast<float>(knot) / static_cast<float>(1 << level);
+  return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)),
+          hash64(random_use("layer of a coat"), hit.part, static_cast<uint64_t>(along * kLayers))};
+}
+
+KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const {
+  const uint64_t layer = hash64(random_use("layer of a skin"), hit.part);
+  if (triangle.vertex_uv.empty()) {
+    const uint64_t face = triangle.faces.empty() ? 0 : triangle.faces[0];
+    return {hash64(random_use("knot of a skin"), hit.part, face), layer};
+  }
+  // Size in the picture of the face's two parameter lines, from the triangle that was hit.
+  const V2f* at = triangle.vertex_uv.data();
+  const V2f e1 = at[1] - at[0], e2 = at[2] - at[0];
+  const V3f& corner = triangle.position(0);
+  const V3f d1 = triangle.position(1) - corner, d2 = triangle.position(2) - corner;
+  const float area = e1.x * e2.y - e1.y * e2.x;
+  int levels[2] = {0, 0};
+  if (std::abs(area) > 0) {
+    const V3f along[2] = {(d1 * e2.y - d2 * e1.y) / area, (d2 * e1.x - d1 * e2.x) / area};
+    const float size = std::sqrt(std::abs(area));
+    const auto from = camera_.project(corner, 0);
+    for (int i = 0; i < 2; ++i) {
+      const auto to = camera_.project(corner + size * along[i], 0);
+      levels[i] = level_of(distance(from, to) / size, params_.skin_spacing);
+    }
+  }
+  const V2f place = skin_parameters(triangle, hit);
+  return {hash64(random_use("knot of a skin"), hit.part, triangle.faces[0],
+                 pack(levels[0], knot_near(place.x, levels[0], random.x)),
+                 pack(levels[1], knot_near(place.y, levels[1], random.y))),
+          layer};
+}
+
+}  // namespace pelage

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gather/path_sharing.h"
+
+namespace pelage {
+namespace {
+
+Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
+  Rgb result(0);
+  for (int c = 0; c < 3; ++c) {
+    if (of[c] > 1e-6f * scale[c]) result[c] = part[c] / of[c];
+  }
+  return result;
+}
+
+}  // namespace
+
+void PathSharing::begin(size_t knots, uint32_t layers, size_t lights, bool guess) {
+  lights_ = lights;
+  guess_ = guess;
+  weights_.assign(knots, {});
+  arrived_.assign(knots * lights * kLobeGroups, Rgb(0));
+  layer_traced_.assign(layers, Rgb(0));
+  layer_arrived_.assign(layers * lights, Rgb(0));
+}
+
+void PathSharing::add_weights(uint32_t knot, const Rgb* weights) {
+  for (int g = 0; g < kLobeGroups; ++g) weights_[knot].all[g] += weights[g];
+}
+
+void PathSharing::add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance) {
+  for (int g = 0; g < kLobeGroups; ++g) weights_[knot].traced[g] += factor * weights[g];
+  Rgb* arrived = &arrived_[knot * lights_ * kLobeGroups];
+  for (const Rgb& light : radiance) {
+    for (int g = 0; g < kLobeGroups; ++g) *arrived++ += factor * weights[g] * light;
+  }
+}
+
+void PathSharing::finish(const std::vector<uint32_t>& layer_of_knot) {
+  const auto traced = [&](size_t knot) {
+    return weights_[knot].traced[0] + weights_[knot].traced[1] + weights_[knot].traced[2];
+  };
+  const auto arrived = [&](size_t knot, size_t light) {
+    const Rgb* of = &arrived_[(knot * lights_ + light) * kLobeGroups];
+    return of[0] + of[1] + of[2];
+  };
+  for (size_t knot = 0; guess_ && knot < layer_of_knot.size(); ++knot) {
+    const uint32_t layer = layer_of_knot[knot];
+    layer_traced_[layer] += traced(knot);
+    for (size_t i = 0; i < lights_; ++i) layer_arrived_[layer * lights_ + i] += arrived(knot, i);
+  }
+  for (size_t knot = 0; knot < layer_of_knot.size(); ++knot) {
+    const Weights& own = weights_[knot];
+    const Rgb& layer = layer_traced_[layer_of_knot[knot]];
+    for (size_t i = 0; i < lights_; ++i) {
+      const Rgb& all = layer_arrived_[layer_of_knot[knot] * lights_ + i];
+      const Rgb guess = guess_ ? ratio(all - arrived(knot, i), layer - traced(knot), layer) : Rgb(0);
+      Rgb* of = &arrived_[(knot * lights_ + i) * kLobeGroups];
+      for (int g = 0; g < kLobeGroups; ++g) {
+        of[g] = guess + ratio(of[g] - guess * own.traced[g], own.all[g], Rgb(0));
+      }
+    }
+  }
+}
+
+}  // namespace pelage

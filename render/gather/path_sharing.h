@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+#include "render/fibre/fibre_value.h"
+
+namespace pelage {
+
+/// Indirect light that arrives at the points of each knot, from paths of some of the points: by light and
+/// lobe group, the mean radiance by which the weights of a point's own direction are multiplied.
+///
+/// The same estimate as that of LightSharing, with the weights (rho / pdf) of all points of a knot in place of
+/// unoccluded light, and radiance in place of the fraction that arrives.
+class PathSharing {
+ public:
+  void begin(size_t knots, uint32_t layers, size_t lights, bool guess);
+
+  void add_weights(uint32_t knot, const Rgb* weights);
+  /// A path that stands for `factor` points: weights[g] * radiance[light] reach the camera.
+  void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
+  void finish(const std::vector<uint32_t>& layer_of_knot);
+  const Rgb& radiance(uint32_t knot, size_t light, int group) const {
+    return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
+  }
+
+ private:
+  struct Weights {
+    Rgb all[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
+    Rgb traced[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
+  };
+
+  size_t lights_ = 0;
+  bool guess_ = true;
+  std::vector<Weights> weights_;     // by knot
+  std::vector<Rgb> arrived_;         // by knot, light and group
+  std::vector<Rgb> layer_traced_;    // by layer
+  std::vector<Rgb> layer_arrived_;   // by layer and light
+};
+
+}  // namespace pelage

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/gather/systematic_choice_test.cpp.
+#pragma once
+
+#include <cstdint>
+
+namespace pelage {
+
+/// Systematic sampling: walks through items in order, and chooses each in proportion to its mass. An item of
+/// mass m is chosen floor(m / step) or ceil(m / step) times, on average m / step; so is every run of
+/// consecutive items, with the sum of their masses.
+class SystematicChoice {
+ public:
+  /// `step`: positive. `u`: a random number in [0, 1).
+  SystematicChoice(double step, double u) : step_(step), next_(u * step) {}
+
+  /// How often the next item is chosen. `mass`: not negative.
+  uint32_t times(double mass) {
+    sum_ += mass;
+    uint32_t chosen = 0;
+    for (; next_ < sum_; next_ += step_) ++chosen;
+    return chosen;
+  }
+  double step() const { return step_; }
+
+ private:
+  const double step_;
+  double next_, sum_ = 0;
+};
+
+}  // namespace pelage

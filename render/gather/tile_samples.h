@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/accel/accel.h"
+#include "render/fibre/fibre_value.h"
+#include "render/film/film.h"
+
+namespace pelage {
+
+/// The start of a ray that leaves a visible point.
+struct LeavingRay {
+  V3f origin{0};
+  V3f direction{0};
+  float far = 0;
+};
+
+/// A point of a strand or skin that a camera sample sees, with a ray drawn from its lobes.
+struct VisiblePoint {
+  uint32_t pixel = 0;   ///< within the tile
+  uint32_t sample = 0;  ///< number of the sample in its pixel
+  uint32_t knot = 0;    ///< index in TileSamples::layer_of_knot
+  float time = 0;
+  uint32_t random = 0;     ///< PathState::random
+  StrandStart start = {};  ///< Hit::start; empty where rays may hit their own strand
+
+  LeavingRay scattered;   ///< a direction drawn from the lobes
+  Rgb weights[kLobeGroups];  ///< rho / pdf of that direction, by lobe group; all 0: none was drawn
+
+  Ray ray(const LeavingRay& leaving) const {
+    Ray result;
+    result.origin = leaving.origin;
+    result.direction = leaving.direction;
+    result.far = leaving.far;
+    result.time = time;
+    result.start = start;
+    return result;
+  }
+  Rgb weight() const { return weights[0] + weights[1] + weights[2]; }
+};
+
+/// A shadow ray that may be traced from a visible point, chosen among the light points of one light in
+/// proportion to the luminance that they scatter to the camera.
+struct LightRay {
+  uint32_t point = 0, light = 0;  ///< indices
+  float unoccluded = 0;           ///< luminance that all of the light scatters to the camera if nothing blocks it
+  LeavingRay ray;
+};
+
+/// The camera samples of a tile, as one thread finds them.
+struct TileSamples {
+  static constexpr uint32_t kNoPoint = ~0u;
+
+  struct Sample {
+    V2f offset{0};              ///< in its pixel
+    uint32_t pixel = 0;         ///< within the tile
+    uint32_t point = kNoPoint;  ///< what it sees
+  };
+  /// Light that a sample sees directly.
+  struct SeenLight {
+    uint32_t sample = 0, light = 0;  ///< indices
+    Rgb radiance{0};
+  };
+  /// The front-most surface of a pixel.
+  struct Front {
+    VisibleSurface surface;
+    uint32_t sample = 0;
+    bool inside_pixel = false;
+  };
+
+  std::vector<Sample> samples;  ///< in the order in which they were traced
+  std::vector<SeenLight> seen_lights;
+  std::vector<Front> fronts;  ///< by pixel
+  std::vector<VisiblePoint> points;
+  std::vector<LightRay> light_rays;  ///< point by point, at most one per light
+  std::vector<Rgb> unoccluded;  ///< by point, light and lobe group: scattered to the camera if nothing blocks it
+  std::vector<uint32_t> layer_of_knot;
+  uint32_t layers = 0;  ///< number of different layers of knots
+
+  void clear();
+  /// Memory for one sample, at most.
+  static size_t bytes_per_sample(size_t lights);
+};
+
+}  // namespace pelage

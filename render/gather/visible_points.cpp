@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/gather/gather_integrator_test.cpp.
+#include "render/gather/visible_points.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/hash.h"
+#include "render/light/seen_lights.h"
+
+namespace pelage {
+namespace {
+
+/// Draws after SampleDraw::kFirstVertex, the same as those of a path's first vertex.
+enum FirstVertexDraw : uint32_t { kLight = 0, kLobe = 1, kLightChoice = 4 };
+
+void seek(SampleStream& stream, FirstVertexDraw draw) {
+  stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + draw);
+}
+
+/// Independent-looking numbers from one: each uniform, by a rotation.
+float turned(float u, size_t i) {
+  const float sum = u + static_cast<float>(i) * 0.6180339887f;
+  return sum - std::floor(sum);
+}
+
+uint32_t index_of(std::unordered_map<uint64_t, uint32_t>& indices, uint64_t key) {
+  return indices.try_emplace(key, static_cast<uint32_t>(indices.size())).first->second;
+}
+
+}  // namespace
+
+bool Reservoir::takes(float mass) {
+  if (!(mass > 0)) return false;
+  sum_ += mass;
+  const float share = mass / sum_;
+  const bool taken = u_ < share;
+  u_ = taken ? u_ / share : (u_ - share) / (1 - share);
+  return taken;
+}
+
+VisiblePoints::VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+                             const FilmLayers& layers)
+    : scene_(scene),
+      accel_(accel),
+      shading_(shading),
+      camera_(scene, accel, layers.splat.has_value()),
+      keys_(scene.camera, scene.render.gather),
+      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth) {}
+
+uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
+  const uint32_t layer = index_of(scratch.layers, key.layer);
+  tile.layers = static_cast<uint32_t>(scratch.layers.size());
+  if (!scene_.render.gather.reuse) {  // each point has a knot of its own
+    tile.layer_of_knot.push_back(layer);
+    return static_cast<uint32_t>(tile.layer_of_knot.size() - 1);
+  }
+  const uint32_t knot = index_of(scratch.knots, key.knot);
+  if (knot == tile.layer_of_knot.size()) tile.layer_of_knot.push_back(layer);
+  return knot;
+}
+
+void VisiblePoints::look(int x, int y, uint32_t pixel, uint32_t sample, Scratch& scratch,
+                         SampleScratch& trace, TileSamples& tile) const {
+  SampleStream stream = camera_.stream(x, y, sample);
+  const CameraSample from = camera_.draw(x, y, sample, stream);
+  tile.samples.push_back({from.offset, pixel});
+  ++trace.rays.camera;
+  const Hit hit = accel_.closest(from.ray, trace.thread);
+  const auto index = static_cast<uint32_t>(tile.samples.size() - 1);
+  seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
+              [&](size_t light, const Rgb& radiance) {
+                tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
+              });
+  if (!hit) return;
+  tile.samples.back().point = static_cast<uint32_t>(tile.points.size());
+
+  FilmSample as_seen;
+  as_seen.offset = from.offset;
+  TileSamples::Front& front = tile.fronts[pixel];
+  // As Film::add chooses it; the surface is not evaluated where it is behind.
+  as_seen.surface = shading_.visible_surface(from.ray, hit, trace.thread.met);
+  const bool inside = as_seen.inside_pixel();
+  if ((inside && !front.inside_pixel) ||
+      (inside == front.inside_pixel && as_seen.surface.depth < front.surface.depth)) {
+    front = {as_seen.surface, index, inside};
+  }
+
+  const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
+                                 static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
+  const KnotKey key =
+      keys_.of(hit, trace.thread.met, {unit_float(random), unit_float(mix64(random))});
+  VisiblePoint visible;
+  visible.pixel = pixel;
+  visible.sample = sample;
+  visible.knot = knot_of(key, scratch, tile);
+  visible.time = from.ray.time;
+  visible.random = from.ray.random;
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, trace.thread.met);
+  if (!point.can_hit_own_strand()) visible.start = hit.start;
+  find_light(point, stream, scratch, visible, tile);
+  tile.points.push_back(visible);
+}
+
+/// Light at a visible point as it would be without blockers, and the rays that leave it.
+void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
+                               VisiblePoint& visible, TileSamples& tile) const {
+  const size_t lights = scene_.lights.size();
+  const size_t first = tile.unoccluded.size(), first_ray = tile.light_rays.size();
+  tile.unoccluded.resize(first + lights * kLobeGroups, Rgb(0));
+  seek(stream, kLightChoice);
+  const float u = stream.next1d();
+  scratch.choices.clear();
+  for (size_t i = 0; i < lights; ++i) {
+    tile.light_rays.push_back({static_cast<uint32_t>(tile.points.size()), static_cast<uint32_t>(i), 0, {}});
+    scratch.choices.emplace_back(turned(u, i));
+  }
+  const auto propose = [&](size_t light, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
+                           float distance) {
+    Rgb total(0);
+    for (int g = 0; g < kLobeGroups; ++g) {
+      const Rgb part = lobes[g] * arriving;
+      tile.unoccluded[first + light * kLobeGroups + static_cast<size_t>(g)] += part;
+      total += part;
+    }
+    if (!scratch.choices[light].takes(luminance(total))) return;
+    tile.light_rays[first_ray + light].ray = {V3f(0), direction, distance * DirectLight::kJustBefore};
+  };
+
+  direct_.begin(point, scratch.direct);
+  seek(stream, kLight);
+  direct_.propose(point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
+  for (const LightPoint& to : scratch.direct.points) {
+    propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
+  }
+  seek(stream, kLobe);
+  const auto sample = point.sample(stream.next3d());
+  if (sample) {
+    const FibreValue& value = sample->value;
+    for (int g = 0; g < kLobeGroups; ++g) visible.weights[g] = value.lobes[g] / value.pdf;
+    visible.scattered = {point.start(sample->wi), sample->wi, std::numeric_limits<float>::infinity()};
+    direct_.find_lights(point, sample->wi, visible.scattered.far, value.pdf, scratch.direct,
+                        [&](size_t light, const LightHit& hit, float weight) {
+                          propose(light, visible.weights, hit.radiance * weight, sample->wi, hit.distance);
+                        });
+  }
+  size_t kept = first_ray;
+  for (size_t i = first_ray; i < tile.light_rays.size(); ++i) {
+    LightRay ray = tile.light_rays[i];
+    ray.unoccluded = scratch.choices[ray.light].sum();
+    if (!(ray.unoccluded > 0)) continue;
+    ray.ray.origin = point.start(ray.ray.direction);
+    tile.light_rays[kept++] = ray;
+  }
+  tile.light_rays.resize(kept);
+}
+
+}  // namespace pelage

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/scene_schema_test.cpp.
+#include "render/scene/gather_params.h"
+
+namespace pelage {
+
+const Schema<GatherParams>& GatherParams::schema() {
+  static const Schema<GatherParams> table = [] {
+    Schema<GatherParams> s("gather",
+                           "Settings of `integrator: gather`, which shares shadow rays and indirect paths "
+                           "among the samples that see the same piece of a strand or skin.");
+    s.set_example(R"(render:
+  integrator: gather
+  gather: {spacing: 4, light_rays: 1})");
+    s.key("visibility", &GatherParams::visibility,
+          {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`"});
+    s.key("reuse", &GatherParams::reuse,
+          {.help = "false: samples share nothing. The picture then has no approximation, and as much noise "
+                   "as `integrator: path`; use it to measure what sharing changes"});
+    s.key("spacing", &GatherParams::spacing,
+          {.unit = "pixels",
+           .help = "Maximum distance between knots along a strand. The samples near a knot share its light: "
+                   "a larger distance is less noisy, and blurs shadows along strands",
+           .min = 0.25,
+           .max = 64});
+    s.key("skin_spacing", &GatherParams::skin_spacing,
+          {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
+    s.key("light_rays", &GatherParams::light_rays,
+          {.help = "Shadow rays per visible sample. They go where unoccluded light is brightest in its pixel",
+           .min = 0.05,
+           .max = 16});
+    s.key("paths", &GatherParams::paths,
+          {.help = "Indirect paths per visible sample; dark surfaces get fewer", .min = 0.05, .max = 1});
+    return s;
+  }();
+  return table;
+}
+
+}  // namespace pelage
