@@ -46,7 +46,7 @@ const Schema<CombParams>& CombParams::schema() {
           {.help = "How steeply strands rise: 0 lies on the skin, 1 stands upright", .min = 0, .max = 1});
     s.key(
         "amount", &CombParams::amount,
-        {.help = "How far strands turn from their present direction to the combed one: 0 not at all, 1 fully",
+        {.help = "How far strands turn from their current direction to the combed one: 0 not at all, 1 fully",
          .min = 0,
          .max = 1});
     s.key("curve", &CombParams::curve,

@@ -93,7 +93,7 @@ const Schema<RenderParams>& RenderParams::schema() {
           {.unit = "radiance",
            .help = "Maximum luminance of the indirect light of one path. It removes fireflies and darkens "
                    "the picture; 0 is no limit. At the end of each frame, Pelage reports the fraction of "
-                   "indirect light that is lost; `--stats` has it as `clamped_fraction`",
+                   "indirect light that is lost; `--stats` writes it as `clamped_fraction`",
            .min = 0});
     s.key("seed", &RenderParams::seed, {.help = "Seed of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,
