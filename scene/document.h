@@ -23,7 +23,7 @@ Override parse_override(const std::string& text);
 /// Reads a scene file into a tree of values. Applies `include:` (a file or a list; maps are merged, the
 /// including file wins), then the overrides, which take precedence over everything. Overrides address list
 /// items by index; items that are maps with one key also by that key: `grooms.under.operators.clump.amount`.
-/// Independent of any types: schemas give keys their meaning.
+/// Does not interpret the keys: schemas do that afterwards.
 ///
 /// Reports every syntax mistake, duplicate key, anchor, alias and tag with file:line:column, together. Depth,
 /// size and the number of included files are limited; include cycles are errors. Throws Error (kInput).
@@ -38,8 +38,8 @@ struct RenamedKeys {
 };
 
 /// The same for callers that continue to validate the values and report all mistakes together: problems are
-/// added instead of thrown, unless the scene file itself cannot be opened. Empty when a file could not be
-/// read or is not YAML, because missing keys of such a document are no mistakes.
+/// added instead of thrown, unless the scene file itself cannot be opened. Returns nullopt when a file could
+/// not be read or is not YAML, because keys that are missing from such a document should not be reported.
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
 
