@@ -22,8 +22,9 @@ class OperatorStack {
   /// Copies of the operators of the list, not yet prepared.
   explicit OperatorStack(const OperatorList& list);
 
-  /// Prepares those of the operators [begin, end) that are not prepared yet, after the preceding ones that
-  /// they depend on. Sets `preceding`, `seed` (here the groom's) and `position` of the context for each.
+  /// Prepares the operators [begin, end), except those that are already prepared. First prepares the
+  /// preceding operators that they depend on. Sets `preceding`, `seed` (here the groom's) and `position` of
+  /// the context for each.
   void prepare(size_t begin, size_t end, const PrepareContext& context);
   void prepare_all(const PrepareContext& context) { prepare(0, size(), context); }
   /// Prepares the operators that coverage() needs.
@@ -49,12 +50,12 @@ class OperatorStack {
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }
   /// The same for [begin, end).
   std::optional<AttributeClass> colors(size_t begin, size_t end) const;
-  /// Product of the random factors that operators apply to the colour of a strand. `seed`: that of the
-  /// context passed to prepare().
+  /// Product of the random factors that operators apply to the colour of a strand. `seed`:
+  /// PrepareContext::seed as passed to prepare().
   Operator::Brightness brightness(uint64_t seed, uint64_t strand_id) const;
   /// Properties of strands after the operators [begin, end), given those before.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
-  /// Product over all operators.
+  /// Product of the coverage of all operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
   bool restricts_coverage() const;
 

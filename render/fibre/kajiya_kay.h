@@ -16,7 +16,7 @@ class KajiyaKayMaterial {
  public:
   explicit KajiyaKayMaterial(const KajiyaKayParams& params);
 
-  float diffuse;  ///< where not given: what the highlight of a white fibre leaves over
+  float diffuse;  ///< where not given: the energy that a white fibre's highlight does not use
   Rgb specular;
   float exponent;
   LongitudinalLobe proposal;  ///< density used to sample the highlight; bounds it up to a constant factor
