@@ -113,7 +113,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
   if (stack.needs_closest_point() && !impl->source.rest) {
-    throw Error(ErrorKind::kInput, "groom '" + name + "' pushes strands out of a skin but grows on none");
+    throw Error(ErrorKind::kInput, "groom '" + name + "' uses push_out, but its strands follow no skin");
   }
 
   // Two coats of one skin without explicit seeds must not grow from the same places.
