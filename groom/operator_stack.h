@@ -56,7 +56,7 @@ class OperatorStack {
   /// Properties of strands after the operators [begin, end). `before`: their properties before these
   /// operators.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
-  /// Product over all operators.
+  /// Product of the coverage of all operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
   bool restricts_coverage() const;
 

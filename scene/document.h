@@ -29,9 +29,9 @@ Override parse_override(const std::string& text);
 /// size and the number of included files are limited; include cycles are errors. Throws Error (kInput).
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
-/// The keys that had other names before. A document may use the old name; the loader puts the new one in its
-/// place, before the files are merged, so that the including file and the overrides win under either name. A
-/// file or an override that gives a key under both names is a problem.
+/// Support for renamed keys. A document may use an old name: the loader replaces it by the new name before
+/// files are merged, so that the including file and the overrides win under either name. A file or an
+/// override that gives a key under both names adds a problem.
 struct RenamedKeys {
   const SchemaInfo& root;              ///< table of the whole document
   std::vector<Problem> warnings = {};  ///< one for every old name, with its place and the new name
@@ -43,8 +43,8 @@ struct RenamedKeys {
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
 
-/// The same from memory; `name` replaces the file name in positions; includes are relative to the current
-/// folder.
+/// Reads a document from memory; `name` replaces the file name in positions; includes are relative to the
+/// current folder.
 Value parse_document(const std::string& text, const std::string& name);
 
 /// The manual of every key reachable from `root`, or of one table. Markdown when `markdown`, else plain text.

@@ -14,7 +14,7 @@
 
 namespace pelage {
 
-/// How the samples of a picture meet the pixel filter (image.filter_samples).
+/// How the pixel filter is applied to the samples of a picture (image.filter_samples).
 enum class FilterSamples {
   kDrawn,    ///< the filter of a pixel draws the position of each sample, which counts for that pixel alone
   kSplatted  ///< samples lie evenly; each counts for all pixels around it, weighted by their filters

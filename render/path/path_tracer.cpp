@@ -12,7 +12,7 @@ struct PathTracer::Scratch final : SampleScratch {
   DirectLightScratch direct;
 };
 
-/// Adds up what a path brings to its pixel, and divides it among the layers of the film.
+/// Adds up the light that a path contributes to its pixel, and divides it among the layers of the film.
 class PathTracer::FilmSink {
  public:
   static constexpr bool kUnoccluded = false;
