@@ -42,7 +42,7 @@ class StoredFile {
   std::vector<std::span<const std::byte>> sections_;
 };
 
-/// Whether a file starts like those of content stores.
+/// Whether a file starts with the magic number of content store files.
 bool is_stored_file(const std::filesystem::path& path);
 
 /// A folder of files named by kind and content hash: results that can be computed again.

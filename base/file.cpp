@@ -94,7 +94,7 @@ AtomicFile::AtomicFile(std::filesystem::path path, Links links) : named_(std::mo
     fail_write(named_, S_ISDIR(old.st_mode) ? "it is a folder" : "it is not a regular file");
   if (path_.has_parent_path()) {
     std::error_code ignored;
-    // Where a link leads to a folder that is not there, a disk may be missing: that folder would hide it.
+    // If a link leads to a missing folder, a disk may not be mounted: creating the folder would hide that.
     if (path_ != named_ && !std::filesystem::exists(path_.parent_path(), ignored))
       fail_write(named_, "it is a link to " + path_.string() + ", whose folder does not exist");
     std::filesystem::create_directories(path_.parent_path(), ignored);

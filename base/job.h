@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// What a long computation works with: threads, memory ledger, progress. Holds references only and is passed
-/// by const reference; all three must outlive it.
+/// The resources of a long computation: threads, memory ledger, progress. Holds references only and is passed
+/// by const reference; all three resources must outlive it.
 struct Job {
   const Workers& workers;
   MemoryLedger& ledger;

@@ -36,8 +36,8 @@ void MemorySampler::run() {
 
 void MemorySampler::take() {
   MemorySample sample;
-  // The tags first, so that memory charged before it is touched does not appear explained before it is
-  // resident.
+  // Reads the tags before the resident size. Otherwise memory that is charged but not yet touched could count
+  // as explained before it is resident.
   for (size_t tag = 0; tag < sample.tags.size(); ++tag)
     sample.tags[tag] = ledger_.current(static_cast<MemoryTag>(tag));
   sample.resident = resident_memory();

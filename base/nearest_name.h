@@ -8,7 +8,7 @@
 namespace pelage {
 
 /// The candidate that `name` most likely means (optimal string alignment distance, transpositions count as
-/// one), or an empty view when none is within a third of its length.
+/// one), or an empty view when no candidate is within max(1, length of `name` / 3).
 std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates);
 
 /// "; did you mean 'clump'?" or an empty string.

@@ -10,10 +10,10 @@
 
 namespace pelage {
 
-/// Blocks within large pieces of address space, for which the system is asked for pages of 2 MiB: data with
-/// random access benefits from these even if each block is smaller than a page. Memory of a block is returned
-/// to the system as soon as the block is freed; besides blocks, at most the rest of the large pages at the
-/// end of each piece is resident.
+/// Takes blocks from large pieces of address space and requests pages of 2 MiB from the system for them.
+/// Random access is faster in large pages, even if each block is smaller than a page. The memory of a block
+/// returns to the system as soon as the block is freed. Apart from blocks, at most the unused end of the last
+/// used 2 MiB page of each piece is resident.
 ///
 /// Must outlive its blocks. Thread safety: every member, and the destruction of blocks, from any thread.
 class PagePool {

@@ -134,7 +134,7 @@ void Workers::for_each(size_t count, size_t grain, const std::function<void(Work
 
 // TBB passes the memory of an ended arena to the next one in ways that the thread sanitizer cannot see, and
 // clears it with a function that it can see. Therefore arenas are created and destroyed one at a time here.
-// This does not order what runs in them.
+// The tasks inside the arenas still run in any order.
 void Workers::run_library(const std::function<void()>& body) const {
   static std::mutex mutex;
   struct SerialArena {

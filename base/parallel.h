@@ -29,8 +29,8 @@ class Workers {
   Workers& operator=(Workers&&) noexcept;
 
   /// The calling thread alone: loops run in place, so it may be used inside a loop of another pool, on many
-  /// threads at once. run_library() also stays on that thread, which takes no foreign task while it waits:
-  /// such a task could need what this thread is about to make.
+  /// threads at once. run_library() also stays on that thread. While the thread waits, it runs no task of
+  /// another loop: such a task could need a result that this thread has not finished yet.
   static Workers alone();
 
   int thread_count() const;

@@ -17,10 +17,10 @@ struct ProcessUsage {
   int64_t peak_rss_bytes = 0;
   int64_t baseline_rss_bytes = 0;        ///< resident set when the command line had been parsed
   int64_t peak_anonymous_bytes = 0;      ///< highest resident anonymous memory that was sampled
-  int64_t baseline_anonymous_bytes = 0;  ///< those when the command line had been parsed
-  int64_t unexplained_bytes = 0;  ///< peak - baseline of these - all ledger tags at that moment (law 5)
+  int64_t baseline_anonymous_bytes = 0;  ///< resident anonymous memory when the command line had been parsed
+  int64_t unexplained_bytes = 0;         ///< anonymous peak - baseline - all ledger tags at the peak (law 5)
   std::map<std::string, int64_t> memory_bytes;  ///< peak by ledger tag
-  std::vector<MemorySample> timeline;           ///< memory over time, where asked for
+  std::vector<MemorySample> timeline;           ///< memory over time, if requested
 };
 
 /// Resident set of this process, now and at its highest, in bytes; user + system CPU seconds so far.

@@ -34,7 +34,7 @@ namespace pelage {
 //   }
 //
 // The same table validates documents (an unknown key is reported with the nearest known one), fills the
-// struct and prints the manual. Defaults are those of a default-constructed Params. The ValueReader of a
+// struct and prints the manual. A default-constructed Params holds the defaults. The ValueReader of a
 // member's type reads it (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and
 // maps; other rooms add their own).
 
@@ -81,7 +81,7 @@ struct ParameterText {
   std::string key;
   std::string text;
   std::vector<std::filesystem::path> files = {};
-  std::vector<Map> maps = {};  ///< those of `files` that are maps
+  std::vector<Map> maps = {};  ///< the entries of `files` that are maps
 };
 
 /// "0 .. 1", "> 0", or "" when unlimited.

@@ -35,8 +35,8 @@ class StoredSections {
   /// Reads section `i` into `out`, which must have its length. Throws Error (kInput) when it cannot be read
   /// or its checksum is wrong.
   void read(size_t i, std::span<std::byte> out) const;
-  /// Tells the system that section `i` will be read soon. The system may load it, and keeps its copy until it
-  /// is read.
+  /// Tells the system that section `i` will be read soon. The system may load the section in advance, and
+  /// keeps its copy until read().
   void prefetch(size_t i) const;
 
  private:

@@ -30,7 +30,7 @@ class BallChunks final : public ChunkGrower {
 /// The strands `strands[begin..end)` of a batch, in that order.
 Strands pick(const Strands& batch, const std::vector<uint32_t>& strands, size_t begin, size_t end);
 /// Numbers of all strands of a batch, sorted so that ranges of at most `max` are neighbours on the skin;
-/// `ends` becomes where they end.
+/// `ends` receives the end of each range.
 std::vector<uint32_t> neighbours(const Strands& batch, size_t max, std::vector<size_t>& ends);
 
 }  // namespace pelage

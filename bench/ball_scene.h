@@ -9,7 +9,7 @@ namespace pelage {
 
 struct BallPicture {
   int width, height, samples, bounces;
-  size_t chunk_strands = 0;  ///< most strands of a chunk; 0: one chunk
+  size_t chunk_strands = 0;  ///< max strands per chunk; 0: one chunk
 };
 
 /// The scene that other renderers were measured on: the bumpy ball between two rectangle lights under a

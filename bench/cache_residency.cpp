@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a visit to a resident chunk costs: pinned, because it may be evicted, and not pinned, because nothing
-// ever is. The yardstick is following a plain array of pointers. With several threads they visit the same few
-// slots.
+// Cost of a visit to a resident chunk: with a pin if chunks may be evicted, and without one if nothing is
+// ever evicted. The yardstick follows a plain array of pointers. Several threads visit the same few slots.
 #include <memory>
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dense meshes cost as skins, by scheme: processor time and bytes a face to make the topology, the
-// surface of one pose, and the look-up of roots (tessellation and closest-point tree). The yardstick is the
-// mesh as it is read.
+// Cost of dense meshes as skins, by scheme: processor time and bytes a face to make the topology, the surface
+// of one pose, and the look-up of roots (tessellation and closest-point tree). The yardstick is the mesh as
+// read from its file.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What strands cost to bound, evaluate and read. The yardstick of bounds is the plain box of the same points,
-// that of reading is the bytes of the file taken in one piece.
+// Cost of bounding, evaluating and reading strands. The yardstick of bounds is the plain box of the same
+// points; the yardstick of reading is reading the bytes of the file in one piece.
 #include <filesystem>
 
 #include <benchmark/benchmark.h>

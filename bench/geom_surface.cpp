@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What skins cost to evaluate, pose, tessellate and ask for closest points. The yardstick of evaluation and
-// posing is OpenSubdiv used directly, that of tessellation one evaluation per vertex, that of closest points
-// Embree's own query.
+// Cost of evaluating, posing and tessellating skins, and of closest-point queries. Yardsticks: OpenSubdiv
+// used directly for evaluation and posing, one evaluation per vertex for tessellation, and Embree's own query
+// for closest points.
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 #include <opensubdiv/far/patchMap.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What growing costs: strands per second and core through length + comb + clump + frizz + width at 8 points,
-// the same in evaluations of the rest surface (the yardstick), efficiency of all cores, and peak memory over
-// the bytes of the strands. Follicles per second for placing them.
+// Cost of growth: strands per second and core through length + comb + clump + frizz + width at 8 points, the
+// same in evaluations of the rest surface (the yardstick), efficiency of all cores, and peak memory over the
+// bytes of the strands. Follicles per second for placing them.
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -156,7 +156,7 @@ double cpu_of_growth(const Coat& coat, const PosedSkin& pose, const Workers& wor
   return cpu_seconds() - start;
 }
 
-/// What is frozen, and whether the coat is grown at both ends of a shutter.
+/// Growth from a cache. `freeze`: the last frozen operator; `moving`: grown at both ends of a shutter.
 void growth_from_cache(benchmark::State& state, bool colored, const char* freeze, bool moving) {
   const Workers one(1);
   const Coat plain({colored, ""}), cached({colored, freeze});
@@ -190,7 +190,7 @@ BENCHMARK_CAPTURE(growth_from_cache, live_color, true, "frizz", false)
 void growth_on_all_cores(benchmark::State& state) {
   const Workers one(1), all;
   double single = 1e30, team = 1e30;
-  double single_cpu = 1e30, team_cpu = 1e30;  // what the threads cost each other, also on a busy machine
+  double single_cpu = 1e30, team_cpu = 1e30;  // CPU time that threads cost each other, also on a busy machine
   int64_t bytes = 0, peak = 0;
   for (auto _ : state) {
     const double start = cpu_seconds();

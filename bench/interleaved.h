@@ -12,12 +12,11 @@
 
 namespace pelage {
 
-/// How many times as long one way of doing something takes as another, on a machine that is never quiet: work
-/// is done in slices of some milliseconds, the two ways in turn, so that what disturbs one disturbs the
-/// other.
+/// Ratio of the times that two implementations take, on a busy machine. Work is done in slices of some
+/// milliseconds by both implementations in turn, so that other load slows both down alike.
 class Interleaved {
  public:
-  /// `first(slice)` and `second(slice)` do the same work of one slice; both once without a clock.
+  /// `first(slice)` and `second(slice)` do the same work for one slice. Both run once before they are timed.
   template <class First, class Second>
   Interleaved(size_t slices, size_t passes, const First& first, const Second& second) {
     for (size_t slice = 0; slice < slices; ++slice) first(slice), second(slice);
@@ -50,13 +49,13 @@ class Interleaved {
     high_ = quantile(whole, 0.75);
   }
 
-  /// Of the time of the first over that of the second: of every slice the median over all passes, slices
-  /// weighed by what they take.
+  /// Time of the first divided by the time of the second: for each slice the median over all passes, weighted
+  /// by the time of the slice.
   double ratio() const { return ratio_; }
   /// Quartiles of the ratios of whole passes.
   double low() const { return low_; }
   double high() const { return high_; }
-  /// Of all slices, the second way.
+  /// Seconds that the second takes for all slices.
   double second_s() const { return second_s_; }
 
   void show(benchmark::State& state, const std::string& name) const {

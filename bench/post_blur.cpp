@@ -41,7 +41,7 @@ double bandwidth(const Workers& workers) {
   return best;
 }
 
-/// Bytes of the samples, were they all cleared, drawn and read once a step; and of all colours in and out.
+/// Bytes moved if all samples are cleared, drawn and read once per step, plus all colours read and written.
 double min_bytes(int steps) {
   const double pixels = double(BenchPicture::kWidth) * BenchPicture::kHeight;
   return pixels * kScale * kScale * sizeof(Sample) * 4 * steps + pixels * BenchPicture::kColors * 8;
@@ -94,7 +94,7 @@ void stereo(benchmark::State& state) {
   report(state, workers, seconds, 1);
 }
 
-/// The 8-byte buffer, counting what it moves.
+/// The 8-byte buffer, which also counts the bytes that it moves.
 class CountingBuffer {
  public:
   CountingBuffer(PixelBox box) : buffer_(box, kScale) {}
@@ -113,7 +113,7 @@ class CountingBuffer {
   WorkBuffer buffer_;
 };
 
-/// What the film had before: a depth and every colour for each sample.
+/// The former layout of the work buffer: a depth and every colour for each sample.
 class ColorBuffer {
  public:
   ColorBuffer(PixelBox box, const PostLayers& layers)
@@ -208,7 +208,8 @@ void traffic(benchmark::State& state) {
         draw_steps(warp, times, buffer, [&] { seen += sources_seen(buffer.buffer(), box); });
         const double samples = double(kColumns) * kPieceRows * kScale * kScale * kSteps;
         const double tests = static_cast<double>(buffer.tests), wins = static_cast<double>(buffer.wins);
-        // Cleared, looked at, won, read; then colours are fetched and added up.
+        // Bytes of samples that are cleared, tested, overwritten and read; then of colours that are fetched
+        // and summed.
         bytes += 8 * (samples + tests + wins + samples) + static_cast<double>(seen) * channels * 12;
         const double all = 4 * (1 + channels);
         color_bytes += all * samples + 4 * tests + wins * (all + 4 * channels) + samples * all +

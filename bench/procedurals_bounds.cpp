@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What bounding a chunk costs: a leaf of 8,000 strands through the usual operators, 8 points each. The
-// yardstick is growing that leaf, which two-pass bounding does once more. And how large the boxes are that
-// come out, relative to the one exact box of the whole leaf.
+// Cost of bounding a chunk: a leaf of 8,000 strands through the usual operators, 8 points each. The yardstick
+// is growing that leaf, which two-pass bounding does once more. Also the size of the resulting boxes,
+// relative to the one exact box of the whole leaf.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to hold geometry in chunks: rays against chunks that are all resident, over the same rays
-// against one eager compact Embree scene of the same strands, on one thread; and what a chunk costs in bytes
-// and in time to build.
+// Cost of holding geometry in chunks: rays against chunks that are all resident, over the same rays against
+// one eager compact Embree scene of the same strands, on one thread; and what a chunk costs in bytes and in
+// time to build.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -31,8 +31,8 @@ struct BallRays {
   std::vector<Ray> camera, gather, shadow;
 };
 
-/// Camera rays that look at the ball, rays into the half space behind what they meet, two bounces deep, and
-/// rays from there to two lights.
+/// Camera rays towards the ball, up to three random rays along each path that they start, and shadow rays
+/// from every hit to two lights.
 BallRays ball_rays(const Accel& accel, size_t pixels) {
   BallRays rays;
   TraceThread thread;

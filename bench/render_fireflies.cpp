@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fireflies: what few samples of fur look like under lights of very different size.
+// Fireflies: errors of fur rendered with few samples under lights of very different size.
 //
 // `fireflies`: the bumpy ball of 20,000 strands under a sky, two rectangles, a small bright sphere and a sun
 // of half a degree. Errors of the fur pixels of 16 samples against 512, by pixel the mean over channels of (a
 // - b)^2 / (b^2 + 0.01):
 //
 //   median, mean    over pixels and seeds
-//   p999            what one pixel in a thousand exceeds
-//   worst           the share of the sum that the worst of a thousand pixels have
+//   p999            exceeded by one pixel in a thousand
+//   worst           share of the sum that is due to the worst pixel in a thousand
 //   bias            mean of a - b over mean of b, and its standard error
 //
-// `weights`: rho / pdf of single samples over inclinations, places across the fibre, roughness and colours
-// that are drawn evenly, in the channel that weighs most and (grey) on average of channels.
+// `weights`: rho / pdf of single samples, with inclination, place across the fibre, roughness and colour
+// drawn uniformly; for the channel with the largest weight and (grey) for the mean of the channels.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -86,7 +86,7 @@ LightSet lights(int64_t only, MemoryLedger& ledger) {
   return LightSet(std::move(made));
 }
 
-/// Errors of pixels, and what they are errors of.
+/// Errors of pixels, and the bias of each picture.
 struct Errors {
   std::vector<double> all;
   std::vector<double> bias;  // by seed: mean of a - b over mean of b

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs that fur stands in chunks: rays against chunks that grew when a ray met them and are all
-// resident, over the same rays against one fur tree over everything, on one thread.
+// Cost of dividing fur into chunks: rays against chunks that grew when a ray met them and are all resident,
+// over the same rays against one fur tree over everything, on one thread.
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -45,7 +45,7 @@ class FurballChunks final : public ChunkGrower {
     return n;
   }
   StrandScale scale(uint32_t) const override { return {2 * chunks_[0].radius(0), V3f(0)}; }
-  /// As they are measured before the first ray.
+  /// The boxes as measured before the first ray.
   std::vector<ChunkBounds> bounds() const {
     std::vector<ChunkBounds> bounds;
     for (const Strands& strands : chunks_) bounds.push_back(SegmentParts(strands).exact_bounds(1));
@@ -56,7 +56,7 @@ class FurballChunks final : public ChunkGrower {
   std::vector<Strands> chunks_;
 };
 
-/// How many of the rays of a slice meet something.
+/// Number of rays of a slice that hit something.
 size_t trace(const Accel& accel, const std::vector<Ray>& rays, size_t slice, bool shadow) {
   TraceThread thread;
   size_t hits = 0;
@@ -68,7 +68,7 @@ size_t trace(const Accel& accel, const std::vector<Ray>& rays, size_t slice, boo
   return hits;
 }
 
-/// The same picture from where no axis of the grid leads.
+/// The same picture from a direction that is not along an axis of the grid.
 std::vector<Ray> from_a_corner(std::vector<Ray> rays) {
   const V3f z = V3f(1, 0.8f, 1).normalized(), x = V3f(1, 0, -1).normalized(), y = z.cross(x);
   const auto turned = [&](const V3f& p) { return p.x * x + p.y * y + p.z * z; };

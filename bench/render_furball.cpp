@@ -81,7 +81,7 @@ void furball(benchmark::State& state) {
     return film;
   };
   for (auto _ : state) {
-    picture(1, 99);  // grows what rays meet
+    picture(1, 99);  // grows the chunks that rays hit
     std::vector<std::unique_ptr<Film>> at_16, at_64;
     double cpu_64_s = 0;
     for (int seed = 0; seed < kSeeds; ++seed) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the models of a fibre cost, beside an incoherent ray on a million strands in the same process, on one
-// thread. The ray goes from a visible point of the furball of the peers in any direction, to what it meets
-// first.
+// Cost of the fibre models, compared with tracing an incoherent ray through a million strands in the same
+// process, on one thread. The ray starts at a visible point of the bumpy ball, in a random direction, and
+// ends at its first hit.
 //
 //   Time    construct: from a colour, a place on a fibre and a view to a value
 //           eval and pdf: of that value, for one direction; sample: draws one, with its value and pdf
@@ -25,7 +25,7 @@ namespace {
 
 constexpr size_t kStrands = 1000000;
 
-/// Rays from what a camera sees of fur, in all directions.
+/// Rays from fur that a camera sees, in random directions.
 class IncoherentRays {
  public:
   IncoherentRays()
@@ -46,7 +46,7 @@ class IncoherentRays {
       rays_.push_back(ray);
     }
   }
-  /// Best of several runs, the first of which grows what is met.
+  /// Best of several runs; the first run grows the chunks that rays hit.
   double seconds() {
     const FlushDenormals flush;
     return seconds_per_call(

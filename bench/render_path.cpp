@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `path` costs beyond its rays: processor time of a render of the bumpy ball over the time in which bare
-// Embree answers the very same rays, in the same order, on one thread.
+// Cost of `path` beyond its rays: processor time of a render of the bumpy ball over the time in which bare
+// Embree traces the same rays, in the same order, on one thread.
 #include <algorithm>
 #include <memory>
 #include <vector>

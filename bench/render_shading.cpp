@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one step of shading costs: random numbers, parts of fibre models, lights. The yardstick is a sine and
-// a cosine of a float, as the C library computes them.
+// Cost of one step of shading: random numbers, parts of fibre models, lights. The yardstick is a sine and a
+// cosine of a float, as the C library computes them.
 #include <cmath>
 #include <vector>
 

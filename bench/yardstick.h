@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// Processor seconds that one call of `work(i)` takes, the best of several runs in this very process.
+/// Processor seconds that one call of `work(i)` takes, the best of several runs in this process.
 template <class Work>
 double seconds_per_call(Work&& work, int calls = 200000, int runs = 15) {
   double best = 1e30;

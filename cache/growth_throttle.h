@@ -11,8 +11,9 @@ namespace pelage {
 /// together. The limit is then lowered, down to one thread, and the others wait; it is raised when this no
 /// longer happens.
 ///
-/// A thread keeps its turn while it uses it. A thread that has grown nothing for kIdleTimeout loses it, so
-/// that nobody waits for a thread that has all it needs or has ended. Not thread safe.
+/// While the limit is below the number of threads, a thread needs a turn to grow units. It keeps its turn as
+/// long as it grows units. A thread that has grown nothing for kIdleTimeout loses its turn, so that no thread
+/// waits for one that has all it needs or has ended. Not thread safe.
 class GrowthThrottle {
  public:
   using Clock = std::chrono::steady_clock;
@@ -37,7 +38,7 @@ class GrowthThrottle {
   const int threads_;
   int concurrency_;
   int good_ = 0, needed_ = 1;  // windows in which the limit could have been raised; number needed to raise it
-  int window_ = 0, again_ = 0;  // growths since the last evaluation; of these, of recently evicted units
+  int window_ = 0, again_ = 0;  // growths since the last evaluation; those of recently evicted units
   std::vector<Turn> turns_;     // empty while all threads may grow
 };
 

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// What a Residency did. Add up only the counts of residencies that existed one after the other.
+/// Counts of the work of a Residency. Add up only the counts of residencies that existed one after the other.
 struct ResidencyCounts {
   int64_t expansions = 0;    ///< units grown
   int64_t reexpansions = 0;  ///< of these, of slots that had been grown before

@@ -84,7 +84,7 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
 
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
-      "grow", "Fill the caches of a scene, offsets and bounding boxes, or write strand files");
+      "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
   add_scene_flags(*grow, options, texts);
   CLI::Option* file =
       grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
@@ -132,7 +132,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->allow_extra_args(false)
       ->check(CLI::Range(1, 1 << 30))
       ->type_name("N,N");
-  measure->add_option("--parts", options.parts, "lod: run only these parts of crowd, detail, wedge and dolly")
+  measure->add_option("--parts", options.parts, "lod: run only these parts (of crowd, detail, wedge, dolly)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");

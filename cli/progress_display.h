@@ -22,8 +22,8 @@ struct ProgressTarget {
   bool color = false;
 };
 
-/// Shows progress as a bar, as lines or as JSON lines. Whichever thread first passes the next step draws;
-/// others never wait for it. A nested stage is shown instead of the outer one until it ends.
+/// Shows progress as a bar, as lines or as JSON lines. The first thread that passes the next step draws;
+/// other threads never wait for it. A nested stage is shown instead of the outer one until it ends.
 ///
 /// Lines are for logs: one when a stage has taken ten seconds, one every half minute afterwards, and one at
 /// the end of each stage that took a second or more.

@@ -75,8 +75,8 @@ void prepare_process() {
   ::signal(SIGPIPE, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) >= 0) continue;
-    // open() returns the lowest free number, that of the stream. Messages to a closed standard error are
-    // discarded; output was requested, so writing it must fail.
+    // open() returns the lowest free descriptor, which is the number of the closed stream. Messages to a
+    // closed standard error are discarded; output was requested, so writing it must fail.
     [[maybe_unused]] const int opened = ::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

@@ -8,7 +8,7 @@ namespace pelage {
 
 /// Estimates the remaining time of a job from its progress. The first seconds of a render grow fur and read
 /// files, so their rate is not representative: the estimate uses the rate of the last quarter of the time, if
-/// it does not differ much from that of the last half.
+/// it does not differ much from the rate of the last half.
 class TimeLeft {
  public:
   /// `fraction` of the job was done after `elapsed_s`, which must not decrease. The fraction decreases when

@@ -73,9 +73,9 @@ void extend_exactly(Box3f& box, const CubicSegment& s) {
   }
 }
 
-/// Whether the hull of the strand's points at all motion keys lies inside `box`, and thus the strand: Bezier
-/// points of linear and B-spline segments, including pinned ends, are convex combinations of points of the
-/// strand.
+/// Whether the hull of the strand's points at all motion keys lies inside `box`. If so, the strand does too:
+/// Bezier points of linear and B-spline segments, including pinned ends, are convex combinations of points of
+/// the strand.
 bool is_hull_inside(const Box3f& box, const Strands& strands, size_t strand) {
   if (strands.basis() == CurveBasis::kCatmullRom || box.isEmpty()) return false;
   float low[3], high[3];

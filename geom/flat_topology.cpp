@@ -59,8 +59,8 @@ struct Side {
   uint32_t side = 0;
 };
 
-/// Lists the sides at each vertex by the lower-numbered of their ends, so that those of one edge are
-/// adjacent, in order of faces.
+/// Lists every side at its lower-numbered vertex, so that the sides of one edge are adjacent, in order of
+/// faces.
 class SidesByVertex {
  public:
   SidesByVertex(const std::vector<uint32_t>& corner_vertex, size_t vertices) : first_(vertices + 1) {

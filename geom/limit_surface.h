@@ -59,8 +59,8 @@ class SurfaceTopology {
   bool is_hole(uint32_t face) const;
   /// Cage face that contains a ptex face.
   uint32_t cage_face(uint32_t face) const;
-  /// Texture coordinates at (u, v) of a ptex face: bilinear between those of the cage; (u, v) itself when it
-  /// has none.
+  /// Texture coordinates at (u, v) of a ptex face: interpolated bilinearly from the texture coordinates of
+  /// the cage; (u, v) itself when the cage has no texture coordinates.
   V2f texture_coordinates(uint32_t face, float u, float v) const;
   /// Ptex face across edge 0 .. 3 (v = 0, u = 1, v = 1, u = 0; triangles: v = 0, u + v = 1, u = 0) of `face`;
   /// -1 at a boundary and where more than two faces meet. Where a quad borders an n-gon, two ptex faces of

@@ -24,9 +24,9 @@ class RootDetail {
   /// In (0, 1]; more precise for smaller values, exact for 1.
   float share() const { return root_of_share_ * root_of_share_; }
 
-  /// Adds one to each strand.
+  /// Adds root data to each strand.
   static Strands added(Strands strands, const std::vector<RootDetail>& details);
-  /// That of one strand; empty when the strands have none.
+  /// The root data of one strand; empty when the strands have none.
   static std::optional<RootDetail> of(const Strands& strands, size_t strand);
 
  private:

@@ -71,7 +71,7 @@ SkinLattice::SkinLattice(const SurfaceTopology::Impl& topology, std::span<const 
   }
 }
 
-/// The lines of those of `faces` that are not holes, ascending.
+/// The lines of all `faces` that are not holes, ascending.
 std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
                                             const CheckStop& check_stop) const {
   std::vector<uint32_t> ids;
@@ -104,7 +104,7 @@ std::vector<uint32_t> SkinLattice::line_ids(std::span<const uint32_t> faces,
   return ids;
 }
 
-/// Finds the lines of those of `faces` that are not holes, and the cage vertices at their ends.
+/// Finds the lines of all `faces` that are not holes, and the cage vertices at their ends.
 void SkinLattice::find_lines(std::span<const uint32_t> faces, const CheckStop& check_stop) {
   const std::vector<uint32_t> ids = line_ids(faces, check_stop);
   lines_.resize(ids.size());
@@ -264,8 +264,8 @@ void SkinLattice::divide(Face& f) {
   }
 }
 
-/// Places what no previous face has placed; of a face without triangles here, only the parts shared with
-/// faces that have some.
+/// Places the vertices on the sides of a face that no previous face has placed. If the face has no triangles
+/// here, places only the vertices that it shares with faces that have some.
 void SkinLattice::place_rails(const Face& f) {
   const auto place = [&](uint32_t vertex, V2f uv) {
     if (points_[vertex].face == kNone) points_[vertex] = {f.id, uv};
@@ -331,7 +331,8 @@ void SkinLattice::visit_split(const std::function<void(uint32_t, const LatticePo
   for (const Face& face : faces_) {
     if (is_hole(face)) continue;
     for (uint32_t side = 0; side < topology_.corners_per_face(); ++side) {
-      // A side's last node is the first of another side: each face counts once at each vertex.
+      // Skips each side's last node, because it is the first node of the next side: each face counts once per
+      // vertex.
       const uint32_t corner = corner_vertex(face.id, side);
       if (corner != kNone && cage.vertex_split[corner]) {
         const uint32_t at = place_of(corner);

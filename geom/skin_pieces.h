@@ -14,7 +14,7 @@ struct Job;
 
 /// A part of a skin that is tessellated separately (tessellate_faces).
 struct SkinPiece {
-  std::vector<uint32_t> faces;  ///< ascending ptex faces: all those of some cage faces; empty: the whole skin
+  std::vector<uint32_t> faces;  ///< ascending: all ptex faces of some cage faces; empty: the whole skin
   size_t vertices = 0;          ///< size of its tessellation, for one motion key
   size_t triangles = 0;
 
@@ -33,7 +33,8 @@ constexpr size_t kMaxPieces = 64;
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
                                    const TessellationOptions& options, size_t max_cost, const Job& job);
 
-/// Ptex faces of the cage faces that share a vertex with those of `faces`, including these. Ascending.
+/// Ptex faces of all cage faces that share a vertex with the cage faces of `faces`, including `faces`.
+/// Ascending.
 std::vector<uint32_t> faces_around(const SurfaceTopology& topology, std::span<const uint32_t> faces);
 /// Vertices of the cage faces of `around`, ascending. If `around` is faces_around(faces), the limit surface
 /// of `faces` lies within the hull of these vertices, to the accuracy of LimitSurface.

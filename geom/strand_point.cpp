@@ -68,7 +68,7 @@ struct Window {
     if (!phantom_before) --first;
   }
 
-  /// Weights of the existing points, from those of all four.
+  /// Weights of the existing points, from the weights of all four.
   Weights fold(Weights all) const {
     float* w = all.w;
     if (phantom_before) {

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// Precision that the strands of one coat need, and their position: determines how coordinates may be
-/// rounded. The same for all strands of a coat in a frame, however it is divided.
+/// Required precision and approximate position of the strands of one coat; they determine how coordinates are
+/// rounded. The same for all strands of a coat in a frame, however it is divided into chunks.
 struct StrandScale {
   float width = 0;   ///< approximate width of strands at their roots
   V3f anchor{0};     ///< a point near them

@@ -57,9 +57,9 @@ SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const 
 /// The same, but throws Error (kStopped).
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Job& job);
-/// The triangles of `faces` only: all ptex faces of some cage faces, ascending. Bit-identical to those of the
-/// whole and in the same order, with vertices renumbered. The surfaces need to exist only on
-/// faces_around(faces). Runs on the calling thread.
+/// The triangles of `faces` only: all ptex faces of some cage faces, ascending. Bit-identical to the
+/// triangles of the whole skin and in the same order, with vertices renumbered. The surfaces need to exist
+/// only on faces_around(faces). Runs on the calling thread.
 SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
                           const View& view, const TessellationOptions& options);
 /// Max temporary memory of either function, without its result, for this number of ptex faces (including

@@ -27,12 +27,12 @@ struct GroomCacheReport {
   size_t offset_bytes = 0, follicle_bytes = 0;  ///< of the files read for rendering
   double seconds = 0;
 
-  /// "fresh", or what is stale and why, in one line.
+  /// "fresh", or the first stale stage with the reason, in one line.
   std::string summary() const;
 };
 
-/// What a groom was made from the last time. Kept beside its cache to report changes and to find files that
-/// are no longer needed. No strand depends on it.
+/// The inputs from which a groom was made the last time. Stored beside its cache, to report changes and to
+/// find files that are no longer needed. No strand depends on it.
 class GroomManifest {
  public:
   /// The first `count` stages of a groom.
@@ -51,8 +51,8 @@ class GroomManifest {
   };
   /// Recent states, the latest first.
   const std::vector<State>& states() const { return states_; }
-  /// Adds the current state in front of those of `before`, the manifest that this one replaces. States that
-  /// are eight behind and have not been used for a day are dropped, and their files removed.
+  /// Inserts the current state before the states of `before`, the manifest that this one replaces. States
+  /// that are eight behind and have not been used for a day are dropped, and their files removed.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);
   /// The text that `pelage info` shows.

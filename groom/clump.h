@@ -13,7 +13,7 @@ namespace pelage {
 
 class ClumpCentres;
 
-/// Keys of a finer level of clumps inside those of `clump`.
+/// Keys of a finer level of clumps, inside the clumps of `clump`.
 struct ClumpLevelParams {
   float spacing = 0.1f;
   Field amount{0.5f};

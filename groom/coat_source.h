@@ -13,7 +13,7 @@
 namespace pelage {
 
 /// Roots of the strands of a groom, and their shape before the first operator: straight strands on follicles,
-/// or those of a file. Immutable once made. Thread safety: const members may be called from any thread.
+/// or the strands of a file. Immutable once made. Thread safety: const members may be called from any thread.
 struct CoatSource {
   std::shared_ptr<const LimitSurface> rest;  ///< null: strands without a skin
   int points = 8;                            ///< of a strand that is not imported

@@ -48,7 +48,8 @@ CodeColumn::Choice CodeColumn::choose(std::span<const std::byte> entries, size_t
     const auto [found, is_new] = seen.try_emplace(entry, static_cast<uint16_t>(seen.size()));
     choice.indices.push_back(found->second);
     if (!is_new) continue;
-    // Once the table and the indices take more space than the codes, further strands do not help.
+    // Once the table and the indices take more space than the codes, adding strands cannot make the table
+    // worthwhile.
     const size_t index_bytes = seen.size() == 1 ? 0 : seen.size() <= 256 ? 1 : 2;
     if (seen.size() > UINT16_MAX || seen.size() * entry_bytes + strands * index_bytes > strands * entry_bytes)
       return choice;

@@ -13,9 +13,9 @@ namespace {
 
 constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
 
-/// Target direction of a strand at a root with this frame. A direction nearly normal to the skin hardly
-/// defines where to lie: below a fifth of its length along the skin, the strand gradually stands up, so that
-/// the coat has no seam there.
+/// Target direction of a strand at a root with this frame. If the direction is nearly normal to the skin, its
+/// component along the skin is uncertain: where that component is shorter than a fifth of the direction's
+/// length, the strand is gradually raised to the normal, so that the coat has no seam there.
 V3f combed_direction(const V3f& direction, const V3f& normal, float lift) {
   const V3f unit = normalised_or(direction, normal);
   const V3f along_skin = unit - normal * unit.dot(normal);
@@ -46,7 +46,7 @@ const Schema<CombParams>& CombParams::schema() {
           {.help = "How steeply strands rise: 0 lies on the skin, 1 stands upright", .min = 0, .max = 1});
     s.key(
         "amount", &CombParams::amount,
-        {.help = "How far strands turn from their present direction to the combed one: 0 not at all, 1 fully",
+        {.help = "How far strands turn from their current direction to the combed one: 0 not at all, 1 fully",
          .min = 0,
          .max = 1});
     s.key("curve", &CombParams::curve,

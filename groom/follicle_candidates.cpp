@@ -17,7 +17,7 @@ namespace {
 
 float area_element(const SurfacePoint& point) { return point.du.cross(point.dv).length(); }
 
-// Ptex parameters cover a square; those of a triangle (Loop) its lower half.
+// Ptex parameters cover the unit square; on a triangle (Loop), they cover its lower half.
 bool is_triangular(const LimitSurface& rest) { return rest.topology().is_triangular(); }
 
 FaceStatistics measure_face(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
@@ -101,7 +101,7 @@ Place place_on_face(const LimitSurface& rest, uint32_t face, const FaceStatistic
   return place;
 }
 
-/// Such a place if it passes the density, with probability density / bound.
+/// Writes such a place to `out` with probability density / bound; otherwise returns false.
 bool try_candidate(const LimitSurface& rest, const FollicleDensity& density, uint32_t face,
                    const FaceStatistics& statistics, float room, uint64_t stream, FollicleCandidate& out) {
   const Place place = place_on_face(rest, face, statistics, stream);

@@ -31,7 +31,7 @@ struct FollicleCandidate {
   uint32_t normal = 0;   ///< packed, see pack_normal
   float spacing = 1;     ///< 1 / sqrt(density)
   uint32_t attempt = 0;  ///< its number among all attempts, see FollicleCandidates::root()
-  uint32_t number = 0;   ///< random, by which they are in order; later its rank in that order
+  uint32_t number = 0;   ///< random number that defines the order of candidates; later the rank in that order
 };
 
 /// Part of the candidates: those whose random numbers lie in [begin, end).
@@ -39,7 +39,7 @@ struct CandidateShare {
   uint64_t begin = 0, end = uint64_t(1) << 32;
 };
 
-/// What must be known of all candidates before the first is used.
+/// Properties of all candidates together, which must be known before the first one is used.
 struct CandidateSurvey {
   size_t count = 0;
   Box3f box;
@@ -70,22 +70,23 @@ struct FaceStatistics {
 };
 
 /// Makes candidates: independent places, with a probability proportional to density times area, each a pure
-/// function of (seed, face, number within the face). Density is sampled on a grid per ptex face first, to
-/// throw little away where it is low; features of a map thinner than a 32nd of a face may come out thinned.
-/// Refers to the surface and the density.
+/// function of (seed, face, number within the face). Density is sampled on a grid per ptex face first, so
+/// that few candidates are rejected where it is low; features of a map thinner than a 32nd of a face may come
+/// out thinned. Refers to the surface and the density.
 class FollicleCandidates {
  public:
   /// Throws Error (kInput) where the density is so uneven that too many places would have to be tried.
   FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t wanted,
                      const Job& job);
 
-  /// About `wanted` candidates (how many pass is random) in random order; of a share, those that are in it.
+  /// Makes the candidates of a share, in random order. There are about `wanted` in all; the exact number is
+  /// random.
   std::vector<FollicleCandidate> make(const Job& job, const CandidateShare& share = {}) const;
-  /// Of what make() returns for all; holds none of them.
+  /// The survey of all candidates that make() returns; keeps none of them in memory.
   CandidateSurvey survey(const Job& job) const;
-  /// The most that are expected of so many that are wanted.
+  /// Max number of candidates to expect when `wanted` are requested.
   static constexpr uint64_t max_of(uint64_t wanted) { return wanted + wanted / 64 + 1024; }
-  /// About how many make() returns for all.
+  /// Approximate number of candidates that make() returns without a share.
   size_t wanted() const { return wanted_; }
   /// Where on the skin a candidate is, and its position there.
   RootAddress root(uint32_t attempt, V3f* position) const;
@@ -104,7 +105,7 @@ class FollicleCandidates {
   const size_t wanted_;
   const float room_;  // factor on the largest sampled density, for values between the samples
   std::vector<FaceStatistics> faces_;
-  std::vector<uint64_t> first_;  // attempt of each face, and their number
+  std::vector<uint64_t> first_;  // first attempt of each face, then the total number
 };
 
 /// A unit vector in 3 x 10 bits, accurate to a thousandth.

@@ -68,13 +68,14 @@ FollicleTree FollicleTree::over(std::span<const V3f> rest_positions, std::span<c
 namespace {
 
 constexpr size_t kMoreCandidates = 100;  // for coats of a few strands
-// Of a follicle while the tree is made: its position, its root twice, its id and its place in the order.
+// Bytes per follicle while the tree is made: its position, its root twice, its id and its place in the order.
 constexpr size_t kBytesOfTree = sizeof(V3f) + 2 * sizeof(RootAddress) + 3 * sizeof(uint32_t);
 
 /// Candidates that are tried for `count` follicles in the first round.
 size_t candidates_for(size_t count) { return count * kCandidatesPerFollicle + kMoreCandidates; }
 
-/// Candidates that are follicles, in their progressive order; empty optional where there are too few of them.
+/// Chooses the candidates that become follicles, in progressive order; nullopt if there are too few
+/// candidates.
 std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, size_t count, double mass,
                                             bool few_will_do, const FollicleOptions& options,
                                             const Job& job) {
@@ -87,7 +88,7 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, si
     const HeldCandidates max{held.parts, held.parts == 1 ? all : held.max_waiting};
     if (auto order = progressive_order(supply, count, mass, max, job)) return order;
   }
-  // A skin that is narrower than follicles are apart: nothing may be forgotten.
+  // The skin is narrower than the distance between follicles: no candidate may be dropped.
   const HeldCandidates whole{held.parts, all};
   const size_t more = progressive_order_bytes(source.wanted(), count, whole) -
                       progressive_order_bytes(source.wanted(), count, held);
@@ -102,7 +103,7 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, si
 void place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
            size_t count, double mass, const Job& job, std::vector<V3f>& positions,
            std::vector<RootAddress>& roots) {
-  // The number of candidates that pass is random: repeats with more in the rare case of too few.
+  // The number of candidates is random: in the rare case of too few, repeats with more.
   MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
     if (round > 0) {

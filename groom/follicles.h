@@ -32,7 +32,7 @@ struct FollicleOptions {
   uint64_t seed = 0;
   int leaf_strands = 8000;
   std::string owner = "groom";   ///< for messages: whose follicles they are
-  std::string noun = "strands";  ///< for messages: what grows on them
+  std::string noun = "strands";  ///< for messages: name of the placed objects, plural
 };
 
 /// Max memory for placing `count` follicles, including the tree (progressive_order.h).
@@ -69,7 +69,7 @@ class FollicleTree {
   static FollicleTree of(std::vector<Leaf> leaves, std::vector<uint32_t> ids, std::vector<RootAddress> roots);
 
   size_t size() const { return ids_.size(); }
-  /// Whether its follicles are on a skin; those of a file may not be.
+  /// Whether the follicles are on a skin; the roots of imported strands may not be.
   bool has_roots() const { return !roots_.empty(); }
   std::span<const Leaf> leaves() const { return leaves_; }
   uint64_t id(size_t follicle) const { return ids_[follicle]; }

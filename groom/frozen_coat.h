@@ -19,7 +19,7 @@ namespace pelage {
 class FrozenCoat {
  public:
   static std::filesystem::path file(const ContentStore& store, const ContentHash& key);
-  /// The coat in the store. Empty when it is missing, or when its leaves are not those of `source`.
+  /// The coat in the store. Empty when it is missing, or when its leaves do not match `source`.
   static std::optional<FrozenCoat> open(const ContentStore& store, const ContentHash& key,
                                         const CoatSource& source, const WarningSink& warn);
   /// Leaves that were just grown, kept in memory and charged to `ledger`.
@@ -64,12 +64,13 @@ struct FrozenGrowth {
     MemoryCharge charge;  ///< of the leaves
   };
   /// Grows all leaves, starting after the last operator whose result is in the store, and stores the state
-  /// after each operator that runs except the last. Prepares the operators that it needs. Throws what they
-  /// throw, Error (kMemory) as soon as the first leaves show that all of them will not fit, Error (kStopped);
-  /// nothing is stored then.
+  /// after each operator that runs except the last. Prepares the operators that it needs. Passes on their
+  /// exceptions; throws Error (kMemory) as soon as the first leaves show that all of them will not fit, Error
+  /// (kStopped); nothing is stored then.
   Result run(const PrepareContext& context, int leaf_strands) const;
   void charge_grown(size_t done, Result& result) const;
-  /// Whether growth can continue from a layer; if so, `reaches` are those after its operator.
+  /// Whether growth can continue from a layer; if so, sets `reaches` to the reaches after the layer's
+  /// operator.
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;
 };
 

@@ -39,7 +39,7 @@ class FrozenLeaf {
     size_t data = 0;     ///< offset of its rows
   };
 
-  /// Empty when the bytes are not those of a leaf. `bytes` must be 16-byte aligned.
+  /// Empty when the bytes do not encode a leaf. `bytes` must be 16-byte aligned.
   static std::optional<FrozenLeaf> read(std::span<const std::byte> bytes);
 
   size_t strand_count() const { return strands_; }
@@ -50,8 +50,8 @@ class FrozenLeaf {
   const CodeColumn& column(StrandCodes::Column kind) const { return columns_[kind]; }
 
   /// Radii, colours and clump numbers of the first batch.count strands of a block; ids must be set.
-  /// Attributes that the leaf does not store stay unchanged, except for clump numbers, which are set to those
-  /// of unclumped strands.
+  /// Attributes that the leaf does not store stay unchanged, except for clump numbers, which are set as for
+  /// unclumped strands.
   void attributes(const Block& block, StrandBatch& batch) const;
   /// Offsets of the same strands along the axes of `frames`, times `scale`.
   void shape(const Block& block, const RootRows& frames, float scale, StrandBatch& batch) const;

@@ -45,7 +45,8 @@ bool Groom::has_priority_order() const { return !impl_->source.imported; }
 float Groom::priority(size_t follicle) const {
   const FollicleTree& follicles = impl_->source.follicles();
   const uint64_t id = follicles.id(follicle);
-  // Ids of grown strands are ranks in their progressive order; those of a file may follow the skin.
+  // Ids of grown strands are ranks in their progressive order; ids of imported strands may be sorted along
+  // the skin.
   if (!has_priority_order()) return unit_float(hash64(id, random_use("priority")));
   return static_cast<float>((static_cast<double>(id) + 0.5) / static_cast<double>(follicles.size()));
 }
@@ -83,10 +84,10 @@ OperatorList with_width(const GroomParams& params) {
 
 namespace {
 
-/// Refuses strands of so many points that not even one block of them fits. What would do for a picture is
-/// said at once: there a part of them takes two blocks with colours, and itself.
+/// Refuses strands of so many points that not even one block of them fits. The error states the memory that
+/// suffices for a picture: two blocks with colours, and the smallest part of the coat.
 void require_growing(const MemoryLedger& ledger, int points, bool colored, const std::string& owner) {
-  constexpr int64_t kBytesOfPoint = 256;  // of a strand that stands alone in its part, and its tree
+  constexpr int64_t kBytesOfPoint = 256;  // of a strand that is alone in its part, with its tree
   const int64_t block = StrandBatch::bytes(points, colored);
   if (ledger.limit() == 0 || ledger.budgeted() + block <= ledger.limit()) return;
   require_room(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
@@ -112,7 +113,7 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
   impl->stack.emplace(with_width(params));
   OperatorStack& stack = *impl->stack;
   if (stack.needs_closest_point() && !impl->source.rest) {
-    throw Error(ErrorKind::kInput, "groom '" + name + "' pushes strands out of a skin but grows on none");
+    throw Error(ErrorKind::kInput, "groom '" + name + "' uses push_out, but its strands follow no skin");
   }
 
   // Two coats of one skin without explicit seeds must not grow from the same places.

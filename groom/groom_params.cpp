@@ -32,10 +32,10 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
     Schema<GroomCacheParams> s(
         "groom cache",
         "Stores the result of the frozen operators between runs. For each groom, the folder keeps the "
-        "results for its last eight states of editing, and for all states used within a day. A result that "
+        "results of its eight latest versions, and of all versions used within the last day. A result that "
         "is unused for thirty days is deleted when something new is stored. `pelage grow SCENE --prune` "
-        "deletes everything that the scene does not need. Builds of Pelage with the same source code for "
-        "growth share stored results.");
+        "deletes everything that the scene does not need. Different builds of Pelage share stored results "
+        "if their source code for growing hair is the same.");
     s.set_example(R"(grooms:
   coat:
     skin: rat
@@ -81,13 +81,15 @@ const Schema<GroomParams>& GroomParams::schema() {
           {.help = "Skin on which the coat grows", .default_text = "none, if strands_file is given"});
     s.key("strands_file", &GroomParams::strands_file,
           {.help = "Strand file (.hair, .tfx) in the rest space of the skin. If the groom has a skin, each "
-                   "strand follows the nearest point of it and keeps its distance; see `attach`",
+                   "strand follows the point of the skin nearest to its root and keeps its distance from "
+                   "that point; see `attach`",
            .default_text = "none"});
     s.key("attach", &GroomParams::attach,
           {.help = "Whether the strands of strands_file follow the skin. `skin`: they follow it. `none`: "
                    "they keep their positions from the file and move only with the character. `auto`: they "
-                   "follow the skin, unless half of the roots are farther from it than a tenth of the "
-                   "diagonal of its bounding box; then Pelage warns and uses `none`"});
+                   "follow the skin, unless at least half of the roots are too far from the skin; then "
+                   "Pelage warns and uses `none`. Too far is more than a tenth of the diagonal of the "
+                   "skin's bounding box"});
     s.key("basis", &GroomParams::basis,
           {.help = "How control points of strands_file define curves",
            .default_text = "the basis in the file"});
@@ -112,11 +114,11 @@ const Schema<GroomParams>& GroomParams::schema() {
           {.help = "Operators that shape the strands, in order. Every strand starts straight and one scene "
                    "unit long"});
     s.key("leaf_strands", &GroomParams::leaf_strands,
-          {.help = "Maximum number of strands that grow together; changes no pixel. The default is 500 with "
-                   "render.bvh.file and 8000 for coats with a cache. Otherwise it is the largest of 8000, "
-                   "2000, 500 and 125 (for long strands also 31 and 7) at which several chunks fit into "
-                   "render.memory together, counting 80 bytes per control point: 8 chunks if all fur fits, "
-                   "else 32 for strands from a file and 400 for other coats",
+          {.help = "Maximum number of strands that grow together, as one chunk; changes no pixel. The "
+                   "default is 500 with render.bvh.file and 8000 for coats with a cache. Otherwise Pelage "
+                   "chooses the largest of 8000, 2000, 500 and 125 (for long strands also 31 and 7) at "
+                   "which N chunks fit into render.memory, at 80 bytes per control point. N is 8 if all fur "
+                   "fits into render.memory. If not, N is 32 for strands from a file and 400 for other coats",
            .min = 1,
            .max = 1e6,
            .default_text = "8000 or less"});

@@ -24,7 +24,7 @@ const Schema<LengthParams>& LengthParams::schema() {
           {.unit = "scene units",
            .help = "Length of the strand",
            .min = 0,
-           .default_text = "the present length (1 before any operator)"});
+           .default_text = "the current length (1 before any operator)"});
     s.key("scale", &LengthParams::scale, {.help = "Factor on the length", .min = 0});
     s.key("variation", &LengthParams::variation,
           {.help = "Random shortening: 0.4 gives 60 to 100 % of the length", .min = 0, .max = 1});

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Rethrows an error about the contents of a file that a scene names. The position becomes that of the name
-/// in the scene; each message starts with the position in the file.
+/// Rethrows an error about the contents of a file that a scene names. The new position is where the scene
+/// names the file; each message starts with the position in the file.
 [[noreturn]] void rethrow_at_asset(const Error& error, const AssetPath& file);
 
 /// Returns the result of `work`. Errors of kind kInput are passed to rethrow_at_asset().

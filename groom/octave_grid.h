@@ -16,7 +16,7 @@ class OctaveGrid {
  public:
   /// For at most about `max` follicles.
   OctaveGrid(float smallest_spacing, size_t max) : smallest_(smallest_spacing) { items_.reserve(max); }
-  /// What a grid of at most `max` follicles takes once rebuild() has made room for `expected`.
+  /// Memory of a grid of at most `max` follicles after rebuild() has made room for `expected`.
   static size_t bytes(size_t max, size_t expected) {
     return max * sizeof(Item) + head_count(expected) * sizeof(uint32_t);
   }

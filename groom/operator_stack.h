@@ -14,16 +14,17 @@
 
 namespace pelage {
 
-/// The operators of a groom, in order: first those that read rest state only, then, starting with the first
-/// that reads live state, the live part. Immutable once prepared. Thread safety: const members may be called
-/// from any thread.
+/// The operators of a groom, in order. The live part begins with the first operator that reads live state
+/// (the posed skin or posed strands); all operators before it read rest state only. Immutable once prepared.
+/// Thread safety: const members may be called from any thread.
 class OperatorStack {
  public:
   /// Copies of the operators of the list, not yet prepared.
   explicit OperatorStack(const OperatorList& list);
 
-  /// Prepares those of the operators [begin, end) that are not prepared yet, after the preceding ones that
-  /// they depend on. Sets `preceding`, `seed` (here the groom's) and `position` of the context for each.
+  /// Prepares each operator of [begin, end) that is not prepared yet. If preparing an operator runs the
+  /// preceding operators, prepares these first. Sets `preceding`, `seed` (here the groom's) and `position` of
+  /// the context for each.
   void prepare(size_t begin, size_t end, const PrepareContext& context);
   void prepare_all(const PrepareContext& context) { prepare(0, size(), context); }
   /// Prepares the operators that coverage() needs.
@@ -44,17 +45,18 @@ class OperatorStack {
   bool needs_closest_point() const;
   /// Whether has_one_width_profile() holds for all of [begin, end).
   bool has_one_width_profile(size_t begin, size_t end) const;
-  /// The highest frequency of all operators; empty when none colours strands.
+  /// The highest frequency of the colours that operators write; empty when no operator writes colours.
   std::optional<AttributeClass> colors() const { return colors(0, size()); }
   std::span<const std::unique_ptr<Operator>> operators() const { return operators_; }
   /// The same for [begin, end).
   std::optional<AttributeClass> colors(size_t begin, size_t end) const;
-  /// Product of the random factors that operators apply to the colour of a strand. `seed`: that of the
+  /// Product of the random factors that operators apply to the colour of a strand. `seed`: the seed of the
   /// context passed to prepare().
   Operator::Brightness brightness(uint64_t seed, uint64_t strand_id) const;
-  /// Properties of strands after the operators [begin, end), given those before.
+  /// Properties of strands after the operators [begin, end). `before`: their properties before these
+  /// operators.
   StrandReach reach(StrandReach before, size_t begin, size_t end) const;
-  /// Product over all operators.
+  /// Product of the coverage of all operators.
   float coverage(const V3f& rest_position, const V3f& normal) const;
   bool restricts_coverage() const;
 

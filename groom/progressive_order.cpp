@@ -23,14 +23,14 @@ constexpr double kShrink = 0.94;
 constexpr double kExpectedFill = 0.5;
 /// Levels beyond the one that is expected to be the last.
 constexpr int kSpareLevels = 1;
-/// Part of what is expected that is found at least, but for a few levels.
+/// Min fraction of the expected number of follicles that is found, except at a few levels.
 constexpr double kFill = 0.5;
 /// Active candidates per expected follicle: a fifth more than the final number per follicle.
 constexpr double kTakePart = 1.2 * static_cast<double>(kCandidatesPerFollicle);
 /// Down to a radius of 1e-11 of the first: only coincident candidates remain.
 constexpr int kLevels = 400;
 
-/// A follicle of the level that is tried.
+/// A follicle found at the current level.
 struct Accepted {
   uint32_t rank, attempt;
 };
@@ -77,7 +77,7 @@ uint32_t region_of(const FollicleCandidate& c, const V3f& origin, float inverse)
          spread((c.z - origin.z) * inverse) << 2;
 }
 
-/// The last level may find more than wanted, the last of which are removed again.
+/// Room for the surplus of the last level, which is removed again.
 size_t with_overshoot(size_t count) { return count + count / 6; }
 
 /// One run of progressive_order().
@@ -96,7 +96,7 @@ class DartThrowing {
     order_.reserve(with_overshoot(count_));
   }
 
-  /// False where it needs candidates that did not fit.
+  /// False if it needs candidates that were dropped because they did not fit.
   bool run();
   std::vector<uint32_t> order() && { return std::move(order_); }
 
@@ -120,12 +120,12 @@ class DartThrowing {
   const Radii radii_;
   const size_t count_;
   float extent_ = 0;
-  int last_ = kLevels;  // candidates that wait for later levels are forgotten
+  int last_ = kLevels;  // candidates that wait for later levels are dropped
   double grid_radius_ = std::numeric_limits<double>::infinity();
   OctaveGrid grid_;
   WaitingCandidates waiting_;
-  std::vector<uint32_t> arrived_;  // places of those that are to join, in order of rank
-  size_t joined_ = 0;              // of arrived_
+  std::vector<uint32_t> arrived_;  // places of candidates that have not been tried yet, by rank
+  size_t joined_ = 0;              // number of entries of arrived_ that have been tried
   std::vector<Tried> tried_;
   std::vector<Accepted> accepted_;
   std::vector<uint32_t> order_;
@@ -156,7 +156,7 @@ bool DartThrowing::throw_at(int level) {
   return true;
 }
 
-/// Gathers what is tried at a level, neighbours together.
+/// Collects the candidates to try at a level, sorted so that neighbours are adjacent.
 bool DartThrowing::collect(int level, double radius) {
   // Regions contain some thousand follicles, so that those examined together stay in the cache.
   const CandidateSurvey& survey = supply_.survey();
@@ -185,7 +185,7 @@ bool DartThrowing::collect(int level, double radius) {
   return true;
 }
 
-/// Holds the next candidates, but for those that follicles keep away to the last level.
+/// Takes in the next candidates, except those that are too close to a follicle even at the last level.
 bool DartThrowing::arrive(const V3f& origin, float inverse) {
   std::vector<FollicleCandidate> candidates = supply_.next(job_);
   const auto r = static_cast<float>(radii_.at(last_));
@@ -236,7 +236,8 @@ void DartThrowing::accept_or_file(int level, float radius) {
   }
 }
 
-/// Numbers of follicles grow as 1 / radius^2, unless the skin is no wider than their distance.
+/// Drops candidates that cannot join before enough follicles are placed. Assumes that the number of follicles
+/// grows as 1 / radius^2, which fails if the skin is no wider than their distance.
 void DartThrowing::forget_the_hopeless(int level) {
   if (order_.size() < std::max<size_t>(count_ / 50, 1000)) return;
   const double growth = std::max(static_cast<double>(count_) / static_cast<double>(order_.size()), 1.0);
@@ -245,7 +246,7 @@ void DartThrowing::forget_the_hopeless(int level) {
   waiting_.drop_from(last_ + 1);
 }
 
-/// Which candidates of a level come first must not depend on their positions.
+/// Orders the follicles of a level at random: their order must not depend on their positions.
 void DartThrowing::append_accepted() {
   stoppable_sort(job_, accepted_.begin(), accepted_.end(), [](const Accepted& a, const Accepted& b) {
     const uint64_t ha = hash64(a.rank, random_use("follicle order")),
@@ -259,14 +260,15 @@ void DartThrowing::append_accepted() {
 }  // namespace
 
 HeldCandidates HeldCandidates::of(size_t candidates, size_t count) {
-  // Few are made once and held; of many, 1.8 per follicle are held on a plane, when half of them are placed.
+  // Few candidates are made once and all held. Of many, at most 1.8 per follicle are held on a plane, at the
+  // moment when half of the follicles are placed.
   constexpr size_t kFew = size_t(1) << 17, kParts = 16;
   if (candidates <= kFew) return all(candidates);
   return {kParts, std::min(candidates, 2 * count)};
 }
 
 size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held) {
-  // Those that are tried at a level are less than one per follicle, unless all of the first are.
+  // A level tries fewer candidates than there are follicles, or at most all that are held.
   const size_t part = FollicleCandidates::max_of(candidates / held.parts);
   const size_t tried = std::min(held.max_waiting, count);
   constexpr size_t kArrivedBytes = 4, kTriedBytes = 12;

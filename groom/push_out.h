@@ -14,8 +14,8 @@ struct PushOutParams {
   static const Schema<PushOutParams>& schema();
 };
 
-/// Moves strands out of the posed skin. Live: runs in every pose, using the tessellation that everything else
-/// uses.
+/// Moves strands out of the posed skin. Live: runs in every pose, using the same tessellation as all other
+/// consumers.
 ///
 /// Afterwards no point of a strand's curve lies inside a closed skin, and control points keep a distance to
 /// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a strand

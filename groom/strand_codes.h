@@ -38,7 +38,7 @@ class StrandCodes {
 
   std::vector<uint16_t> steps;  ///< small floats, [strand]
   std::vector<int16_t> shape;   ///< in steps relative to the previous decoded point, [point][axis][strand]
-  /// Codes strand by strand; for plain batches only those of clumps.
+  /// Codes, strand by strand; plain batches store only the codes of clumps.
   std::array<std::vector<std::byte>, kColumns> columns;
   std::vector<float> floats;  ///< plain batches: rows [point][axis], [point] of radii, [row][channel]
 

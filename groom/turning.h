@@ -27,7 +27,7 @@ void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const
 
 /// Upper bound of how far any point of a strand moves when its segments are rotated by at most `angle` times
 /// the profile. A segment moves its end by 2 sin(a / 2) of its length; that is concave in a, so by Jensen's
-/// inequality the sum over any partition is at most that of the mean angle.
+/// inequality the sum over any partition is at most the value for the mean angle.
 float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle);
 
 }  // namespace pelage

@@ -24,8 +24,8 @@ const Schema<WidthParams>& WidthParams::schema() {
     s.key("root", &WidthParams::root, {.unit = "scene units", .help = "Diameter at the root", .min = 0});
     s.key("tip", &WidthParams::tip, {.unit = "scene units", .help = "Diameter at the tip", .min = 0});
     s.key("profile", &WidthParams::profile,
-          {.help = "Exponent of the taper from root to tip: 1 is a cone, larger values keep the root's width "
-                   "longer",
+          {.help = "Exponent of the taper from root to tip: 1 is a cone, larger values keep the root's "
+                   "width along more of the strand",
            .min = 0.1,
            .max = 10});
     s.key("variation", &WidthParams::variation,

@@ -95,7 +95,8 @@ class ExrWriter {
  public:
   /// A new picture, ZIP compressed, with Rec. 709 chromaticities.
   ExrWriter(std::filesystem::path path, ExrPart part, int threads = 0);
-  /// Parts like those of another file. Keeps lossless compression; replaces lossy compression by ZIP.
+  /// Parts with the headers of another file's parts. Keeps lossless compression; replaces lossy compression
+  /// by ZIP.
   ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
             int threads = 0);
   ~ExrWriter();

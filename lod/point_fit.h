@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// The linear map from the points of a pinned B-spline to those of one with fewer points that is closest to
-/// it, in the mean over the parameter. Memory and construction time are linear in the number of points.
-/// Immutable.
+/// The linear map from the points of a pinned B-spline to the points of another one with fewer points. The
+/// result is the closest such curve, in the mean over the parameter. Memory and construction time are linear
+/// in the number of points. Immutable.
 class PointFit {
  public:
   /// 4 <= to < from.

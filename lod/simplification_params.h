@@ -47,16 +47,17 @@ void add_simplification_keys(Schema<P>& s) {
   key("fewer_points", &Base::fewer_points,
       {.help = "Removes control points of a strand where this moves it by less than a tenth of a pixel"});
   key("guard", &Base::guard,
-      {.help = "Factor on the number of strands that grooms of role guard keep. Below 1 they are thinned out "
-               "sooner, but never become wider than a pixel",
+      {.help = "Factor on the number of strands that grooms of role guard keep. Values below 1 keep fewer "
+               "strands, but never so few that the remaining ones would become wider than a pixel",
        .min = 0.01,
        .max = 1000});
   key("under", &Base::under, {.help = "The same factor for role under", .min = 0.01, .max = 1000});
   key("whisker", &Base::whisker, {.help = "The same factor for role whisker", .min = 0.01, .max = 1000});
   key("blur_strength", &Base::blur_strength,
       {.help =
-           "How strongly blur thins out a coat. 1: strands are removed until only as many contribute to a "
-           "pixel as without blur; 0: blur removes no strands",
+           "How strongly blur thins out a coat. Blur increases the number of strands that contribute to a "
+           "pixel. 1: strands are removed until this number is the same as without blur; 0: blur removes no "
+           "strands",
        .min = 0,
        .max = 1});
   key("min_fraction", &Base::min_share,

@@ -129,7 +129,7 @@ std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, s
 /// "depth", or "depth 'far'" if it was named.
 std::string layer_label(const std::string& what, const std::string& name);
 
-/// Throws Error (kInput) with what is missing, what to do, and what is available.
+/// Throws Error (kInput); the message names the missing data, the remedy and the available layers.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

@@ -145,7 +145,7 @@ PostReport blur_file(const std::filesystem::path& input, const std::filesystem::
     for (size_t i = 0; i < channels.size(); ++i) {
       if (channels[i].part == p) out.planes.push_back(i);
     }
-    out.part.header.attributes.clear();  // those of the source stay
+    out.part.header.attributes.clear();  // the attributes of the source stay
     out.part.header.attributes["pelage:motionBlur"] =
         fmt::format("shutter {} around {}, {} steps, scale {}", params.shutter.length, params.shutter.centre,
                     report.steps, params.file.scale);

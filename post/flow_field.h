@@ -61,8 +61,8 @@ class FlowField {
 
   /// Whether all four corners move like the pixel, so that it stays a unit square.
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
-  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean over those of the four adjacent pixels
-  /// that belong to the same surface. They all get the same bits, so that a surface has no cracks.
+  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean over all pixels of the same surface among
+  /// the four that meet there. All these pixels get the same bits, so that a surface has no cracks.
   Flow corner(int x, int y, int right, int bottom) const {
     const int left = x + right - 1, top = y + bottom - 1;
     if (left < 0 || top < 0 || !(links_[at(left, top)] & kFour)) return torn_corner(x, y, right, bottom);

@@ -21,7 +21,7 @@ double lanczos(double t) {
   return std::abs(t) < lobes ? sinc(t) * sinc(t / lobes) : 0;
 }
 
-// More than a segment's sources: kEnoughSources, plus those of one more pixel, 56 x 56 at most.
+// More than a segment's sources: kEnoughSources, plus the sources of one more pixel, 56 x 56 at most.
 constexpr int kSlotBits = 14;
 constexpr size_t kSlots = size_t{1} << kSlotBits;
 

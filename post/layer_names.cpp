@@ -143,7 +143,7 @@ std::string LayerFinder::name_in_file(const NamedChannel& channel) const {
   return needs_part ? part + "." + channel.component : channel.name();
 }
 
-/// By its name, otherwise by its name with that of its part, with or without the view.
+/// Searches by the channel's own name first, then by part name and channel name, with or without the view.
 std::optional<size_t> LayerFinder::find_channel(const std::string& view, const std::string& name) const {
   std::optional<size_t> in_part;
   for (size_t i = 0; i < channels_.size(); ++i) {

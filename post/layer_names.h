@@ -53,7 +53,7 @@ class LayerFinder {
   /// The same for a layer with this name. Falls back to channels that belong to no view.
   std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
   std::optional<size_t> depth() const { return depth_; }
-  /// Alpha without a layer, or that of a layer "combined", "beauty" or "rgba".
+  /// The alpha channel without a layer, or else of a layer "combined", "beauty" or "rgba".
   std::optional<size_t> alpha() const;
   LayerRole role(size_t channel) const;
   /// Cryptomattes declared by the attributes, as indices of channels.

@@ -15,7 +15,8 @@ namespace pelage {
 /// data; stores no pixels.
 class ViewImage {
  public:
-  /// `channels`: those of the file. Throws Error (kInput) when the parts are too far apart for one picture.
+  /// `channels`: all channels of the file. Throws Error (kInput) when the parts are too far apart for one
+  /// picture.
   ViewImage(ExrReader& reader, const std::vector<NamedChannel>& channels, const std::string& view,
             const LayerChoice& choice);
 
@@ -26,7 +27,7 @@ class ViewImage {
   const PixelBox& limits() const { return limits_; }
   /// Max distance in pixels by which motion may move something outside the canvas: the diagonal of the frame.
   /// When the frame is far larger than the canvas, the larger of the canvas's own diagonal and kUsualReach,
-  /// so that the size of the result is bounded by that of the source.
+  /// so that the size of the source bounds the size of the result.
   int largest_reach() const;
   static constexpr int kUsualReach = 1024;
   const std::vector<NamedChannel>& channels() const { return channels_; }

@@ -52,7 +52,7 @@ class Sample {
 static_assert(sizeof(Sample) == 8);
 
 /// A tile of the picture at `scale` samples per pixel and side. Samples are counted from the upper left
-/// corner of the whole picture; the tile contains those of the pixels in `box`.
+/// corner of the whole picture; the tile contains the samples of the pixels in `box`.
 class WorkBuffer {
  public:
   WorkBuffer(PixelBox box, int scale) { reset(box, scale); }

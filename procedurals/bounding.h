@@ -22,7 +22,7 @@ struct BoundingOptions {
   bool in_one_part = false;
 };
 
-/// Time span for which the boxes of a strategy hold, also those of skins.
+/// Time span for which the boxes of a strategy are valid, including boxes of skins.
 BoundSpan bound_span(BoundingStrategy strategy);
 /// Whether the strategy grows chunks to measure their boxes, which are stored in side files.
 bool measures_strands(BoundingStrategy strategy);
@@ -35,15 +35,15 @@ struct BoundingCounts {
   BoundsArea area;         ///< of all chunks, with all their parts
 };
 
-/// Memory for measuring the strands of a leaf: the strands and their division into parts, but not what
-/// growing them needs.
+/// Memory for measuring the strands of a leaf: the strands and their division into parts, without the memory
+/// for growing them.
 size_t measuring_bytes(const StrandCounts& counts);
 
 /// The boxes of all chunks, which must be leaves, in their order. Measured boxes are stored beside the caches
 /// of the grooms (Procedural::bounds_record); a damaged side file causes a warning and is rewritten. The
 /// result is the same for any number of workers, measured or read. Strands grown to be measured are charged
 /// to the chunks while they exist, a few at a time. kNone returns no boxes: code that grows everything has
-/// better ones. Throws what growing throws. Returns early when the job is cancelled; unmeasured chunks then
+/// better ones. Passes on errors of growth. Returns early when the job is cancelled; unmeasured chunks then
 /// have no box.
 std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
                                       std::span<const Procedural* const> chunks, const Job& job,

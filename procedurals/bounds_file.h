@@ -10,10 +10,10 @@
 
 namespace pelage {
 
-// The side file of boxes: those of all chunks of one coat in one pose, an entry of kind "boxes" in the
-// content store beside the groom's cache. Four sections: the index of each chunk's first box (count + 1
-// numbers of 32 bits); the boxes (6 floats each: min, max); for each chunk the grid of its fine boxes (9
-// floats: corner, motion, step) and their number (32 bits); the groups of their finest level.
+// The side file with the boxes of all chunks of one coat in one pose: an entry of kind "boxes" in the content
+// store beside the groom's cache. Four sections: the index of each chunk's first box (count + 1 numbers of 32
+// bits); the boxes (6 floats each: min, max); for each chunk the grid of its fine boxes (9 floats: corner,
+// motion, step) and their number (32 bits); the groups of their finest level.
 
 /// The boxes of `count` chunks with `keys` keys each; empty when the entry is missing. A damaged or
 /// implausible entry counts as missing, with one warning.

@@ -13,7 +13,7 @@ constexpr double kMaxVariation = 0.95;
 
 const Schema<CrowdHeadingParams>& CrowdHeadingParams::schema() {
   static const Schema<CrowdHeadingParams> table = [] {
-    Schema<CrowdHeadingParams> s("heading", "The direction in which the animals of a crowd look.");
+    Schema<CrowdHeadingParams> s("heading", "The direction in which the animals of a crowd face.");
     s.set_example(R"(crowds:
   herd:
     of: [rat]
@@ -146,7 +146,7 @@ const Schema<CrowdParams>& CrowdParams::schema() {
            .help = "Minimum distance between footprints, or between origins if characters have no footprint",
            .min = 0});
     s.key("heading", &CrowdParams::heading,
-          {.help = "Direction in which the animals look", .default_text = "any direction"});
+          {.help = "Direction in which the animals face", .default_text = "any direction"});
     s.key("phase", &CrowdParams::phase,
           {.help = "Pose of each animal", .default_text = "the pose of the frame"});
     s.key("scale", &CrowdParams::scale, {.help = "Size of the animals", .default_text = "1"});

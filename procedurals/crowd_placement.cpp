@@ -23,7 +23,7 @@ constexpr size_t kBodiesPerJump = 100;
 // Limits that keep a crowd of a million from taking hours: comparisons per round of jumps, and total visits
 // of sweeps.
 constexpr size_t kMaxComparisons = 100'000'000, kMaxVisits = 200'000'000;
-constexpr size_t kMinForProgress = 20'000;       // animals, however they stand
+constexpr size_t kMinForProgress = 20'000;       // animals, for any arrangement
 constexpr size_t kVisitsWorthShowing = 400'000;  // some tenths of a second
 constexpr int kJumps = 100;                      // places tried for an animal that is stuck
 constexpr float kMargin = 1e-3f;     // of the distance: pushes slightly too far, so that sweeps terminate
@@ -192,8 +192,8 @@ class Crowd {
   const std::vector<Body>& bodies() const { return bodies_; }
 
  private:
-  /// Distance from the nearest other footprint if `i` were at `place`; any value below `enough` if it is not
-  /// larger than that.
+  /// Distance from the nearest other footprint if `i` were at `place`. Exact only if larger than `enough`;
+  /// otherwise any value up to `enough`.
   float room_at(uint32_t i, const CrowdPlace& place, float enough) const {
     Body moved = bodies_[i];
     moved.place = place;
@@ -271,7 +271,8 @@ class Crowd {
   std::vector<Contact> contacts_;  // of the last sweep
 };
 
-/// Rejects impossible crowds early: more discs than fit the area, extended by what may overlap its border.
+/// Rejects impossible crowds early: more discs than fit the area, enlarged by the parts of discs that may
+/// overlap its border.
 void require_space(const GroundArea& area, const CrowdRules& rules) {
   float radius = std::numeric_limits<float>::infinity(),
         offset = 0;  // of the smallest of the bodies' largest discs

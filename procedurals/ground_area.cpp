@@ -46,7 +46,7 @@ const Schema<DiscAreaParams>& DiscAreaParams::schema() {
 
 const Schema<PolygonAreaParams>& PolygonAreaParams::schema() {
   static const Schema<PolygonAreaParams> table = [] {
-    Schema<PolygonAreaParams> s("polygon area", "Level ground inside a polygon that does not cross itself.");
+    Schema<PolygonAreaParams> s("polygon area", "Level ground inside a polygon without self-intersections.");
     s.set_example(R"(crowds:
   herd:
     of: [rat]

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// What there is to grow, and what was grown for use.
+/// Counts of the geometry that could be grown, and of the geometry that was grown for use.
 struct GrowthCounts {
   int64_t chunks = 0;   ///< leaves of coats and skins that could be grown
   int64_t strands = 0;  ///< grown, regrowth included

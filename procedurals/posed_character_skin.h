@@ -50,8 +50,8 @@ class PosedCharacterSkin final : public DeferredSkin {
   float scale() const { return pose_.scale; }
   float length() const { return pose_.length; }
 
-  /// A whole pose for growing strands. kShutter: one key per motion key. kFrame: these keys between those of
-  /// the ends of the frame, in order of time, so that a bound over the frame contains everything visible
+  /// A whole pose for growing strands. kShutter: one key per motion key. kFrame: the same keys, and one more
+  /// at each end of the frame, in order of time, so that a bound over the frame contains everything visible
   /// during the shutter.
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
   /// A pose for strands on `faces` that need no push_out: without trees, not shared.

@@ -32,7 +32,8 @@ std::string only_key(const Value& item) {
   return item.is_map() && item.entries().size() == 1 ? item.entries()[0].key : std::string();
 }
 
-// The item of a list for a name: the item itself for an index, otherwise the value under its only key.
+// Finds an item of a list. For an index, returns the item itself; for a name, the value under the item's
+// single key.
 Value* find_item(Value& list, const std::string& name, const SourcePosition& where, Problems& problems) {
   std::vector<Value>& items = list.items();
   size_t index = 0;
@@ -64,7 +65,8 @@ Value* find_item(Value& list, const std::string& name, const SourcePosition& whe
   return nullptr;
 }
 
-// Sub-blocks with similar names: a path through a missing block is more likely a typo than a new block.
+// Suggests sub-blocks with similar names: a path through a missing block is more likely a typo than a new
+// block.
 std::string near_block(const Value& block, const std::string& name) {
   std::vector<std::string> blocks;
   for (const Value::Entry& entry : block.entries()) {
@@ -78,7 +80,8 @@ Value* find_entry(Value& block, const std::string& name, bool leads_on, const So
                   Problems& problems) {
   if (block.is_null()) block = Value::map(where, {});
   if (!block.is_map()) {
-    problems.add(where, quote(name) + " is looked up in " + block.describe() + ", which is not a block");
+    problems.add(where,
+                 "cannot look up " + quote(name) + " in " + block.describe() + ", which is not a block");
     return nullptr;
   }
   if (Value* value = block.find(name)) return value;

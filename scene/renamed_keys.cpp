@@ -98,7 +98,7 @@ std::string RenamedPath::present_name(const Value& block, const std::string& nam
 
 void RenamedPath::enter(const Value& block, const std::string& name, Value& value) {
   const SchemaInfo* table = table_of(block);
-  if (!table && !value.is_null()) return;  // a name of the user: the blocks are still ahead
+  if (!table && !value.is_null()) return;  // a name chosen by the user: the schema's blocks are below it
   blocks_.clear();
   const KeyInfo* key = table ? table->find(name) : nullptr;
   if (!key) return;

@@ -11,24 +11,24 @@
 
 namespace pelage {
 
-/// Gives every key of a document its present name and adds a warning for every old one. A block that has a
-/// key under both names is a problem.
+/// Gives every key of a document its current name and adds a warning for every old one. A block that has a
+/// key under both names adds a problem.
 void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems);
 
-/// Follows the path of an override through a document whose keys have their present names.
+/// Follows the path of an override through a document whose keys have their current names.
 class RenamedPath {
  public:
   RenamedPath(Value& document, RenamedKeys& renamed);
-  /// The present name of a key of `block`. Adds a warning, at `where`, for an old one.
+  /// The current name of a key of `block`. Adds a warning, at `where`, for an old one.
   std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
-  /// Takes the next step of the path: from `block`, by the present name of a key, to its `value`.
+  /// Takes the next step of the path: from `block`, by the current name of a key, to its `value`.
   void enter(const Value& block, const std::string& name, Value& value);
 
  private:
   const SchemaInfo* table_of(const Value& block) const;
 
   RenamedKeys& renamed_;
-  std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // that are next on the path
+  std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // next on the path
 };
 
 /// Moves `over` into `base`: entries of maps one by one, everything else as a whole. `over` wins.

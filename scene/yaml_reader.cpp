@@ -56,7 +56,7 @@ class ValueBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
     Value null;
-    // yaml-cpp's mark of a missing value is that of whatever follows, often on the next line.
+    // For a missing value, yaml-cpp's mark is the position of the next token, often on the next line.
     const bool after_key = !open_.empty() && open_.back().has_key;
     null.set_position(after_key ? open_.back().key_position : before(mark));
     place(std::move(null));
@@ -189,7 +189,7 @@ class ValueBuilder final : public YAML::EventHandler {
   int documents_ = 0;
 };
 
-// Replaces yaml-cpp's obscure messages by hints on what to look for.
+// Replaces yaml-cpp's obscure messages by hints at the likely mistake.
 std::string explain(const std::string& message) {
   struct Wording {
     const char* theirs;

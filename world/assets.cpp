@@ -85,7 +85,7 @@ bool only_holes(const SurfaceTopology& topology) {
   return true;
 }
 
-/// Makes a groom; errors without a position get that of the groom.
+/// Makes a groom; errors without a position get the position of the groom.
 std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,

@@ -17,7 +17,8 @@
 
 namespace pelage {
 
-/// What all frames of a scene share: cages with shared topologies, grooms, materials with their textures.
+/// Data that all frames of a scene share: cages with shared topologies, grooms, materials with their
+/// textures.
 struct Assets {
   struct Skin {
     std::shared_ptr<const LimitSurface> rest;  ///< object space

@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-/// What a frame has, or all frames of a run together.
+/// Counts for one frame, or for all frames of a run together.
 struct WorldCounts {
   int64_t strands_described = 0;    ///< before level of detail
   int64_t strands_unique = 0;       ///< coats of equal poses counted once

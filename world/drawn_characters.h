@@ -31,9 +31,9 @@ int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& asset
 /// Whether hair grows on it.
 bool has_coat(const DrawnCharacter& character);
 
-/// Selects the characters that keep all their hair: `count` of those with a coat, one from the middle of each
-/// of as many equal parts of their order by distance from `eye`, so that near and far ones are sampled
-/// equally; all when there are fewer.
+/// Selects `count` characters that keep all their hair; all when fewer have a coat. Sorts the characters with
+/// a coat by distance from `eye`, divides them into `count` equal groups and takes the middle one of each, so
+/// that near and far characters are sampled equally.
 std::vector<bool> full_detail_characters(const std::vector<DrawnCharacter>& characters, int64_t count,
                                          const V3f& eye, double frame);
 

@@ -5,10 +5,10 @@
 
 namespace pelage {
 
-/// Sets how many strands of each coat are grown together, where the scene does not. If not all fur of the
-/// scene may fit the memory limit, leaves are so small that some hundred chunks fit: scattered rays go
-/// everywhere and need little in each place. For strands of a file it is some dozen chunks, because finding
-/// strands costs more the fewer are read together. If everything fits, leaves are so small that the temporary
+/// Sets how many strands of each coat are grown together, where the scene does not. If the fur of the scene
+/// may exceed the memory limit, leaves are so small that some hundred chunks fit: scattered rays reach all of
+/// the fur but need few strands in each place. For strands of a file, some dozen chunks fit, because reading
+/// fewer strands at a time costs more per strand. If everything fits, leaves are so small that the temporary
 /// memory for growing some of them fits too. Sizes have few steps, so that similar limits share stored boxes;
 /// with stored trees (render.bvh.file) the size does not depend on the limit, so that one file serves all.
 /// Coats with a cache, whose files are for one size, are unchanged, as are strands of a file with stored

@@ -186,7 +186,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
     const ContentHash hash = document_hash(*document);
     scene.files = files_of(*document, path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
-    // A name missing because its block could not be read would be reported twice.
+    // If a block could not be read, references to its names would be reported as unknown too.
     if (SceneDescription::schema().read(*document, scene, problems)) {
       check_references(scene, problems);
       check_shutter(scene, *document, problems);

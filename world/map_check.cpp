@@ -11,14 +11,14 @@ namespace {
 
 using Map = ParameterText::Map;
 
-/// What is looked up by texture coordinates.
+/// A map or ramp that is looked up by texture coordinates.
 struct Lookup {
   std::string what;  ///< "the map spots.png"
   SourcePosition position;
 };
 
-/// Of a parameter or field as it is printed; `position` is that of the operator, material or groom, since
-/// only maps have one of their own.
+/// Adds the lookups of a parameter or field, given as printed text. `position`: of the operator, material or
+/// groom, for ramps; maps have positions of their own.
 void add_lookups(const std::string& text, const std::vector<Map>& maps, const SourcePosition& position,
                  std::vector<Lookup>& lookups) {
   for (const Map& map : maps) lookups.push_back({"the map " + map.file.filename().string(), map.position});

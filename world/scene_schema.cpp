@@ -58,11 +58,12 @@ const Schema<SkinParams>& SkinParams::schema() {
   rat: {mesh: rat.obj, scheme: catmull-clark}
   scan: {mesh: scan.obj, scheme: none})");
     s.key("mesh", &SkinParams::mesh, {.help = "OBJ file of the control cage at rest", .required = true});
-    s.key("scheme", &SkinParams::scheme,
-          {.help =
-               "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as scans: it "
-               "splits them into triangles and interpolates normals between vertices, for strands and for "
-               "shading. It takes about 250 bytes per triangle; `catmull-clark` takes 4,500 to 14,000"});
+    s.key(
+        "scheme", &SkinParams::scheme,
+        {.help = "Subdivision scheme. `none` uses the polygons as they are, for dense meshes such as scans: "
+                 "it splits them into triangles and interpolates normals between vertices, for strands and "
+                 "for shading. For each triangle of the mesh, `none` takes about 250 bytes; `catmull-clark` "
+                 "takes 4,500 to 14,000 bytes"});
     s.key("boundary", &SkinParams::boundary,
           {.help = "Whether boundary corners stay sharp (`edge-and-corner`) or are rounded like boundary "
                    "edges (`edge-only`)"});

@@ -65,7 +65,7 @@ struct PartParams {
   NameReference skin;
   NameReference material;
   Named<NameReference> grooms;       ///< name of a groom -> name of its material
-  std::optional<PosesParams> poses;  ///< instead of those of the skin
+  std::optional<PosesParams> poses;  ///< instead of the skin's poses
   static const Schema<PartParams>& schema();
 };
 

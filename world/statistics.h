@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-/// Numbers of one run, as `--stats` writes them: what each room counted, over all frames. A plain value:
+/// Numbers of one run, as `--stats` writes them: the counts of every room, over all frames. A plain value:
 /// code that runs a step adds the counts that the step returned; no step registers itself here.
 struct Statistics {
   ProcessUsage process = {};

@@ -29,8 +29,8 @@ namespace pelage {
 /// Renders a composed frame with the integrator of the scene, see render_frame().
 FrameResult render(const World& world, const Job& job);
 
-/// Writes a rendered frame as EXR, completely or not at all. `seconds`: time it took to make, for the header.
-/// Throws Error (kFailed).
+/// Writes a rendered frame as EXR, completely or not at all. `seconds`: duration of the render, stored in the
+/// header of the file. Throws Error (kFailed).
 void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
                  double seconds, const Job& job);
 

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// What was repaired while a strand file was read.
+/// Repairs made while a strand file was read.
 struct StrandRepairs {
   int64_t dropped = 0;   ///< strands without extent, with too few points, or with non-finite points
   int64_t repaired = 0;  ///< strands with repeated points removed or an unusable width replaced
@@ -34,17 +34,17 @@ struct StrandReadOptions {
   std::optional<float> default_width;  ///< diameter for files without widths, scene units
 };
 
-/// Whether the ending of a name is that of a supported strand format.
+/// Whether the file name has the extension of a supported strand format (.hair or .tfx).
 bool is_strand_file(const std::filesystem::path& path);
 
-/// Reads strands in the format of the name's ending: Cem Yuksel's .hair, TressFX 4's .tfx. Ids are the
-/// strands' indices in the file. Degenerate strands are repaired or dropped, and counted. Throws Error
+/// Reads strands. The file name's extension selects the format: Cem Yuksel's .hair, TressFX 4's .tfx. Ids are
+/// the strands' indices in the file. Degenerate strands are repaired or dropped, and counted. Throws Error
 /// (kInput) with a reason for files that are damaged, of another format, or too short for the sizes that they
-/// claim; memory stays below 1.5 times that of the strands. Attributes: "color", "transparency" (.hair),
-/// "opacity" and "uv" (.tfx).
+/// claim; memory stays below 1.5 times the memory of the strands. Attributes: "color", "transparency"
+/// (.hair), "opacity" and "uv" (.tfx).
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
 
-/// Writes strands in the format of the name's ending, completely or not at all: motion key 0 and the
+/// Writes strands in the format of the file name's extension, completely or not at all: motion key 0 and the
 /// attributes that read_strands returns, without basis and ids. A .tfx file has one width per strand: the max
 /// along it. Throws Error (kFailed), also for strands that the format cannot represent: different numbers of
 /// points in .tfx.

@@ -73,7 +73,7 @@ class RawStrands {
 
 std::unique_ptr<RawStrands> open_hair(const std::filesystem::path& path, const StrandReadOptions& options);
 std::unique_ptr<RawStrands> open_tfx(const std::filesystem::path& path, const StrandReadOptions& options);
-/// Selects the format by the file name's ending. Throws Error (kInput).
+/// Selects the format by the file name's extension. Throws Error (kInput).
 std::unique_ptr<RawStrands> open_raw_strands(const std::filesystem::path& path,
                                              const StrandReadOptions& options);
 void write_hair(const std::filesystem::path& path, const Strands& strands);

@@ -13,7 +13,7 @@ namespace pelage {
 
 /// Renders the scene once per model and light, and traces a single fibre of each model. `models`: names from
 /// fibre_model_names(). Tables that models need are kept in `folder`/tables. Replaces the materials of
-/// `assets`. When the user stops the job, the result holds what was finished until then. Throws Error.
+/// `assets`. When the user stops the job, the result holds the finished part. Throws Error.
 Comparison compare_models(const SceneDescription& scene, Assets& assets,
                           const std::vector<std::string>& models, const std::filesystem::path& folder,
                           const Job& job);

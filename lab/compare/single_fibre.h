@@ -29,8 +29,8 @@ struct SingleFibre {
 /// The result is the same for any number of threads.
 SingleFibre compare_single_fibre(const std::string& model, const MaterialParams& material, const Job& job);
 
-/// A row per fibre: map of sin(theta_i) and phi of the model, that of the traced light, and both around the
-/// fibre as a polar plot.
+/// A row per fibre: the model's map over sin(theta_i) and phi, the same map of the traced light, and a polar
+/// plot of both around the fibre.
 Picture single_fibre_sheet(const std::vector<SingleFibre>& fibres);
 
 }  // namespace pelage

@@ -11,7 +11,7 @@
 namespace pelage {
 
 /// Results of `measure bounds`: outcomes in display order, first the strategies, then one per switch; and the
-/// difference of each picture from that of strategy none (empty where one of them failed).
+/// difference of each picture from the picture of strategy none (empty if either run failed).
 struct BoundsResults {
   std::vector<Outcome> outcomes;
   size_t strategies = 0;  ///< number of outcomes, from the first, that are strategies

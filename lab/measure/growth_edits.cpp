@@ -32,7 +32,7 @@ std::vector<std::filesystem::path> layers_of(const std::string& groom, const Gro
   return layers;
 }
 
-/// Simulates an edit of operator `place`: removes its results and those of the operators after it.
+/// Simulates an edit of operator `place`: removes the results of this operator and of all operators after it.
 void remove_cached_from(size_t place, const std::string& groom, const GroomParams& params,
                         const std::filesystem::path& cache) {
   const auto layers = layers_of(groom, params, cache);

@@ -15,7 +15,7 @@ struct PictureError {
   double surface_share = 0;  ///< fraction of pixels with any alpha in `a`
   double rel_mse = 0;  ///< over pixels with alpha: mean of (x - a)(x - b) / (t^2 + 0.01 m^2) over channels,
                        ///< with t = (a + b) / 2 and m the mean of t over these pixels
-  double bias = 0;     ///< mean luminance of x over these pixels, relative to that of t, minus 1
+  double bias = 0;     ///< mean luminance of x over these pixels, relative to the same mean of t, minus 1
   double samples = 0;  ///< mean of the layer `samples` over all pixels; NaN without it
   double surface_samples = 0;  ///< over pixels with alpha
 };
@@ -24,8 +24,8 @@ struct PictureError {
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
 
 /// The same with two tested pictures x and y of independent seeds: their noise is not counted either, only
-/// the error that both share. Here t is the mean over 9 x 9 pixels around each: that of a single pixel is
-/// small where a and b both happen to be too dark, and errors there are not zero on average.
+/// the error that both share. Here t is the mean over 9 x 9 pixels around each: the value of a single pixel
+/// would be small where a and b both happen to be too dark, and errors there are not zero on average.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
                                           const ExrImage& b);
 

@@ -20,7 +20,7 @@ struct LabFur {
 };
 
 /// Grows all coats. Strands get new ids: their indices in the batch. Throws Error (kArguments) when the coats
-/// differ in basis or number of motion keys, or when there is no fur; also what growing throws.
+/// differ in basis or number of motion keys, or when there is no fur. Passes on errors of growth.
 LabFur grow_lab_fur(const RenderScene& scene, const Job& job);
 
 /// Stores it beside a measurement for the participating processes. Throws Error (kFailed) when it cannot be

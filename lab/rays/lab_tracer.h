@@ -58,7 +58,7 @@ struct LabResult {
 /// kind.
 LabResult trace_lab_rays(const LabVariant& variant, const ContentStore& store, const Job& job);
 
-/// Fills the folder. Throws what growing throws.
+/// Fills the folder. Passes on errors of growth.
 LabResult prepare_lab(const RenderScene& scene, const ContentStore& store, size_t max_rays, const Job& job);
 
 }  // namespace pelage

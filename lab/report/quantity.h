@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// What a number of a report measures. Decides its unit and format.
+/// The quantity that a number in a report measures; determines its unit and format.
 enum class Quantity {
   kCount,    ///< integers
   kSeconds,  ///< shown in s or ms

@@ -14,7 +14,8 @@ void claim_report_folder(const std::filesystem::path& folder);
 /// Writes report.html, report.json and report.csv. Throws Error (kFailed).
 void write_report(const std::filesystem::path& folder, const Report& report);
 
-/// Writes the plots as figures/figure-NN.svg and removes those of an earlier report. Throws Error (kFailed).
+/// Writes the plots as figures/figure-NN.svg and removes the plots of an earlier report. Throws Error
+/// (kFailed).
 void write_report_figures(const std::filesystem::path& folder, const Report& report);
 
 }  // namespace pelage

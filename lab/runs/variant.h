@@ -13,7 +13,7 @@
 
 namespace pelage {
 
-/// What all variants of an experiment have in common.
+/// Settings that all variants of an experiment share.
 struct MeasureSetup {
   std::filesystem::path program;  ///< run once per variant
   std::filesystem::path folder;   ///< receives all output files

@@ -74,7 +74,7 @@ struct TraceThread {
 ///
 /// A hit is a function of the ray and the geometry only: ties in distance are broken by strand id (then by
 /// part and segment), so that neither the number of threads nor the shape of the tree affects a pixel (law
-/// 1). h is that of the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit is at
+/// 1). h is defined in the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit is at
 /// axis - h * radius * ez. Non-finite rays hit nothing. Thread safety: const members may be called from many
 /// threads at once, each inside a FlushDenormals scope.
 class Accel {

@@ -11,8 +11,8 @@
 namespace pelage {
 namespace {
 
-// Testing learned boxes before a visit, which is cheap, is worthwhile only where they are this many times
-// finer than the given ones; before a chunk is grown, always.
+// Before a visit, which is cheap, testing learned boxes is worthwhile only if they are this many times finer
+// than the given ones. Before a chunk is grown, it is always worthwhile.
 constexpr size_t kFiner = 8;
 constexpr uint32_t kUnknown = ~0u;  // number of boxes for a chunk without fine ones
 
@@ -66,8 +66,8 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   const ChunkBoxes& boxes = chunks_.boxes();
   ChunkWalk walk(*boxes.tree(), ray, order);
   const bool any = order == ChunkWalk::Order::kLongestFirst;
-  // Where the ray enters the chunk by what is known of it; infinity when it does not. `met` becomes the
-  // number of fine ones that a ray meets which looks for anything in its way.
+  // Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
+  // that looks for any blocker, `met` becomes the number of fine boxes that it intersects.
   const auto enter = [&](uint32_t chunk, float entry, bool resident, uint32_t& met) {
     const PartBoxes* learned = boxes.learned(chunk);
     if (learned && (!resident ||
@@ -115,7 +115,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
   }
   thread.counts.box_tests += walk.box_tests();
   if (!goes_on) return;
-  // Nearest first, or for occlusion what most likely blocks the ray: skins, then chunks with the most
+  // Nearest first; for occlusion, the most likely blockers first: skins, then chunks with the most
   // intersected boxes.
   using Waiting = Scratch::Waiting;
   std::sort(scratch.waiting.begin(), scratch.waiting.end(), [any](const Waiting& a, const Waiting& b) {

@@ -14,20 +14,20 @@
 namespace pelage {
 
 /// Accel over geometry that exists only while something needs it. A ChunkTree says which chunks a ray may
-/// meet, ResidentChunks grow and drop them, and a ChunkGeometry is what one of them holds.
+/// meet, ResidentChunks grow and drop them, and a ChunkGeometry is the content of one resident chunk.
 ///
 /// A ray visits the resident chunks first, front to back, then those of the others that it still reaches;
 /// each at most once. A chunk that is not resident is grown only for rays that intersect one of its fine
 /// boxes, if it has any, in front of the nearest hit so far. The geometry that is hit is copied while the
 /// chunk is pinned. Results depend neither on the budget, nor on the boxes as long as they contain their
-/// chunks, nor on what is resident.
+/// chunks, nor on which chunks are resident.
 ///
-/// Errors of a grower pass through closest() and transmittance().
-/// Thread safety: as Accel; each TraceThread::worker is used by one thread at a time, and by a visit of
-/// chunks() or a ray at a time.
+/// Errors of a grower pass through closest() and transmittance(). Thread safety: as Accel; each
+/// TraceThread::worker is used by one thread at a time, for one ray or one visit of chunks() at a time.
 class ChunkAccel final : public Accel {
  public:
-  /// As ResidentChunks, made when what rays need beside them is charged: the least budget includes that.
+  /// Arguments as for ResidentChunks. Charges the memory that rays need before it makes the chunks, so that
+  /// the smallest sufficient budget includes it.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ResidentChunksOptions& options,
              const Job& job);
   ~ChunkAccel() override;
@@ -37,7 +37,7 @@ class ChunkAccel final : public Accel {
   bool opaque() const override { return chunks_.opaque(); }
   Box3f bounds() const override { return chunks_.boxes().tree()->bounds(); }
 
-  /// What the rays go through.
+  /// The chunks that rays are traced through.
   const ResidentChunks& chunks() const { return chunks_; }
 
  private:

@@ -31,7 +31,7 @@ struct NearestSoFar {
   }
 };
 
-/// What a chunk holds while it is resident: ready for rays, and strand by strand. Thread safety: const
+/// The content of a resident chunk, for ray tracing and for access strand by strand. Thread safety: const
 /// members from any thread, each inside a FlushDenormals scope.
 class ChunkGeometry : public Resident {
  public:
@@ -41,12 +41,12 @@ class ChunkGeometry : public Resident {
   /// Adds the semi-transparent crossings of a ray; false when an opaque one blocks it.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
 
-  /// Strands with a segment at least; 0 of a skin.
+  /// Number of strands with at least one segment; 0 for a skin.
   virtual size_t strand_count() const = 0;
   virtual StrandKey strand_key(uint32_t index) const = 0;
-  /// Strand `index` becomes the only one of `out`, whose memory is reused: the curve that rays meet, at all
-  /// motion keys, in world space, with its id, its root and its attributes; the same bytes that closest()
-  /// leaves in `met`.
+  /// Makes strand `index` the only one of `out`, whose memory is reused: the curve that rays hit, at all
+  /// motion keys, in world space, with its id, its root and its attributes. Bit-identical to the strand that
+  /// closest() stores in `met`.
   virtual void strand(uint32_t index, Strands& out) const = 0;
   /// Ray::start of a ray that leaves strand `index` at `place`: segment + parameter in it.
   virtual StrandStart start_on(uint32_t index, float place) const = 0;

@@ -37,8 +37,9 @@ struct ChunkCounts {
   size_t growth_bytes = 0;  ///< temporary memory of grow(), without the contents
 };
 
-/// The chunks of a frame by number: what each holds, how much that is and how to make it, whatever makes it.
-/// Thread safety: all members may be called from many threads at once.
+/// Makes the contents of the chunks of a frame, which are numbered, and bounds their size in advance. An
+/// interface, so that contents may come from any source. Thread safety: all members may be called from many
+/// threads at once.
 class ChunkGrower {
  public:
   virtual ~ChunkGrower() = default;

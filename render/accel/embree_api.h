@@ -2,7 +2,8 @@
 // Tested in tests/render/accel/embree_accel_test.cpp.
 #pragma once
 
-// The only file that includes Embree or knows its version: 3.13 and 4 differ in how a query is described.
+// The only file that includes Embree or depends on its version: 3.13 and 4 differ in how a query is
+// described.
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

@@ -16,8 +16,8 @@ class Workers;
 /// immutable; each query inside a FlushDenormals scope.
 class EmbreeFur {
  public:
-  /// Reads the strands in place. Charges the curves in Embree's form and its tree to MemoryTag::kChunks.
-  /// `tessellation_rate`: pieces per segment.
+  /// Reads the strands in place: they must outlive this object. Charges Embree's tree and the curve data made
+  /// for Embree to MemoryTag::kChunks. `tessellation_rate`: pieces per segment.
   EmbreeFur(const Strands& strands, bool compact, int tessellation_rate, MemoryLedger& ledger,
             const Workers& workers);
   ~EmbreeFur();

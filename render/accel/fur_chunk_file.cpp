@@ -20,7 +20,7 @@ constexpr size_t kMaxHead = size_t(1) << 20;
 
 enum Section : size_t { kHead, kPacked, kNodes, kLeaves };
 
-/// Metadata of a chunk, before those of its packed strands.
+/// Metadata of a chunk, followed by the metadata of its packed strands.
 struct Head {
   uint32_t version, part, layout;
   int32_t motion_keys;

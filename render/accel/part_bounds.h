@@ -13,7 +13,7 @@ namespace pelage {
 
 /// Boxes of about `segments_per_part` neighbouring segments or triangles each, at most `max_parts`, over the
 /// whole shutter; linear in time when there is motion. Parts ignore strands: the box of pieces of many
-/// strands is much smaller than that of a few whole strands.
+/// strands is much smaller than the box of a few whole strands.
 ChunkBounds part_bounds(const ChunkContents& contents, size_t segments_per_part, size_t max_parts);
 /// Enlarges the boxes at shutter open and close so that the interpolated box contains `inside` at `time`.
 void hold_at(Box3f& open, Box3f& close, const Box3f& inside, float time);

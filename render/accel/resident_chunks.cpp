@@ -29,7 +29,7 @@ ResidentChunks::ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrowe
     charges_.emplace_back(job.ledger, MemoryTag::kChunks, static_cast<int64_t>(bytes));
   };
   charge(boxes_.bytes_bound() + size() * sizeof(build_pages_[0]));
-  // The least budget is asked for when all else is there.
+  // The residency checks the smallest sufficient budget, so everything else is charged first.
   if (!options_.eager) {
     boxes_.build_tree(job.workers);
     charge(boxes_.tree()->bytes());
@@ -46,7 +46,7 @@ ResidentChunks::ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrowe
   charge(boxes_.tree()->bytes());
 }
 
-/// What Embree's chunks share is charged before anything is grown.
+/// Charges the arrays that Embree's chunks share before any chunk is grown.
 void ResidentChunks::expect_patterns() {
   for (uint32_t chunk = 0; chunk < size(); ++chunk) {
     if (boxes_.in_fur_tree(chunk) || is_skin(chunk)) continue;
@@ -76,7 +76,7 @@ size_t ResidentChunks::reserve_bytes(uint32_t chunk) const {
 }
 
 Grower::Grown ResidentChunks::grow(uint32_t chunk) {
-  // One thread at a time grows a chunk, so nobody else stores what is learned.
+  // Only one thread at a time grows a given chunk, so no other thread stores its boxes.
   const bool learns = boxes_.may_learn(chunk) && !boxes_.learned(chunk);
   if (is_stored(chunk)) {
     const auto warn = [this](const std::string& line) { progress_.warn(line); };
@@ -85,7 +85,7 @@ Grower::Grown ResidentChunks::grow(uint32_t chunk) {
       const size_t bytes = fur->bytes();
       return {std::move(fur), bytes};
     }
-    // It is no longer in the file: growing it needs more memory than was estimated for reading it.
+    // The chunk is no longer in the file: growing it needs more memory than was estimated for reading it.
     const size_t needed = reserve_bytes(chunk);
     if (needed > options_.file->bytes_bound(chunk)) return {nullptr, needed};
   }

@@ -35,7 +35,7 @@ struct ResidentChunksOptions {
 };
 
 /// The chunks of a frame. A chunk is grown when it is visited, dropped when the memory limit needs its room,
-/// and grown again at the next visit. A visit sees the same contents whatever the limit and whatever is
+/// and grown again at the next visit. A visit sees the same contents for every limit, whichever chunks are
 /// resident. ChunkAccel traces rays through the chunks; code that needs strands rather than rays visits one
 /// chunk after the other.
 ///
@@ -51,8 +51,8 @@ class ResidentChunks final : private Grower {
   /// `bounds`: one per chunk, over the whole shutter; with `eager` only their number is used, because boxes
   /// are measured on the grown chunks. `grower` and `job.progress`, which receives warnings of damaged chunks
   /// in the file, must outlive this object. If `job.progress` is cancelled during construction, no chunk may
-  /// be visited. Throws Error (kMemory) when the limit is too small and, with `eager`, what the grower
-  /// throws.
+  /// be visited. Throws Error (kMemory) when the limit is too small. With `eager`, passes on exceptions of
+  /// the grower.
   ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
                  const ResidentChunksOptions& options, const Job& job);
 

@@ -91,10 +91,11 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
 bool Camera::may_see(const Box3f& box) const {
   if (box.isEmpty()) return false;
   const float aspect = static_cast<float>(width_) / static_cast<float>(height_);
-  // Corners outside of each half space, over all keys: behind, left, right, below, above. What is beyond one
-  // border at every key is beyond it between them. From a point a of the lens one sees past a border by
-  // a (1 - depth / focus) to the side; the distance by which a place is beyond a border from everywhere on
-  // the lens is concave, so that a box is beyond it when its corners are.
+  // Number of corners outside of each half space, over all keys: behind, left, right, below, above. A box
+  // that is beyond a border at every key is beyond it between the keys too. Seen from a point a of the lens,
+  // a border is shifted sideways by a (1 - depth / focus). The distance by which a point is beyond a border
+  // for the whole lens is a concave function of the point, so a box is beyond the border when all its corners
+  // are.
   size_t outside[5] = {};
   for (const Pose& pose : keys_) {
     for (int corner = 0; corner < 8; ++corner) {

@@ -19,7 +19,7 @@ struct ConeShellMaterial {
   /// not flicker. Clamped to the strand.
   float tangent_place(LobeGroup lobe, float v, uint64_t strand_id, uint64_t seed) const;
 
-  float diffuse;  ///< where not given: what the highlights of a white fibre leave over
+  float diffuse;  ///< where not given: the energy that a white fibre's highlights do not use
   float balance;
   Rgb primary;
   Rgb secondary;

@@ -44,7 +44,7 @@ bool has_given_absorption(const MedullaParams& params) {
 }
 
 /// Whether the colour is converted to absorption through the colour of dense fur. Chiang fibres, which define
-/// that colour, and those of d'Eon, which look the same from afar, have a formula.
+/// that colour, and d'Eon fibres, which look the same from afar, have a formula instead.
 bool takes_coat_color(const MaterialParams& params) {
   return std::visit(Overloaded{[](const ConeShellParams& p) { return !p.diffuse; },
                                [](const LambertCylinderParams& p) { return !p.albedo; },

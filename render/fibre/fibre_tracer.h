@@ -12,7 +12,7 @@ namespace pelage {
 struct TracedFibre {
   float eta = 1.55f;
   float layers = 0;      ///< of the cuticle, see cuticle_reflectance(); 0: one smooth interface
-  float medulla = 0;     ///< kappa: radius of the core over that of the fibre
+  float medulla = 0;     ///< kappa: radius of the core / radius of the fibre
   float scattering = 0;  ///< sigma_ms of the medulla
   float anisotropy = 0;  ///< g of Henyey-Greenstein
 };

@@ -16,10 +16,10 @@ class KajiyaKayMaterial {
  public:
   explicit KajiyaKayMaterial(const KajiyaKayParams& params);
 
-  float diffuse;  ///< where not given: what the highlight of a white fibre leaves over
+  float diffuse;  ///< albedo; by default 1 minus the max component of `specular`
   Rgb specular;
   float exponent;
-  LongitudinalLobe proposal;  ///< density used to sample the highlight; bounds it up to a constant factor
+  LongitudinalLobe proposal;  ///< density for sampling the highlight; times a constant, an upper bound of it
 
   /// K_p(theta_o) = 2 pi integral of max(0, cos(theta_i + theta_o))^p cos(theta_i) d theta_i.
   float specular_norm(float sin_theta_o, float cos_theta_o) const;
@@ -30,8 +30,8 @@ class KajiyaKayMaterial {
 };
 
 /// A diffuse term A_d cos(theta_i) / pi^2, and the highlight A_s max(0, cos(theta_i + theta_o))^p / K_p of
-/// [KajiyaKay89, section 4.3], normalised so that A_d and A_s are albedos. Uniform around the fibre. Refers
-/// to `material`.
+/// [KajiyaKay89, section 4.3], normalised so that A_d and A_s are albedos. Uniform around the fibre.
+/// `material` must outlive this object.
 class KajiyaKayBsdf {
  public:
   KajiyaKayBsdf(const KajiyaKayMaterial& material, const Rgb& color, const FibreFrame& frame);

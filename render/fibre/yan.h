@@ -33,7 +33,7 @@ struct MedullaCrossing {
 
 /// The part that `yan` and `yan-fast` share: everything except the lobe of scattered light.
 ///
-/// Longitudinal functions are those of d'Eon with the variances of the paper's Gaussians, so that energy is
+/// Longitudinal functions have d'Eon's form and the variances of the paper's Gaussians, so that energy is
 /// exact. There is no variant with the Gaussians themselves: at a width of 10 degrees they lose 2 % of the
 /// light across the fibre and 6 % of light from 1.3 radians. R is a product, whereas the cone and the width
 /// of [Yan17] vary with the azimuth: light traced through a smooth cylinder without tilt shows no such

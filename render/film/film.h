@@ -18,7 +18,7 @@ namespace pelage {
 
 inline constexpr uint32_t kNoStrand = 0xffffffffu;
 
-/// The first surface that a camera ray hit. Defaults are those of an empty pixel.
+/// The first surface that a camera ray hit. Default values describe an empty pixel.
 struct VisibleSurface {
   float depth = std::numeric_limits<float>::infinity();  ///< along the camera axis
   V3f normal{0};                                         ///< unit, world space

@@ -14,21 +14,23 @@ const Schema<ImageParams>& ImageParams::schema() {
           {.help = "Pixel filter: `box` is one pixel wide, `blackman-harris` three"});
     s.key(
         "filter_samples", &ImageParams::filter_samples,
-        {.help = "`drawn`: the filter chooses where each sample of a pixel lies, and pixels are independent "
-                 "of each other. `splatted`: samples are spread evenly, and each one counts for all pixels "
-                 "near it. With `blackman-harris` this halves the variance at the same number of samples, "
-                 "but the noise of neighbouring pixels is correlated. There are no samples beyond the border "
-                 "of the picture, so the filter of the outermost pixels ends there. Not available with "
-                 "`adaptive`",
+        {.help = "`drawn`: sample positions are drawn from the filter (filter importance sampling); each "
+                 "sample counts for one pixel only, so pixels are independent of each other. `splatted`: "
+                 "samples are distributed uniformly, and each sample is added to every pixel whose filter "
+                 "covers it. With `blackman-harris` this halves the variance at the same number of samples, "
+                 "but the noise of neighbouring pixels is correlated. No samples are taken outside the "
+                 "picture, so the filters of the outermost pixels are cut off at its border. Not available "
+                 "with `adaptive`",
          .default_text = "drawn; splatted with `integrator: gather`"});
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
-    s.key("noise_layers", &ImageParams::noise_layers,
-          {.help =
-               "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of "
-               "the luminance). Adaptive sampling always adds them. With `filter_samples: splatted`, `noise` "
-               "covers only the samples of the pixel itself and is too high: about 1.5 times with "
-               "`blackman-harris`. Not available with `integrator: gather`, whose samples share light"});
+    s.key(
+        "noise_layers", &ImageParams::noise_layers,
+        {.help =
+             "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of the "
+             "luminance). Adaptive sampling always adds them. With `filter_samples: splatted`, `noise` is "
+             "computed from the pixel's own samples only and is too high: with `blackman-harris`, about "
+             "1.5 times the true error. Not available with `integrator: gather`, whose samples share light"});
     s.key("lod_layer", &ImageParams::lod_layer,
           {.help = "Adds the layer `lod`: the fraction of strands that render.lod removed at the front-most "
                    "surface, 0 on skins. `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});

@@ -14,7 +14,7 @@
 
 namespace pelage {
 
-/// How the samples of a picture meet the pixel filter (image.filter_samples).
+/// How the pixel filter is applied to the samples of a picture (image.filter_samples).
 enum class FilterSamples {
   kDrawn,    ///< the filter of a pixel draws the position of each sample, which counts for that pixel alone
   kSplatted  ///< samples lie evenly; each counts for all pixels around it, weighted by their filters
@@ -30,7 +30,7 @@ struct ImageParams {
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
   std::optional<FilterSamples> filter_samples;  ///< empty: kSplatted with the gather integrator, else kDrawn
-  bool light_layers = true;  ///< one layer per light x lobe group
+  bool light_layers = true;                     ///< one layer per light x lobe group
   bool noise_layers = false;
   bool lod_layer = false;
   static const Schema<ImageParams>& schema();

@@ -9,7 +9,7 @@ namespace {
 
 int tiles_along(int pixels) { return (pixels + FilmSums::kTileSide - 1) / FilmSums::kTileSide; }
 
-/// Pixels by which a sample anywhere in its pixel may count for others.
+/// Max distance, in pixels, from a sample's own pixel to another pixel that it counts for.
 int reach_of(std::optional<PixelFilter> splat) {
   return splat ? static_cast<int>(std::ceil(filter_radius(*splat) - 0.5f)) : 0;
 }

@@ -64,7 +64,7 @@ class FilmSums {
 class FilmSums::Footprint {
   friend class FilmSums;
   struct Axis {
-    int first = 0;  // pixel, relative to that of the sample
+    int first = 0;  // pixel, relative to the sample's pixel
     int count = 1;
     std::array<float, 3> weights{1};
   };

@@ -34,8 +34,8 @@ class FrameChunks final : public ChunkGrower {
   size_t size() const { return leaves_.size() + pieces_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
-  /// The boxes of all chunks by the strategy of the scene; those of skins are the hulls of their control
-  /// points. `counts`: of leaves. Throws what growing throws, Error (kMemory) before growing anything that
+  /// The boxes of all chunks by the strategy of the scene; a skin's box is the hull of its control points.
+  /// `counts`: of leaves. Passes on errors of growth; throws Error (kMemory) before growing anything that
   /// does not fit. When cancelled, chunks have no boxes.
   std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
   /// Whether strands are stored in fur trees, which need no boxes of parts above them.

@@ -20,7 +20,7 @@ class FrameGeometry {
                                                    FrameStatistics& statistics);
 
   const Accel& accel() const { return accel_; }
-  /// The same chunks, for who wants strands and boxes of them.
+  /// The same chunks, for callers that need strands and boxes.
   const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Whether all chunks together fit the budget, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }

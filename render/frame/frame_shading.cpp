@@ -35,8 +35,9 @@ std::optional<Rgb> constant_of(const Field& field) {
   return field.is_constant() ? std::optional(field.color({})) : std::nullopt;
 }
 
-// Max distance along a fibre, in radii, from where a ray passes the axis to its assumed entry. Beyond 83
-// degrees a fibre is not a cylinder over that length.
+// Max distance along a fibre, in radii, from the point where a ray passes the axis to the point where it is
+// assumed to enter. For inclinations beyond 83 degrees, the distance would be so long that the fibre is not a
+// straight cylinder over it.
 constexpr float kFarthestEntry = 8;
 
 /// Distance along the tangent, in radii, from the nearest point to the axis to where a ray entered the
@@ -74,9 +75,9 @@ class ViewRandom {
   uint64_t seen_;
 };
 
-/// One of the strands that a strand with reduced detail represents, from which light continues. If it
-/// continued from the wide strand itself, its path would be as free as the line of sight, and the space of
-/// the omitted strands empty.
+/// One of the strands that a strand with reduced detail represents, from which light continues. If light
+/// continued from the wide strand itself, its path would be as unobstructed as the line of sight: the space
+/// of the omitted strands would count as empty.
 struct RepresentedStrand {
   V3f away{0};
   bool can_hit_own_strand = false;

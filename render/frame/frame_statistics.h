@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-/// What rendering a frame took, or several frames one after the other. A value: each part is filled by the
+/// Cost of rendering one frame, or several frames one after the other. A value: each part is filled by the
 /// room that counts it.
 struct FrameStatistics {
   GrowthCounts growth;

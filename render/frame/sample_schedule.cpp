@@ -17,7 +17,7 @@ uint32_t limited(double count, uint32_t min, uint32_t max_samples) {
   return std::max(min, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(max_samples))));
 }
 
-/// Fraction of the pilot used to find pixels where anything varies.
+/// Fraction of the pilot that is used to find pixels with any variance.
 constexpr uint32_t kProbeShare = 4;
 
 Pilot pilot_of(const Film& film) {

@@ -53,7 +53,8 @@ void GatherLoop::run() {
   const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
   job_.progress.begin("render", pixels * (samples + (previews ? 1 : 0)));
   End end = previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : End::kDone;
-  const double deadline = limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
+  const double deadline =
+      limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
   for (uint32_t given = 0; given < samples && end == End::kDone;) {
     const uint32_t wanted = std::min(tile_.max_samples(), samples - given);
     const uint32_t count = fitting(wanted, given + (previews ? 1 : 0));

@@ -117,7 +117,9 @@ bool GatherTile::trace_lights(size_t first, const Job& job, Scratch& scratch) co
   const bool reuse = scene_.render.gather.reuse;
   scratch.pixel_light.assign(samples.fronts.size(), 0);
   double tile_light = 0;
-  const auto layer = [&](const LightRay& ray) { return samples.layer_of_knot[samples.points[ray.point].knot]; };
+  const auto layer = [&](const LightRay& ray) {
+    return samples.layer_of_knot[samples.points[ray.point].knot];
+  };
   scratch.order.clear();
   for (size_t i = first; i < samples.light_rays.size(); ++i) {
     const LightRay& ray = samples.light_rays[i];
@@ -214,7 +216,8 @@ int64_t GatherTile::add_to(Film& film, Scratch& scratch) const {
     for (; seen < samples.seen_lights.size() && samples.seen_lights[seen].sample == index; ++seen) {
       sample.radiance += samples.seen_lights[seen].radiance;
       if (!layers_.empty()) {
-        scratch.by_layer[layers_.emitted(samples.seen_lights[seen].light)] += samples.seen_lights[seen].radiance;
+        scratch.by_layer[layers_.emitted(samples.seen_lights[seen].light)] +=
+            samples.seen_lights[seen].radiance;
       }
     }
     const uint32_t number = samples.samples[index].point;

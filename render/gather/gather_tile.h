@@ -66,10 +66,10 @@ struct GatherTile::Scratch final : SampleScratch {
   LightSharing lights;
   PathSharing paths;
   DirectLightScratch direct;
-  std::vector<uint64_t> order;         // points by knot and light
-  std::vector<double> masses;          // of light rays, in that order
-  std::vector<double> pixel_light;     // mean unoccluded luminance of the points of each pixel
-  std::vector<Rgb> arriving;           // by light: of one path
+  std::vector<uint64_t> order;      // points by knot and light
+  std::vector<double> masses;       // of light rays, in that order
+  std::vector<double> pixel_light;  // mean unoccluded luminance of the points of each pixel
+  std::vector<Rgb> arriving;        // by light: of one path
 };
 
 }  // namespace pelage

@@ -11,8 +11,8 @@ namespace pelage {
 /// Fraction of the light of each source that reaches the points of each knot, from shadow rays of some of the
 /// points.
 ///
-/// Shadow rays are an unbiased sample of the unoccluded light (SystematicChoice). With `seen` the sum over the
-/// rays of a knot of the unoccluded light that each stands for, `arrived` what is left of it in front of
+/// Shadow rays are an unbiased sample of the unoccluded light (SystematicChoice). With `seen` the sum over
+/// the rays of a knot of the unoccluded light that each stands for, `arrived` what is left of it in front of
 /// blockers, U the exact unoccluded light of the knot, and p a guess, the fraction is
 ///   p + (arrived - p * seen) / U.
 /// On average it is right for any p that does not depend on these rays: p * seen varies as arrived does, so

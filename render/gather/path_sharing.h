@@ -13,8 +13,8 @@ namespace pelage {
 /// Indirect light that arrives at the points of each knot, from paths of some of the points: by light and
 /// lobe group, the mean radiance by which the weights of a point's own direction are multiplied.
 ///
-/// The same estimate as that of LightSharing, with the weights (rho / pdf) of all points of a knot in place of
-/// unoccluded light, and radiance in place of the fraction that arrives.
+/// The same estimate as that of LightSharing, with the weights (rho / pdf) of all points of a knot in place
+/// of unoccluded light, and radiance in place of the fraction that arrives.
 class PathSharing {
  public:
   void begin(size_t knots, uint32_t layers, size_t lights, bool guess);
@@ -35,10 +35,10 @@ class PathSharing {
 
   size_t lights_ = 0;
   bool guess_ = true;
-  std::vector<Weights> weights_;     // by knot
-  std::vector<Rgb> arrived_;         // by knot, light and group
-  std::vector<Rgb> layer_traced_;    // by layer
-  std::vector<Rgb> layer_arrived_;   // by layer and light
+  std::vector<Weights> weights_;    // by knot
+  std::vector<Rgb> arrived_;        // by knot, light and group
+  std::vector<Rgb> layer_traced_;   // by layer
+  std::vector<Rgb> layer_arrived_;  // by layer and light
 };
 
 }  // namespace pelage

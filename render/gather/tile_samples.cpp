@@ -19,7 +19,8 @@ void TileSamples::clear() {
 
 size_t TileSamples::bytes_per_sample(size_t lights) {
   // Each light is either seen directly or scattered by a point; each of its rays has an entry in an order.
-  const size_t light = std::max(sizeof(SeenLight), sizeof(LightRay) + kLobeGroups * sizeof(Rgb) + sizeof(uint64_t));
+  const size_t light =
+      std::max(sizeof(SeenLight), sizeof(LightRay) + kLobeGroups * sizeof(Rgb) + sizeof(uint64_t));
   return sizeof(Sample) + sizeof(VisiblePoint) + lights * light;
 }
 

@@ -28,7 +28,7 @@ struct VisiblePoint {
   uint32_t random = 0;     ///< PathState::random
   StrandStart start = {};  ///< Hit::start; empty where rays may hit their own strand
 
-  LeavingRay scattered;   ///< a direction drawn from the lobes
+  LeavingRay scattered;      ///< a direction drawn from the lobes
   Rgb weights[kLobeGroups];  ///< rho / pdf of that direction, by lobe group; all 0: none was drawn
 
   Ray ray(const LeavingRay& leaving) const {
@@ -47,7 +47,7 @@ struct VisiblePoint {
 /// proportion to the luminance that they scatter to the camera.
 struct LightRay {
   uint32_t point = 0, light = 0;  ///< indices
-  float unoccluded = 0;           ///< luminance that all of the light scatters to the camera if nothing blocks it
+  float unoccluded = 0;  ///< luminance that all of the light scatters to the camera if nothing blocks it
   LeavingRay ray;
 };
 
@@ -77,7 +77,8 @@ struct TileSamples {
   std::vector<Front> fronts;  ///< by pixel
   std::vector<VisiblePoint> points;
   std::vector<LightRay> light_rays;  ///< point by point, at most one per light
-  std::vector<Rgb> unoccluded;  ///< by point, light and lobe group: scattered to the camera if nothing blocks it
+  std::vector<Rgb>
+      unoccluded;  ///< by point, light and lobe group: scattered to the camera if nothing blocks it
   std::vector<uint32_t> layer_of_knot;
   uint32_t layers = 0;  ///< number of different layers of knots
 

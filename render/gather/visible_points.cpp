@@ -88,8 +88,7 @@ void VisiblePoints::look(int x, int y, uint32_t pixel, uint32_t sample, Scratch&
 
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
-  const KnotKey key =
-      keys_.of(hit, trace.thread.met, {unit_float(random), unit_float(mix64(random))});
+  const KnotKey key = keys_.of(hit, trace.thread.met, {unit_float(random), unit_float(mix64(random))});
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
@@ -129,7 +128,8 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
 
   direct_.begin(point, scratch.direct);
   seek(stream, kLight);
-  direct_.propose(point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
+  direct_.propose(
+      point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
   for (const LightPoint& to : scratch.direct.points) {
     propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
   }

@@ -85,10 +85,10 @@ class DirectLight {
   static constexpr uint32_t kCandidates = 4;
   static constexpr float kGolden = 0.6180339887f;
 
-  /// Density assigned to points on a light in the weights against lobe sampling, given that of one point. All
-  /// candidate points count where a lobe would rarely hit the light, although only some of them get a shadow
-  /// ray: small bright lights cause the noise of long paths. Every ray that leaves the scene hits an
-  /// environment, so only shadow rays count there.
+  /// Density assigned to points on a light in the weights against lobe sampling, given the density of one
+  /// point. All candidate points count where a lobe would rarely hit the light, although only some of them
+  /// get a shadow ray: small bright lights cause the noise of long paths. Every ray that leaves the scene
+  /// hits an environment, so only shadow rays count there.
   float competing_pdf(float pdf, float distance) const {
     const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
     return pdf * points * static_cast<float>(rays_);

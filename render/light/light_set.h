@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// The lights of a scene, and random selection among them. Hit tests and pdfs include the selection, so that
-/// "light selection also uses MIS". Thread safety: const members from any thread.
+/// The lights of a scene, and random selection among them. Callers multiply the pdf of a light by the
+/// probability of its selection, also when a scattered ray hits the light, so that MIS accounts for the
+/// selection. Thread safety: const members from any thread.
 class LightSet {
  public:
   explicit LightSet(std::vector<std::unique_ptr<Light>> lights);
@@ -33,11 +34,12 @@ class LightSet {
   void probabilities(const V3f& from, std::span<float> out) const;
 
   /// The same for lobes that scatter with density `lobes(direction)` per solid angle: lights in directions of
-  /// strong scattering are selected more often. A narrow lobe that points at a small bright light with a low
-  /// probability of selection causes the brightest noise of paths through fur. Half of each importance
-  /// ignores the density, since the middle of a large light says little about the rest of it. There is no
-  /// bound on cos(theta_i): it would dim lights along the fibre, although R, TT and TRT scatter these as
-  /// brightly as others when the fibre is seen at a slant.
+  /// strong scattering are selected more often. Otherwise, narrow lobes that point at small bright lights
+  /// with a low probability of selection would cause the brightest noise of paths through fur. Half of each
+  /// importance ignores the density, since the middle of a large light says little about the rest of it.
+  /// Importances have no factor that bounds cos(theta_i). Such a factor would lower the importance of lights
+  /// along the fibre. But when the fibre is seen at a slant, R, TT and TRT scatter light from there as
+  /// brightly as from other directions.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
     importances(from, out);

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// A rectangle in space. `x` and `y` are unit and perpendicular; it emits towards x cross y.
+/// A rectangle in space. `x` and `y` are perpendicular unit vectors; the rectangle emits towards x cross y.
 struct Rectangle {
   V3f center{0};
   V3f x{1, 0, 0};
@@ -13,8 +13,8 @@ struct Rectangle {
   V2f half_size{0.5f};
 };
 
-/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]; by area where it is so small
-/// that its angles cancel in rounding.
+/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]. From points where its solid
+/// angle is too small to be computed accurately, it is sampled by area instead.
 class RectangleLight final : public Light {
  public:
   RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);

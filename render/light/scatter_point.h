@@ -13,18 +13,19 @@
 
 namespace pelage {
 
-/// A vertex of a path: position and scattering, with a common interface for fibres and skins, in terms of
-/// lobe groups and of rho = f cos(theta_i) as in FibreBsdf.
+/// A vertex of a path: position and scattering, with one interface for fibres and skins. As in FibreBsdf,
+/// values are rho = f cos(theta_i), one per lobe group.
 class ScatterPoint {
  public:
-  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface; `h` across it, as
-  /// passed to the fibre's model. Most light leaves at the point of the axis that is `farther` along the
-  /// tangent.
+  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface. `h`: offset of the
+  /// ray across the fibre, -1 to 1, as passed to the fibre's model. `farther`: distance along the tangent
+  /// from `axis` to where most light leaves.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
                const FibreBsdf& bsdf, float farther = 0)
       : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
-  /// The same for a strand that represents many: light leaves one of them, which is `away` from it; the
-  /// strand itself may block that light (`can_hit_own_strand`).
+  /// The same for a strand that represents many strands with level of detail. Light leaves from one of the
+  /// represented strands, at the offset `away` from `axis`. If `can_hit_own_strand`, the representing strand
+  /// may block that light.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool can_hit_own_strand,
                float h, const FibreBsdf& bsdf)
       : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
@@ -36,7 +37,8 @@ class ScatterPoint {
   ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
 
-  /// Reference point for light sampling, before exit() refines the lines that light takes.
+  /// Point for which lights are sampled. exit() then converts the samples to lines from where light leaves
+  /// the fibre.
   const V3f& position() const { return exit_.center; }
   /// Unit tangent of a fibre, the null vector for a skin.
   const V3f& tangent() const { return exit_.tangent; }

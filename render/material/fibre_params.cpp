@@ -34,8 +34,8 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
   fur: {model: kajiya-kay, color: [0.5, 0.3, 0.15], exponent: 60})");
     add_color_keys(
         s,
-        "Colour of a dense coat, converted to albedo. If diffuse is given, it is not converted: it is the "
-        "colour of the diffuse term");
+        "Colour of a dense coat, converted to albedo. If diffuse is given, color is not converted but used "
+        "as the colour of the diffuse term");
     s.key(
         "diffuse", &P::diffuse,
         {.help = "Albedo of the diffuse term, multiplied by color. Without it, the albedo follows from color",
@@ -64,8 +64,8 @@ const Schema<MarschnerParams>& MarschnerParams::schema() {
     add_eta_key(s);
     s.key("alpha", &P::alpha,
           {.unit = "degrees",
-           .help = "Shift of the R lobe; negative values shift it toward the root. TT is shifted by -1/2 and "
-                   "TRT by -3/2 of it",
+           .help = "Shift of the R lobe; negative values shift it toward the root. TT is shifted by -1/2 "
+                   "and TRT by -3/2 of this angle",
            .min = -20,
            .max = 20});
     s.key("beta", &P::beta,

@@ -49,7 +49,7 @@ struct KajiyaKayParams : FibreParams {
 };
 
 /// Starting points for hair by pigment. The absorption of the pigments was measured; their concentrations are
-/// those of other programs for people, and guesses for animals.
+/// taken from other programs for people, and guessed for animals.
 enum class HairPreset {
   kNone,
   kHumanBlond,

@@ -52,8 +52,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
   fur: {model: cone-shell, color: {attribute: color}})");
     add_color_keys(
         s,
-        "Colour of a dense coat, converted to albedo. If diffuse is given, it is not converted: it is the "
-        "colour of the fibre's lobes");
+        "Colour of a dense coat, converted to albedo. If diffuse is given, color is not converted but used "
+        "as the colour of the fibre's lobes");
     s.key("diffuse", &P::diffuse,
           {.help = "Albedo of the diffuse lobe, multiplied by color. Without it, the albedo follows from "
                    "color, so that a white fibre absorbs nothing",

@@ -35,7 +35,7 @@ struct YanOptics {
   float beta_m = 8;   ///< width of the lobes along the fibre
   float beta_n = 10;  ///< width of the lobes around the fibre
   float eta = 1.55f;
-  float kappa = 0.8f;           ///< radius of the medulla over that of the fibre
+  float kappa = 0.8f;           ///< radius of the medulla / radius of the fibre
   float sigma_ms = 2.5f;        ///< scattering of the medulla
   float g = 0.5f;               ///< mean cosine of the medulla's scattering
   float layers = 0.5f;          ///< of the cuticle; half a layer is one smooth interface

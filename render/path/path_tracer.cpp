@@ -10,7 +10,7 @@ struct PathTracer::Scratch final : SampleScratch {
   DirectLightScratch direct;
 };
 
-/// Adds up what a path brings to its pixel, and divides it among the layers of the film.
+/// Adds up the light that a path contributes to its pixel, and divides it among the layers of the film.
 class PathTracer::FilmSink {
  public:
   FilmSink(const FilmLayers& layers, SampleScratch& scratch) : layers_(layers), scratch_(scratch) {}

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Traces one path after another through a frame (PathWalk) and keeps what each brings to its pixel. A path
-/// is a function of (scene, pixel, number of the sample).
+/// Traces one path after another through a frame (PathWalk) and stores the contribution of each to its pixel.
+/// A path is a function of (scene, pixel, number of the sample).
 class PathTracer final : public SampleIntegrator {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,

@@ -35,9 +35,9 @@ struct PathState {
 };
 
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
-/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes;
-/// roulette is part of the density of the latter. At most `bounces` scatterings follow the first; roulette
-/// may end a path earlier, the more likely the lower its weight (survival()).
+/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes; the
+/// density of that direction includes roulette. At most `bounces` scatterings follow the first; roulette may
+/// end a path earlier, the more likely the lower its weight (survival()).
 ///
 /// A Sink has
 ///   shadow(path, point, factor, through)
@@ -126,9 +126,9 @@ class PathWalk {
   const DirectLight direct_;
 };
 
-/// The density with which sample_lobes() arrives at a light in a direction: that of the lobes, times survival
-/// of roulette. Without the latter, light scattered by a dark surface would be left to a few rays of great
-/// weight.
+/// The density with which sample_lobes() arrives at a light in a direction: the density of the lobes times
+/// the probability of surviving roulette. Without the second factor, light scattered by a dark surface would
+/// be left to a few rays of great weight.
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;

@@ -24,9 +24,9 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
            .min = 1e-4,
            .max = 10});
     s.key("goal", &AdaptiveParams::goal,
-          {.help = "For `two-stage`. `frame`: the noise of the frame, as the root mean square over its "
-                   "noisy pixels, meets the budget with the minimum number of samples; `pixel`: the noise "
-                   "of each pixel meets it"});
+          {.help = "For `two-stage`: which noise must meet the budget. `frame`: the root mean square of the "
+                   "noise of all pixels whose samples vary, with the minimum number of samples; `pixel`: "
+                   "the noise of each pixel"});
     s.key("pilot", &AdaptiveParams::pilot,
           {.help = "For `two-stage`: samples per pixel in the pilot pass. Pixels in areas where nothing is "
                    "hit and nothing varies get a quarter of them",

@@ -63,7 +63,7 @@ class ColorCounts {
   }
 
  private:
-  /// Something was hit, but nothing varied: black in the pilot, but possibly not in general.
+  /// A ray hit something, but all samples of the pilot are equal, for example black: the variance is unknown.
   static constexpr double kUnknown = -1;
 
   struct Variance {

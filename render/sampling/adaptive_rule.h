@@ -39,7 +39,7 @@ struct Pilot {
 std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 
 /// The number of samples, including those of the pilot, that each pixel needs to meet the noise budget: a
-/// real number without limits, except that pixels of which the pilot knows nothing get `max`.
+/// real number without limits, except that pixels without information from the pilot get `max`.
 ///
 /// The counts of one colour depend on the pilot of the other colour only. Samples of different pixels are
 /// independent, so a pixel's count is independent of all its own samples, and their plain mean, including the

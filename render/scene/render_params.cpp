@@ -60,11 +60,13 @@ const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "Rendering method, quality and limits.");
     s.set_example(R"(render: {samples: 256, bounces: 8, memory: 8G})");
-    s.key("integrator", &RenderParams::integrator,
-          {.help = "`path`: every sample of a pixel is a path of its own. `gather`: samples that see the same "
-                   "piece of a strand or skin share shadow rays and indirect light: several times faster for "
-                   "the same noise, with shadows blurred along strands by `gather.spacing`"});
-    s.key("gather", &RenderParams::gather, {.help = "Settings of `integrator: gather`", .default_text = "as below"});
+    s.key(
+        "integrator", &RenderParams::integrator,
+        {.help = "`path`: every sample of a pixel is a path of its own. `gather`: samples that see the same "
+                 "piece of a strand or skin share shadow rays and indirect light: several times faster for "
+                 "the same noise, with shadows blurred along strands by `gather.spacing`"});
+    s.key("gather", &RenderParams::gather,
+          {.help = "Settings of `integrator: gather`", .default_text = "as below"});
     s.key("accel", &RenderParams::accel,
           {.help = "Ray-tracing structure for strands. `fur`: Pelage's own tree, two thirds the size of "
                    "Embree's; `embree`: Embree's curves. Both give the same result except at the edges of "
@@ -97,7 +99,7 @@ const Schema<RenderParams>& RenderParams::schema() {
           {.unit = "radiance",
            .help = "Maximum luminance of the indirect light of one path. It removes fireflies and darkens "
                    "the picture; 0 is no limit. At the end of each frame, Pelage reports the fraction of "
-                   "indirect light that is lost; `--stats` has it as `clamped_fraction`",
+                   "indirect light that is lost; `--stats` writes it as `clamped_fraction`",
            .min = 0});
     s.key("seed", &RenderParams::seed, {.help = "Seed of all random numbers of the picture"});
     s.key("memory", &RenderParams::memory,

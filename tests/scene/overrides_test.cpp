@@ -90,7 +90,7 @@ TEST(Overrides, MistakesNameTheFlag) {
   EXPECT_EQ(with({"operators.4=1"}).problems,
             Lines{"--set operators.4: no item 4 in a list of 4 (the first is 0)"});
   EXPECT_EQ(with({"render.samples.x=1"}).problems,
-            Lines{"--set render.samples.x: 'x' is looked up in '64', which is not a block"});
+            Lines{"--set render.samples.x: cannot look up 'x' in '64', which is not a block"});
   EXPECT_EQ(with({"rendr.samples=1"}).problems,
             Lines{"--set rendr.samples: no block 'rendr'; did you mean 'render'? (to add a new block, "
                   "give it whole, as rendr={...})"});

@@ -15,8 +15,8 @@ namespace {
 constexpr uint32_t kSamples = 512;  // number of segments
 constexpr int kSpins = 8;           // angles over a quarter turn
 constexpr int kSteps = 32;          // iterations towards the common direction
-// Rays enter a rotated tree slightly more slowly. The boxes of four segments shrink by half as much as those
-// of single ones: by an eighth or more at this ratio.
+// Rays enter a rotated tree slightly more slowly. The boxes of four segments shrink by half as much as the
+// boxes of single segments: by an eighth or more at this ratio.
 constexpr double kWorth = 0.7;
 
 using Samples = std::vector<SnappedSegment>;

@@ -10,8 +10,8 @@
 #else
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #endif
-// The scalar fallback also has four lanes. It does not use what g++ before 12.3 compiles wrongly (high halves
-// of 16-bit products).
+// The scalar fallback also has four lanes. It avoids operations that g++ before 12.3 compiles wrongly (high
+// halves of 16-bit products).
 #define HWY_BROKEN_EMU128 0
 #include <algorithm>
 #include <bit>

@@ -52,7 +52,7 @@ struct FurRay {
 };
 
 /// One ray traced through many trees. Its transformation to grid units is reused while the grids are equal,
-/// as those of a coat's chunks are.
+/// as in all chunks of a coat.
 class FurRays {
  public:
   /// As FurRay::prepare(); null where that is false. All calls must be for one ray, whose far end may

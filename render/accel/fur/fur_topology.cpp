@@ -172,7 +172,7 @@ class Builder {
       left.extend(bins[i - 1].low, bins[i - 1].high);
       count += counts[i - 1];
       if (count == 0 || count == all) continue;
-      // Otherwise the number of half-filled blocks would be unbounded.
+      // Without this condition, the number of half-filled blocks would be unbounded.
       if (std::min(count, all - count) < kFewest && count % kLanes != 0) continue;
       const float cost = left.area() * static_cast<float>(blocks(count)) +
                          right_area[i] * static_cast<float>(blocks(all - count));

@@ -70,9 +70,9 @@ inline size_t piece_count_bound(size_t segments, float cuts) {
   return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));
 }
 
-/// Builds with the binned surface area heuristic [Wald07]; the cost of n segments is that of ceil(n / 4)
-/// tests. Sets of a few dozen are swept exactly and split at multiples of four only, so that nearly every
-/// lane is filled. Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
+/// Builds with the binned surface area heuristic [Wald07]; n segments cost as much as ceil(n / 4) tests. Sets
+/// of a few dozen are swept exactly and split at multiples of four only, so that nearly every lane is filled.
+/// Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options);
 
 }  // namespace pelage

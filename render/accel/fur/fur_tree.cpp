@@ -28,7 +28,7 @@ FurBox hull(const SnappedSegment& segment) {
 
 }  // namespace
 
-/// Writes a topology. Nodes are in depth-first order, and so are leaves; those of one node are adjacent.
+/// Writes a topology. Nodes are in depth-first order, and so are leaves; the leaves of one node are adjacent.
 class FurTree::Writer {
  public:
   Writer(const SnappedStrands& strands, const FurTopology& topology, FurNodeLayout layout,

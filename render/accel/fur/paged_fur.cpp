@@ -269,8 +269,8 @@ class PagedFur::Batch {
     return page;
   }
 
-  /// Traverses the resident treelets, like a single ray. Keeps what is left at the first treelet that is not
-  /// resident.
+  /// Starts a ray: traverses the resident treelets, as for a single ray. At the first treelet that is not
+  /// resident, stores the remaining steps and waits.
   void set_out(size_t i) {
     answers_[i] = {};
     if (!is_finite(rays_[i])) return;

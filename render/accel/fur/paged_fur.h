@@ -72,10 +72,10 @@ class PagedFur {
   bool occluded(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
 
   /// The same for many rays at once. A ray that needs a page which is not resident waits while others
-  /// continue. When the max number of rays waits, or all do, the page that most of them wait for is read for
-  /// all of these. Every ray visits its treelets front to back or, for occlusion, the resident ones first, as
-  /// for a single ray. `starts` must be empty or as long as `rays`; the answers are as long as `rays` and
-  /// equal to those of single queries.
+  /// continue. When the max number of rays waits, or all do, the page with most waiting rays is read, and all
+  /// of these continue. Every ray visits its treelets front to back or, for occlusion, the resident ones
+  /// first, as for a single ray. `starts` must be empty or as long as `rays`; the answers are as long as
+  /// `rays` and equal to the answers of single queries.
   void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
   void occluded(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,

@@ -23,7 +23,6 @@ using SnappedSegment = std::array<std::array<float, 4>, 4>;
 /// Segments are numbered along the strands, strands in ascending order of their ids (then of their index in
 /// the batch), so that of two segments at equal distance the one with the smaller number comes first. Refers
 /// to the strands. Thread safety: immutable.
-/// equal. Borrows the strands. Thread safety: immutable.
 class SnappedStrands {
  public:
   SnappedStrands(const Strands& strands, const FurGrid& grid);

@@ -34,7 +34,7 @@ TEST_P(ChunkBoxesScenes, HoldTheStrandsThatRaysMeet) {
       ResidentChunksOptions options;
       options.kind = kind;
       options.eager = eager;
-      // Boxes that stand for the shutter once, and those that are linear in time.
+      // Boxes that cover the whole shutter, and boxes that are linear in time.
       for (const int keys : {1, 2}) {
         const auto held = hold(chunks, chunks.measured_bounds(keys), options);
         Box3f all;
