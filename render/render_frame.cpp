@@ -50,15 +50,15 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOpt
   require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers),
                "the frame buffer");
   const bool gathers = scene.render.integrator == Integrator::kGather;
-  const MemoryCharge tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : MemoryCharge();
   FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
+  const GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
   const auto geometry = FrameGeometry::make(scene, job, result.statistics);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
   if (gathers) {
-    GatherLoop(scene, geometry->accel(), options, job, clock, result).run();
+    GatherLoop(scene, geometry->accel(), options, tiles, job, clock, result).run();
   } else {
     trace_paths(scene, *geometry, options, job, clock, result);
   }

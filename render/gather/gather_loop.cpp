@@ -15,26 +15,32 @@ namespace {
 
 /// With so few samples, a first pass of one would take a large part of the time.
 constexpr uint32_t kFew = 4;
+/// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
+constexpr int64_t kMemoryShare = 8;
 
 }  // namespace
 
-MemoryCharge GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
+GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
   const auto tile = static_cast<int64_t>(GatherTile::scratch_bytes(scene.lights.size()));
-  return reserve(job.ledger, MemoryTag::kReflectionCache, tile * job.workers.thread_count(),
-                 "the samples of one tile per thread");
+  const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
+  int tiles = job.workers.thread_count();
+  if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
+  return {tiles, reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles,
+                         "the samples of the tiles that are rendered at once")};
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options,
-                       const Job& job, const Stopwatch& clock, FrameResult& result)
+                       const Memory& memory, const Job& job, const Stopwatch& clock, FrameResult& result)
     : scene_(scene),
       tile_(scene, accel, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
-      tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)) {
-  for (int worker = 0; worker < job.workers.thread_count(); ++worker) {
+      tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)),
+      free_(memory.tiles) {
+  for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
-    scratch_.back()->thread.worker = worker;
+    idle_.push_back(scratch_.back().get());
   }
 }
 
@@ -73,22 +79,54 @@ GatherLoop::End GatherLoop::trace(const Pass& pass, double deadline_s) {
   std::atomic<bool> cancelled{false}, out_of_time{false};
   job_.workers.for_each(tiles.size(), 1, [&](WorkRange range) {
     const FlushDenormals flush;
-    GatherTile::Scratch& scratch = *scratch_[static_cast<size_t>(range.worker)];
     for (size_t i = range.begin; i < range.end; ++i) {
       if (clock_.seconds() > deadline_s) {
         out_of_time = true;
         return;
       }
-      if (!tile_.trace(tiles[i], pass.first, pass.count, job_, scratch)) {
+      if (!trace_tile(pass, tiles[i], range.worker)) {
         cancelled = true;
         return;
       }
-      land(pass, tiles[i], scratch);
     }
   });
   sample_s_ = (clock_.seconds() - began) / pass.count;
   if (cancelled) return End::kCancelled;
   return out_of_time ? End::kOutOfTime : End::kDone;
+}
+
+/// A scratch that no other thread uses; waits until there is one.
+class GatherLoop::Lease {
+ public:
+  explicit Lease(GatherLoop& loop) : loop_(loop) {
+    loop_.free_.acquire();
+    const std::scoped_lock lock(loop_.idle_mutex_);
+    scratch_ = loop_.idle_.back();
+    loop_.idle_.pop_back();
+  }
+  ~Lease() {
+    {
+      const std::scoped_lock lock(loop_.idle_mutex_);
+      loop_.idle_.push_back(scratch_);
+    }
+    loop_.free_.release();
+  }
+  Lease(const Lease&) = delete;
+  Lease& operator=(const Lease&) = delete;
+  GatherTile::Scratch& scratch() { return *scratch_; }
+
+ private:
+  GatherLoop& loop_;
+  GatherTile::Scratch* scratch_;
+};
+
+/// False when cancelled.
+bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
+  Lease lease(*this);
+  lease.scratch().thread.worker = worker;
+  if (!tile_.trace(tile, pass.first, pass.count, job_, lease.scratch())) return false;
+  land(pass, tile, lease.scratch());
+  return true;
 }
 
 void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch) {

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <semaphore>
 #include <vector>
 
 #include "base/job.h"
@@ -22,18 +24,25 @@ namespace pelage {
 /// threads or on the first pass, unless the time limit is reached.
 class GatherLoop {
  public:
-  /// Memory of the tiles of all threads, to be reserved before chunks take the rest. Throws Error (kMemory)
-  /// when `render.memory` does not hold it.
-  static MemoryCharge reserve_tiles(const RenderScene& scene, const Job& job);
+  /// Memory of the tiles that are traced at once.
+  struct Memory {
+    int tiles = 0;
+    MemoryCharge charge;
+  };
+  /// Reserves memory before chunks take the rest: for one tile per thread, or fewer where these would take
+  /// more than an eighth of `render.memory`; then threads wait for each other. Throws Error (kMemory) when
+  /// not even one fits.
+  static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
   /// References are kept. `result.film` gets the samples. `clock`: starts when the time limit does.
-  GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Job& job,
-             const Stopwatch& clock, FrameResult& result);
+  GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Memory& memory,
+             const Job& job, const Stopwatch& clock, FrameResult& result);
 
   /// Renders the frame into `result`.
   void run();
 
  private:
+  class Lease;
   enum class End { kDone, kCancelled, kOutOfTime };
   struct Pass {
     uint32_t first = 0, count = 1;
@@ -43,6 +52,7 @@ class GatherLoop {
   End trace(const Pass& pass, double deadline_s);
   /// Samples of the next pass that fit the time limit; 0: none.
   uint32_t fitting(uint32_t count, uint32_t given) const;
+  bool trace_tile(const Pass& pass, const Tile& tile, int worker);
   void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);
   void report(End end);
 
@@ -52,7 +62,10 @@ class GatherLoop {
   const Stopwatch& clock_;
   FrameResult& result_;
   std::vector<Tile> tiles_;
-  std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;  // by worker
+  std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
+  std::counting_semaphore<> free_;  // number of `idle_`
+  std::mutex idle_mutex_;
+  std::vector<GatherTile::Scratch*> idle_;  // of scratch_
   std::atomic<int64_t> rejected_{0};
   std::atomic<double> first_tile_s_{0};
   double sample_s_ = 0;  // wall seconds of one sample per pixel in the last pass

@@ -11,8 +11,8 @@
 namespace pelage {
 namespace {
 
-/// Memory of the samples of one thread's tile.
-constexpr size_t kSampleBytes = size_t{16} << 20;
+/// Memory of the samples of a tile.
+constexpr size_t kSampleBytes = size_t{4} << 20;
 constexpr uint32_t kMaxSamples = 64;
 constexpr size_t kPixels = static_cast<size_t>(GatherTile::kSide) * GatherTile::kSide;
 /// Weight of a tile's mean light in the brightness by which errors of a pixel are judged.
@@ -69,7 +69,12 @@ uint32_t GatherTile::max_samples(size_t lights) {
 }
 
 size_t GatherTile::scratch_bytes(size_t lights) {
-  return kPixels * (max_samples(lights) * TileSamples::bytes_per_sample(lights) + sizeof(TileSamples::Front));
+  constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
+  const size_t order = lights * (sizeof(uint64_t) + sizeof(double));
+  // At worst, each sample has a knot of its own.
+  const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
+  const size_t sample = TileSamples::bytes_per_sample(lights) + order + knot;
+  return kPixels * (max_samples(lights) * sample + sizeof(TileSamples::Front) + sizeof(double));
 }
 
 bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job,
@@ -78,9 +83,8 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   scratch.first = first;
   scratch.count = count;
   scratch.clamp.limit = scene_.render.clamp_indirect;
-  scratch.samples.clear();
-  scratch.samples.fronts.resize(static_cast<size_t>(tile.x1 - tile.x0) *
-                                static_cast<size_t>(tile.y1 - tile.y0));
+  const size_t pixels = static_cast<size_t>(tile.x1 - tile.x0) * static_cast<size_t>(tile.y1 - tile.y0);
+  scratch.samples.begin(pixels, pixels * count, scene_.lights.size());
   scratch.look.knots.clear();
   scratch.look.layers.clear();
   scratch.lights.begin(scene_.lights.size(), scene_.render.gather.reuse);

@@ -30,10 +30,10 @@ class GatherTile {
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;
-  /// Number of samples per pixel that trace() accepts at once, which limits its memory.
+  /// Number of samples per pixel that trace() accepts at once: what limits the memory of a scratch.
   uint32_t max_samples() const { return max_samples(scene_.lights.size()); }
   static uint32_t max_samples(size_t lights);
-  /// Memory of one thread.
+  /// Max memory of a scratch.
   static size_t scratch_bytes(size_t lights);
 
   /// Traces samples first .. first + count - 1 of each pixel. Returns false when `job` was cancelled.

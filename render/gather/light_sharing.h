@@ -31,6 +31,7 @@ class LightSharing {
   float chance(uint32_t layer, size_t light) const;
   /// Computes the fractions, once everything is added.
   void finish(const std::vector<uint32_t>& layer_of_knot);
+  static size_t bytes_per_knot(size_t lights) { return 2 * lights * sizeof(Knot); }  // vectors grow twofold
   float fraction(uint32_t knot, size_t light) const { return knots_[knot * lights_ + light].fraction; }
 
  private:

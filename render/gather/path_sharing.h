@@ -23,6 +23,7 @@ class PathSharing {
   /// A path that stands for `factor` points: weights[g] * radiance[light] reach the camera.
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
   void finish(const std::vector<uint32_t>& layer_of_knot);
+  static size_t bytes_per_knot(size_t lights) { return sizeof(Weights) + lights * kLobeGroups * sizeof(Rgb); }
   const Rgb& radiance(uint32_t knot, size_t light, int group) const {
     return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
   }

@@ -2,26 +2,26 @@
 // Tested in tests/render/gather/gather_integrator_test.cpp.
 #include "render/gather/tile_samples.h"
 
-#include <algorithm>
-
 namespace pelage {
 
-void TileSamples::clear() {
-  samples.clear();
-  seen_lights.clear();
-  fronts.clear();
-  points.clear();
-  light_rays.clear();
-  unoccluded.clear();
-  layer_of_knot.clear();
+void TileSamples::begin(size_t pixels, size_t count, size_t lights) {
+  const auto start = [](auto& items, size_t max) {
+    items.clear();
+    items.reserve(max);
+  };
+  start(samples, count);
+  start(seen_lights, count);
+  start(points, count);
+  start(light_rays, count * lights);
+  start(unoccluded, count * lights * kLobeGroups);
+  start(layer_of_knot, count);
+  fronts.assign(pixels, {});
   layers = 0;
 }
 
 size_t TileSamples::bytes_per_sample(size_t lights) {
-  // Each light is either seen directly or scattered by a point; each of its rays has an entry in an order.
-  const size_t light =
-      std::max(sizeof(SeenLight), sizeof(LightRay) + kLobeGroups * sizeof(Rgb) + sizeof(uint64_t));
-  return sizeof(Sample) + sizeof(VisiblePoint) + lights * light;
+  return sizeof(Sample) + sizeof(VisiblePoint) + sizeof(uint32_t) +
+         lights * (sizeof(SeenLight) + sizeof(LightRay) + kLobeGroups * sizeof(Rgb));
 }
 
 }  // namespace pelage

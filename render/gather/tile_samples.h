@@ -82,8 +82,9 @@ struct TileSamples {
   std::vector<uint32_t> layer_of_knot;
   uint32_t layers = 0;  ///< number of different layers of knots
 
-  void clear();
-  /// Memory for one sample, at most.
+  /// Prepares for `count` samples of a tile of `pixels`: memory is taken once.
+  void begin(size_t pixels, size_t count, size_t lights);
+  /// Max memory of one sample.
   static size_t bytes_per_sample(size_t lights);
 };
 

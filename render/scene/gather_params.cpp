@@ -11,7 +11,7 @@ const Schema<GatherParams>& GatherParams::schema() {
                            "among the samples that see the same piece of a strand or skin.");
     s.set_example(R"(render:
   integrator: gather
-  gather: {spacing: 4, light_rays: 1})");
+  gather: {spacing: 4, light_rays: 3})");
     s.key("visibility", &GatherParams::visibility,
           {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`"});
     s.key("reuse", &GatherParams::reuse,
@@ -26,7 +26,10 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key("skin_spacing", &GatherParams::skin_spacing,
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
     s.key("light_rays", &GatherParams::light_rays,
-          {.help = "Shadow rays per visible sample. They go where unoccluded light is brightest in its pixel",
+          {.help =
+               "Mean number of shadow rays per visible sample. Most of them are traced where the light that "
+               "arrives is bright and uncertain, compared to the light of the pixel. A sample sends at "
+               "most one ray to each light",
            .min = 0.05,
            .max = 16});
     s.key("paths", &GatherParams::paths,

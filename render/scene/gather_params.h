@@ -19,7 +19,7 @@ struct GatherParams {
   bool reuse = true;
   float spacing = 4;       ///< max distance of knots along strands, pixels
   float skin_spacing = 2;  ///< max distance of knots on skins, pixels
-  float light_rays = 1;    ///< shadow rays per visible sample
+  float light_rays = 3;    ///< max shadow rays per visible sample
   float paths = 1;         ///< indirect paths per visible sample, before roulette
   static const Schema<GatherParams>& schema();
 };

@@ -136,6 +136,19 @@ TEST_F(SceneSchema, SplattedSamplesAreNotAdaptive) {
                   "sampling; remove one of them"});
 }
 
+TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
+  const Override gather{"render.integrator", "gather"};
+  EXPECT_EQ(load(kScene, {gather}).image.filter_samples, std::nullopt);
+  EXPECT_EQ(problems(kScene, {gather, {"render.adaptive", "{}"}}),
+            Lines{"--set render.adaptive: `adaptive` does not work with `integrator: gather`; remove one of "
+                  "them"});
+  EXPECT_EQ(problems(kScene, {gather, {"image.noise_layers", "true"}}),
+            Lines{"--set image.noise_layers: `noise_layers` does not work with `integrator: gather`; remove "
+                  "one of them"});
+  EXPECT_EQ(problems(kScene, {gather, {"render.gather.spacng", "2"}}),
+            Lines{"--set render.gather.spacng: unknown key 'spacng' in gather; did you mean 'spacing'?"});
+}
+
 TEST_F(SceneSchema, UnknownNamesAreReported) {
   EXPECT_EQ(problems(replaced("{skin: rat, material: hide", "{skin: ratt, material: hied")),
             (Lines{"s:15:16: there is no skin 'ratt'; did you mean 'rat'?",

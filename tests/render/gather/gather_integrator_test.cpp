@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "render/gather/gather_loop.h"
+#include "tests/render/film/film_picture.h"
+#include "tests/render/gather/gather_scene.h"
+
+namespace pelage {
+namespace {
+
+void expect_same(const Film& a, const Film& b) {
+  const ExrImage one = picture_of(a), other = picture_of(b);
+  ASSERT_EQ(one.channels.size(), other.channels.size());
+  for (size_t i = 0; i < one.channels.size(); ++i) {
+    EXPECT_EQ(one.channels[i].pixels, other.channels[i].pixels) << one.channels[i].name;
+    EXPECT_EQ(one.channels[i].ids, other.channels[i].ids) << one.channels[i].name;
+  }
+}
+
+TEST(GatherIntegrator, OneAndManyThreadsGiveTheSameFilm) {
+  for (const bool reuse : {false, true}) {
+    GatherScene scene;
+    scene.render.gather.reuse = reuse;
+    const FrameResult one = scene.run({}, 1);
+    expect_same(one.film, scene.run({}, 4).film);
+  }
+}
+
+TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
+  GatherScene scene;
+  const FrameResult free = scene.run({}, 3);
+  const size_t tile = GatherTile::scratch_bytes(scene.lights.size());
+  scene.render.memory.bytes = 16 * tile;  // two tiles at once
+  expect_same(free.film, scene.run({}, 3).film);
+  EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(3 * tile));
+  EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
+
+  scene.render.memory.bytes = tile / 2;
+  try {
+    scene.run();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+  }
+}
+
+TEST(GatherIntegrator, LayersAddUpToThePicture) {
+  GatherScene scene;
+  const FrameResult result = scene.run();
+  const Film& film = result.film;
+  ASSERT_EQ(film.layers().size(), 7u);
+  for (int y = 0; y < film.height(); ++y) {
+    for (int x = 0; x < film.width(); ++x) {
+      Rgb sum(0);
+      for (size_t i = 0; i < film.layers().size(); ++i) sum += film.layer(x, y, i);
+      const Rgb whole = film.radiance(x, y);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], whole[c], 2e-5f * (1 + whole[c]));
+    }
+  }
+}
+
+TEST(GatherIntegrator, SurfaceDataAndCoverageAreThoseOfPaths) {
+  GatherScene scene;
+  scene.image.filter_samples = FilterSamples::kSplatted;
+  const FrameResult gathered = scene.run();
+  scene.render.integrator = Integrator::kPath;
+  const FrameResult traced = scene.run();
+  for (int y = 0; y < scene.image.height; ++y) {
+    for (int x = 0; x < scene.image.width; ++x) {
+      const VisibleSurface &a = gathered.film.surface(x, y), &b = traced.film.surface(x, y);
+      EXPECT_EQ(a.depth, b.depth) << x << ", " << y;
+      EXPECT_EQ(a.normal, b.normal);
+      EXPECT_EQ(a.forward, b.forward);
+      EXPECT_EQ(a.id, b.id);
+      EXPECT_NEAR(gathered.film.alpha(x, y), traced.film.alpha(x, y), 1e-6f) << "added in another order";
+      EXPECT_EQ(gathered.film.samples(x, y), traced.film.samples(x, y));
+    }
+  }
+}
+
+/// Asks to stop once enough samples have been reported.
+class Impatient final : public Progress {
+ public:
+  explicit Impatient(double patience) : patience_(patience) {}
+  void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }
+  void advance(double amount) override {
+    if (rendering_) done_ = done_ + amount;
+  }
+  void end() override {}
+  bool cancelled() const override { return done_ >= patience_; }
+
+ private:
+  double patience_;
+  std::atomic<bool> rendering_{false};
+  std::atomic<double> done_{0};
+};
+
+TEST(GatherIntegrator, AnInterruptedPictureHasEveryPixel) {
+  GatherScene scene;
+  const double pixels = scene.image.width * scene.image.height;
+  Impatient progress(4 * pixels);  // after the preview and less than half of the eight samples
+  const FrameResult partial = scene.run({}, 1, progress);
+  EXPECT_TRUE(partial.partial);
+  EXPECT_EQ(partial.samples, 1u);
+  const FrameResult whole = scene.run();
+  EXPECT_EQ(whole.samples, 8u);
+  int finished = 0;
+  for (int y = 0; y < scene.image.height; ++y) {
+    for (int x = 0; x < scene.image.width; ++x) {
+      const uint32_t samples = partial.film.samples(x, y);
+      EXPECT_TRUE(samples == 1 || samples == 8) << samples;
+      finished += samples == 8;
+    }
+  }
+  EXPECT_GT(finished, 0);
+  EXPECT_LT(finished, pixels);
+  EXPECT_EQ(partial.film.radiance(2, 2), whole.film.radiance(2, 2)) << "in the first tile";
+}
+
+TEST(GatherIntegrator, TheFirstPassLeavesNoTrace) {
+  // With four samples there is none; the first four of eight lie at the same places.
+  GatherScene scene;
+  scene.render.samples = 4;
+  const FrameResult four = scene.run();
+  EXPECT_EQ(four.samples, 4u);
+  EXPECT_EQ(scene.statistics.rays.camera, 4 * 40 * 30);
+  scene.render.samples = 8;
+  const FrameResult eight = scene.run();
+  EXPECT_EQ(eight.samples, 8u);
+  EXPECT_EQ(eight.mean_samples, 8);
+  EXPECT_EQ(scene.statistics.rays.camera, (4 + 1 + 8) * 40 * 30);
+  EXPECT_EQ(scene.statistics.samples_rejected, 0);
+}
+
+TEST(GatherIntegrator, MorePassesThanOneAddUp) {
+  GatherScene scene;
+  scene.image.width = scene.image.height = 20;
+  const uint32_t most = GatherTile::max_samples(scene.lights.size());
+  scene.render.samples = static_cast<int>(most + 3);
+  const FrameResult result = scene.run();
+  EXPECT_EQ(result.samples, most + 3);
+  EXPECT_EQ(result.mean_samples, most + 3);
+}
+
+TEST(GatherIntegrator, ATimeLimitEndsWithAValidPicture) {
+  GatherScene scene;
+  scene.render.samples = 1 << 20;
+  scene.render.time_limit = 0.05f;
+  const FrameResult result = scene.run();
+  EXPECT_TRUE(result.time_limited);
+  EXPECT_FALSE(result.partial);
+  EXPECT_GE(result.samples, 1u);
+  EXPECT_LT(result.samples, 1u << 20);
+}
+
+}  // namespace
+}  // namespace pelage

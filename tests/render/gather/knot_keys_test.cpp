@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gather/knot_keys.h"
+
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "tests/render/path/path_scene.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kSize = 100;
+
+/// A camera at z = 10 that shows 4 units in 100 pixels at the origin.
+Camera camera() {
+  CameraParams params;
+  params.position = V3f(0, 0, 10);
+  params.look_at = V3f(0);
+  params.fov = 2 * std::atan(0.2f) * 57.29578f;
+  return {params, 1, kSize, kSize};
+}
+
+/// A straight strand of `length` across the view.
+HitGeometry strand(float length) {
+  HitGeometry met;
+  met.strand = one_strand({{0, 0, 0}, {length / 2, 0, 0}, {length, 0, 0}}, 0.01f);
+  return met;
+}
+
+Hit on_strand(float place) {  // of two segments
+  Hit hit;
+  hit.kind = HitKind::kStrand;
+  hit.part = 3;
+  hit.strand_id = 7;
+  hit.segment = place < 0.5f ? 0 : 1;
+  hit.u = 2 * place - static_cast<float>(hit.segment);
+  return hit;
+}
+
+/// Knots that a strand has within the given part of its length, and how often each is chosen.
+std::map<uint64_t, int> knots(const KnotKeys& keys, const HitGeometry& met, float from, float to) {
+  std::map<uint64_t, int> result;
+  for (uint64_t i = 0; i < 4000; ++i) {
+    const float place = from + (to - from) * unit_float(hash64(i, 1));
+    ++result[keys.of(on_strand(place), met, {unit_float(hash64(i, 2)), 0}).knot];
+  }
+  return result;
+}
+
+TEST(KnotKeys, AreAsFarApartAsTheSpacingAtMost) {
+  const Camera view = camera();
+  GatherParams params;
+  const KnotKeys keys(view, params);
+  // 2 units are 50 pixels: 16 parts of 3.1 pixels.
+  EXPECT_EQ(knots(keys, strand(2), 0, 1).size(), 17u);
+  EXPECT_EQ(knots(keys, strand(0.5f), 0, 1).size(), 5u) << "12.5 pixels";
+  EXPECT_EQ(knots(keys, strand(0.05f), 0, 1).size(), 2u) << "shorter than the spacing";
+  params.spacing = 8;
+  EXPECT_EQ(knots(keys, strand(2), 0, 1).size(), 9u);
+}
+
+TEST(KnotKeys, InterpolateLinearlyOnAverage) {
+  const Camera view = camera();
+  const GatherParams params;
+  const KnotKeys keys(view, params);
+  const HitGeometry met = strand(0.5f);  // knots at 0, 1/4, 1/2, 3/4, 1
+  const auto around = knots(keys, met, 0.299f, 0.301f);
+  ASSERT_EQ(around.size(), 2u);
+  const uint64_t before = keys.of(on_strand(0.25f), met, {0, 0}).knot;
+  EXPECT_NEAR(around.at(before) / 4000.0, 0.8, 0.03) << "a fifth of the way";
+}
+
+TEST(KnotKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
+  const Camera view = camera();
+  const GatherParams params;
+  const KnotKeys keys(view, params);
+  const HitGeometry met = strand(2);
+  const Hit hit = on_strand(0.4f);
+  const KnotKey key = keys.of(hit, met, {0.3f, 0});
+  Hit elsewhere = hit;
+  elsewhere.start = {12, 34, 2, 0.8f};
+  elsewhere.strand_index = 99;
+  elsewhere.distance = 5;
+  EXPECT_EQ(keys.of(elsewhere, met, {0.3f, 0}).knot, key.knot);
+  Hit other = hit;
+  other.strand_id = 8;
+  EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
+  EXPECT_EQ(keys.of(other, met, {0.3f, 0}).layer, key.layer);
+  other = hit;
+  other.part = 4;
+  EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
+  EXPECT_NE(keys.of(other, met, {0.3f, 0}).layer, key.layer);
+}
+
+/// A triangle of a face whose unit square is 2 x 1 units of space.
+HitGeometry skin_triangle() {
+  HitGeometry met;
+  met.triangle.positions = {0, 0, 0, 1, 0, 0, 0, 0.5f, 0};
+  met.triangle.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+  met.triangle.triangles = {0, 1, 2};
+  met.triangle.vertex_uv = {V2f(0, 0), V2f(0.5f, 0), V2f(0, 0.5f)};
+  met.triangle.faces = {5};
+  return met;
+}
+
+TEST(KnotKeys, AFaceOfASkinHasAGridOfKnots) {
+  const Camera view = camera();
+  const GatherParams params;
+  const KnotKeys keys(view, params);
+  const HitGeometry met = skin_triangle();
+  std::map<uint64_t, int> found;
+  Hit hit;
+  hit.kind = HitKind::kSkin;
+  for (uint64_t i = 0; i < 20000; ++i) {
+    hit.u = unit_float(hash64(i, 1));
+    hit.v = (1 - hit.u) * unit_float(hash64(i, 2));
+    ++found[keys.of(hit, met, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))}).knot];
+  }
+  // The face is 50 x 25 pixels: 32 x 16 parts of at most 2 pixels. Half of its u and v, below the diagonal:
+  // 17 x 9 knots, of which about half are near the triangle.
+  EXPECT_GT(found.size(), 70u);
+  EXPECT_LT(found.size(), 110u);
+}
+
+}  // namespace
+}  // namespace pelage

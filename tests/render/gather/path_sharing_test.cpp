@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/gather/path_sharing.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/hash.h"
+#include "render/sampling/pixel_moments.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint32_t kPoints = 120, kKnots = 10;
+
+uint32_t knot_of(uint32_t point) { return point % kKnots; }
+
+void weights_of(uint32_t point, Rgb* weights) {
+  for (uint32_t g = 0; g < kLobeGroups; ++g) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      weights[g][static_cast<int>(c)] = g == 2 ? 0.0f : unit_float(hash64(point, g, c));
+    }
+  }
+}
+
+/// What arrives from the two lights along the direction of a point: similar for all.
+std::vector<Rgb> radiance_of(uint32_t point) {
+  const float noise = 0.8f + 0.4f * unit_float(hash64(point, random_use("radiance")));
+  return {Rgb(3, 2, 1) * noise, Rgb(0.1f, 0.2f, 0.3f) / noise};
+}
+
+/// The light that the points of a knot scatter, by light and lobe.
+std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t knot) {
+  std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
+  for (uint32_t p = knot; p < kPoints; p += kKnots) {
+    Rgb weights[kLobeGroups];
+    weights_of(p, weights);
+    for (size_t light = 0; light < 2; ++light) {
+      for (int g = 0; g < kLobeGroups; ++g) {
+        result[light * kLobeGroups + static_cast<size_t>(g)] += weights[g] * sharing.radiance(knot, light, g);
+      }
+    }
+  }
+  return result;
+}
+
+void add(PathSharing& sharing, bool guess, float part, uint64_t trial) {
+  std::vector<uint32_t> layers(kKnots);
+  for (uint32_t k = 0; k < kKnots; ++k) layers[k] = k % 2;
+  sharing.begin(kKnots, 2, 2, guess);
+  for (uint32_t p = 0; p < kPoints; ++p) {
+    Rgb weights[kLobeGroups];
+    weights_of(p, weights);
+    sharing.add_weights(knot_of(p), weights);
+    if (unit_float(hash64(p, trial, random_use("choice"))) < part) {
+      sharing.add_path(knot_of(p), weights, 1 / part, radiance_of(p));
+    }
+  }
+  sharing.finish(layers);
+}
+
+std::vector<Rgb> truth_of(uint32_t knot) {
+  std::vector<Rgb> result(2 * kLobeGroups, Rgb(0));
+  for (uint32_t p = knot; p < kPoints; p += kKnots) {
+    Rgb weights[kLobeGroups];
+    weights_of(p, weights);
+    const std::vector<Rgb> radiance = radiance_of(p);
+    for (size_t light = 0; light < 2; ++light) {
+      for (size_t g = 0; g < kLobeGroups; ++g)
+        result[light * kLobeGroups + g] += weights[g] * radiance[light];
+    }
+  }
+  return result;
+}
+
+TEST(PathSharing, IsExactWhenEveryPointHasItsPath) {
+  PathSharing sharing;
+  add(sharing, true, 1, 0);
+  for (uint32_t knot = 0; knot < kKnots; ++knot) {
+    const std::vector<Rgb> light = light_of(sharing, knot), truth = truth_of(knot);
+    for (size_t i = 0; i < truth.size(); ++i) {
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[i][c], truth[i][c], 1e-4f * (1 + truth[i][c])) << knot;
+    }
+  }
+}
+
+TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsLayerMakeItLessNoisy) {
+  double variances[2] = {0, 0};
+  for (const bool guess : {false, true}) {
+    std::vector<PixelMoments> moments(kKnots * 2 * kLobeGroups);
+    PathSharing sharing;
+    for (uint64_t trial = 0; trial < 4000; ++trial) {
+      add(sharing, guess, 0.4f, trial);
+      for (uint32_t knot = 0; knot < kKnots; ++knot) {
+        const std::vector<Rgb> light = light_of(sharing, knot);
+        for (size_t i = 0; i < light.size(); ++i) moments[knot * light.size() + i].add(light[i].y);
+      }
+    }
+    for (uint32_t knot = 0; knot < kKnots; ++knot) {
+      const std::vector<Rgb> truth = truth_of(knot);
+      for (size_t i = 0; i < truth.size(); ++i) {
+        const PixelMoments& of = moments[knot * truth.size() + i];
+        EXPECT_NEAR(of.mean, truth[i].y, 4.5 * of.error() + 0.01 * truth[i].y) << knot << ", " << i;
+        variances[guess ? 1 : 0] += of.variance();
+      }
+    }
+  }
+  EXPECT_LT(variances[1], 0.2 * variances[0]);
+}
+
+}  // namespace
+}  // namespace pelage
