@@ -18,7 +18,8 @@ namespace pelage {
 class ContentStore;
 
 /// Time span for which a bound holds. A procedural that does not know the shutter must bound the whole
-/// interval of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter both are the same instant.
+/// interval of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter, kFrame and kShutter
+/// are the same instant.
 enum class BoundSpan { kFrame, kShutter };
 
 /// Where the exact boxes of a chunk are stored between runs: entry `index` of the `count` entries with one

@@ -53,9 +53,10 @@ class ChunkWalk {
   };
   ChunkWalk(const ChunkTree& tree, const Ray& ray, Order order);
 
-  /// The next chunk with a box that the ray intersects between its near end and `far`, and a lower bound of
-  /// its entry distance, in the requested order as far as the tree separates them. A chunk is returned once
-  /// per intersected box. False when there is none. `far` may decrease between calls.
+  /// Finds the next chunk with a box that the ray intersects between its near end and `far`, and a lower
+  /// bound of the distance at which the ray enters that box. The requested order holds among the children of
+  /// each node, not across the whole tree. A chunk is returned once per intersected box. False when no chunk
+  /// is left. `far` may decrease between calls.
   bool next(float far, uint32_t& chunk, float& entry);
 
   const RaySlabs& slabs() const { return slabs_; }

@@ -35,8 +35,8 @@ class EmbreeChunk final : public ChunkGeometry {
 
   size_t strand_count() const override { return strands_ ? strands_->strand_count() : 0; }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_->id(index)}; }
-  /// In the basis and in the order in which the strands were grown: Embree's curves are on no grid.
-  /// bezier_segment() reads every basis.
+  /// Copies a strand in the basis in which it was grown; its points are not rounded to a grid. `index`: its
+  /// rank in the order in which the strands were grown. bezier_segment() reads every basis.
   void strand(uint32_t index, Strands& out) const override { strands_->copy_strand(index, out); }
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_->first_segment(index), strands_->strand_segments(index), place};

@@ -73,13 +73,15 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "The tangent that places the highlight is taken from a point shifted along the strand "
-                   "by this amount. Negative values move the highlight toward the tip",
+           .help = "Shift of the highlight along the strand; negative values move it toward the tip. The "
+                   "highlight uses the tangent at a point this far toward the tip, or toward the root if "
+                   "negative",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,
           {.unit = "fractions of the strand",
-           .help = "Random part of primary_shift per strand, which breaks up the highlight",
+           .help = "Maximum random change of primary_shift per strand, in either direction; it breaks up "
+                   "the highlight",
            .min = 0,
            .max = 1});
     s.key("primary_tilt", &P::primary_tilt,

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle, with the cosine to the
-/// normal.
+/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle; theta_i is the angle to
+/// the normal.
 struct SurfaceValue {
   Rgb rho{0};
   float pdf = 0;  ///< density of sample(), per solid angle
