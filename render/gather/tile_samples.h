@@ -28,8 +28,9 @@ struct VisiblePoint {
   uint32_t random = 0;     ///< PathState::random
   StrandStart start = {};  ///< Hit::start; empty where rays may hit their own strand
 
-  LeavingRay scattered;      ///< a direction drawn from the lobes
-  Rgb weights[kLobeGroups];  ///< rho / pdf of that direction, by lobe group; all 0: none was drawn
+  LeavingRay scattered;  ///< a direction drawn from the lobes
+  /// rho / pdf of that direction, by lobe group; all 0: none was drawn
+  Rgb weights[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
 
   Ray ray(const LeavingRay& leaving) const {
     Ray result;

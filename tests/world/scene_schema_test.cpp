@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/temporary_folder.h"
+#include "render/scene/gather_params.h"
 
 namespace pelage {
 namespace {
@@ -139,6 +140,9 @@ TEST_F(SceneSchema, SplattedSamplesAreNotAdaptive) {
 TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
   const Override gather{"render.integrator", "gather"};
   EXPECT_EQ(load(kScene, {gather}).image.filter_samples, std::nullopt);
+  const GatherParams params = load(kScene, {gather, {"render.gather", "{spacing: 2}"}}).render.gather;
+  EXPECT_EQ(params.spacing, 2);
+  EXPECT_TRUE(params.reuse);
   EXPECT_EQ(problems(kScene, {gather, {"render.adaptive", "{}"}}),
             Lines{"--set render.adaptive: `adaptive` does not work with `integrator: gather`; remove one of "
                   "them"});
