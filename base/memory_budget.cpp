@@ -28,9 +28,13 @@ std::string in_use_text(const MemoryLedger& ledger) {
   return fmt::format("{} are in use ({})", memory_text(ledger.budgeted()), parts);
 }
 
+bool has_room(const MemoryLedger& ledger, int64_t bytes) {
+  return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
+}
+
 void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view what) {
+  if (has_room(ledger, bytes)) return;
   const int64_t needed = ledger.budgeted() + bytes;
-  if (ledger.limit() == 0 || needed <= ledger.limit()) return;
   throw Error(
       ErrorKind::kMemory,
       fmt::format("{} needs {}, but render.memory is {} and {}; give at least --memory {}M", what,

@@ -15,6 +15,9 @@ std::string memory_text(int64_t bytes);
 /// The ledger's use of the budget: "30.0 MiB are in use (skins 20.0 MiB, film 10.0 MiB)".
 std::string in_use_text(const MemoryLedger& ledger);
 
+/// Whether `bytes` more fit the ledger's limit.
+bool has_room(const MemoryLedger& ledger, int64_t bytes);
+
 /// Throws Error (kMemory) when `bytes` more do not fit the ledger's limit. `what` names the object and its
 /// place in the scene ("groom 'coat': the follicles of 5,000,000 strands"); the message adds the size, the
 /// memory in use, and the smallest --memory that would suffice. Later steps may need more.

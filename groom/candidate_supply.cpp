@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "base/job.h"
+
 namespace pelage {
 
 CandidateSupply::CandidateSupply(const FollicleCandidates& source, size_t parts, const Job& job)
@@ -14,6 +16,7 @@ CandidateSupply::CandidateSupply(const FollicleCandidates& source, size_t parts,
   }
   all_ = source_.make(job);
   for (const FollicleCandidate& candidate : all_) survey_.add(candidate);
+  job.progress.advance(1);  // as much as a survey of its own
 }
 
 std::vector<FollicleCandidate> CandidateSupply::next(const Job& job) {

@@ -74,12 +74,24 @@ constexpr size_t kBytesOfTree = sizeof(V3f) + 2 * sizeof(RootAddress) + 3 * size
 /// Candidates that are tried for `count` follicles in the first round.
 size_t candidates_for(size_t count) { return count * kCandidatesPerFollicle + kMoreCandidates; }
 
+/// Memory for placing `count` follicles, chosen from `wanted` candidates, including the tree.
+int64_t placing_bytes(size_t wanted, size_t count, const HeldCandidates& held) {
+  return static_cast<int64_t>(std::max(progressive_order_bytes(wanted, count, held), count * kBytesOfTree));
+}
+
+/// The fastest way to hold candidates that the ledger has room for.
+HeldCandidates held_in(const MemoryLedger& ledger, size_t wanted, size_t count) {
+  const size_t max = FollicleCandidates::max_of(wanted);
+  const HeldCandidates fastest = HeldCandidates::fastest(max, count);
+  return has_room(ledger, placing_bytes(wanted, count, fastest)) ? fastest
+                                                                 : HeldCandidates::least(max, count);
+}
+
 /// Chooses the candidates that become follicles, in progressive order; nullopt if there are too few
 /// candidates.
-std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, size_t count, double mass,
-                                            bool few_will_do, const FollicleOptions& options,
-                                            const Job& job) {
-  const HeldCandidates held = HeldCandidates::of(FollicleCandidates::max_of(source.wanted()), count);
+std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, const HeldCandidates& held,
+                                            size_t count, double mass, bool few_will_do,
+                                            const FollicleOptions& options, const Job& job) {
   size_t all = 0;
   {
     CandidateSupply supply(source, held.parts, job);
@@ -99,31 +111,27 @@ std::optional<std::vector<uint32_t>> choose(const FollicleCandidates& source, si
   return progressive_order(supply, count, mass, whole, job);
 }
 
-/// Positions of follicles in their progressive order.
-void place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
-           size_t count, double mass, const Job& job, std::vector<V3f>& positions,
-           std::vector<RootAddress>& roots) {
+/// Positions of follicles in their progressive order. Returns the charge for them and for making the tree.
+MemoryCharge place(const LimitSurface& rest, const FollicleDensity& density, const FollicleOptions& options,
+                   size_t count, double mass, const Job& job, std::vector<V3f>& positions,
+                   std::vector<RootAddress>& roots) {
   // The number of candidates is random: in the rare case of too few, repeats with more.
-  MemoryCharge more;
   for (size_t wanted = candidates_for(count), round = 0; round < 8; wanted *= 2, ++round) {
-    if (round > 0) {
-      const HeldCandidates held = HeldCandidates::of(FollicleCandidates::max_of(wanted), count);
-      const size_t bytes = progressive_order_bytes(wanted, count, held);
-      more = {};
-      more =
-          reserve(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes),
-                  fmt::format("placing {} {} of uneven density for {}", count, options.noun, options.owner));
-    }
+    const HeldCandidates held = held_in(job.ledger, wanted, count);
+    MemoryCharge making = reserve(job.ledger, MemoryTag::kGrooms, placing_bytes(wanted, count, held),
+                                  fmt::format("placing {} {} of {}{}", count, options.noun,
+                                              round == 0 ? "" : "uneven density for ", options.owner));
     const FollicleCandidates source(rest, density, options.seed, wanted, job);
-    const auto order = choose(source, count, mass, round == 7, options, job);
+    const auto order = choose(source, held, count, mass, round == 7, options, job);
     if (!order) continue;
     positions.resize(order->size());
     roots.resize(order->size());
     job.for_each(order->size(), 4096, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) roots[i] = source.root((*order)[i], &positions[i]);
     });
-    return;
+    return making;
   }
+  return {};
 }
 
 /// Shows progress for many follicles, and nothing for few.
@@ -157,9 +165,8 @@ class PlacingStage final : public Progress {
 
 int64_t follicle_temporary_bytes(int64_t count) {
   const auto n = static_cast<size_t>(count);
-  const size_t candidates = candidates_for(n), max = FollicleCandidates::max_of(candidates);
-  const size_t choosing = progressive_order_bytes(candidates, n, HeldCandidates::of(max, n));
-  return static_cast<int64_t>(std::max(choosing, n * kBytesOfTree));
+  const size_t candidates = candidates_for(n);
+  return placing_bytes(candidates, n, HeldCandidates::least(FollicleCandidates::max_of(candidates), n));
 }
 
 int64_t follicle_bytes(int64_t count) {
@@ -168,11 +175,10 @@ int64_t follicle_bytes(int64_t count) {
 
 FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions& options, const Job& job) {
   // For a coat with a given number of strands, memory is checked before anything is computed.
-  const auto require = [&](size_t count) {
-    return reserve(job.ledger, MemoryTag::kGrooms, follicle_temporary_bytes(static_cast<int64_t>(count)),
-                   fmt::format("placing {} {} of {}", count, options.noun, options.owner));
-  };
-  if (options.count > 0 && options.count <= kMaxFollicles) require(static_cast<size_t>(options.count));
+  if (options.count > 0 && options.count <= kMaxFollicles) {
+    require_room(job.ledger, follicle_temporary_bytes(options.count),
+                 fmt::format("placing {} {} of {}", options.count, options.noun, options.owner));
+  }
   const FollicleDensity density{options.density, options.coverage};
   const SurfaceMeasure measure = measure_surface(rest, density, job);
   const double asked =
@@ -184,12 +190,11 @@ FollicleTree FollicleTree::build(const LimitSurface& rest, const FollicleOptions
   const auto count = static_cast<size_t>(asked);
   if (count == 0 || !(measure.mass > 0)) return {};
 
-  const MemoryCharge making = require(count);
   PlacingStage stage(job.progress, options, count);
   const Job placing{job.workers, job.ledger, stage};
   std::vector<V3f> positions;
   std::vector<RootAddress> roots;
-  place(rest, density, options, count, measure.mass, placing, positions, roots);
+  const MemoryCharge making = place(rest, density, options, count, measure.mass, placing, positions, roots);
   std::vector<uint32_t> ids(roots.size());
   std::iota(ids.begin(), ids.end(), 0u);
   std::vector<uint32_t> places;

@@ -89,7 +89,7 @@ namespace {
 void require_growing(const MemoryLedger& ledger, int points, bool colored, const std::string& owner) {
   constexpr int64_t kBytesOfPoint = 256;  // of a strand that is alone in its part, with its tree
   const int64_t block = StrandBatch::bytes(points, colored);
-  if (ledger.limit() == 0 || ledger.budgeted() + block <= ledger.limit()) return;
+  if (has_room(ledger, block)) return;
   require_room(ledger, 2 * StrandBatch::bytes(points, true) + kBytesOfPoint * points,
                fmt::format("growing strands with {} points for {}", points, owner));
 }

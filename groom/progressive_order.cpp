@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/hash.h"
@@ -102,7 +103,7 @@ class DartThrowing {
 
  private:
   struct Tried {
-    uint32_t region, rank, place;
+    uint32_t region, rank, place;  // `place` is in waiting_, or in the part of a candidate that arrives
     bool operator<(const Tried& other) const {
       return region != other.region ? region < other.region : rank < other.rank;
     }
@@ -110,7 +111,9 @@ class DartThrowing {
 
   bool throw_at(int level);
   bool arrive(const V3f& origin, float inverse);
+  void hold_all(std::vector<FollicleCandidate> candidates);
   bool collect(int level, double radius);
+  void make_room_to_try(size_t count);
   void accept_or_file(int level, float radius);
   void append_accepted();
   void forget_the_hopeless(int level);
@@ -167,17 +170,10 @@ bool DartThrowing::collect(int level, double radius) {
     if (!arrive(survey.box.min, inverse)) return false;
   }
   size_t joining = joined_;
-  while (joining < arrived_.size() && static_cast<double>(waiting_[arrived_[joining]].number) < join)
-    ++joining;
-  const size_t wanted = waiting_.size(level) + joining - joined_;
-  tried_.clear();
-  if (wanted > tried_.capacity()) {
-    release(tried_);  // frees the old ones before allocating more
-    tried_.reserve(wanted);
-  }
+  while (joining < arrived_.size() && static_cast<double>(waiting_.rank(arrived_[joining])) < join) ++joining;
+  make_room_to_try(waiting_.size(level) + joining - joined_);
   const auto add = [&](uint32_t place) {
-    const FollicleCandidate& candidate = waiting_[place];
-    tried_.push_back({region_of(candidate, survey.box.min, inverse), candidate.number, place});
+    tried_.push_back({region_of(waiting_[place], survey.box.min, inverse), waiting_.rank(place), place});
   };
   waiting_.take(level, add);
   for (; joined_ < joining; ++joined_) add(arrived_[joined_]);
@@ -185,24 +181,37 @@ bool DartThrowing::collect(int level, double radius) {
   return true;
 }
 
+<<<<<<< HEAD
 /// Takes in the next candidates, except those that are too close to a follicle even at the last level.
+=======
+void DartThrowing::make_room_to_try(size_t count) {
+  tried_.clear();
+  if (count <= tried_.capacity()) return;
+  release(tried_);  // frees the old ones before allocating more
+  tried_.reserve(count);
+}
+
+/// Holds the next candidates, but for those that follicles keep away to the last level.
+>>>>>>> 86e7d3bd77360b7c1417b6b74c16b57cbd321976
 bool DartThrowing::arrive(const V3f& origin, float inverse) {
   std::vector<FollicleCandidate> candidates = supply_.next(job_);
+  if (candidates.size() == supply_.survey().count && last_ == kLevels) {
+    hold_all(std::move(candidates));
+    return true;
+  }
   const auto r = static_cast<float>(radii_.at(last_));
   if (last_ < kLevels && !order_.empty()) {
-    stoppable_sort(job_, candidates.begin(), candidates.end(),
-                   [&](const FollicleCandidate& a, const FollicleCandidate& b) {
-                     return region_of(a, origin, inverse) < region_of(b, origin, inverse);
-                   });
-    job_.for_each(candidates.size(), 4096, [&](WorkRange range) {
+    make_room_to_try(candidates.size());
+    for (uint32_t i = 0; i < candidates.size(); ++i)
+      tried_.push_back({region_of(candidates[i], origin, inverse), candidates[i].number, i});
+    stoppable_sort(job_, tried_.begin(), tried_.end(), std::less<>());
+    job_.for_each(tried_.size(), 4096, [&](WorkRange range) {
       for (size_t i = range.begin; i < range.end; ++i) {
-        if (grid_.nearest(candidates[i], r) < r) candidates[i].spacing = 0;
+        FollicleCandidate& candidate = candidates[tried_[i].place];
+        if (grid_.nearest(candidate, r) < r) candidate.spacing = 0;
       }
     });
     std::erase_if(candidates, [](const FollicleCandidate& candidate) { return candidate.spacing == 0; });
-    stoppable_sort(
-        job_, candidates.begin(), candidates.end(),
-        [](const FollicleCandidate& a, const FollicleCandidate& b) { return a.number < b.number; });
   }
   arrived_.erase(arrived_.begin(), arrived_.begin() + static_cast<std::ptrdiff_t>(joined_));
   joined_ = 0;
@@ -213,6 +222,12 @@ bool DartThrowing::arrive(const V3f& origin, float inverse) {
     arrived_.push_back(place);
   }
   return true;
+}
+
+void DartThrowing::hold_all(std::vector<FollicleCandidate> candidates) {
+  arrived_.resize(candidates.size());
+  std::iota(arrived_.begin(), arrived_.end(), 0u);
+  waiting_.hold_all(std::move(candidates));
 }
 
 void DartThrowing::accept_or_file(int level, float radius) {
@@ -259,22 +274,34 @@ void DartThrowing::append_accepted() {
 
 }  // namespace
 
+<<<<<<< HEAD
 HeldCandidates HeldCandidates::of(size_t candidates, size_t count) {
   // Few candidates are made once and all held. Of many, at most 1.8 per follicle are held on a plane, at the
   // moment when half of the follicles are placed.
+=======
+HeldCandidates HeldCandidates::least(size_t candidates, size_t count) {
+  // Of many, 1.8 per follicle are held on a plane, when half of them are placed.
+>>>>>>> 86e7d3bd77360b7c1417b6b74c16b57cbd321976
   constexpr size_t kFew = size_t(1) << 17, kParts = 16;
   if (candidates <= kFew) return all(candidates);
   return {kParts, std::min(candidates, 2 * count)};
+}
+
+HeldCandidates HeldCandidates::fastest(size_t candidates, size_t count) {
+  // Coats of up to 340,000 follicles, at most 88 MB. Others make their candidates twice, which takes longer.
+  constexpr size_t kFew = size_t(1) << 21;
+  return candidates <= kFew ? all(candidates) : least(candidates, count);
 }
 
 size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandidates& held) {
   // A level tries fewer candidates than there are follicles, or at most all that are held.
   const size_t part = FollicleCandidates::max_of(candidates / held.parts);
   const size_t tried = std::min(held.max_waiting, count);
+  const size_t waiting = held.parts == 1 ? 0 : held.max_waiting;  // the only part waits where it was made
   constexpr size_t kArrivedBytes = 4, kTriedBytes = 12;
-  return part * (sizeof(FollicleCandidate) + kArrivedBytes) +
-         held.max_waiting * WaitingCandidates::kItemBytes + tried * kTriedBytes +
-         OctaveGrid::bytes(with_overshoot(count), count) + with_overshoot(count) * sizeof(uint32_t);
+  return part * (sizeof(FollicleCandidate) + kArrivedBytes) + waiting * WaitingCandidates::kItemBytes +
+         tried * kTriedBytes + OctaveGrid::bytes(with_overshoot(count), count) +
+         with_overshoot(count) * sizeof(uint32_t);
 }
 
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,

@@ -21,8 +21,10 @@ struct HeldCandidates {
 
   /// All candidates at once: the choice never fails.
   static HeldCandidates all(size_t candidates) { return {1, candidates}; }
-  /// Enough for `count` follicles on almost any skin.
-  static HeldCandidates of(size_t candidates, size_t count);
+  /// As few as are enough for `count` follicles on almost any skin.
+  static HeldCandidates least(size_t candidates, size_t count);
+  /// All of up to two million, which takes the least time; the least of more.
+  static HeldCandidates fastest(size_t candidates, size_t count);
 };
 
 /// Chooses `count` candidates in an order of which every prefix is blue noise: progressive dart throwing, in

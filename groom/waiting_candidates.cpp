@@ -3,6 +3,9 @@
 #include "groom/waiting_candidates.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "base/check.h"
 
 namespace pelage {
 
@@ -10,11 +13,16 @@ WaitingCandidates::WaitingCandidates(int levels, size_t max)
     : max_(max),
       dropped_(levels),
       heads_(static_cast<size_t>(levels), kNone),
-      sizes_(static_cast<size_t>(levels), 0) {
-  items_.reserve(max);
+      sizes_(static_cast<size_t>(levels), 0) {}
+
+void WaitingCandidates::hold_all(std::vector<FollicleCandidate> candidates) {
+  PELAGE_CHECK(items_.empty() && candidates.size() <= max_);
+  all_ = std::move(candidates);
+  held_ = all_.size();
 }
 
 uint32_t WaitingCandidates::add(const FollicleCandidate& candidate) {
+  if (items_.empty()) items_.reserve(max_);
   if (held_ == max_) drop();
   if (held_ == max_) return kNone;
   ++held_;
@@ -29,14 +37,14 @@ uint32_t WaitingCandidates::add(const FollicleCandidate& candidate) {
 }
 
 void WaitingCandidates::remove(uint32_t place) {
-  items_[place].next = unused_;
+  next(place) = unused_;
   unused_ = place;
   --held_;
 }
 
 void WaitingCandidates::wait_for(int level, uint32_t place) {
   uint32_t& head = heads_[static_cast<size_t>(level)];
-  items_[place].next = head;
+  next(place) = head;
   head = place;
   ++sizes_[static_cast<size_t>(level)];
   highest_ = std::max(highest_, level);
@@ -52,9 +60,9 @@ void WaitingCandidates::drop_from(int level) {
     const auto l = static_cast<size_t>(highest_);
     if (sizes_[l] == 0) continue;
     dropped_ = std::min(dropped_, highest_);
-    uint32_t next = kNone;
-    for (uint32_t place = heads_[l]; place != kNone; place = next) {
-      next = items_[place].next;
+    uint32_t following = kNone;
+    for (uint32_t place = heads_[l]; place != kNone; place = following) {
+      following = next(place);
       remove(place);
     }
     heads_[l] = kNone;

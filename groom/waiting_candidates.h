@@ -10,6 +10,9 @@ namespace pelage {
 
 /// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` of them: when
 /// full, drops those that wait for the highest levels. Levels are 0 .. `levels` - 1.
+///
+/// Candidates come one by one, by add(), or all at once, by hold_all(), which takes less memory per
+/// candidate.
 class WaitingCandidates {
  public:
   static constexpr uint32_t kNone = 0xffffffffu;
@@ -19,8 +22,15 @@ class WaitingCandidates {
 
   /// Returns the candidate's place, valid until it is removed; kNone if there is no room and nothing to drop.
   uint32_t add(const FollicleCandidate& candidate);
+  /// Instead of add(): takes all candidates, at most `max`, in order of rank. The place of each is its rank.
+  void hold_all(std::vector<FollicleCandidate> candidates);
   void remove(uint32_t place);
-  const FollicleCandidate& operator[](uint32_t place) const { return items_[place].candidate; }
+  /// FollicleCandidate::number is undefined, see rank().
+  const FollicleCandidate& operator[](uint32_t place) const {
+    return all_.empty() ? items_[place].candidate : all_[place];
+  }
+  /// Rank of the candidate among all candidates.
+  uint32_t rank(uint32_t place) const { return all_.empty() ? items_[place].candidate.number : place; }
 
   /// Makes a candidate that waits for no level wait for this one. It may be dropped from now on.
   void wait_for(int level, uint32_t place);
@@ -43,11 +53,14 @@ class WaitingCandidates {
   static_assert(sizeof(Item) == kItemBytes);
 
   void drop();
+  /// The next place of the list that the place is in.
+  uint32_t& next(uint32_t place) { return all_.empty() ? items_[place].next : all_[place].number; }
 
   size_t max_, held_ = 0;
   int dropped_;
-  int highest_ = -1;  // no candidate waits for a higher level
-  std::vector<Item> items_;
+  int highest_ = -1;                    // no candidate waits for a higher level
+  std::vector<Item> items_;             // those of add()
+  std::vector<FollicleCandidate> all_;  // those of hold_all(); their numbers are the links of lists
   uint32_t unused_ = kNone;
   std::vector<uint32_t> heads_;
   std::vector<size_t> sizes_;
@@ -56,7 +69,7 @@ class WaitingCandidates {
 template <class Visit>
 void WaitingCandidates::take(int level, const Visit& visit) {
   const auto l = static_cast<size_t>(level);
-  for (uint32_t place = heads_[l]; place != kNone; place = items_[place].next) visit(place);
+  for (uint32_t place = heads_[l]; place != kNone; place = next(place)) visit(place);
   heads_[l] = kNone;
   sizes_[l] = 0;
 }

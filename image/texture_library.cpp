@@ -26,10 +26,6 @@ constexpr int64_t kLargeImage = int64_t(16) << 20;
 /// Up to this size, the claimed size of an image is reserved at once; larger ones grow as they are read.
 constexpr size_t kReservedAtOnce = size_t(1) << 24;
 
-bool has_room(const MemoryLedger& ledger, int64_t bytes) {
-  return ledger.limit() == 0 || ledger.budgeted() + bytes <= ledger.limit();
-}
-
 /// Rethrows an error of the ledger or the disk at the place in the scene that names the file.
 [[noreturn]] void rethrow_at(const AssetPath& asset, const Error& error) {
   const std::string& message = error.problems().front().message;

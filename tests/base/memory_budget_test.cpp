@@ -18,6 +18,7 @@ TEST(MemoryBudget, TextNeverSaysNothing) {
 TEST(MemoryBudget, WithoutALimitEverythingFits) {
   const MemoryLedger ledger;
   EXPECT_NO_THROW(require_room(ledger, int64_t{1} << 60, "a mountain"));
+  EXPECT_TRUE(has_room(ledger, int64_t{1} << 60));
 }
 
 TEST(MemoryBudget, RefusalNamesTheThingWhatIsInUseAndWhatWouldDo) {
@@ -27,6 +28,8 @@ TEST(MemoryBudget, RefusalNamesTheThingWhatIsInUseAndWhatWouldDo) {
   const MemoryCharge textures(ledger, MemoryTag::kTextures, 10 << 20);
   const MemoryCharge libraries(ledger, MemoryTag::kLibraries, 100 << 20);  // not of the budget
   EXPECT_NO_THROW(require_room(ledger, 24 << 20, "groom 'coat'"));
+  EXPECT_TRUE(has_room(ledger, 24 << 20));
+  EXPECT_FALSE(has_room(ledger, (24 << 20) + 1));
   try {
     require_room(ledger, 25 << 20, "placing 5000 strands of groom 'coat'");
     FAIL();

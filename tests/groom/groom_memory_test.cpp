@@ -37,32 +37,89 @@ class GroomMemoryTest : public OperatorTest {
   }
 };
 
+// Parts of the candidates while they are made, and the statistics of faces.
+constexpr int64_t kBeside = 10 << 20;
+
 TEST_F(GroomMemoryTest, PlacingFolliclesHoldsWhatItAsksFor) {
   for (const char* density : {"1", "{ramp: {along: y, knots: [[-1, 0.2], [1, 1]]}}"}) {
-    for (const int64_t count : {20'000, 60'000}) {
-      const FollicleOptions wanted = options(count, density);
-      FollicleTree tree;
-      MemoryLedger ledger;
-      const Job job{workers_, ledger, progress_};
-      const int64_t peak = peak_of([&] { tree = FollicleTree::build(*rest_, wanted, job); });
-      RecordProperty("peak_share", std::to_string(static_cast<double>(peak) /
-                                                  static_cast<double>(follicle_temporary_bytes(count))));
-      // Parts of the candidates while they are made, and the statistics of faces.
-      constexpr int64_t kBeside = 10 << 20;
-      EXPECT_LE(peak, follicle_temporary_bytes(count) + kBeside) << count;
-      EXPECT_GE(peak, follicle_temporary_bytes(count) * 6 / 10) << count;
-      EXPECT_EQ(ledger.peak(MemoryTag::kGrooms), follicle_temporary_bytes(count)) << count;
-      EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
-      EXPECT_LE(static_cast<int64_t>(tree.bytes()), follicle_bytes(count) + (1 << 16));
+    // All candidates are held up to 21,000 follicles; up to 340,000, all if there is room; above, never all.
+    for (const int64_t count : {20'000, 150'000, 350'000}) {
+      const int64_t needed = follicle_temporary_bytes(count);
+      for (const int64_t limit : {int64_t{0}, needed}) {
+        if (limit > 0 && count != 150'000) continue;
+        const FollicleOptions wanted = options(count, density);
+        FollicleTree tree;
+        MemoryLedger ledger;
+        ledger.set_limit(static_cast<uint64_t>(limit));
+        const Job job{workers_, ledger, progress_};
+        const int64_t peak = peak_of([&] { tree = FollicleTree::build(*rest_, wanted, job); });
+        const int64_t asked = ledger.peak(MemoryTag::kGrooms);
+        RecordProperty("peak_share", std::to_string(static_cast<double>(peak) / static_cast<double>(asked)));
+        EXPECT_LE(peak, asked + kBeside) << count;
+        EXPECT_GE(peak, asked * 6 / 10) << count;
+        if (limit == 0 && count == 150'000) {
+          EXPECT_GT(asked, needed * 3 / 2);
+          EXPECT_LT(asked, 42 << 20);
+        } else {
+          EXPECT_EQ(asked, needed) << count;
+        }
+        EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
+        EXPECT_LE(static_cast<int64_t>(tree.bytes()), follicle_bytes(count) + (1 << 16));
+      }
     }
   }
 }
 
 TEST_F(GroomMemoryTest, PlacingInPartsHoldsWhatItAsksForFromTheFirstNumberOn) {
   // Candidates are expected to be as many as are made at once, and may become more.
-  const int64_t count = 21'500;
-  const int64_t peak = peak_of([&] { FollicleTree::build(*rest_, options(count), job_); });
-  EXPECT_LE(peak, follicle_temporary_bytes(count) + (3 << 20));
+  for (const int64_t count : {21'500, 344'000}) {
+    ledger_.set_limit(static_cast<uint64_t>(count < 100'000 ? follicle_temporary_bytes(count) : 0));
+    const int64_t peak = peak_of([&] { FollicleTree::build(*rest_, options(count), job_); });
+    EXPECT_LE(peak, follicle_temporary_bytes(count) + (count < 100'000 ? 3 << 20 : kBeside));
+  }
+}
+
+/// Ids and roots, leaf by leaf.
+void expect_same(const FollicleTree& a, const FollicleTree& b) {
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_EQ(a.leaves().size(), b.leaves().size());
+  for (size_t leaf = 0; leaf < a.leaves().size(); ++leaf)
+    ASSERT_EQ(a.leaves()[leaf].end, b.leaves()[leaf].end);
+  for (size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(a.id(i), b.id(i)) << i;
+    ASSERT_EQ(a.root(i).face, b.root(i).face) << i;
+    ASSERT_EQ(a.root(i).u, b.root(i).u) << i;
+    ASSERT_EQ(a.root(i).v, b.root(i).v) << i;
+  }
+}
+
+TEST_F(GroomMemoryTest, ALimitChangesHowFolliclesArePlacedButNoFollicle) {
+  // Just above the number up to which all candidates are always held, and just below the one of never.
+  for (const int64_t count : {21'500, 343'000}) {
+    for (const char* density : {"1", "{ramp: {along: y, knots: [[-1, 0.2], [1, 1]]}}"}) {
+      if (count > 100'000 && density[0] == '{') continue;  // takes long
+      const int64_t needed = follicle_temporary_bytes(count);
+      const auto placed = [&](int64_t limit, int64_t* asked) {
+        MemoryLedger ledger;
+        ledger.set_limit(static_cast<uint64_t>(limit));
+        FollicleTree tree =
+            FollicleTree::build(*rest_, options(count, density), Job{workers_, ledger, progress_});
+        *asked = ledger.peak(MemoryTag::kGrooms);
+        return tree;
+      };
+      int64_t most = 0, asked = 0;
+      const FollicleTree tree = placed(0, &most);
+      EXPECT_GT(most, needed);
+      expect_same(placed(most, &asked), tree);
+      EXPECT_EQ(asked, most);
+      for (const int64_t limit : {most - 1, needed}) {
+        expect_same(placed(limit, &asked), tree);
+        EXPECT_EQ(asked, needed);
+      }
+      const int64_t peak = peak_of([&] { EXPECT_THROW(placed(needed - 1, &asked), Error); });
+      EXPECT_LT(peak, 1 << 16);
+    }
+  }
 }
 
 TEST_F(GroomMemoryTest, WhatDoesNotFitIsRefusedByNameBeforeItIsMade) {
@@ -257,21 +314,26 @@ class StopsAfterLooks final : public Progress {
 };
 
 TEST_F(GroomMemoryTest, PlacingStopsWhereverItIs) {
-  // Placing this many looks some thousand times; each place where it looks is left by the same error.
+  // Placing this many looks some hundred times; each place where it looks is left by the same error.
   const Workers one(1);
-  int stopped = 0, looks = 0;
-  for (bool ended = false; !ended; looks += 31) {
-    StopsAfterLooks progress(looks);
-    try {
-      FollicleTree::build(*rest_, options(30'000), Job{one, ledger_, progress});
-      ended = true;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::kStopped);
-      EXPECT_EQ(ledger_.current(MemoryTag::kGrooms), 0);
-      ++stopped;
+  const int64_t count = 22'000;
+  for (const int64_t limit : {int64_t{0}, follicle_temporary_bytes(count)}) {
+    MemoryLedger ledger;
+    ledger.set_limit(static_cast<uint64_t>(limit));
+    int stopped = 0, looks = 0;
+    for (bool ended = false; !ended; looks += limit > 0 ? 31 : 7) {
+      StopsAfterLooks progress(looks);
+      try {
+        FollicleTree::build(*rest_, options(count), Job{one, ledger, progress});
+        ended = true;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kStopped);
+        EXPECT_EQ(ledger.current(MemoryTag::kGrooms), 0);
+        ++stopped;
+      }
     }
+    EXPECT_GT(stopped, 20);
   }
-  EXPECT_GT(stopped, 20);
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "groom/follicles.h"
 #include "groom/waiting_candidates.h"
 #include "tests/groom/scene_text.h"
@@ -83,14 +86,30 @@ TEST(ProgressiveOrder, HasNoResultRatherThanAnother) {
 
 TEST(ProgressiveOrder, OfANarrowSkinIsFoundWithoutForgetting) {
   // Follicles on a line shun each other at 1 / their number.
-  const int64_t count = 30'000;
+  const int64_t few = 30'000, many = 345'000;
   const ControlMesh line = flattened(1e-5f, 1e-5f);
-  Coat coat(line, "1", static_cast<size_t>(count));
-  EXPECT_FALSE(coat.order(HeldCandidates::of(coat.source().wanted(), static_cast<size_t>(count))));
-  FollicleOptions options;
-  options.count = count;
-  EXPECT_EQ(FollicleTree::build(*shapes::surface_of(line), options, QuietJob(2)).size(),
-            static_cast<size_t>(count));
+  Coat coat(line, "1", static_cast<size_t>(few));
+  EXPECT_FALSE(coat.order(HeldCandidates::least(coat.source().wanted(), static_cast<size_t>(few))));
+  const auto surface = shapes::surface_of(line);
+  const auto placed = [&](int64_t count, int64_t limit) {
+    FollicleOptions options;
+    options.count = count;
+    QuietJob job(2);
+    job.ledger().set_limit(static_cast<uint64_t>(limit));
+    return static_cast<int64_t>(FollicleTree::build(*surface, options, job).size());
+  };
+  EXPECT_EQ(placed(few, 0), few);    // holds all at once
+  EXPECT_EQ(placed(many, 0), many);  // holds the least, and then all
+  try {
+    placed(few, follicle_temporary_bytes(few));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    const std::string message = error.what();
+    EXPECT_NE(message.find("placing 30000 strands of groom on a narrow skin"), std::string::npos) << message;
+    const size_t megabytes = std::stoul(message.substr(message.find("--memory ") + 9));
+    EXPECT_EQ(placed(few, static_cast<int64_t>(megabytes) << 20), few);
+  }
 }
 
 TEST(ProgressiveOrder, IsNotLongerThanTheCandidates) {
@@ -103,6 +122,22 @@ TEST(ProgressiveOrder, IsNotLongerThanTheCandidates) {
   EXPECT_EQ(order.size(), candidates);
   std::sort(order.begin(), order.end());
   EXPECT_EQ(std::unique(order.begin(), order.end()), order.end());
+}
+
+TEST(ProgressiveOrder, AsksForLessWhenItHoldsLess) {
+  const auto bytes = [](size_t count, const HeldCandidates& held) {
+    return static_cast<double>(progressive_order_bytes(count * kCandidatesPerFollicle, count, held)) /
+           static_cast<double>(count);
+  };
+  for (const size_t count : {100'000, 340'000, 350'000}) {
+    const size_t candidates = FollicleCandidates::max_of(count * kCandidatesPerFollicle);
+    const HeldCandidates least = HeldCandidates::least(candidates, count),
+                         fastest = HeldCandidates::fastest(candidates, count);
+    EXPECT_EQ(least.parts, 16u);
+    EXPECT_LT(bytes(count, least), 140);
+    EXPECT_EQ(fastest.parts, count < 344'000 ? 1u : 16u);
+    EXPECT_LT(bytes(count, fastest), count < 344'000 ? 260 : 140);
+  }
 }
 
 TEST(CandidateSupply, PartsAreTheWhole) {
@@ -125,6 +160,38 @@ TEST(CandidateSupply, PartsAreTheWhole) {
       }
     }
     EXPECT_EQ(rank, whole.size());
+  }
+}
+
+TEST(WaitingCandidates, WaitTheSameOneByOneOrAllAtOnce) {
+  std::vector<FollicleCandidate> candidates(20);
+  for (uint32_t rank = 0; rank < candidates.size(); ++rank) {
+    candidates[rank].number = rank;
+    candidates[rank].attempt = 100 + rank;
+  }
+  WaitingCandidates one(10, 20), all(10, 20);
+  for (const FollicleCandidate& candidate : candidates) one.add(candidate);
+  all.hold_all(candidates);
+  for (uint32_t place = 0; place < candidates.size(); ++place) {
+    for (WaitingCandidates* waiting : {&one, &all}) {
+      if (place % 5 == 0) {
+        waiting->remove(place);
+      } else {
+        waiting->wait_for(static_cast<int>(place % 3) + 2, place);
+      }
+    }
+  }
+  one.drop_from(4);
+  all.drop_from(4);
+  EXPECT_EQ(all.dropped(), 4);
+  EXPECT_EQ(all.held(), one.held());
+  for (int level = 0; level < 10; ++level) {
+    EXPECT_EQ(all.size(level), one.size(level));
+    std::vector<std::pair<uint32_t, uint32_t>> found[2];
+    one.take(level, [&](uint32_t at) { found[0].emplace_back(one.rank(at), one[at].attempt); });
+    all.take(level, [&](uint32_t at) { found[1].emplace_back(all.rank(at), all[at].attempt); });
+    EXPECT_EQ(found[1], found[0]);
+    for (const auto& [rank, attempt] : found[1]) EXPECT_EQ(attempt, 100 + rank);
   }
 }
 
