@@ -31,7 +31,8 @@ if(PELAGE_SANITIZE)
   target_link_options(pelage_options INTERFACE -fsanitize=${PELAGE_SANITIZE})
   if(PELAGE_SANITIZE MATCHES "undefined")
     # What the address sanitizer stops anyway, and what doubles the time to compile for checks of virtual calls.
-    target_compile_options(pelage_options INTERFACE -fno-sanitize-recover=undefined -fno-sanitize=null,vptr,object-size)
+    target_compile_options(pelage_options INTERFACE -fno-sanitize-recover=undefined
+                           -fno-sanitize=null,vptr,object-size,pointer-overflow)
   endif()
   if(PELAGE_SANITIZE MATCHES "thread")
     # TBB's workers are not instrumented: correct loops would be reported and planted races hidden.

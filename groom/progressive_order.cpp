@@ -181,9 +181,6 @@ bool DartThrowing::collect(int level, double radius) {
   return true;
 }
 
-<<<<<<< HEAD
-/// Takes in the next candidates, except those that are too close to a follicle even at the last level.
-=======
 void DartThrowing::make_room_to_try(size_t count) {
   tried_.clear();
   if (count <= tried_.capacity()) return;
@@ -191,8 +188,7 @@ void DartThrowing::make_room_to_try(size_t count) {
   tried_.reserve(count);
 }
 
-/// Holds the next candidates, but for those that follicles keep away to the last level.
->>>>>>> 86e7d3bd77360b7c1417b6b74c16b57cbd321976
+/// Takes in the next candidates, except those that are too close to a follicle even at the last level.
 bool DartThrowing::arrive(const V3f& origin, float inverse) {
   std::vector<FollicleCandidate> candidates = supply_.next(job_);
   if (candidates.size() == supply_.survey().count && last_ == kLevels) {
@@ -274,14 +270,9 @@ void DartThrowing::append_accepted() {
 
 }  // namespace
 
-<<<<<<< HEAD
-HeldCandidates HeldCandidates::of(size_t candidates, size_t count) {
+HeldCandidates HeldCandidates::least(size_t candidates, size_t count) {
   // Few candidates are made once and all held. Of many, at most 1.8 per follicle are held on a plane, at the
   // moment when half of the follicles are placed.
-=======
-HeldCandidates HeldCandidates::least(size_t candidates, size_t count) {
-  // Of many, 1.8 per follicle are held on a plane, when half of them are placed.
->>>>>>> 86e7d3bd77360b7c1417b6b74c16b57cbd321976
   constexpr size_t kFew = size_t(1) << 17, kParts = 16;
   if (candidates <= kFew) return all(candidates);
   return {kParts, std::min(candidates, 2 * count)};

@@ -10,6 +10,7 @@
 #include "base/temporary_folder.h"
 #include "tests/post/exr_pictures.h"
 #include "tests/post/picture.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -64,8 +65,9 @@ TEST_F(BlurFile, NoMotionGivesTheSamePixelsOfEveryType) {
 }
 
 TEST_F(BlurFile, SamePixelsForAnyBudgetAndNumberOfThreads) {
-  ExrImage image = still_image(400, 300);
-  for (size_t i = 0; i < 400 * 300; ++i) {
+  const int height = kSanitized ? 180 : 300;
+  ExrImage image = still_image(400, height);
+  for (size_t i = 0; i < pixels_of(image, "Z").size(); ++i) {
     pixels_of(image, "forward.u")[i] = 20 * signed_float(hash64(i / 777, 1));
     pixels_of(image, "forward.v")[i] = 14 * signed_float(hash64(i / 555, 2));
     pixels_of(image, "Z")[i] = 1 + unit_float(hash64(i / 333, 3));

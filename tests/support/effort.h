@@ -17,4 +17,9 @@ constexpr bool kSanitized =
 /// about tenfold and checks executed code, not statistics: an eighth suffices there.
 constexpr uint64_t repetitions(uint64_t count) { return kSanitized ? (count + 7) / 8 : count; }
 
+/// The same, but no fewer than `least`, which suffice for what the test requires of all of them together.
+constexpr uint64_t at_least(uint64_t least, uint64_t count) {
+  return repetitions(count) < least ? least : repetitions(count);
+}
+
 }  // namespace pelage

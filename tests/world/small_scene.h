@@ -31,7 +31,7 @@ grooms:
     operators: [{length: {value: 0.4}}, {push_out: {}}, {width: {root: 0.02, tip: 0.005}}]
 materials:
   hide: {model: lambert, color: 0.4}
-  fur: {model: cone-shell, color: [0.6, 0.4, 0.2]}
+  fur: {model: cone-shell, color: [0.6, 0.4, 0.2], diffuse: 0.7}
 characters:
   walker: {parts: [{skin: cube, material: hide, grooms: {coat: fur}}], transform: {scale: 2, translate: [0, 1, 0]}}
   post: {parts: [{skin: still, material: hide}]}

@@ -5,7 +5,7 @@
 template <bool kWide, bool kMoving>
 class Block {
  public:
-  HWY_INLINE Block(const std::byte* block, const FurRay& ray)
+  PELAGE_FUR_INLINE Block(const std::byte* block, const FurRay& ray)
       : key_(block + sizeof(FurBlockHeader) + static_cast<size_t>(ray.key) * kSizes.key()),
         before_(1 - ray.fraction),
         after_(ray.fraction) {
@@ -14,7 +14,7 @@ class Block {
   }
 
   /// Coordinates of one Bezier point, from `lane` on, exact except for rounding of motion.
-  HWY_INLINE hn::Vec<Doubles> coordinates(uint32_t axis, size_t point, size_t lane) const {
+  PELAGE_FUR_INLINE hn::Vec<Doubles> coordinates(uint32_t axis, size_t point, size_t lane) const {
     const std::byte* place = key_ + axis * kSizes.axis + (4 * point + lane) * (kSizes.axis / 16);
     const auto here = decoded(place, axis);
     if constexpr (!kMoving) return here;
@@ -25,20 +25,20 @@ class Block {
   /// Numbers of the axis from `first` on, all lanes of a point and then those of the next: coordinates of the
   /// first point, followed by the differences of each point from the previous one.
   template <class D>
-  HWY_INLINE hn::Vec<D> differences(D d, uint32_t axis, size_t first) const {
+  PELAGE_FUR_INLINE hn::Vec<D> differences(D d, uint32_t axis, size_t first) const {
     const std::byte* place = key_ + axis * kSizes.axis + first * (kSizes.axis / 16);
     const auto here = decoded_difference(d, place, axis, first);
     if constexpr (!kMoving) return here;
     return mix(d, here, decoded_difference(d, place + kSizes.key(), axis, first));
   }
-  HWY_INLINE void load_radii(V (&r)[4]) const {
+  PELAGE_FUR_INLINE void load_radii(V (&r)[4]) const {
     for (size_t i = 0; i < 4; ++i) {
       const std::byte* place = key_ + 3 * kSizes.axis + i * (kSizes.radii / 4);
       r[i] = radius(place);
       if constexpr (kMoving) r[i] = mix(kFloats, r[i], radius(place + kSizes.key()));
     }
   }
-  HWY_INLINE V max_radius() const {
+  PELAGE_FUR_INLINE V max_radius() const {
     if constexpr (kWide || kMoving) {
       V r[4];
       load_radii(r);
@@ -55,12 +55,12 @@ class Block {
  private:
   static constexpr FurBlockSizes kSizes = kWide ? kWideBlock : kNarrowBlock;
 
-  static HWY_INLINE V square_of(V root) { return hn::Mul(hn::Mul(root, root), all(1.0f / 256)); }
+  static PELAGE_FUR_INLINE V square_of(V root) { return hn::Mul(hn::Mul(root, root), all(1.0f / 256)); }
   template <class D>
-  HWY_INLINE hn::Vec<D> mix(D d, hn::Vec<D> a, hn::Vec<D> b) const {
+  PELAGE_FUR_INLINE hn::Vec<D> mix(D d, hn::Vec<D> a, hn::Vec<D> b) const {
     return hn::Add(hn::Mul(a, hn::Set(d, before_)), hn::Mul(b, hn::Set(d, after_)));
   }
-  HWY_INLINE hn::Vec<Doubles> decoded(const std::byte* place, uint32_t axis) const {
+  PELAGE_FUR_INLINE hn::Vec<Doubles> decoded(const std::byte* place, uint32_t axis) const {
     if constexpr (kWide) {
       const hn::Rebind<float, Doubles> floats;
       return hn::PromoteTo(kDoubles, hn::LoadU(floats, reinterpret_cast<const float*>(place)));
@@ -73,7 +73,8 @@ class Block {
   }
   /// The values before the first point are read but not used.
   template <class D>
-  HWY_INLINE hn::Vec<D> decoded_difference(D d, const std::byte* place, uint32_t axis, size_t first) const {
+  PELAGE_FUR_INLINE hn::Vec<D> decoded_difference(D d, const std::byte* place, uint32_t axis,
+                                                  size_t first) const {
     const std::byte* before = place - kSizes.axis / 4;
     if constexpr (kWide) {
       const auto points = hn::LoadU(d, reinterpret_cast<const float*>(place));
@@ -88,7 +89,7 @@ class Block {
       return hn::Add(difference, of_first_point(d, first, hn::Set(d, origin_[axis])));
     }
   }
-  HWY_INLINE V radius(const std::byte* place) const {
+  PELAGE_FUR_INLINE V radius(const std::byte* place) const {
     if constexpr (kWide) {
       return hn::Load(kFloats, reinterpret_cast<const float*>(place));
     } else {

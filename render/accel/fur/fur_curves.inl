@@ -8,7 +8,7 @@ struct FlatCurves {
   V x[4], y[4], dx[3], dy[3];
 
   /// Computes the points from the first one and the differences.
-  HWY_INLINE void add_points() {
+  PELAGE_FUR_INLINE void add_points() {
     for (int i = 0; i < 3; ++i) x[i + 1] = hn::Add(x[i], dx[i]), y[i + 1] = hn::Add(y[i], dy[i]);
   }
 };
@@ -16,7 +16,7 @@ struct FlatCurves {
 /// Bernstein weights of a cubic at u.
 struct Weights {
   V w[4];
-  HWY_INLINE explicit Weights(V u) {
+  PELAGE_FUR_INLINE explicit Weights(V u) {
     const V s = hn::Sub(all(1), u);
     const V ss = hn::Mul(s, s), uu = hn::Mul(u, u);
     w[0] = hn::Mul(ss, s);
@@ -24,7 +24,7 @@ struct Weights {
     w[2] = hn::Mul(all(3), hn::Mul(s, uu));
     w[3] = hn::Mul(uu, u);
   }
-  HWY_INLINE V operator()(const V (&p)[4]) const {
+  PELAGE_FUR_INLINE V operator()(const V (&p)[4]) const {
     return hn::Add(hn::Add(hn::Mul(w[0], p[0]), hn::Mul(w[1], p[1])),
                    hn::Add(hn::Mul(w[2], p[2]), hn::Mul(w[3], p[3])));
   }
@@ -34,14 +34,14 @@ struct Weights {
 struct Cubic {
   V a, b, c, d;
   /// From the first point and the differences that follow.
-  HWY_INLINE Cubic(V first, const V (&differences)[3]) {
+  PELAGE_FUR_INLINE Cubic(V first, const V (&differences)[3]) {
     const V bend = hn::Sub(differences[1], differences[0]);
     a = hn::Sub(hn::Sub(differences[2], differences[1]), bend);
     b = hn::Mul(all(3), bend);
     c = hn::Mul(all(3), differences[0]);
     d = first;
   }
-  HWY_INLINE V value(V u) const {
+  PELAGE_FUR_INLINE V value(V u) const {
     return hn::Add(hn::Mul(hn::Add(hn::Mul(hn::Add(hn::Mul(a, u), b), u), c), u), d);
   }
 };
@@ -50,7 +50,7 @@ struct Cubic {
 /// the first derivative would be lost in rounding where a curve nearly stands still.
 struct Derivatives {
   V first, second;
-  HWY_INLINE Derivatives(const V (&differences)[3], V u) {
+  PELAGE_FUR_INLINE Derivatives(const V (&differences)[3], V u) {
     const V s = hn::Sub(all(1), u);
     const V before = hn::Add(hn::Mul(s, differences[0]), hn::Mul(u, differences[1]));
     const V behind = hn::Add(hn::Mul(s, differences[1]), hn::Mul(u, differences[2]));
@@ -67,7 +67,7 @@ struct Minima {
 
   /// The last points are given as the first points of the following segments. Where strands are smooth their
   /// differences agree too: a minimum there belongs to one of two neighbours, never to none.
-  HWY_INLINE Minima(const FlatCurves& at, V end_x, V end_y) {
+  PELAGE_FUR_INLINE Minima(const FlatCurves& at, V end_x, V end_y) {
     const V(&dx)[3] = at.dx, (&dy)[3] = at.dy;
     const auto product = [&](int p, int d) HWY_ATTR { return dot(at.x[p], at.y[p], dx[d], dy[d]); };
     const V two = all(2), three = all(3), six = all(6);
@@ -112,7 +112,7 @@ constexpr int kNewtonSteps = 8, kMaxSteps = kNewtonSteps + 2 * 26;
 /// The root of c . c' in (0, 1] of the lanes `active`, which must have exactly one. Newton's method within a
 /// bracket; each lane stops separately, with a step of at most kClose along the curve in ray space and kShort
 /// in the parameter.
-HWY_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
+PELAGE_FUR_INLINE V solve(const FlatCurves& at, const Cubic& x, const Cubic& y, V f0, V f5, uint32_t active) {
   V u = hn::Div(f0, hn::Sub(f0, f5));
   V low = hn::Zero(kFloats), high = all(1);
   // The last points computed from the first ones are rounded differently from those of f5, which may place

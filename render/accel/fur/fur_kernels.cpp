@@ -5,10 +5,13 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// The smallest set and AVX2 suffice to find invalid accesses: compiling takes minutes per set then.
+// The smallest set and AVX2 suffice to find invalid accesses. Functions are not inlined: sixteen sanitized
+// copies of all of them would take minutes to compile.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
+#define PELAGE_FUR_INLINE HWY_NOINLINE
 #else
 #define HWY_DISABLED_TARGETS HWY_SSSE3
+#define PELAGE_FUR_INLINE HWY_INLINE
 #endif
 // The scalar fallback also has four lanes. It avoids operations that g++ before 12.3 compiles wrongly (high
 // halves of 16-bit products).
@@ -51,7 +54,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "render/accel/fur/fur_walk.inl"
 
 template <class Query>
-HWY_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) {
+PELAGE_FUR_INLINE void trace(const FurTreeView& tree, const FurRay& ray, Query& query) {
   if (tree.motion_keys > 1) {
     if (tree.layout == FurNodeLayout::kFloat) {
       walk<FloatSlabs<true>, true>(tree, ray, query);

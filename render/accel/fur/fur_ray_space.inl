@@ -4,7 +4,7 @@
 /// The first points of a block in ray space, with an error of at most point_error_bound, and the differences
 /// of the others, with an error relative to their size.
 template <class Curves>
-HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& flat) {
+PELAGE_FUR_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& flat) {
   alignas(64) float xs[16], ys[16];
   const auto set = [](float value) HWY_ATTR { return hn::Set(kMany, value); };
   const auto origin_x = static_cast<float>(ray.origin_x), origin_y = static_cast<float>(ray.origin_y);
@@ -30,7 +30,7 @@ HWY_INLINE void flatten(const Curves& curves, const FurRay& ray, FlatCurves& fla
 /// One Bezier point of all curves in ray space. A function of the ray and the point, so that both segments at
 /// a joint get the same. Rounded once without motion: the product of two floats is exact in double.
 template <class Curves>
-HWY_INLINE void flatten_point(const Curves& curves, const FurRay& ray, size_t point, V& x, V& y) {
+PELAGE_FUR_INLINE void flatten_point(const Curves& curves, const FurRay& ray, size_t point, V& x, V& y) {
   const hn::Rebind<float, Doubles> floats;
   alignas(16) float xs[4], ys[4];
   const auto set = [](double value) HWY_ATTR { return hn::Set(kDoubles, value); };
@@ -55,7 +55,7 @@ struct Depths {
   V first, differences[3];
 
   template <class Curves>
-  HWY_INLINE Depths(const Curves& curves, const FurRay& ray) {
+  PELAGE_FUR_INLINE Depths(const Curves& curves, const FurRay& ray) {
     const hn::Rebind<float, Doubles> floats;
     alignas(64) float zs[16];
     const auto along = [&](auto d, auto pi, auto pj, auto pk) HWY_ATTR {
@@ -79,7 +79,7 @@ struct Depths {
     for (size_t i = 0; i < 3; ++i) differences[i] = hn::Load(kFloats, zs + 4 * (i + 1));
   }
 
-  HWY_INLINE V at(const Weights& weights) const {
+  PELAGE_FUR_INLINE V at(const Weights& weights) const {
     const V second = hn::Add(differences[0], differences[1]);
     const V from_first = hn::Add(
         hn::Mul(weights.w[1], differences[0]),

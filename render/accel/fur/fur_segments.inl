@@ -3,7 +3,7 @@
 
 /// Tests the curves of one block. Returns true when the ray is finished.
 template <bool kWide, bool kMoving, class Query>
-HWY_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
+PELAGE_FUR_INLINE bool test_block(const std::byte* block, const FurRay& ray, Query& query) {
   const Block<kWide, kMoving> curves(block, ray);
   FlatCurves flat;
   flatten(curves, ray, flat);
@@ -93,7 +93,8 @@ HWY_NOINLINE bool test_wide_block(const std::byte* block, const FurRay& ray, Que
 }
 
 template <bool kMoving, class Query>
-HWY_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurRay& ray, Query& query) {
+PELAGE_FUR_INLINE bool test_leaf(const FurTreeView& tree, FurReference leaf, const FurRay& ray,
+                                 Query& query) {
   const std::byte* block = tree.leaves + leaf.leaf_offset();
   const size_t size = (leaf.is_wide() ? kWideBlock : kNarrowBlock).block(tree.motion_keys);
   if constexpr (Query::kCounts) query.tests.segments += 4 * leaf.blocks();

@@ -5,7 +5,7 @@
 template <bool kMoving>
 class FloatSlabs {
  public:
-  HWY_INLINE FloatSlabs(const FurTreeView& tree, const FurRay& ray)
+  PELAGE_FUR_INLINE FloatSlabs(const FurTreeView& tree, const FurRay& ray)
       : references_(FurFloatNode::references(tree.motion_keys)),
         key_(static_cast<size_t>(ray.key) * FurFloatNode::kKey),
         before_(all(1 - ray.fraction)),
@@ -17,10 +17,10 @@ class FloatSlabs {
       near_side_[axis] = axis * FurFloatNode::kAxis + ray.near_side[axis] * FurFloatNode::kSide;
     }
   }
-  HWY_INLINE const uint32_t* references(const std::byte* node) const {
+  PELAGE_FUR_INLINE const uint32_t* references(const std::byte* node) const {
     return reinterpret_cast<const uint32_t*>(node + references_);
   }
-  HWY_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
+  PELAGE_FUR_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
     for (size_t axis = 0; axis < 3; ++axis) {
       const V near_side = side(node + near_side_[axis]),
               far_side = side(node + (near_side_[axis] ^ FurFloatNode::kSide));
@@ -31,7 +31,7 @@ class FloatSlabs {
   }
 
  private:
-  HWY_INLINE V side(const std::byte* place) const {
+  PELAGE_FUR_INLINE V side(const std::byte* place) const {
     const V a = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_));
     if constexpr (!kMoving) return a;
     const V b = hn::Load(kFloats, reinterpret_cast<const float*>(place + key_ + FurFloatNode::kKey));
@@ -46,7 +46,7 @@ class FloatSlabs {
 template <bool kMoving>
 class QuantisedSlabs {
  public:
-  HWY_INLINE QuantisedSlabs(const FurTreeView&, const FurRay& ray)
+  PELAGE_FUR_INLINE QuantisedSlabs(const FurTreeView&, const FurRay& ray)
       : key_(FurQuantisedNode::kPlanes + static_cast<size_t>(ray.key) * FurQuantisedNode::kKey),
         before_(all(1 - ray.fraction)),
         after_(all(ray.fraction)),
@@ -57,10 +57,10 @@ class QuantisedSlabs {
       near_side_[axis] = axis * FurQuantisedNode::kAxis + ray.near_side[axis] * FurQuantisedNode::kSide;
     }
   }
-  HWY_INLINE const uint32_t* references(const std::byte* node) const {
+  PELAGE_FUR_INLINE const uint32_t* references(const std::byte* node) const {
     return reinterpret_cast<const uint32_t*>(node + FurQuantisedNode::kReferences);
   }
-  HWY_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
+  PELAGE_FUR_INLINE hn::Mask<Floats> intersect(const std::byte* node, V& enter, V leave) const {
     const V origin = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kOrigin));
     const V scale = hn::LoadU(kFloats, reinterpret_cast<const float*>(node + FurQuantisedNode::kScale));
     const V step = hn::Mul(scale, inverse_);
@@ -75,14 +75,15 @@ class QuantisedSlabs {
 
  private:
   template <int kAxis>
-  HWY_INLINE void intersect_axis(const std::byte* planes, V step, V first, V last, V& enter, V& leave) const {
+  PELAGE_FUR_INLINE void intersect_axis(const std::byte* planes, V step, V first, V last, V& enter,
+                                        V& leave) const {
     const V steps = hn::Broadcast<kAxis>(step);
     const V near_side = side(planes + near_side_[kAxis]);
     const V far_side = side(planes + (near_side_[kAxis] ^ FurQuantisedNode::kSide));
     enter = hn::Max(hn::Add(hn::Mul(near_side, steps), hn::Broadcast<kAxis>(first)), enter);
     leave = hn::Min(hn::Add(hn::Mul(far_side, steps), hn::Broadcast<kAxis>(last)), leave);
   }
-  HWY_INLINE V side(const std::byte* place) const {
+  PELAGE_FUR_INLINE V side(const std::byte* place) const {
     const V a = bytes_at(place);
     if constexpr (!kMoving) return a;
     return hn::Add(hn::Mul(a, before_), hn::Mul(bytes_at(place + FurQuantisedNode::kKey), after_));

@@ -6,14 +6,14 @@ constexpr size_t kDeferred = 6;  // leaves that may be deferred: enough to hide 
 // levels; beyond kMixed the traversal is depth-first.
 constexpr size_t kStack = 512, kMixed = 256;
 
-HWY_INLINE void fetch_lines(const std::byte* place, size_t bytes) {
+PELAGE_FUR_INLINE void fetch_lines(const std::byte* place, size_t bytes) {
   for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(place + i);
 }
 
 /// Appends the lanes `chosen` to a list in their order, without a branch; returns their number. The list must
 /// have room for four.
-HWY_INLINE size_t append(hn::Vec<Words> children, V enter, hn::Mask<Floats> chosen, uint32_t* references,
-                         float* enters) {
+PELAGE_FUR_INLINE size_t append(hn::Vec<Words> children, V enter, hn::Mask<Floats> chosen,
+                                uint32_t* references, float* enters) {
   const auto packed = hn::BitCast(kWords, hn::Compress(hn::BitCast(kFloats, children), chosen));
   hn::StoreU(packed, kWords, references);
   hn::StoreU(hn::Compress(enter, chosen), kFloats, enters);
@@ -21,7 +21,7 @@ HWY_INLINE size_t append(hn::Vec<Words> children, V enter, hn::Mask<Floats> chos
 }
 
 /// Sorts two to four entries: the nearest comes last.
-HWY_INLINE void order(size_t count, uint32_t* references, float* enters) {
+PELAGE_FUR_INLINE void order(size_t count, uint32_t* references, float* enters) {
   for (size_t i = 1; i < count; ++i) {
     const uint32_t reference = references[i];
     const float enter = enters[i];
@@ -39,7 +39,7 @@ HWY_INLINE void order(size_t count, uint32_t* references, float* enters) {
 /// until a few of them have accumulated, and where the order does not matter every node is deferred for one
 /// visit.
 template <class Slabs, bool kMoving, class Query>
-HWY_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
+PELAGE_FUR_INLINE void walk(const FurTreeView& tree, const FurRay& ray, Query& query) {
   const Slabs slabs(tree, ray);
   uint32_t nodes[kStack], leaves[kDeferred + 8];
   float node_enters[kStack], leaf_enters[kDeferred + 8];

@@ -9,9 +9,12 @@
 #include "tests/geom/random_strands.h"
 #include "tests/render/accel/accel_scenes.h"
 #include "tests/render/accel/ribbon_reference.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
+
+constexpr uint64_t kRays = repetitions(700);
 
 /// Strands that bend in curves much wider than they are thick, as hair does, and taper to their tips.
 Strands gentle_strands(uint64_t seed, size_t count, float radius, CurveBasis basis, int motion_keys) {
@@ -56,8 +59,8 @@ TEST_P(AccelAgainstReference, NearestHitsAgreeAwayFromEdges) {
   TraceThread thread;
   const EmbreeAccel accel({{&strands, 0, {}}}, {}, options, ledger, Workers(2));
 
-  int compared = 0, hits = 0;
-  for (uint64_t i = 0; i < 700; ++i) {
+  uint64_t compared = 0, hits = 0;
+  for (uint64_t i = 0; i < kRays; ++i) {
     const Ray ray = random_ray(5, i);
     const std::vector<Passage> passages = RibbonReference(strands, ray).passages();
     // Corners of linear strands are open wedges: no method has a reason to be the right one there. A ray
@@ -89,8 +92,8 @@ TEST_P(AccelAgainstReference, NearestHitsAgreeAwayFromEdges) {
     const float segments = static_cast<float>(segment_count(c.basis, strands.strand_points(hit.strand_id)));
     EXPECT_NEAR((static_cast<float>(hit.segment) + hit.u) / segments, p.v, 0.03) << "ray " << i;
   }
-  EXPECT_GT(hits, 60);
-  EXPECT_GT(compared, 450);
+  EXPECT_GT(hits, kRays / 12);
+  EXPECT_GT(compared, kRays * 9 / 14);
 }
 
 INSTANTIATE_TEST_SUITE_P(Curves, AccelAgainstReference,
@@ -116,8 +119,8 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
   const EmbreeAccel accel({{&strands, 0, opacity}}, {}, options, ledger, Workers(2));
   EXPECT_FALSE(accel.opaque());
 
-  int compared = 0, stacked = 0;
-  for (uint64_t i = 0; i < 700; ++i) {
+  uint64_t compared = 0, stacked = 0;
+  for (uint64_t i = 0; i < kRays; ++i) {
     const Ray ray = random_ray(8, i);
     double expected = 1;
     int crossings = 0;
@@ -138,8 +141,8 @@ TEST(AccelReference, TransmittanceIsTheProductOverRandomCrossings) {
     EXPECT_NEAR(accel.transmittance(ray, thread), expected, 0.02)
         << "ray " << i << ", crossings " << crossings;
   }
-  EXPECT_GT(compared, 300);
-  EXPECT_GT(stacked, 40);
+  EXPECT_GT(compared, kRays * 3 / 7);
+  EXPECT_GT(stacked, kRays * 2 / 35);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "render/accel/flush_denormals.h"
 #include "tests/render/accel/chunk_accel_fixture.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -18,12 +19,14 @@ class ChunkAccelScenes : public ChunkAccelTest, public testing::WithParamInterfa
 TEST_P(ChunkAccelScenes, AnswersAsOneSceneOverEverything) {
   const TestChunks chunks = random_chunks(7, scene_of_kind(GetParam()));
   const auto oracle = chunks.oracle(CurveShape::kFlat, ledger_);
-  expect_same(*oracle, *make(chunks, chunks.bounds(8)), 1, 2500);        // boxes of parts
-  expect_same(*oracle, *make(chunks, chunks.bounds(1, 1.4f)), 2, 2500);  // loose ones
-  for (int keys : {1, 2}) expect_same(*oracle, *make(chunks, chunks.measured_bounds(keys)), 4, 1500);
+  expect_same(*oracle, *make(chunks, chunks.bounds(8)), 1, repetitions(2500));        // boxes of parts
+  expect_same(*oracle, *make(chunks, chunks.bounds(1, 1.4f)), 2, repetitions(2500));  // loose ones
+  for (int keys : {1, 2})
+    expect_same(*oracle, *make(chunks, chunks.measured_bounds(keys)), 4, repetitions(1500));
   ResidentChunksOptions eager;
   eager.eager = true;
-  expect_same(*oracle, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500);
+  expect_same(*oracle, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3,
+              repetitions(2500));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ChunkAccelScenes, testing::Range(0, kSceneKinds));
@@ -40,8 +43,8 @@ TEST_F(ChunkAccelTest, RoundStrandsAnswerAsOneScene) {
       const auto oracle = chunks.oracle(CurveShape::kRound, ledger_);
       ResidentChunksOptions options;
       options.chunk.shape = CurveShape::kRound;
-      expect_same(*oracle, *make(chunks, chunks.bounds(8), options), 5, 3000);
-      expect_same(*oracle, *make(chunks, chunks.measured_bounds(2), options), 6, 3000);
+      expect_same(*oracle, *make(chunks, chunks.bounds(8), options), 5, repetitions(3000));
+      expect_same(*oracle, *make(chunks, chunks.measured_bounds(2), options), 6, repetitions(3000));
     }
   }
 }
@@ -98,7 +101,7 @@ TEST_F(ChunkAccelTest, NumbersOfChunksChangeNoAnswer) {
     chunks.widest = 0.03f;
     TestChunks others = chunks;
     std::reverse(others.contents.begin(), others.contents.end());
-    expect_same(*make(chunks, chunks.bounds(8)), *make(others, others.bounds(8)), 7, 1500);
+    expect_same(*make(chunks, chunks.bounds(8)), *make(others, others.bounds(8)), 7, repetitions(1500));
   }
 }
 
@@ -114,7 +117,7 @@ TEST_F(ChunkAccelTest, BudgetsChangeNoAnswer) {
   {
     const auto accel = make(chunks, chunks.bounds(8));
     fixed = ledger_.budgeted();
-    expect_same(*oracle, *accel, 1, 2000);
+    expect_same(*oracle, *accel, 1, repetitions(2000));
     working_set = accel->chunks().counts().working_set_bytes;
     EXPECT_EQ(accel->chunks().counts().overruns, 0);
     EXPECT_EQ(accel->chunks().counts().evictions, 0);

@@ -13,6 +13,7 @@
 #include "render/accel/fur/fur_leaf.h"
 #include "tests/fuzz/right_checksums.h"
 #include "tests/render/accel/chunk_accel_fixture.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -71,11 +72,11 @@ TEST_P(FurChunkFileScenes, answer_as_chunks_that_are_grown) {
   options.file = open(chunks.contents.size());
   ASSERT_TRUE(options.file);
   const auto read = make(chunks, chunks.bounds(8), options);
-  expect_same(*grown, *read, 1, 1500);
+  expect_same(*grown, *read, 1, repetitions(1500));
   EXPECT_GT(options.file->reads().chunks, 0);
   EXPECT_EQ(read->chunks().counts().overruns, 0);
   const auto boxed = make(chunks, chunks.measured_bounds(1), options);
-  expect_same(*grown, *boxed, 2, 1000);
+  expect_same(*grown, *boxed, 2, repetitions(1000));
   expect_same_strands(grown->chunks(), read->chunks());
   EXPECT_EQ(warnings_, 0);
 }
@@ -181,7 +182,7 @@ TEST_F(FurChunkFileTest, chunks_that_are_damaged_are_grown) {
       EXPECT_GT(ledger_.budgeted(), before);
     }
     const auto mixed = make(chunks, boxes(), options);
-    expect_same(*grown, *mixed, 9, 1500);
+    expect_same(*grown, *mixed, 9, repetitions(1500));
     size_t lost = 0;
     for (uint32_t c = 0; c < chunks.contents.size(); ++c) lost += !options.file->has(c);
     EXPECT_GT(lost, 3u);

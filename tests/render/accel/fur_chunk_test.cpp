@@ -10,6 +10,7 @@
 #include "geom/strand_point.h"
 #include "tests/render/accel/chunk_accel_fixture.h"
 #include "tests/soak.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -58,19 +59,23 @@ TEST_P(FurChunkScenes, AnyChunksAnswerAsOneTreePerCoat) {
   eager.eager = true;
   const auto whole = make(merged, std::vector<ChunkBounds>(merged.contents.size()), eager);
   const uint64_t more = soak_scale();
-  expect_same(*whole, *make(chunks, chunks.bounds(8), fur_options()), 1, 2500 * more);  // boxes of parts
-  expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2, 2500 * more);  // loose ones
+  expect_same(*whole, *make(chunks, chunks.bounds(8), fur_options()), 1,
+              repetitions(2500) * more);  // boxes of parts
+  expect_same(*whole, *make(chunks, chunks.bounds(1, 1.4f), fur_options()), 2,
+              repetitions(2500) * more);  // loose ones
   for (int keys : {1, 2})
-    expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4, 1500 * more);
+    expect_same(*whole, *make(chunks, chunks.measured_bounds(keys), fur_options()), 4,
+                repetitions(1500) * more);
   ResidentChunksOptions turned = fur_options();
   turned.fur.tree.build.rotation = FurRotation::kAlways;
-  expect_same(*whole, *make(chunks, chunks.bounds(8), turned), 5, 2500 * more);
+  expect_same(*whole, *make(chunks, chunks.bounds(8), turned), 5, repetitions(2500) * more);
   turned.eager = true;
   expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), turned), 6,
-              1500 * more);
+              repetitions(1500) * more);
   eager.fur.tree.layout = FurNodeLayout::kFloat;
   eager.fur.tree.build.cuts = 0.3f;
-  expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3, 2500 * more);
+  expect_same(*whole, *make(chunks, std::vector<ChunkBounds>(chunks.contents.size()), eager), 3,
+              repetitions(2500) * more);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FurChunkScenes, testing::Range(0, kSceneKinds));
@@ -92,7 +97,7 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
     const int64_t before = ledger_.budgeted();
     const auto accel = make(chunks, chunks.bounds(8), fur_options());
     fixed = ledger_.budgeted() - before;
-    expect_same(*whole, *accel, 1, 2000);
+    expect_same(*whole, *accel, 1, repetitions(2000));
     working_set = accel->chunks().counts().working_set_bytes;
     EXPECT_EQ(accel->chunks().counts().overruns, 0);
     for (uint32_t c = 0; c < chunks.contents.size(); ++c) {
@@ -104,6 +109,7 @@ TEST_F(FurChunkTest, BudgetsChangeNoAnswer) {
   }
   for (int threads : {1, 4}) {
     for (int percent : {50, 10}) {
+      if (kSanitized && (threads == 1) == (percent == 10)) continue;
       ResidentChunksOptions options = fur_options();
       options.threads = threads;
       options.memory_limit = static_cast<uint64_t>(
@@ -217,7 +223,7 @@ TEST_F(FurChunkTest, StrandsBeginWhereTheyAreDrawn) {
 TEST_F(FurChunkTest, ReservationsHold) {
   for (CurveBasis basis :
        {CurveBasis::kPinnedBSpline, CurveBasis::kCatmullRom, CurveBasis::kLinear, CurveBasis::kBSpline}) {
-    for (int keys = 1; keys <= 4; ++keys) {
+    for (int keys = 1; keys <= 4; keys += kSanitized ? 3 : 1) {
       for (size_t strands : {1, 2, 3, 9, 60, 500, 1171}) {
         for (float wander : {0.01f, 0.1f, 30.0f}) {  // the last needs wide leaves
           SCOPED_TRACE(testing::Message()

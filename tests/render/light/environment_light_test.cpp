@@ -7,6 +7,7 @@
 #include "render/light/guided_cdf.h"
 #include "tests/render/random.h"
 #include "tests/render/sphere_statistics.h"
+#include "tests/support/effort.h"
 
 namespace pelage {
 namespace {
@@ -91,7 +92,7 @@ TEST(EnvironmentMap, DrawsTexelsInProportionUniformlyInside) {
   // Counts by texel and quarter of texel.
   std::vector<double> observed(40 * 24 * 4, 0.0), expected(40 * 24 * 4, 0.0);
   TestRandom random(2);
-  constexpr int kSamples = 400000;
+  constexpr int kSamples = static_cast<int>(repetitions(400000));
   int astray = 0;
   for (int i = 0; i < kSamples; ++i) {
     const EnvironmentMap::Draw draw = map.sample(random.unit2());
@@ -157,7 +158,7 @@ TEST(EnvironmentMap, CellsOfManyTexelsChangeNoDensity) {
     EXPECT_LT(map.bytes(), full.bytes());
     EXPECT_NEAR(map.power() / full.power(), 1, 1e-6);
     TestRandom random(11);
-    constexpr int kCount = 200000;
+    constexpr int kCount = static_cast<int>(repetitions(200000));
     std::vector<int> drawn(static_cast<size_t>(image.width * image.height));
     int different = 0;
     for (int i = 0; i < kCount; ++i) {

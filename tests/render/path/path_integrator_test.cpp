@@ -21,6 +21,7 @@ struct BusyScene : PathScene {
     o.motion_keys = 2;
     o.radius = 0.03f;
     ConeShellParams fibre;
+    fibre.diffuse = 0.7f;  // given, so that no colour must be matched before every render
     add_fur(random_strands(11, o), fibre);
     fibre.opacity = Field(0.5f);
     add_fur(random_strands(12, o), fibre);
