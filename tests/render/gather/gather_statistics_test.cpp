@@ -96,11 +96,11 @@ TEST(GatherWithoutReuse, HasTheMeanOfPathsThroughOtherModels) {
   }
 }
 
-/// With reuse, light moves along strands but is not lost.
+/// With reuse, light moves along strands but is not lost. Strands of several pixels: the noise is that of light.
 TEST(GatherWithReuse, HasTheMeanOfPathsAndLessVariance) {
   PathScene scene(48, 40);
-  scene.camera.fov = 14;
-  scene.add_fur(furball(1500, 0.6f, 0.008f), diffuse_fibre(Rgb(0.7f)));
+  scene.camera.fov = 10;
+  scene.add_fur(furball(400, 0.8f, 0.03f), diffuse_fibre(Rgb(0.7f)));
   RectangleLightParams key;
   key.position = V3f(3, 3, 3);
   key.look_at = V3f(0);
@@ -109,7 +109,7 @@ TEST(GatherWithReuse, HasTheMeanOfPathsAndLessVariance) {
   scene.add_light("key", key);
   scene.add_sky(Rgb(0.2f));
   scene.image.filter = PixelFilter::kBlackmanHarris;
-  scene.render.samples = 8;
+  scene.render.samples = 12;
   scene.render.bounces = 2;
   const Comparison result = against_paths(scene);
   EXPECT_LT(std::abs(result.relative), 4 * result.error + 0.005);
