@@ -96,7 +96,8 @@ TEST(GatherWithoutReuse, HasTheMeanOfPathsThroughOtherModels) {
   }
 }
 
-/// With reuse, light moves along strands but is not lost. Strands of several pixels: the noise is that of light.
+/// With reuse, light moves along strands but is not lost. Strands are several pixels wide, so that most noise
+/// is that of light.
 TEST(GatherWithReuse, HasTheMeanOfPathsAndLessVariance) {
   PathScene scene(48, 40);
   scene.camera.fov = 10;
