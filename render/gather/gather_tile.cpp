@@ -69,13 +69,13 @@ uint32_t GatherTile::max_samples(size_t lights) {
   return static_cast<uint32_t>(std::clamp<size_t>(fits, 1, kMaxSamples));
 }
 
-size_t GatherTile::scratch_bytes(size_t lights) {
+size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples) {
   constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
   const size_t order = lights * (sizeof(uint64_t) + sizeof(double));
   // At worst, each sample has a knot of its own.
   const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + order + knot;
-  return kPixels * (max_samples(lights) * sample + sizeof(TileSamples::Front) + sizeof(double));
+  return kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double));
 }
 
 bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job,

@@ -33,8 +33,8 @@ class GatherTile {
   /// Number of samples per pixel that trace() accepts at once: what limits the memory of a scratch.
   uint32_t max_samples() const { return max_samples(scene_.lights.size()); }
   static uint32_t max_samples(size_t lights);
-  /// Max memory of a scratch.
-  static size_t scratch_bytes(size_t lights);
+  /// Max memory of a scratch for up to `samples` per pixel at once.
+  static size_t scratch_bytes(size_t lights, uint32_t samples);
 
   /// Traces samples first .. first + count - 1 of each pixel. Returns false when `job` was cancelled.
   bool trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;

@@ -32,7 +32,7 @@ TEST(GatherIntegrator, OneAndManyThreadsGiveTheSameFilm) {
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   const FrameResult free = scene.run({}, 3);
-  const size_t tile = GatherTile::scratch_bytes(scene.lights.size());
+  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8);
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(3 * tile));
