@@ -25,7 +25,7 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 /// How AtomicFile treats a symbolic link at its path.
 enum class Links {
   kFollow,   ///< replaces the target of the link, keeping its mode and owner; the link stays
-  kReplace,  ///< replaces the link itself, or any file, by one of this user
+  kReplace,  ///< replaces the link itself, or any file, by a new file that this user owns
 };
 
 /// A file that appears completely or not at all (law 6): written under a temporary name in the same folder,

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// A stage of a Progress that ends with its scope, even after an exception. Not shown for stages that are too
-/// short.
+/// A stage of a Progress that ends with its scope, even after an exception. If it is too short to be
+/// `worth_showing`, nothing is reported.
 class ProgressStage {
  public:
   ProgressStage(Progress& progress, std::string_view name, double total, bool worth_showing = true)

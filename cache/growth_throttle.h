@@ -6,10 +6,10 @@
 
 namespace pelage {
 
-/// Limits how many threads may grow units at the same time. When most of the units being grown were evicted
-/// only recently, the threads are evicting each other's units: the working sets of all threads do not fit
-/// together. The limit is then lowered, down to one thread, and the others wait; it is raised when this no
-/// longer happens.
+/// Limits how many threads may grow units of a Residency (chunks of fur or skin) at the same time. When most
+/// of the units being grown were evicted only recently, the threads are evicting each other's units: the
+/// working sets of all threads do not fit together. The limit is then lowered, down to one thread, and the
+/// others wait; it is raised when this no longer happens.
 ///
 /// While the limit is below the number of threads, a thread needs a turn to grow units. It keeps its turn as
 /// long as it grows units. A thread that has grown nothing for kIdleTimeout loses its turn, so that no thread
@@ -37,7 +37,7 @@ class GrowthThrottle {
 
   const int threads_;
   int concurrency_;
-  int good_ = 0, needed_ = 1;  // windows in which the limit could have been raised; number needed to raise it
+  int good_ = 0, needed_ = 1;   // windows with few repeated growths; how many of them raise the limit
   int window_ = 0, again_ = 0;  // growths since the last evaluation; those of recently evicted units
   std::vector<Turn> turns_;     // empty while all threads may grow
 };

@@ -26,7 +26,8 @@ enum class BoundSpan { kFrame, kShutter };
 /// key.
 struct BoundsRecord {
   std::shared_ptr<const ContentStore> store;
-  ContentHash key;  ///< hash of everything that the boxes of all entries depend on, except span and keys
+  ContentHash key;  ///< hash of everything that the boxes of all entries depend on, except `span` and `keys`
+                    ///< of exact_bounds()
   size_t index = 0;
   size_t count = 0;
 };
@@ -34,7 +35,8 @@ struct BoundsRecord {
 /// Geometry that exists only while something needs it: bound, split, generate, like RenderMan's RiProcedural
 /// [RISPEC 3.2, procedural primitives]. World space.
 ///
-/// Thread safety: all members may be called from many threads at once. Same procedural, same bytes.
+/// Thread safety: all members may be called from many threads at once. The same procedural always generates
+/// the same bytes.
 class Procedural {
  public:
   virtual ~Procedural() = default;
@@ -48,7 +50,8 @@ class Procedural {
   virtual StrandCounts counts() const = 0;
   /// Scale of the coat; the same for all procedurals it is split into.
   virtual StrandScale scale() const = 0;
-  /// Temporary memory of generate(), without its result and without the memory that growing any leaf needs.
+  /// Temporary memory that generate() needs in addition to its result and to the memory that every leaf with
+  /// as many strands needs while it grows.
   virtual size_t temporary_bytes() const { return 0; }
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
   /// discards it. `keys`: 1, or 2 for boxes linear in time over the shutter.

@@ -13,9 +13,10 @@
 
 namespace pelage {
 
-/// Identifies one crossing of a ray and a strand: the two half segments beside a joint. An accelerator may
-/// report one crossing several times (two segments overlap at their joint; a round one is entered and left);
-/// reports with the same place are one crossing.
+/// Identifies one crossing of a ray and a strand by a joint between segments: the ray crosses one of the two
+/// half segments beside this joint. An accelerator may report one crossing several times: once for each of
+/// two segments that overlap at their joint, and twice for a round strand, where the ray enters and leaves.
+/// Reports with the same place are one crossing.
 struct CrossingPlace {
   uint64_t strand_id = 0;
   uint32_t part = 0;
@@ -24,7 +25,8 @@ struct CrossingPlace {
   friend auto operator<=>(const CrossingPlace&, const CrossingPlace&) = default;
 };
 
-/// Whether a ray with the random word `random` stops at a crossing: the same for every report of it.
+/// Whether a ray with the random number `random` stops at a crossing. All reports of a crossing give the same
+/// answer if their opacity is equal.
 inline bool stops_at(uint32_t random, const CrossingPlace& place, float opacity) {
   return unit_float(hash64(random, place.strand_id, place.part, place.joint, random_use("opacity"))) <
          opacity;

@@ -16,10 +16,10 @@ namespace pelage {
 /// Unpinned B-splines and linear strands are read in place; pinned B-splines and Catmull-Rom strands need a
 /// copy with a phantom point at each end.
 ///
-/// Flat segments are tested in tessellation_rate straight pieces. Of the camera rays that hit a ball of
-/// 100,000 strands, 5.9, 1.2 and 0.4 % hit another strand at rates 4, 8 and 12 than at rate 16, Embree's
-/// maximum. Rates 4 and 8 cost the same (one AVX register); rate 16 makes shadow rays 4 to 10 % slower. Hence
-/// 8.
+/// Embree splits each flat segment into tessellation_rate straight pieces. The maximum rate is 16. Of the
+/// camera rays that hit a ball of 100,000 strands, 5.9 % hit a different strand at rate 4 than at rate 16; at
+/// rate 8 it is 1.2 %, at rate 12 0.4 %. Rates 4 and 8 cost the same (one AVX register); rate 16 makes shadow
+/// rays 4 to 10 % slower. Hence 8.
 class EmbreeCurves {
  public:
   explicit EmbreeCurves(const AccelStrands& source);
@@ -55,7 +55,7 @@ class EmbreeCurves {
   std::vector<float> copy_;                  // control points with phantom ends, or empty: read in place
   std::vector<uint32_t> first_vertex_;       // one per segment
   uint32_t segments_per_strand_ = 0;         // when all strands have the same number
-  uint32_t points_per_strand_ = 0;           // the same
+  uint32_t points_per_strand_ = 0;           // when all strands have the same number
   std::vector<uint32_t> strand_of_segment_;  // otherwise
   std::vector<uint32_t> first_segment_;      // otherwise: of each strand
 };

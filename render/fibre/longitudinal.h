@@ -57,7 +57,7 @@ class LongitudinalLobe {
     return scale_ * bessel_i0_exp(x, below_peak - x);
   }
 
-  /// sin theta_i with that density [dEon13]; `u.y` may be of lower quality.
+  /// sin theta_i with that density [dEon13]; `u.y` may be less well stratified than `u.x`.
   float sample(const V2f& u, float sin_o, float cos_o) const {
     const float below_one = std::min(2.0f, -variance_ * std::log(u.x + (1 - u.x) * tail_));
     const float c = 1 - below_one, s = std::sqrt(std::max(0.0f, below_one * (2 - below_one)));

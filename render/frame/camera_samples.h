@@ -10,7 +10,8 @@
 
 namespace pelage {
 
-/// Draws of a sample (see SampleStream): fixed, whatever a path does. Vertices have several each.
+/// Number of the SampleStream draw for each use in a sample. The numbers do not depend on the course of the
+/// path. Each vertex of the path has several draws, from kFirstVertex on.
 enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
 struct CameraSample {

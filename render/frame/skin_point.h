@@ -19,8 +19,9 @@ struct SkinPoint {
 /// `triangle`: HitGeometry::triangle of the hit.
 SkinPoint skin_point(const SkinMesh& triangle, const Ray& ray, const Hit& hit);
 
-/// Height of the skin above the tangent plane at a hit, at the offset `away` along that plane, extrapolating
-/// the curvature of this triangle; at most the length of `away`. `normal`: SkinPoint::normal.
+/// Height of the skin above the tangent plane at a hit, measured at the offset `away` along that plane. It is
+/// extrapolated from the curvature of this triangle, and clamped to +- the length of `away`. `normal`:
+/// SkinPoint::normal.
 float skin_rise(const SkinMesh& triangle, float time, const V3f& normal, const V3f& away);
 
 /// Parameters of a hit in its ptex face.

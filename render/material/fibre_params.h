@@ -48,8 +48,8 @@ struct KajiyaKayParams : FibreParams {
   static const Schema<KajiyaKayParams>& schema();
 };
 
-/// Starting points for hair by pigment. The absorption of the pigments was measured; their concentrations are
-/// taken from other programs for people, and guessed for animals.
+/// Presets of pigment concentrations in hair. The absorption of the pigments was measured. The concentrations
+/// in human hair are taken from other programs; those in animals are guesses.
 enum class HairPreset {
   kNone,
   kHumanBlond,
@@ -118,7 +118,7 @@ struct ChiangParams : FibreParams, AbsorptionParams {
 
 /// Absorption per radius from the coefficient or the pigments; empty when neither is given.
 std::optional<Rgb> given_absorption(const AbsorptionParams& params);
-/// The same or, when empty, the absorption for a material colour.
+/// given_absorption() or, when that is empty, the absorption for a material colour.
 class ColorToAbsorption;
 Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color);
 

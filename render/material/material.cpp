@@ -59,11 +59,11 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
                    "color, so that a white fibre absorbs nothing",
            .min = 0,
            .max = 1});
-    s.key(
-        "balance", &P::balance,
-        {.help = "Direction of diffuse scattering: 1 back to the viewer's side, 0 even, -1 through the fibre",
-         .min = -1,
-         .max = 1});
+    s.key("balance", &P::balance,
+          {.help = "Direction of diffuse scattering: 1 reflects light mostly to the side that it comes from, "
+                   "0 scatters it evenly around the fibre, -1 transmits it mostly through the fibre",
+           .min = -1,
+           .max = 1});
     s.key("primary", &P::primary,
           {.help = "Albedo of the primary highlight, independent of color", .min = 0, .max = 1});
     s.key("primary_width", &P::primary_width,
@@ -73,9 +73,10 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "Shift of the highlight along the strand; negative values move it toward the tip. The "
-                   "highlight uses the tangent at a point this far toward the tip, or toward the root if "
-                   "negative",
+           .help = "Shift of the highlight along the strand; negative values move it toward the tip. "
+                   "Shading takes the tangent not at the shaded point but at this distance from it, toward "
+                   "the tip for positive values, toward the root for negative ones; the highlight moves the "
+                   "opposite way",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,

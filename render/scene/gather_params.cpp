@@ -27,9 +27,9 @@ const Schema<GatherParams>& GatherParams::schema() {
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
-               "Mean number of shadow rays per visible sample. Most of them are traced where the light that "
-               "arrives is bright and uncertain, compared to the light of the pixel. A sample sends at "
-               "most one ray to each light",
+               "Mean number of shadow rays per visible sample. Most of them go to lights that would be "
+               "bright compared to the light of the pixel, and of which it is uncertain how much arrives. A "
+               "sample sends at most one ray to each light",
            .min = 0.05,
            .max = 16});
     s.key("paths", &GatherParams::paths,
