@@ -36,7 +36,7 @@ Film::Film(int width, int height, FilmLayers layers, MemoryLedger& ledger)
 }
 
 int64_t Film::bytes_needed(int width, int height, const FilmLayers& layers) {
-  const size_t pixel = sizeof(uint32_t) + sizeof(Surface) + (layers.noise ? sizeof(PixelMoments) : 0);
+  const size_t pixel = sizeof(uint32_t) + sizeof(FrontSurface) + (layers.noise ? sizeof(PixelMoments) : 0);
   const size_t sums = FilmSums::bytes_needed(width, height, channel_count(layers), layers.splat);
   return static_cast<int64_t>(width) * height * static_cast<int64_t>(pixel) + static_cast<int64_t>(sums);
 }
@@ -53,12 +53,7 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
   ++counts_[pixel];
   if (!moments_.empty()) moments_[pixel].add(luminance(sample.radiance));
 
-  Surface& kept = surfaces_[pixel];
-  const bool nearer = sample.surface.depth < kept.sample.depth;
-  const bool first_inside = sample.inside_pixel() && !kept.inside_pixel;
-  if (first_inside || (nearer && sample.inside_pixel() == kept.inside_pixel)) {
-    kept = {sample.surface, sample.inside_pixel()};
-  }
+  surfaces_[pixel].offer(sample.surface, sample.inside_pixel());
   return true;
 }
 
@@ -106,7 +101,7 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
     }
   };
   const auto add_data = [&](std::string name, auto value) {
-    add_channel(std::move(name), ChannelType::kFloat, [&](size_t p) { return value(surfaces_[p].sample); });
+    add_channel(std::move(name), ChannelType::kFloat, [&](size_t p) { return value(surfaces_[p].surface); });
   };
 
   add_color("", 0);
@@ -124,7 +119,7 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
     add_data("root." + axis, [c](const VisibleSurface& s) { return s.root_uv[c]; });
   }
   ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
-  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[first_pixel + p].sample.id;
+  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[first_pixel + p].surface.id;
   channels.push_back(std::move(id));
   if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,22 +11,10 @@
 #include "image/exr.h"
 #include "render/film/film_layers.h"
 #include "render/film/film_sums.h"
+#include "render/film/visible_surface.h"
 #include "render/sampling/pixel_moments.h"
 
 namespace pelage {
-
-inline constexpr uint32_t kNoStrand = 0xffffffffu;
-
-/// The first surface that a camera ray hit. Default values describe an empty pixel.
-struct VisibleSurface {
-  float depth = std::numeric_limits<float>::infinity();  ///< along the camera axis
-  V3f normal{0};                                         ///< unit, world space
-  V3f tangent{0};                                        ///< unit, root to tip; zero on skins
-  V2f forward{0};                                        ///< pixels to the next frame, x right, y down
-  V2f root_uv{0};           ///< texture coordinates of the strand's root or of the skin
-  uint32_t id = kNoStrand;  ///< lower half of the strand's id
-  float left_out = 0;       ///< fraction of the strands that level of detail omitted here
-};
 
 /// Result of one path.
 struct FilmSample {
@@ -40,10 +27,7 @@ struct FilmSample {
   bool inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }
 };
 
-/// Sums over all samples of a picture, per pixel.
-///
-/// Data that cannot be averaged (depth, normal, id ...) comes from the front-most sample within the pixel,
-/// or, if none is within the pixel, from the front-most sample of all.
+/// Sums over all samples of a picture, per pixel. Data that cannot be averaged comes from FrontSurface.
 ///
 /// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. One thread at a time adds the
 /// samples of a tile, always in the same order, so the sums do not depend on the number of threads.
@@ -70,7 +54,7 @@ class Film {
   Rgb radiance(int x, int y) const;
   float alpha(int x, int y) const;
   Rgb layer(int x, int y, size_t layer) const;
-  const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].sample; }
+  const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].surface; }
 
   /// All channels of rows y0 .. y1-1: R G B A and light layers as half, Z, N, tangent, forward and root as
   /// float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of the
@@ -78,10 +62,6 @@ class Film {
   std::vector<ExrChannel> exr_rows(int y0, int y1) const;
 
  private:
-  struct Surface {
-    VisibleSurface sample;
-    bool inside_pixel = false;
-  };
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
@@ -91,7 +71,7 @@ class Film {
   FilmLayers layers_;
   FilmSums sums_;  // R G B A, then 3 per layer
   std::vector<uint32_t> counts_;
-  std::vector<Surface> surfaces_;
+  std::vector<FrontSurface> surfaces_;
   std::vector<PixelMoments> moments_;  // of the luminance; empty unless layers().noise
   MemoryCharge charge_;
 };

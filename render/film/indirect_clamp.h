@@ -27,6 +27,16 @@ struct IndirectClamp {
     return kept;
   }
 
+  /// Adds what another clamp counted.
+  void add_counts(const IndirectClamp& other) {
+    lost += other.lost;
+    indirect += other.indirect;
+  }
+  /// Fraction of the indirect light that was removed.
+  double lost_fraction() const {
+    return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
+  }
+
  private:
   static int64_t in_parts(float value) {
     return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);  // 0 for NaN

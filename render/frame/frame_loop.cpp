@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "render/accel/flush_denormals.h"
 
 namespace pelage {
 namespace {
@@ -40,30 +39,14 @@ double FrameLoop::mean_samples() const {
          static_cast<double>(sample_counts_.size());
 }
 
-FrameLoop::End FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
+PassEnd FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
   const std::vector<Tile> tiles = scattered ? pelage::scattered(tiles_) : tiles_;
-  std::atomic<bool> cancelled{false}, out_of_time{false};
-  job_.workers.for_each(tiles.size(), 1, [&](WorkRange range) {
-    const FlushDenormals flush;
-    for (size_t i = range.begin; i < range.end; ++i) {
-      if (job_.progress.cancelled()) {
-        cancelled = true;
-        return;
-      }
-      if (clock_.seconds() > deadline_s) {
-        out_of_time = true;
-        return;
-      }
-      if (!trace(tiles[i], goal, *scratch_[static_cast<size_t>(range.worker)])) {
-        cancelled = true;
-        return;
-      }
-      double none = 0;
-      if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
-    }
+  return trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
+    if (!trace(tile, goal, *scratch_[static_cast<size_t>(worker)])) return false;
+    double none = 0;
+    if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
+    return true;
   });
-  if (cancelled) return End::kCancelled;
-  return out_of_time ? End::kOutOfTime : End::kDone;
 }
 
 bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch) {
@@ -120,12 +103,9 @@ void FrameLoop::add_to(FrameStatistics& statistics) const {
 }
 
 double FrameLoop::clamped_fraction() const {
-  int64_t lost = 0, indirect = 0;
-  for (const auto& scratch : scratch_) {
-    lost += scratch->clamp.lost;
-    indirect += scratch->clamp.indirect;
-  }
-  return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
+  IndirectClamp all;
+  for (const auto& scratch : scratch_) all.add_counts(scratch->clamp);
+  return all.lost_fraction();
 }
 
 }  // namespace pelage

@@ -14,6 +14,7 @@
 #include "render/frame/frame_statistics.h"
 #include "render/frame/sample_integrator.h"
 #include "render/frame/tile_order.h"
+#include "render/frame/tile_pass.h"
 
 namespace pelage {
 
@@ -23,7 +24,6 @@ class FrameLoop {
   /// The number of samples that a pixel with `given` samples should have. Called again until it has them, by
   /// the thread that traces the pixel.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
-  enum class End { kDone, kCancelled, kOutOfTime };
 
   /// `clock`: the reference of deadlines.
   FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
@@ -40,7 +40,7 @@ class FrameLoop {
   /// Traces every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, with consecutive
   /// tiles far apart, so that threads that start together do not wait for the same fur. Samples of one pixel
   /// are added in order by one thread. Starts no more tiles once the clock passes `deadline_s`.
-  End pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
+  PassEnd pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
 
   /// Mean thread seconds per sample of the pixel's tile so far.
   double cost(size_t pixel) const;

@@ -33,7 +33,7 @@ class SampleSchedule {
   ScheduleEnd run();
 
  private:
-  using End = FrameLoop::End;
+  using End = PassEnd;
   /// Traces all pixels to `samples`.
   End uniform(uint32_t samples);
   /// A quarter of the pilot for every pixel, and the rest where needs_full_pilot() requires it.

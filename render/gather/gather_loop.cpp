@@ -3,12 +3,10 @@
 #include "render/gather/gather_loop.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
 #include "base/memory_budget.h"
 #include "base/parallel.h"
-#include "render/accel/flush_denormals.h"
 
 namespace pelage {
 namespace {
@@ -61,41 +59,30 @@ void GatherLoop::run() {
   const bool previews = limited || samples > kFew;
   const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
   job_.progress.begin("render", pixels * (samples + (previews ? 1 : 0)));
-  End end = previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : End::kDone;
+  PassEnd end =
+      previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : PassEnd::kDone;
   const double deadline =
       limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
-  for (uint32_t given = 0; given < samples && end == End::kDone;) {
-    const uint32_t wanted = std::min(tile_.max_samples(), samples - given);
+  for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
+    const uint32_t wanted = std::min(GatherTile::max_samples(scene_.lights.size()), samples - given);
     const uint32_t count = fitting(wanted, given + (previews ? 1 : 0));
-    if (count == 0) end = End::kOutOfTime;
-    if (end == End::kDone) end = trace({given, count, given == 0, false}, deadline);
+    if (count == 0) end = PassEnd::kOutOfTime;
+    if (end == PassEnd::kDone) end = trace({given, count, given == 0, false}, deadline);
     given += count;
-    if (count < wanted && end == End::kDone) end = End::kOutOfTime;
+    if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
   job_.progress.end();
   report(end);
 }
 
-GatherLoop::End GatherLoop::trace(const Pass& pass, double deadline_s) {
+PassEnd GatherLoop::trace(const Pass& pass, double deadline_s) {
   const double began = clock_.seconds();
   const std::vector<Tile> tiles = pass.scattered ? scattered(tiles_) : tiles_;
-  std::atomic<bool> cancelled{false}, out_of_time{false};
-  job_.workers.for_each(tiles.size(), 1, [&](WorkRange range) {
-    const FlushDenormals flush;
-    for (size_t i = range.begin; i < range.end; ++i) {
-      if (clock_.seconds() > deadline_s) {
-        out_of_time = true;
-        return;
-      }
-      if (!trace_tile(pass, tiles[i], range.worker)) {
-        cancelled = true;
-        return;
-      }
-    }
+  const PassEnd end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
+    return trace_tile(pass, tile, worker);
   });
   sample_s_ = (clock_.seconds() - began) / pass.count;
-  if (cancelled) return End::kCancelled;
-  return out_of_time ? End::kOutOfTime : End::kDone;
+  return end;
 }
 
 /// A scratch that no other thread uses; waits until there is one.
@@ -142,9 +129,9 @@ void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& s
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
 }
 
-void GatherLoop::report(End end) {
-  result_.partial = end == End::kCancelled;
-  result_.time_limited = end == End::kOutOfTime;
+void GatherLoop::report(PassEnd end) {
+  result_.partial = end == PassEnd::kCancelled;
+  result_.time_limited = end == PassEnd::kOutOfTime;
   result_.first_tile_s = first_tile_s_;
   result_.samples = result_.film.samples(0, 0);
   double sum = 0;
@@ -160,12 +147,9 @@ void GatherLoop::report(End end) {
   for (const auto& scratch : scratch_) {
     result_.statistics.trace += scratch->thread.counts;
     result_.statistics.rays += scratch->rays;
-    clamp.lost += scratch->clamp.lost;
-    clamp.indirect += scratch->clamp.indirect;
+    clamp.add_counts(scratch->clamp);
   }
-  if (clamp.indirect > 0) {
-    result_.clamped_fraction = static_cast<double>(clamp.lost) / static_cast<double>(clamp.indirect);
-  }
+  result_.clamped_fraction = clamp.lost_fraction();
 }
 
 }  // namespace pelage

@@ -12,16 +12,17 @@
 #include "base/ledger.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_result.h"
+#include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
 
 namespace pelage {
 
 /// Renders a frame with GatherTile.
 ///
-/// First, every pixel gets one sample, for a valid picture early: cancelled or out of time, a frame keeps it
-/// in the tiles that were not reached. Then each tile gets its samples, which replace the first. When there
-/// are more than GatherTile::max_samples(), further passes add to them. So the picture does not depend on
-/// threads or on the first pass, unless the time limit is reached.
+/// The first pass gives every pixel one sample, so that a frame that is cancelled or runs out of time is
+/// valid. The second pass replaces this sample, tile by tile, by up to GatherTile::max_samples() samples;
+/// further passes add more. The picture does not depend on the number of threads, and only a frame that ends
+/// early shows the first pass.
 class GatherLoop {
  public:
   /// Memory of the tiles that are traced at once.
@@ -43,18 +44,17 @@ class GatherLoop {
 
  private:
   class Lease;
-  enum class End { kDone, kCancelled, kOutOfTime };
   struct Pass {
     uint32_t first = 0, count = 1;
     bool replaces = false;  ///< earlier samples
     bool scattered = false;
   };
-  End trace(const Pass& pass, double deadline_s);
+  PassEnd trace(const Pass& pass, double deadline_s);
   /// Samples of the next pass that fit the time limit; 0: none.
   uint32_t fitting(uint32_t count, uint32_t given) const;
   bool trace_tile(const Pass& pass, const Tile& tile, int worker);
   void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);
-  void report(End end);
+  void report(PassEnd end);
 
   const RenderScene& scene_;
   const GatherTile tile_;

@@ -12,8 +12,7 @@ namespace pelage {
 namespace {
 
 constexpr int kMaxLevel = 16;
-/// Parts of a strand, from root to tip, over which visibility is taken to be similar across a coat.
-constexpr float kLayers = 8;
+constexpr uint32_t kZones = 8;
 
 /// The smallest level at which 2^level parts of `length` are no longer than `spacing`.
 int level_of(float length, float spacing) {
@@ -21,7 +20,8 @@ int level_of(float length, float spacing) {
   return std::min(static_cast<int>(std::ceil(std::log2(length / spacing))), kMaxLevel);
 }
 
-/// One of the two knots around `place` in [0, 1], of 2^level + 1: the nearer it is, the more likely.
+/// Chooses one of the two knots around `place`, of 2^level + 1 knots in [0, 1]; the nearer one is more
+/// likely.
 uint32_t knot_near(float place, int level, float random) {
   const float scaled = std::clamp(place, 0.0f, 1.0f) * static_cast<float>(1 << level);
   const float before = std::floor(scaled);
@@ -41,7 +41,8 @@ KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random) 
                                       : on_skin(hit, met.triangle, random);
 }
 
-/// Pixels along the control polygon when the shutter opens, without what is behind the camera.
+/// Length of the control polygon in the picture when the shutter opens, in pixels. Edges with an end behind
+/// the camera do not count.
 float KnotKeys::length_in_picture(const Strands& strand) const {
   float length = 0;
   auto from = camera_.project(strand.point(0), 0);
@@ -58,16 +59,16 @@ KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, float random)
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
   const uint32_t knot = knot_near(place, level, random);
-  const float along = static_cast<float>(knot) / static_cast<float>(1 << level);
+  const uint32_t zone = std::min(kZones * knot >> level, kZones - 1);
   return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)),
-          hash64(random_use("layer of a coat"), hit.part, static_cast<uint64_t>(along * kLayers))};
+          hash64(random_use("zone of a coat"), hit.part, zone)};
 }
 
 KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const {
-  const uint64_t layer = hash64(random_use("layer of a skin"), hit.part);
+  const uint64_t zone = hash64(random_use("zone of a skin"), hit.part);
   if (triangle.vertex_uv.empty()) {
     const uint64_t face = triangle.faces.empty() ? 0 : triangle.faces[0];
-    return {hash64(random_use("knot of a skin"), hit.part, face), layer};
+    return {hash64(random_use("knot of a skin"), hit.part, face), zone};
   }
   // Size in the picture of the face's two parameter lines, from the triangle that was hit.
   const V2f* at = triangle.vertex_uv.data();
@@ -89,7 +90,7 @@ KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& r
   return {hash64(random_use("knot of a skin"), hit.part, triangle.faces[0],
                  pack(levels[0], knot_near(place.x, levels[0], random.x)),
                  pack(levels[1], knot_near(place.y, levels[1], random.y))),
-          layer};
+          zone};
 }
 
 }  // namespace pelage

@@ -11,19 +11,22 @@
 
 namespace pelage {
 
-/// Identifies a knot: a place on a strand or skin whose light is shared by the samples that see its
-/// surroundings.
+/// Identifies a knot: a position on a strand or skin. Samples that see the strand or skin near a knot share
+/// light.
 struct KnotKey {
   uint64_t knot = 0;
-  uint64_t layer = 0;  ///< the knots of one coat at about the same distance from the root, or of one skin
+  uint64_t zone = 0;  ///< the part of a coat or the skin that the knot lies in: see KnotKeys
 };
 
 /// Knots of the hits of a frame.
 ///
 /// A strand has 2^level + 1 knots at equal distances of its parameter. The level follows from the length of
 /// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots, whose levels
-/// follow from its size in the picture. A hit between knots belongs to one of them, chosen with the
-/// probability of its linear weight: on average, light is interpolated linearly.
+/// follow from its size in the picture. A hit between knots belongs to one of them, chosen with a probability
+/// equal to its linear interpolation weight: on average, light is interpolated linearly.
+///
+/// Each coat has eight zones, from the roots to the tips; a skin is one zone. About the same fraction of a
+/// light arrives at all knots of a zone in the same small part of the picture.
 ///
 /// A key is a function of the camera and the hit only. Thread safety: const members from any thread.
 class KnotKeys {

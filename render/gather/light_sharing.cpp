@@ -18,44 +18,44 @@ void LightSharing::begin(size_t lights, bool guess) {
   lights_ = lights;
   guess_ = guess;
   knots_.clear();
-  layers_.clear();
+  zones_.clear();
 }
 
 void LightSharing::add_unoccluded(uint32_t knot, size_t light, float luminance) {
   grown(knots_, knot * lights_ + light).unoccluded += luminance;
 }
 
-void LightSharing::add_ray(uint32_t knot, uint32_t layer, size_t light, float luminance, float through) {
+void LightSharing::add_ray(uint32_t knot, uint32_t zone, size_t light, float luminance, float through) {
   Knot& at = grown(knots_, knot * lights_ + light);
   at.seen += luminance;
   at.arrived += through * luminance;
-  Layer& all = grown(layers_, layer * lights_ + light);
+  Zone& all = grown(zones_, zone * lights_ + light);
   all.seen += luminance;
   all.arrived += through * luminance;
   ++all.rays;
 }
 
-float LightSharing::chance(uint32_t layer, size_t light) const {
-  const size_t index = layer * lights_ + light;
-  if (index >= layers_.size() || layers_[index].rays == 0) return 1;
+float LightSharing::chance(uint32_t zone, size_t light) const {
+  const size_t index = zone * lights_ + light;
+  if (index >= zones_.size() || zones_[index].rays == 0) return 1;
   // As if one ray more had arrived.
-  const Layer& of = layers_[index];
+  const Zone& of = zones_[index];
   const auto mean = static_cast<float>(of.arrived / of.seen), rays = static_cast<float>(of.rays);
   return std::max(kMinChance, (mean * rays + 1) / (rays + 1));
 }
 
-void LightSharing::finish(const std::vector<uint32_t>& layer_of_knot) {
-  knots_.resize(layer_of_knot.size() * lights_);
-  for (size_t knot = 0; knot < layer_of_knot.size(); ++knot) {
+void LightSharing::finish(const std::vector<uint32_t>& zone_of_knot) {
+  knots_.resize(zone_of_knot.size() * lights_);
+  for (size_t knot = 0; knot < zone_of_knot.size(); ++knot) {
     for (size_t light = 0; light < lights_; ++light) {
       Knot& own = knots_[knot * lights_ + light];
       if (!(own.unoccluded > 0)) continue;
       double guess = 0;
-      const size_t index = layer_of_knot[knot] * lights_ + light;
-      if (guess_ && index < layers_.size()) {
-        const Layer& layer = layers_[index];
-        const double others = layer.seen - own.seen;
-        if (others > 1e-6 * layer.seen) guess = (layer.arrived - own.arrived) / others;
+      const size_t index = zone_of_knot[knot] * lights_ + light;
+      if (guess_ && index < zones_.size()) {
+        const Zone& zone = zones_[index];
+        const double others = zone.seen - own.seen;
+        if (others > 1e-6 * zone.seen) guess = (zone.arrived - own.arrived) / others;
       }
       own.fraction = static_cast<float>(guess + (own.arrived - guess * own.seen) / own.unoccluded);
     }

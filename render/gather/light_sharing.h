@@ -16,27 +16,27 @@ namespace pelage {
 /// blockers, U the exact unoccluded light of the knot, and p a guess, the fraction is
 ///   p + (arrived - p * seen) / U.
 /// On average it is right for any p that does not depend on these rays: p * seen varies as arrived does, so
-/// that the noise of the choice cancels. p is the mean over the other knots of the layer.
+/// that the noise of the choice cancels. p is the mean over the other knots of the zone.
 class LightSharing {
  public:
   /// `guess`: whether other knots are asked; otherwise p = 0.
   void begin(size_t lights, bool guess);
 
-  /// Knots and layers are numbered from 0, in any order.
+  /// Knots and zones are numbered from 0, in any order.
   void add_unoccluded(uint32_t knot, size_t light, float luminance);
   /// A shadow ray that stands for `luminance`, of which the fraction `through` arrives.
-  void add_ray(uint32_t knot, uint32_t layer, size_t light, float luminance, float through);
-  /// Estimate of the fraction of a light that arrives in a layer, from the rays so far: for the choice of
+  void add_ray(uint32_t knot, uint32_t zone, size_t light, float luminance, float through);
+  /// Estimate of the fraction of a light that arrives in a zone, from the rays so far: for the choice of
   /// further rays. At least kMinChance, so that no light is given up.
-  float chance(uint32_t layer, size_t light) const;
+  float chance(uint32_t zone, size_t light) const;
   /// Computes the fractions, once everything is added.
-  void finish(const std::vector<uint32_t>& layer_of_knot);
+  void finish(const std::vector<uint32_t>& zone_of_knot);
   static size_t bytes_per_knot(size_t lights) { return 2 * lights * sizeof(Knot); }  // vectors grow twofold
   float fraction(uint32_t knot, size_t light) const { return knots_[knot * lights_ + light].fraction; }
 
  private:
   static constexpr float kMinChance = 0.02f;
-  struct Layer {
+  struct Zone {
     double seen = 0, arrived = 0;
     uint32_t rays = 0;
   };
@@ -46,8 +46,8 @@ class LightSharing {
 
   size_t lights_ = 0;
   bool guess_ = true;
-  std::vector<Knot> knots_;    // by knot and light
-  std::vector<Layer> layers_;  // by layer and light
+  std::vector<Knot> knots_;  // by knot and light
+  std::vector<Zone> zones_;  // by zone and light
 };
 
 }  // namespace pelage

@@ -14,13 +14,13 @@ Rgb ratio(const Rgb& part, const Rgb& of, const Rgb& scale) {
 
 }  // namespace
 
-void PathSharing::begin(size_t knots, uint32_t layers, size_t lights, bool guess) {
+void PathSharing::begin(size_t knots, uint32_t zones, size_t lights, bool guess) {
   lights_ = lights;
   guess_ = guess;
   weights_.assign(knots, {});
   arrived_.assign(knots * lights * kLobeGroups, Rgb(0));
-  layer_traced_.assign(layers, Rgb(0));
-  layer_arrived_.assign(layers * lights, Rgb(0));
+  zone_traced_.assign(zones, Rgb(0));
+  zone_arrived_.assign(zones * lights, Rgb(0));
 }
 
 void PathSharing::add_weights(uint32_t knot, const Rgb* weights) {
@@ -35,7 +35,7 @@ void PathSharing::add_path(uint32_t knot, const Rgb* weights, float factor, std:
   }
 }
 
-void PathSharing::finish(const std::vector<uint32_t>& layer_of_knot) {
+void PathSharing::finish(const std::vector<uint32_t>& zone_of_knot) {
   const auto traced = [&](size_t knot) {
     return weights_[knot].traced[0] + weights_[knot].traced[1] + weights_[knot].traced[2];
   };
@@ -43,17 +43,17 @@ void PathSharing::finish(const std::vector<uint32_t>& layer_of_knot) {
     const Rgb* of = &arrived_[(knot * lights_ + light) * kLobeGroups];
     return of[0] + of[1] + of[2];
   };
-  for (size_t knot = 0; guess_ && knot < layer_of_knot.size(); ++knot) {
-    const uint32_t layer = layer_of_knot[knot];
-    layer_traced_[layer] += traced(knot);
-    for (size_t i = 0; i < lights_; ++i) layer_arrived_[layer * lights_ + i] += arrived(knot, i);
+  for (size_t knot = 0; guess_ && knot < zone_of_knot.size(); ++knot) {
+    const uint32_t zone = zone_of_knot[knot];
+    zone_traced_[zone] += traced(knot);
+    for (size_t i = 0; i < lights_; ++i) zone_arrived_[zone * lights_ + i] += arrived(knot, i);
   }
-  for (size_t knot = 0; knot < layer_of_knot.size(); ++knot) {
+  for (size_t knot = 0; knot < zone_of_knot.size(); ++knot) {
     const Weights& own = weights_[knot];
-    const Rgb& layer = layer_traced_[layer_of_knot[knot]];
+    const Rgb& zone = zone_traced_[zone_of_knot[knot]];
     for (size_t i = 0; i < lights_; ++i) {
-      const Rgb& all = layer_arrived_[layer_of_knot[knot] * lights_ + i];
-      const Rgb guess = guess_ ? ratio(all - arrived(knot, i), layer - traced(knot), layer) : Rgb(0);
+      const Rgb& all = zone_arrived_[zone_of_knot[knot] * lights_ + i];
+      const Rgb guess = guess_ ? ratio(all - arrived(knot, i), zone - traced(knot), zone) : Rgb(0);
       Rgb* of = &arrived_[(knot * lights_ + i) * kLobeGroups];
       for (int g = 0; g < kLobeGroups; ++g) {
         of[g] = guess + ratio(of[g] - guess * own.traced[g], own.all[g], Rgb(0));

@@ -17,12 +17,12 @@ namespace pelage {
 /// of unoccluded light, and radiance in place of the fraction that arrives.
 class PathSharing {
  public:
-  void begin(size_t knots, uint32_t layers, size_t lights, bool guess);
+  void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
 
   void add_weights(uint32_t knot, const Rgb* weights);
   /// A path that stands for `factor` points: weights[g] * radiance[light] reach the camera.
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
-  void finish(const std::vector<uint32_t>& layer_of_knot);
+  void finish(const std::vector<uint32_t>& zone_of_knot);
   static size_t bytes_per_knot(size_t lights) { return sizeof(Weights) + lights * kLobeGroups * sizeof(Rgb); }
   const Rgb& radiance(uint32_t knot, size_t light, int group) const {
     return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
@@ -36,10 +36,10 @@ class PathSharing {
 
   size_t lights_ = 0;
   bool guess_ = true;
-  std::vector<Weights> weights_;    // by knot
-  std::vector<Rgb> arrived_;        // by knot, light and group
-  std::vector<Rgb> layer_traced_;   // by layer
-  std::vector<Rgb> layer_arrived_;  // by layer and light
+  std::vector<Weights> weights_;   // by knot
+  std::vector<Rgb> arrived_;       // by knot, light and group
+  std::vector<Rgb> zone_traced_;   // by zone
+  std::vector<Rgb> zone_arrived_;  // by zone and light
 };
 
 }  // namespace pelage

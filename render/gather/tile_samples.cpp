@@ -4,7 +4,9 @@
 
 namespace pelage {
 
-void TileSamples::begin(size_t pixels, size_t count, size_t lights) {
+void TileSamples::begin(const Tile& of, uint32_t samples_per_pixel, size_t lights) {
+  tile = of;
+  const size_t count = pixels() * samples_per_pixel;
   const auto start = [](auto& items, size_t max) {
     items.clear();
     items.reserve(max);
@@ -14,9 +16,9 @@ void TileSamples::begin(size_t pixels, size_t count, size_t lights) {
   start(points, count);
   start(light_rays, count * lights);
   start(unoccluded, count * lights * kLobeGroups);
-  start(layer_of_knot, count);
-  fronts.assign(pixels, {});
-  layers = 0;
+  start(zone_of_knot, count);
+  fronts.assign(pixels(), {});
+  zones = 0;
 }
 
 size_t TileSamples::bytes_per_sample(size_t lights) {

@@ -8,7 +8,8 @@
 
 #include "render/accel/accel.h"
 #include "render/fibre/fibre_value.h"
-#include "render/film/film.h"
+#include "render/film/visible_surface.h"
+#include "render/frame/tile_order.h"
 
 namespace pelage {
 
@@ -23,7 +24,7 @@ struct LeavingRay {
 struct VisiblePoint {
   uint32_t pixel = 0;   ///< within the tile
   uint32_t sample = 0;  ///< number of the sample in its pixel
-  uint32_t knot = 0;    ///< index in TileSamples::layer_of_knot
+  uint32_t knot = 0;    ///< index in TileSamples::zone_of_knot
   float time = 0;
   uint32_t random = 0;     ///< PathState::random
   StrandStart start = {};  ///< Hit::start; empty where rays may hit their own strand
@@ -66,27 +67,35 @@ struct TileSamples {
     uint32_t sample = 0, light = 0;  ///< indices
     Rgb radiance{0};
   };
-  /// The front-most surface of a pixel.
   struct Front {
-    VisibleSurface surface;
-    uint32_t sample = 0;
-    bool inside_pixel = false;
+    FrontSurface of_pixel;
+    uint32_t sample = 0;  ///< index of the sample that saw it
   };
 
+  Tile tile;
+  uint64_t random_key = 0;      ///< of the random numbers of the tile
   std::vector<Sample> samples;  ///< in the order in which they were traced
   std::vector<SeenLight> seen_lights;
   std::vector<Front> fronts;  ///< by pixel
   std::vector<VisiblePoint> points;
   std::vector<LightRay> light_rays;  ///< point by point, at most one per light
-  std::vector<Rgb>
-      unoccluded;  ///< by point, light and lobe group: scattered to the camera if nothing blocks it
-  std::vector<uint32_t> layer_of_knot;
-  uint32_t layers = 0;  ///< number of different layers of knots
+  /// Light that reaches the camera if nothing blocks it, by point, light and lobe group.
+  std::vector<Rgb> unoccluded;
+  std::vector<uint32_t> zone_of_knot;  ///< see KnotKey::zone
+  uint32_t zones = 0;                  ///< number of zones
 
-  /// Prepares for `count` samples of a tile of `pixels`: memory is taken once.
-  void begin(size_t pixels, size_t count, size_t lights);
+  /// Clears everything and reserves the memory of the samples.
+  void begin(const Tile& of, uint32_t samples_per_pixel, size_t lights);
+  size_t pixels() const { return static_cast<size_t>(columns()) * static_cast<size_t>(tile.y1 - tile.y0); }
+  int x(uint32_t pixel) const { return tile.x0 + static_cast<int>(pixel) % columns(); }
+  int y(uint32_t pixel) const { return tile.y0 + static_cast<int>(pixel) / columns(); }
+  uint32_t zone(const VisiblePoint& point) const { return zone_of_knot[point.knot]; }
+
   /// Max memory of one sample.
   static size_t bytes_per_sample(size_t lights);
+
+ private:
+  int columns() const { return tile.x1 - tile.x0; }
 };
 
 }  // namespace pelage

@@ -18,7 +18,7 @@ void seek(SampleStream& stream, FirstVertexDraw draw) {
   stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + draw);
 }
 
-/// Independent-looking numbers from one: each uniform, by a rotation.
+/// The i-th number of a sequence in [0, 1) from the random number u: a rotation by the golden ratio.
 float turned(float u, size_t i) {
   const float sum = u + static_cast<float>(i) * 0.6180339887f;
   return sum - std::floor(sum);
@@ -30,78 +30,64 @@ uint32_t index_of(std::unordered_map<uint64_t, uint32_t>& indices, uint64_t key)
 
 }  // namespace
 
-bool Reservoir::takes(float mass) {
-  if (!(mass > 0)) return false;
-  sum_ += mass;
-  const float share = mass / sum_;
-  const bool taken = u_ < share;
-  u_ = taken ? u_ / share : (u_ - share) / (1 - share);
-  return taken;
-}
-
 VisiblePoints::VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
-                             const FilmLayers& layers)
+                             const CameraSamples& camera)
     : scene_(scene),
       accel_(accel),
       shading_(shading),
-      camera_(scene, accel, layers.splat.has_value()),
+      camera_(camera),
       keys_(scene.camera, scene.render.gather),
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth) {}
 
 uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
-  const uint32_t layer = index_of(scratch.layers, key.layer);
-  tile.layers = static_cast<uint32_t>(scratch.layers.size());
+  const uint32_t zone = index_of(scratch.zones, key.zone);
+  tile.zones = static_cast<uint32_t>(scratch.zones.size());
   if (!scene_.render.gather.reuse) {  // each point has a knot of its own
-    tile.layer_of_knot.push_back(layer);
-    return static_cast<uint32_t>(tile.layer_of_knot.size() - 1);
+    tile.zone_of_knot.push_back(zone);
+    return static_cast<uint32_t>(tile.zone_of_knot.size() - 1);
   }
   const uint32_t knot = index_of(scratch.knots, key.knot);
-  if (knot == tile.layer_of_knot.size()) tile.layer_of_knot.push_back(layer);
+  if (knot == tile.zone_of_knot.size()) tile.zone_of_knot.push_back(zone);
   return knot;
 }
 
-void VisiblePoints::look(int x, int y, uint32_t pixel, uint32_t sample, Scratch& scratch,
-                         SampleScratch& trace, TileSamples& tile) const {
+void VisiblePoints::look(uint32_t pixel, uint32_t sample, Scratch& scratch, SampleScratch& thread,
+                         TileSamples& tile) const {
+  const int x = tile.x(pixel), y = tile.y(pixel);
   SampleStream stream = camera_.stream(x, y, sample);
   const CameraSample from = camera_.draw(x, y, sample, stream);
+  const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  ++trace.rays.camera;
-  const Hit hit = accel_.closest(from.ray, trace.thread);
-  const auto index = static_cast<uint32_t>(tile.samples.size() - 1);
+  ++thread.rays.camera;
+  const Hit hit = accel_.closest(from.ray, thread.thread);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});
               });
   if (!hit) return;
   tile.samples.back().point = static_cast<uint32_t>(tile.points.size());
-
-  FilmSample as_seen;
-  as_seen.offset = from.offset;
+  FilmSample film_sample;
+  film_sample.offset = from.offset;
+  film_sample.surface = shading_.visible_surface(from.ray, hit, thread.thread.met);
   TileSamples::Front& front = tile.fronts[pixel];
-  // As Film::add chooses it; the surface is not evaluated where it is behind.
-  as_seen.surface = shading_.visible_surface(from.ray, hit, trace.thread.met);
-  const bool inside = as_seen.inside_pixel();
-  if ((inside && !front.inside_pixel) ||
-      (inside == front.inside_pixel && as_seen.surface.depth < front.surface.depth)) {
-    front = {as_seen.surface, index, inside};
-  }
+  if (front.of_pixel.offer(film_sample.surface, film_sample.inside_pixel())) front.sample = index;
 
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
-  const KnotKey key = keys_.of(hit, trace.thread.met, {unit_float(random), unit_float(mix64(random))});
+  const KnotKey key = keys_.of(hit, thread.thread.met, {unit_float(random), unit_float(mix64(random))});
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
   visible.knot = knot_of(key, scratch, tile);
   visible.time = from.ray.time;
   visible.random = from.ray.random;
-  const ScatterPoint point = shading_.scatter_point(from.ray, hit, trace.thread.met);
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
   find_light(point, stream, scratch, visible, tile);
   tile.points.push_back(visible);
 }
 
-/// Light at a visible point as it would be without blockers, and the rays that leave it.
+/// Evaluates the light at a visible point as if nothing blocked it, and draws the rays that leave the point.
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
                                VisiblePoint& visible, TileSamples& tile) const {
   const size_t lights = scene_.lights.size();

@@ -11,6 +11,7 @@
 #include "render/light/mis.h"
 #include "render/light/scatter_point.h"
 #include "render/sampling/sample_stream.h"
+#include "render/sampling/systematic_choice.h"
 
 namespace pelage {
 
@@ -52,7 +53,7 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Factor by which one candidate point's light counts: the mean over all points tried.
+  /// Weight of one candidate point: the light of a light is the mean over all candidates.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
 
   /// Computes the probabilities of the lights at a point.
@@ -149,15 +150,12 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 template <class Shadow>
 void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
                          const Shadow& shadow) const {
-  // Systematic resampling: points are drawn in proportion to the unoccluded light that they contribute.
-  const double step = total / rays_;
+  // Points are drawn in proportion to the unoccluded light that they contribute.
+  SystematicChoice choice(total / rays_, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
-  double next = u * step, sum = 0;
   for (const LightPoint& point : scratch.points) {
-    sum += point.luminance;
-    int chosen = 0;
-    for (; next < sum; next += step) ++chosen;
-    if (chosen > 0) shadow(point, static_cast<float>(chosen * step / (point.luminance * count)));
+    const uint32_t chosen = choice.times(point.luminance);
+    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (point.luminance * count)));
   }
 }
 

@@ -87,11 +87,11 @@ TEST(KnotKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
   Hit other = hit;
   other.strand_id = 8;
   EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
-  EXPECT_EQ(keys.of(other, met, {0.3f, 0}).layer, key.layer);
+  EXPECT_EQ(keys.of(other, met, {0.3f, 0}).zone, key.zone);
   other = hit;
   other.part = 4;
   EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
-  EXPECT_NE(keys.of(other, met, {0.3f, 0}).layer, key.layer);
+  EXPECT_NE(keys.of(other, met, {0.3f, 0}).zone, key.zone);
 }
 
 /// A triangle of a face whose unit square is 2 x 1 units of space.

@@ -6,29 +6,29 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "render/gather/systematic_choice.h"
 #include "render/sampling/pixel_moments.h"
+#include "render/sampling/systematic_choice.h"
 
 namespace pelage {
 namespace {
 
 /// Points with unoccluded light from two lights, which some of them receive.
 struct Points {
-  static constexpr uint32_t kCount = 600, kKnots = 40, kLayers = 3, kLights = 2;
+  static constexpr uint32_t kCount = 600, kKnots = 40, kZones = 3, kLights = 2;
 
   static uint32_t knot(uint32_t point) { return static_cast<uint32_t>(hash64(point, 1) % kKnots); }
-  static uint32_t layer(uint32_t knot) { return knot % kLayers; }
+  static uint32_t zone(uint32_t knot) { return knot % kZones; }
   static float unoccluded(uint32_t point, uint32_t light) {
     return 0.1f + unit_float(hash64(point, light, 2));
   }
-  /// In layer 0 little arrives, in layer 2 almost all.
+  /// In zone 0 little arrives, in zone 2 almost all.
   static float through(uint32_t point, uint32_t light) {
-    const float chance = 0.1f + 0.4f * static_cast<float>(layer(knot(point)));
+    const float chance = 0.1f + 0.4f * static_cast<float>(zone(knot(point)));
     return unit_float(hash64(point, light, 3)) < chance ? 1.0f : 0.0f;
   }
-  static std::vector<uint32_t> layers() {
+  static std::vector<uint32_t> zones() {
     std::vector<uint32_t> result(kKnots);
-    for (uint32_t k = 0; k < kKnots; ++k) result[k] = layer(k);
+    for (uint32_t k = 0; k < kKnots; ++k) result[k] = zone(k);
     return result;
   }
   /// The light that reaches the points of each knot.
@@ -57,10 +57,10 @@ void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
       const uint32_t times = choices[knot].times(u);
       if (times == 0) continue;
       const auto stands_for = static_cast<float>(times * choices[knot].step());
-      sharing.add_ray(knot, Points::layer(knot), light, stands_for, Points::through(p, light));
+      sharing.add_ray(knot, Points::zone(knot), light, stands_for, Points::through(p, light));
     }
   }
-  sharing.finish(Points::layers());
+  sharing.finish(Points::zones());
 }
 
 std::vector<double> unoccluded_of_knots() {
@@ -81,10 +81,10 @@ TEST(LightSharing, IsExactWhenEveryPointHasItsRays) {
     for (uint32_t light = 0; light < Points::kLights; ++light) {
       const float u = Points::unoccluded(p, light);
       sharing.add_unoccluded(knot, light, u);
-      sharing.add_ray(knot, Points::layer(knot), light, u, Points::through(p, light));
+      sharing.add_ray(knot, Points::zone(knot), light, u, Points::through(p, light));
     }
   }
-  sharing.finish(Points::layers());
+  sharing.finish(Points::zones());
   const std::vector<double> truth = Points::truth(), all = unoccluded_of_knots();
   for (uint32_t k = 0; k < Points::kKnots; ++k) {
     for (uint32_t l = 0; l < Points::kLights; ++l) {
@@ -110,7 +110,7 @@ std::vector<PixelMoments> moments(bool guess) {
   return result;
 }
 
-TEST(LightSharing, IsRightOnAverageAndTheOtherKnotsOfItsLayerMakeItLessNoisy) {
+TEST(LightSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
   const std::vector<double> truth = Points::truth();
   const std::vector<PixelMoments> guessed = moments(true), alone = moments(false);
   double guessed_variance = 0, alone_variance = 0;
@@ -123,7 +123,7 @@ TEST(LightSharing, IsRightOnAverageAndTheOtherKnotsOfItsLayerMakeItLessNoisy) {
   EXPECT_LT(guessed_variance, 0.8 * alone_variance);
 }
 
-TEST(LightSharing, LearnsTheChanceOfEachLightByLayer) {
+TEST(LightSharing, LearnsTheChanceOfEachLightByZone) {
   LightSharing sharing;
   sharing.begin(2, true);
   EXPECT_EQ(sharing.chance(0, 0), 1.0f) << "nothing is known";

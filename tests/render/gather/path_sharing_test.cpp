@@ -45,8 +45,8 @@ std::vector<Rgb> light_of(const PathSharing& sharing, uint32_t knot) {
 }
 
 void add(PathSharing& sharing, bool guess, float part, uint64_t trial) {
-  std::vector<uint32_t> layers(kKnots);
-  for (uint32_t k = 0; k < kKnots; ++k) layers[k] = k % 2;
+  std::vector<uint32_t> zones(kKnots);
+  for (uint32_t k = 0; k < kKnots; ++k) zones[k] = k % 2;
   sharing.begin(kKnots, 2, 2, guess);
   for (uint32_t p = 0; p < kPoints; ++p) {
     Rgb weights[kLobeGroups];
@@ -56,7 +56,7 @@ void add(PathSharing& sharing, bool guess, float part, uint64_t trial) {
       sharing.add_path(knot_of(p), weights, 1 / part, radiance_of(p));
     }
   }
-  sharing.finish(layers);
+  sharing.finish(zones);
 }
 
 std::vector<Rgb> truth_of(uint32_t knot) {
@@ -84,7 +84,7 @@ TEST(PathSharing, IsExactWhenEveryPointHasItsPath) {
   }
 }
 
-TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsLayerMakeItLessNoisy) {
+TEST(PathSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
   double variances[2] = {0, 0};
   for (const bool guess : {false, true}) {
     std::vector<PixelMoments> moments(kKnots * 2 * kLobeGroups);

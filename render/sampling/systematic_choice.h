@@ -5,15 +5,15 @@
 
 namespace pelage {
 
-/// Systematic sampling: walks through items in order, and chooses each in proportion to its mass. An item of
-/// mass m is chosen floor(m / step) or ceil(m / step) times, on average m / step; so is every run of
-/// consecutive items, with the sum of their masses.
+/// Systematic sampling: passes over items in order and chooses them in proportion to their masses. An item of
+/// mass m is chosen floor(m / step) or ceil(m / step) times, on average m / step. The same holds for every
+/// run of consecutive items and the sum of their masses.
 class SystematicChoice {
  public:
   /// `step`: positive. `u`: a random number in [0, 1).
   SystematicChoice(double step, double u) : step_(step), next_(u * step) {}
 
-  /// How often the next item is chosen. `mass`: not negative.
+  /// Returns how often the next item is chosen. `mass`: not negative.
   uint32_t times(double mass) {
     sum_ += mass;
     uint32_t chosen = 0;
@@ -23,8 +23,7 @@ class SystematicChoice {
   double step() const { return step_; }
 
  private:
-  const double step_;
-  double next_, sum_ = 0;
+  double step_, next_, sum_ = 0;
 };
 
 }  // namespace pelage

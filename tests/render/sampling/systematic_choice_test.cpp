@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/gather/systematic_choice.h"
+#include "render/sampling/systematic_choice.h"
 
 #include <cmath>
 #include <vector>

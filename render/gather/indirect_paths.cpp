@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/gather/gather_integrator_test.cpp.
+#include "render/gather/indirect_paths.h"
+
+#include <algorithm>
+
+#include "base/hash.h"
+#include "render/sampling/systematic_choice.h"
+
+namespace pelage {
+namespace {
+
+constexpr uint32_t kPathsPerCheck = 256;  // whether to stop
+
+}  // namespace
+
+/// A sink of PathWalk: sums up the light that arrives along the first ray of a path, by light.
+class IndirectPaths::ArrivingLight {
+ public:
+  ArrivingLight(std::vector<Rgb>& arriving, IndirectClamp& clamp) : arriving_(arriving), clamp_(clamp) {}
+
+  void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
+    if (through > 0) add(path, from.light, from.value.total() * from.arriving * (through * factor));
+  }
+  void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
+    if (weight * through > 0) add(path, light, radiance * (weight * through));
+  }
+
+ private:
+  void add(const PathState& path, size_t source, const Rgb& light) {
+    const Rgb arriving = path.throughput * light;
+    arriving_[source] += arriving * clamp_.keep(path.first, arriving);
+  }
+
+  std::vector<Rgb>& arriving_;
+  IndirectClamp& clamp_;
+};
+
+bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
+                          PathSharing& light) const {
+  if (scene_.render.bounces == 0) return true;
+  const auto item = [&](size_t i) { return KnotItem{samples.points[i].knot, 0, static_cast<uint32_t>(i)}; };
+  sort_by_knot(0, samples.points.size(), item, scratch.order);
+  const double step = scene_.render.gather.reuse ? 1 / double{scene_.render.gather.paths} : 1;
+  SystematicChoice choice(step, 0);
+  size_t traced = 0;
+  for (size_t i = 0; i < scratch.order.size(); ++i) {
+    const uint32_t knot = scratch.order[i].knot;
+    if (i == 0 || knot != scratch.order[i - 1].knot) {
+      choice = SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, knot)));
+    }
+    const VisiblePoint& point = samples.points[scratch.order[i].index];
+    light.add_weights(knot, point.weights);
+    const float mass = options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight()) : 1.0f;
+    const uint32_t times = choice.times(mass);
+    if (times == 0) continue;
+    if (++traced % kPathsPerCheck == 0 && job.progress.cancelled()) return false;
+    const auto factor = static_cast<float>(times * step / mass);
+    follow(samples, point, factor, scratch, thread);
+    light.add_path(knot, point.weights, factor, scratch.arriving);
+  }
+  return true;
+}
+
+void IndirectPaths::follow(const TileSamples& samples, const VisiblePoint& point, float factor,
+                           Scratch& scratch, SampleScratch& thread) const {
+  PathState path(camera_.stream(samples.x(point.pixel), samples.y(point.pixel), point.sample));
+  path.time = point.time;
+  path.random = point.random;
+  std::copy(std::begin(point.weights), std::end(point.weights), path.first);
+  path.weight = point.weight() * factor;
+  scratch.arriving.assign(scene_.lights.size(), Rgb(0));
+  ArrivingLight sink(scratch.arriving, thread.clamp);
+  walk_.follow(point.ray(point.scattered), path, scratch.direct, thread, sink);
+}
+
+}  // namespace pelage

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "base/job.h"
+#include "render/gather/knot_order.h"
+#include "render/gather/path_sharing.h"
+#include "render/gather/tile_samples.h"
+#include "render/path/path_walk.h"
+
+namespace pelage {
+
+/// Continues some of the visible points of a tile as paths: those that roulette chooses. Thread safety: const
+/// members from any thread, each with its own scratch.
+class IndirectPaths {
+ public:
+  /// References are kept.
+  IndirectPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+                const CameraSamples& camera, const PathOptions& options)
+      : scene_(scene), camera_(camera), options_(options), walk_(scene, accel, shading, options) {}
+
+  struct Scratch {
+    DirectLightScratch direct;
+    std::vector<KnotItem> order;  // points
+    std::vector<Rgb> arriving;    // along the first ray of a path, by light
+  };
+
+  /// Traces paths and adds what they find to `light`. Returns false when `job` was cancelled.
+  bool trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
+             PathSharing& light) const;
+
+ private:
+  class ArrivingLight;
+  void follow(const TileSamples& samples, const VisiblePoint& point, float factor, Scratch& scratch,
+              SampleScratch& thread) const;
+
+  const RenderScene& scene_;
+  const CameraSamples& camera_;
+  const PathOptions options_;
+  PathWalk<ArrivingLight> walk_;
+};
+
+}  // namespace pelage
