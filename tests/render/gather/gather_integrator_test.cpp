@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
-
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "render/gather/gather_loop.h"
 #include "tests/render/film/film_picture.h"
 #include "tests/render/gather/gather_scene.h"
+#include "tests/render/path/impatient.h"
 
 namespace pelage {
 namespace {
@@ -80,23 +79,6 @@ TEST(GatherIntegrator, SurfaceDataAndCoverageAreThoseOfPaths) {
     }
   }
 }
-
-/// Asks to stop once enough samples have been reported.
-class Impatient final : public Progress {
- public:
-  explicit Impatient(double patience) : patience_(patience) {}
-  void begin(std::string_view stage, double) override { rendering_ = stage == "render"; }
-  void advance(double amount) override {
-    if (rendering_) done_ = done_ + amount;
-  }
-  void end() override {}
-  bool cancelled() const override { return done_ >= patience_; }
-
- private:
-  double patience_;
-  std::atomic<bool> rendering_{false};
-  std::atomic<double> done_{0};
-};
 
 TEST(GatherIntegrator, AnInterruptedPictureHasEveryPixel) {
   GatherScene scene;
