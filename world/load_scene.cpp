@@ -84,7 +84,7 @@ void check_strands(const Named<GroomParams>::Item& groom, Problems& problems) {
 // length and then confuse them.
 void check_layer_name(const std::string& what, const std::string& name, const SourcePosition& position,
                       Problems& problems) {
-  constexpr size_t kLongestName = kLongestExrName - 15;  // enough for ".secondary.R"
+  constexpr size_t kLongestName = kLongestExrName - 24;  // enough for ".secondary.indirect.R"
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (name.size() > kLongestName) {
     problems.add(position, fmt::format("the name of {} {} has {} bytes; the limit is {}", what, quote(name),
@@ -148,6 +148,12 @@ void check_filter_samples(const SceneDescription& scene, const Value& document, 
                "`filter_samples: splatted` does not work with `adaptive` sampling; remove one of them");
 }
 
+void check_event_layers(const SceneDescription& scene, const Value& document, Problems& problems) {
+  if (!scene.image.event_layers || scene.image.light_layers) return;
+  problems.add(document.find("image")->find("event_layers")->position(),
+               "`event_layers` needs `light_layers: true`");
+}
+
 // Adaptive sampling and `noise` take the samples of a pixel for independent; those of `gather` share light.
 void check_gather(const SceneDescription& scene, const Value& document, Problems& problems) {
   if (scene.render.integrator != Integrator::kGather) return;
@@ -191,6 +197,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
       check_references(scene, problems);
       check_shutter(scene, *document, problems);
       check_filter_samples(scene, *document, problems);
+      check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
     }
   }

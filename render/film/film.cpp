@@ -21,6 +21,14 @@ std::span<const float> channels_of(std::span<const Rgb> by_layer) {
   return {by_layer.empty() ? nullptr : &by_layer.front().x, 3 * by_layer.size()};
 }
 
+/// A layer minus its direct part. A small negative difference is the rounding error of the two sums and
+/// becomes 0; in half precision, it would not show in the layer.
+float rest_of(float layer, float direct) {
+  constexpr float kRounding = 1e-4f;
+  const float rest = layer - direct;
+  return rest < 0 && rest > -kRounding * layer ? 0.0f : rest;
+}
+
 }  // namespace
 
 Film::Film(int width, int height, FilmLayers layers, MemoryLedger& ledger)
@@ -77,8 +85,14 @@ Rgb Film::radiance(int x, int y) const {
 float Film::alpha(int x, int y) const { return sums_.mean(x, y, 3); }
 
 Rgb Film::layer(int x, int y, size_t layer) const {
-  const size_t c = 4 + 3 * layer;
+  const size_t c = first_channel(layer);
   return {sums_.mean(x, y, c), sums_.mean(x, y, c + 1), sums_.mean(x, y, c + 2)};
+}
+
+Rgb Film::indirect(int x, int y, size_t light, int group) const {
+  const Rgb all = layer(x, y, layers_.scattered(light, group));
+  const Rgb direct = layer(x, y, layers_.direct(light, group));
+  return {rest_of(all.x, direct.x), rest_of(all.y, direct.y), rest_of(all.z, direct.z)};
 }
 
 std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
@@ -100,13 +114,26 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
                   [&, c](size_t p) { return mean(p - first_pixel, first + c); });
     }
   };
+  const auto add_indirect = [&](size_t light, int group) {
+    const std::string prefix = layers_.names[layers_.scattered(light, group)] + ".indirect.";
+    const size_t all = first_channel(layers_.scattered(light, group));
+    const size_t direct = first_channel(layers_.direct(light, group));
+    for (size_t c = 0; c < 3; ++c) {
+      add_channel(prefix + "RGB"[c], ChannelType::kHalf, [&, c](size_t p) {
+        return rest_of(mean(p - first_pixel, all + c), mean(p - first_pixel, direct + c));
+      });
+    }
+  };
   const auto add_data = [&](std::string name, auto value) {
     add_channel(std::move(name), ChannelType::kFloat, [&](size_t p) { return value(surfaces_[p].surface); });
   };
 
   add_color("", 0);
   add_channel("A", ChannelType::kHalf, [&](size_t p) { return mean(p - first_pixel, 3); });
-  for (size_t i = 0; i < layers_.size(); ++i) add_color(layers_.names[i] + ".", 4 + 3 * i);
+  for (size_t i = 0; i < layers_.size(); ++i) add_color(layers_.names[i] + ".", first_channel(i));
+  for (size_t i = 0; layers_.events && i < layers_.lights(); ++i) {
+    for (int g = 0; g < layers_.groups; ++g) add_indirect(i, g);
+  }
   add_data("Z", [](const VisibleSurface& s) { return s.depth; });
   for (int c = 0; c < 3; ++c) {
     const std::string axis(1, "XYZ"[c]);

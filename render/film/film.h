@@ -54,6 +54,8 @@ class Film {
   Rgb radiance(int x, int y) const;
   float alpha(int x, int y) const;
   Rgb layer(int x, int y, size_t layer) const;
+  /// The indirect part of a light layer. Only with layers().events.
+  Rgb indirect(int x, int y, size_t light, int group) const;
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].surface; }
 
   /// All channels of rows y0 .. y1-1: R G B A and light layers as half, Z, N, tangent, forward and root as
@@ -65,7 +67,9 @@ class Film {
   size_t index(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
-  static size_t channel_count(const FilmLayers& layers) { return 4 + 3 * layers.size(); }
+  static size_t channel_count(const FilmLayers& layers) { return first_channel(layers.size()); }
+  /// Index in sums_ of the red channel of a layer.
+  static size_t first_channel(size_t layer) { return 4 + 3 * layer; }
 
   int width_, height_;
   FilmLayers layers_;

@@ -25,6 +25,14 @@ const Schema<ImageParams>& ImageParams::schema() {
     s.key("light_layers", &ImageParams::light_layers,
           {.help = "One layer per light and lobe, named light.lobe.R; the layers add up to the picture"});
     s.key(
+        "event_layers", &ImageParams::event_layers,
+        {.help = "Adds two layers for each light and lobe, light.lobe.direct and light.lobe.indirect, which "
+                 "add up to light.lobe. Direct light reaches the first visible surface straight from the "
+                 "light source; indirect light was scattered at least once on its way there. Light sources "
+                 "that the camera sees stay in the layer light.emission. With `integrator: gather`, both "
+                 "layers can be slightly negative where there is little light. Needs `light_layers`; the "
+                 "film takes up to twice the memory"});
+    s.key(
         "noise_layers", &ImageParams::noise_layers,
         {.help =
              "Adds the layers `samples` (number of samples per pixel) and `noise` (standard error of the "
@@ -39,13 +47,18 @@ const Schema<ImageParams>& ImageParams::schema() {
   return table;
 }
 
-FilmLayers FilmLayers::make(const std::vector<LightInfo>& lights, int groups) {
+FilmLayers FilmLayers::make(const std::vector<LightInfo>& lights, int groups, bool events) {
   FilmLayers layers;
   layers.groups = groups;
+  layers.events = events;
   for (const LightInfo& light : lights) {
     layers.first_.push_back(layers.names.size());
     for (int g = 0; g < groups; ++g) layers.names.push_back(light.name + "." + kLobeGroupNames[g]);
     if (light.visible) layers.names.push_back(light.name + ".emission");
+  }
+  layers.first_direct_ = layers.names.size();
+  for (size_t i = 0; events && i < lights.size(); ++i) {
+    for (int g = 0; g < groups; ++g) layers.names.push_back(layers.names[layers.scattered(i, g)] + ".direct");
   }
   return layers;
 }

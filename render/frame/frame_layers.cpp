@@ -22,7 +22,7 @@ FilmLayers frame_layers(const ImageParams& image, const RenderParams& render,
   if (image.light_layers) {
     int groups = 1;
     for (const MaterialParams& material : materials) groups = std::max(groups, lobe_groups(material));
-    layers = FilmLayers::make(lights, groups);
+    layers = FilmLayers::make(lights, groups, image.event_layers);
   }
   layers.lod = image.lod_layer;
   layers.noise = image.noise_layers || render.adaptive;

@@ -87,9 +87,12 @@ void GatherTile::add_scattered(uint32_t point, Scratch& scratch) const {
   for (size_t light = 0; light < scene_.lights.size(); ++light) {
     const float fraction = scratch.lights.fraction(at.knot, light);
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb part = *unoccluded++ * fraction + at.weights[g] * scratch.paths.radiance(at.knot, light, g);
+      const Rgb direct = *unoccluded++ * fraction;
+      const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.knot, light, g);
       scratch.sample.radiance += part;
-      if (g < layers_.groups) scratch.by_layer[layers_.scattered(light, g)] += part;
+      if (g >= layers_.groups) continue;
+      scratch.by_layer[layers_.scattered(light, g)] += part;
+      if (layers_.events) scratch.by_layer[layers_.direct(light, g)] += direct;
     }
   }
 }

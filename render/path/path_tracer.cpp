@@ -38,7 +38,9 @@ class PathTracer::FilmSink {
     for (int g = 0; g < kLobeGroups; ++g) {
       const Rgb part = lobes[g] * light * kept;
       total += part;
-      if (g < layers_.groups) scratch_.by_layer[layers_.scattered(source, g)] += part;
+      if (g >= layers_.groups) continue;
+      scratch_.by_layer[layers_.scattered(source, g)] += part;
+      if (layers_.events && path.vertex == 0) scratch_.by_layer[layers_.direct(source, g)] += part;
     }
     scratch_.sample.radiance += total;
   }

@@ -102,9 +102,11 @@ TEST(LayerNames, FindsDepthButNotTheThirdNumberOfAVector) {
 
 TEST(LayerNames, KnowsDataFromColour) {
   const Names names({part("", {"R", "A", "Z", "N.X", "forward.u", "forward.v", "key.diffuse.R", "tangent.X",
-                               "root.u", "sky.emission.G", "disparityL.x", "mask.a"})},
+                               "root.u", "sky.emission.G", "disparityL.x", "mask.a", "key.diffuse.direct.R",
+                               "key.diffuse.indirect.R"})},
                     {"", "", {"mask"}, {"disparityL"}});
-  for (const char* name : {"R", "A", "key.diffuse.R", "sky.emission.G", "disparityL.x"}) {
+  for (const char* name : {"R", "A", "key.diffuse.R", "sky.emission.G", "disparityL.x",
+                           "key.diffuse.direct.R", "key.diffuse.indirect.R"}) {
     EXPECT_EQ(names.role(name), LayerRole::kColor) << name;
   }
   for (const char* name : {"N.X", "forward.u", "forward.v", "tangent.X", "root.u", "mask.a"}) {

@@ -137,6 +137,16 @@ TEST_F(SceneSchema, SplattedSamplesAreNotAdaptive) {
                   "sampling; remove one of them"});
 }
 
+TEST_F(SceneSchema, EventLayersNeedLightLayers) {
+  const std::string scene = kScene, message = ": `event_layers` needs `light_layers: true`";
+  EXPECT_FALSE(load(kScene).image.event_layers);
+  EXPECT_TRUE(load(scene + "image: {event_layers: true}\n").image.event_layers);
+  EXPECT_EQ(problems(scene + "image: {light_layers: false, event_layers: true}\n"),
+            Lines{"s:20:44" + message});
+  EXPECT_EQ(problems(scene + "image: {light_layers: false}\n", {{"image.event_layers", "true"}}),
+            Lines{"--set image.event_layers" + message});
+}
+
 TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
   const Override gather{"render.integrator", "gather"};
   EXPECT_EQ(load(kScene, {gather}).image.filter_samples, std::nullopt);
@@ -180,10 +190,10 @@ TEST_F(SceneSchema, NamesThatLayersOfAPictureCannotHoldAreRefused) {
   const auto named = [&](const std::string& name) {
     return problems(replaced("  key: {type", "  " + name + ": {type"));
   };
-  const std::string longest(240, 'a');
+  const std::string longest(231, 'a');
   EXPECT_EQ(named(longest), Lines{});
   EXPECT_EQ(named(longest + "b"), Lines{"s:19:3: the name of light '" + longest.substr(0, 40) +
-                                        "...' has 241 bytes; the limit is 240"});
+                                        "...' has 232 bytes; the limit is 231"});
   EXPECT_EQ(named("\"key\\0a\""), Lines{"s:19:3: the name of light 'key?a' contains a control character"});
   EXPECT_EQ(problems(replaced("  loose: {", "  \"lo\\0se\": {")).front(),
             "s:8:3: the name of groom 'lo?se' contains a control character");

@@ -28,6 +28,36 @@ TEST(FilmLayers, NameLightsAndLobes) {
   EXPECT_TRUE(FilmLayers{}.empty());
 }
 
+TEST(FilmLayers, NameTheDirectPartOfEachLobe) {
+  const std::vector<FilmLayers::LightInfo> lights = {{"key", false}, {"sky", true}};
+  const FilmLayers layers = FilmLayers::make(lights, 2, true), plain = two_lights();
+  ASSERT_EQ(layers.size(), plain.size() + 4);
+  EXPECT_TRUE(std::equal(plain.names.begin(), plain.names.end(), layers.names.begin()));
+  EXPECT_EQ(layers.names[layers.direct(0, 0)], "key.diffuse.direct");
+  EXPECT_EQ(layers.names[layers.direct(1, 1)], "sky.primary.direct");
+  for (const int side : {10, 64}) {
+    const int64_t pixels = int64_t{(side + 15) / 16 * 16} * ((side + 15) / 16 * 16);  // of whole tiles
+    EXPECT_EQ(Film::bytes_needed(side, side, layers) - Film::bytes_needed(side, side, plain),
+              pixels * 4 * 3 * static_cast<int64_t>(sizeof(float)));
+  }
+}
+
+TEST(Film, TheRestOfALayerIsIndirect) {
+  MemoryLedger ledger;
+  const FilmLayers layers = FilmLayers::make({{"key", false}}, 1, true);
+  Film film(2, 1, layers, ledger);
+  FilmSample sample;
+  film.add(0, 0, sample, std::vector{Rgb(3, 2, 0.5f), Rgb(1, 2, 0.75f)});
+  film.add(1, 0, sample, std::vector{Rgb(1, 0, 8), Rgb(1.00001f, 0, 8)});
+  EXPECT_EQ(film.indirect(0, 0, 0, 0), Rgb(2, 0, -0.25f)) << "estimates may be negative";
+  EXPECT_EQ(film.indirect(1, 0, 0, 0), Rgb(0)) << "rounding";
+  const ExrImage image = picture_of(film);
+  EXPECT_EQ(image.find("key.diffuse.R")->pixels[0], 3);
+  EXPECT_EQ(image.find("key.diffuse.direct.R")->pixels[0], 1);
+  EXPECT_EQ(image.find("key.diffuse.indirect.R")->pixels[0], 2);
+  EXPECT_EQ(image.find("key.diffuse.indirect.B")->pixels[0], -0.25f);
+}
+
 TEST(Film, AveragesSamplesAndDropsWhatIsNotFinite) {
   MemoryLedger ledger;
   Film film(3, 2, two_lights(), ledger);
