@@ -37,8 +37,8 @@ struct CrowdLengthParams {
 };
 struct CrowdColorParams {
   Rgb value{1};
-  float variation = 0;  ///< of all channels together
-  float hue = 0;        ///< of each channel separately
+  float variation = 0;  ///< variation that all channels share
+  float hue = 0;        ///< variation of each channel separately
   static const Schema<CrowdColorParams>& schema();
 };
 
@@ -67,9 +67,10 @@ struct CrowdMember {
   Rgb tint{1};       ///< multiplies the colours of its hair and skins
 };
 
-/// The animals of a crowd, a function of the arguments. `footprints`: of its prototypes; `obstacles`: animals
-/// of other crowds; `named_at`: position of the crowd in the scene. Throws Error (kInput) when the animals do
-/// not fit their area, Error (kMemory) before any is placed, Error (kStopped).
+/// Makes the animals of a crowd; the result depends only on the arguments. `footprints`: of the crowd's
+/// prototypes; `obstacles`: animals of other crowds; `named_at`: position of the crowd in the scene. Throws
+/// Error: kInput when the animals do not fit their area, kMemory (before any animal is placed) when memory
+/// does not suffice, kStopped when the job is stopped.
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles = {});

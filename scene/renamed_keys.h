@@ -19,9 +19,11 @@ void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems);
 class RenamedPath {
  public:
   RenamedPath(Value& document, RenamedKeys& renamed);
-  /// The current name of a key of `block`. Adds a warning, at `where`, for an old one.
+  /// The current name of a key of `block`. If `name` is an old name, adds a warning with the position
+  /// `where`.
   std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
-  /// Takes the next step of the path: from `block`, by the current name of a key, to its `value`.
+  /// Takes the next step of the path: from `block` to the `value` of one of its keys. `name`: the current
+  /// name of this key.
   void enter(const Value& block, const std::string& name, Value& value);
 
  private:

@@ -21,7 +21,7 @@ struct StrandStart {
   uint32_t chunk = kNone;      ///< chunk that holds the strand; kNone: the ray does not start on a strand
   uint32_t first_segment = 0;  ///< of the strand in the chunk
   uint32_t segment_count = 0;
-  float place = 0;  ///< segment of the strand + parameter within it
+  float place = 0;  ///< index of the segment in the strand + curve parameter in that segment
 };
 
 struct Ray {
@@ -50,9 +50,9 @@ struct Hit {
   uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
-  /// Where the strand is held; an empty handle for a skin, or if the accelerator has no chunks.
+  /// Locates the strand that was hit. Empty for a skin, or if the accelerator has no chunks.
   StrandHandle handle() const { return {start.chunk, strand_index}; }
-  /// Which strand was hit; meaningless for a skin.
+  /// Identifies the strand that was hit. Meaningless for a skin.
   StrandKey key() const { return {part, strand_id}; }
 };
 
@@ -66,7 +66,7 @@ struct HitGeometry {
 /// Per-thread state of tracing.
 struct TraceThread {
   int worker = 0;   ///< unique among the threads that trace concurrently
-  HitGeometry met;  ///< of the last hit that closest() returned to this thread
+  HitGeometry met;  ///< geometry of the last hit that closest() found for this thread
   TraceCounts counts;
 };
 

@@ -17,9 +17,9 @@ struct FurChunkOptions {
   bool compact_attributes = true;
 };
 
-/// Fur of one part in a fur tree, which has the only copy of the points, and the strands' data for shading:
-/// ids, roots, attributes. Hits return strands of Bezier curves on the grid of the coat, the curves that were
-/// hit.
+/// Fur of one part: a fur tree, which has the only copy of the points, and the strands' data for shading
+/// (ids, roots, attributes). A hit returns its strand as Bezier curves on the grid of the coat: exactly the
+/// curves that rays hit.
 class FurChunk final : public ChunkGeometry {
  public:
   /// `number`: identifies this chunk in Ray::start. `grid`: the same for all chunks of a coat. Built by the
@@ -50,10 +50,10 @@ class FurChunk final : public ChunkGeometry {
   ChunkBounds part_bounds(size_t parts) const;
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
-  /// given contents, and afterwards.
+  /// Upper bound of the memory that a chunk with these counts holds, both while it is made (including the
+  /// given contents) and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts, const FurChunkOptions& options);
-  /// The same when the build_peak_bytes() of an equal chunk are known.
+  /// The same bound, computed from the build_peak_bytes() of an equal chunk.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:

@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-/// Groups of lobes that images are split into. A model uses a subset; the physical models count surface
-/// reflection (R) as primary, light that leaves after one internal reflection (TRT) as secondary, and all
-/// other light that entered the fibre as diffuse.
+/// The groups of lobes for which images have separate layers. A model uses a subset; the physical models
+/// count surface reflection (R) as primary, light that leaves after one internal reflection (TRT) as
+/// secondary, and all other light that entered the fibre as diffuse.
 enum class LobeGroup { kDiffuse, kPrimary, kSecondary, kCount };
 inline constexpr int kLobeGroups = static_cast<int>(LobeGroup::kCount);
 inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary", "secondary"};

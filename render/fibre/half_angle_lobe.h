@@ -14,9 +14,9 @@ namespace pelage {
 /// slowly varying function, its energy: attenuation and change of measure. theta_i stays in [-pi/2, pi/2],
 /// which truncates the Gaussian.
 ///
-/// With s in [0, 1] the cumulative distribution of the truncated Gaussian, the energy is interpolated
-/// linearly between a few values of s, so that their product is sampled exactly; sample weights vary with the
-/// interpolation error.
+/// Let s in [0, 1] be the cumulative distribution of the truncated Gaussian. The energy is interpolated
+/// linearly between a few values of s. The product of the Gaussian and the interpolated energy is sampled
+/// exactly, so sample weights vary only with the interpolation error.
 class HalfAngleLobe {
  public:
   HalfAngleLobe() = default;
@@ -39,7 +39,7 @@ class HalfAngleLobe {
     for (int k = 0; k < kPlaces - 1; ++k) mean_ += part(k);
   }
 
-  /// Approximate integral of the Gaussian times the energy. 0: never sample this lobe.
+  /// Approximate integral of the Gaussian times the energy. If it is 0, do not sample this lobe.
   float energy() const { return within_ * mean_; }
 
   /// Density of theta_h.

@@ -24,7 +24,7 @@ class GatherTile {
   /// Side of a tile in pixels. Samples of different tiles share no knot.
   static constexpr int kSide = FilmSums::kTileSide;
 
-  /// References are kept.
+  /// Keeps references to its arguments.
   GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
              const PathOptions& options);
 

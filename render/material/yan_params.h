@@ -67,7 +67,7 @@ struct YanParams : MedullaParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "yan";
   AssetPath tables;  ///< folder that keeps the tables
-  /// Loaded or computed by prepare_fibre(). Null: computed with the material.
+  /// Loaded or computed by with_tables(). Null: computed with the material.
   std::shared_ptr<const MedullaTables> made;
   static const Schema<YanParams>& schema();
 };

@@ -34,10 +34,11 @@ struct PathState {
   Rgb weight{1};           ///< of all vertices before this one
 };
 
-/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
-/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes; the
-/// density of that direction includes roulette. At most `bounces` scatterings follow the first; roulette may
-/// end a path earlier, the more likely the lower its weight (survival()).
+/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex,
+/// `light_samples` shadow rays are traced to lights (DirectLight), and one direction is drawn from the lobes.
+/// The density of that direction includes the probability of surviving roulette. At most `bounces`
+/// scatterings follow the first. Roulette may end a path earlier: the lower the weight of a path, the more
+/// likely it ends (survival()).
 ///
 /// A Sink has
 ///   shadow(path, point, factor, through)
@@ -65,8 +66,8 @@ class PathWalk {
             Sink& sink) const {
     if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
-  /// Follows a path whose direction at the first vertex was drawn before, along `ray`, without the lights
-  /// that this ray itself hits. `path.first` and `path.weight` include the density of that direction.
+  /// Follows a path along `ray`, whose direction was drawn before at the first vertex. Does not report the
+  /// lights that `ray` itself hits. `path.first` and `path.weight` include the density of that direction.
   void follow(const Ray& ray, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
               Sink& sink) const {
     path.ray = ray;
@@ -77,9 +78,9 @@ class PathWalk {
   }
 
   /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
-  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, paths would
-  /// end that contribute as much as others: in pale fur, that takes a quarter fewer rays, but has two thirds
-  /// more variance.
+  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, roulette
+  /// would also end paths that contribute as much as others: in pale fur, a quarter fewer rays would be
+  /// traced, but the variance would be two thirds higher.
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
@@ -102,7 +103,8 @@ class PathWalk {
   }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
-  /// Light at the current vertex, and the way to the next one. Returns false where the path ends.
+  /// Finds the light at the current vertex and traces the ray to the next vertex. Returns false where the
+  /// path ends.
   bool scatter(const ScatterPoint& point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
                Sink& sink) const {
     direct_.begin(point, lights);
@@ -126,9 +128,9 @@ class PathWalk {
   const DirectLight direct_;
 };
 
-/// The density with which sample_lobes() arrives at a light in a direction: the density of the lobes times
-/// the probability of surviving roulette. Without the second factor, light scattered by a dark surface would
-/// be left to a few rays of great weight.
+/// The density with which sample_lobes() traces a ray in a direction: the density of the lobes times the
+/// probability of surviving roulette. Without the second factor, MIS would rely on a few rays of high weight
+/// for the light that a dark surface scatters.
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
@@ -163,7 +165,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
 }
 
 /// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
-/// `shadowed`, a shadow ray finds out how much of each arrives.
+/// `shadowed`, a shadow ray to each light finds the fraction that arrives.
 template <class Sink>
 void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,

@@ -23,8 +23,8 @@ struct FurPagedTree {
   FurFrame frame;
 };
 
-/// A part of a fur tree that is a fur tree of its own, and its location: nodes (the root first) followed by
-/// leaves, in one page. References are relative to its own nodes and leaves.
+/// A part of a fur tree that can be traced as a separate tree. It is stored in one page: nodes (the root
+/// first) followed by leaves. References are relative to the nodes and leaves of the treelet.
 struct FurTreelet {
   uint32_t page = 0;
   uint32_t tree = 0;

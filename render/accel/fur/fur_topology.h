@@ -18,7 +18,7 @@ struct CurvePart {
   uint32_t part = 1;
 };
 
-/// The box of a part during the build: grid units; the last lanes of both ends identify the part.
+/// The box of a part during the build, in grid units. The last lanes of `low` and `high` identify the part.
 struct FurPiece {
   Four low, high;
 
@@ -30,8 +30,8 @@ struct FurPiece {
 struct FurBuildOptions {
   /// Cost of visiting a node relative to testing four segments.
   float node_cost = 1.2f;
-  /// Additional pieces that long or diagonal segments may be cut into, relative to the number of segments.
-  /// Each piece has its own box and tests the whole segment.
+  /// Max number of additional pieces from cutting long or diagonal segments, relative to the number of
+  /// segments. Each piece has its own box and tests the whole segment.
   float cuts = 0;
   FurRotation rotation = FurRotation::kNever;
 };
@@ -65,7 +65,7 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 /// The pieces of all segments that can be rendered: boxes of their Bezier hulls in a frame, averaged over the
 /// motion keys.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts, const FurFrame& frame);
-/// Upper bound of their number for this number of segments.
+/// Upper bound of the number of pieces for this number of segments.
 inline size_t piece_count_bound(size_t segments, float cuts) {
   return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));
 }
