@@ -29,9 +29,9 @@ enum class Links {
 };
 
 /// A file that appears completely or not at all (law 6): written under a temporary name in the same folder,
-/// synced, and renamed by commit(). Without commit() the temporary file is removed; sweep_temporaries() finds
-/// those of killed processes. Creates missing folders and refuses to replace a device or pipe. Throws Error
-/// (kFailed).
+/// synced, and renamed by commit(). Without commit(), the temporary file is removed. sweep_temporaries()
+/// removes the temporary files of killed processes. Creates missing folders and refuses to replace a device
+/// or pipe. Throws Error (kFailed).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Links links = Links::kFollow);

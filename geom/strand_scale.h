@@ -9,7 +9,7 @@ namespace pelage {
 /// rounded. The same for all strands of a coat in a frame, however it is divided into chunks.
 struct StrandScale {
   float width = 0;   ///< approximate width of strands at their roots
-  V3f anchor{0};     ///< a point near them
+  V3f anchor{0};     ///< a point near the strands
   float widest = 0;  ///< approximate width of the widest strands; 0 when unknown
 };
 

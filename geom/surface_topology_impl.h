@@ -23,7 +23,8 @@ struct CageConnectivity {
   std::vector<uint32_t> corner_edge;
   std::vector<uint32_t> edge_vertices;  ///< 2 per edge
   std::vector<uint8_t>
-      edge_split;  ///< the normals of its faces differ: infinitely sharp, with three faces, or bilinear
+      edge_split;  ///< the normals of its faces differ: an infinitely sharp edge, an edge of three faces, or
+                   ///< scheme bilinear
   std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
   std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
 
@@ -97,10 +98,10 @@ struct SurfaceTopology::Impl {
   /// Ascending for each vertex: corner numbers of flat triangles, otherwise faces of the cage.
   std::vector<uint32_t> uses;
 
-  // Of flat triangles.
+  // Only in a flat topology.
   std::vector<uint32_t> polygon;  // mesh face that each triangle was cut from; empty when all are triangles
 
-  // Of the others.
+  // Only in a subdivided topology.
   std::unique_ptr<const Far::PatchTable> patches;
   std::optional<Far::PatchMap> patch_map;
   std::vector<uint32_t> first_patch;  ///< face_count + 1 entries: patches of a ptex face

@@ -30,7 +30,7 @@ struct GroomParams {
   Attachment attach = Attachment::kAuto;  ///< of strands_file
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
-  std::optional<Field> density;  ///< with strands: relative; without: strands per square unit
+  std::optional<Field> density;  ///< relative if `strands` is given; else strands per square scene unit
   int points = 8;
   int64_t seed = 0;
   OperatorList operators;

@@ -11,9 +11,9 @@ namespace pelage {
 
 class ProgressStage;
 
-/// The strands of a file that a groom starts from: each is bound to the nearest point of the rest skin, or
-/// none has a skin. The strands stay in the file; only their positions are kept in memory. Immutable. Thread
-/// safety: const members may be called from any thread.
+/// The strands of a file that a groom starts from. Either every strand is bound to the nearest point of the
+/// rest skin, or the strands have no skin. The strands stay in the file; only their positions are kept in
+/// memory. Immutable. Thread safety: const members may be called from any thread.
 class ImportedStrands {
  public:
   /// `rest` may be null: no skin. `owner` is for messages. Warns through the job about strands that are too

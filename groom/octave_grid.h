@@ -27,7 +27,7 @@ class OctaveGrid {
 
   /// Distance from a candidate to the nearest follicle whose normal lies within 60 degrees of its own, in
   /// units of the smaller of both spacings, or `radius` when none is nearer. The search stops at a follicle
-  /// that is much nearer than that, although there may be a nearer one.
+  /// that is much nearer than `radius`, even if another follicle is nearer still.
   float nearest(const FollicleCandidate& candidate, float radius) const;
 
  private:

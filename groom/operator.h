@@ -71,8 +71,8 @@ class Operator {
   virtual std::string_view name() const = 0;
   /// Every parameter that prepare() and apply() depend on.
   virtual std::vector<ParameterText> parameters() const = 0;
-  /// True: uses rest state only, so that the offsets serve every pose and may be frozen. Otherwise the
-  /// operator sees posed strands.
+  /// Whether the operator uses rest state only. Its result is then valid in every pose and may be frozen.
+  /// Otherwise the operator receives posed strands.
   virtual bool reads_rest_only() const { return true; }
   /// Whether apply() uses the posed skin (StrandBatch::skin).
   virtual bool needs_closest_point() const { return false; }
@@ -96,16 +96,16 @@ class Operator {
   /// Whether prepare() runs the operators before this one.
   virtual bool runs_preceding() const { return false; }
   /// Reads maps and files, and gathers data about the whole coat (clump centres, guides). Called once.
-  /// Charges retained memory to the ledger. Throws Error (kInput), Error (kMemory) before allocating what
-  /// does not fit, Error (kStopped).
+  /// Charges retained memory to the ledger. Throws Error: kInput, kMemory before allocating memory that does
+  /// not fit, kStopped when the job is stopped.
   virtual void prepare(const PrepareContext&) {}
   /// Number of strands to grow at a point of the rest skin, relative to the density of the groom.
   virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
   /// Whether coverage() differs from 1 anywhere.
   virtual bool restricts_coverage() const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
-  /// Upper bound of how far apply() moves any point of a strand bounded by `before`: at most 1.5 times the
-  /// actual displacement of the worst strand.
+  /// Upper bound of the distance by which apply() moves any point of a strand with the properties `before`.
+  /// The bound is at most 1.5 times the actual displacement of the worst strand.
   virtual float displacement_bound(const StrandReach& before) const = 0;
   /// Properties after apply().
   virtual StrandReach reach_after(const StrandReach& before) const = 0;

@@ -19,7 +19,7 @@ struct PushOutParams {
 ///
 /// Afterwards no point of a strand's curve lies inside a closed skin, and control points keep a distance to
 /// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a strand
-/// that finds no way out is retracted along itself to where it last was outside.
+/// that cannot be moved out is retracted along its curve to its last point outside the skin.
 class PushOut final : public OperatorOf<PushOutParams> {
  public:
   static constexpr const char* kName = "push_out";

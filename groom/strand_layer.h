@@ -15,8 +15,9 @@ namespace pelage {
 
 /// Appends a batch.
 void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes);
-/// Reads the batch at `at` into one that has been started with the same strands, and advances `at` past it.
-/// Returns false, with the batch in an unspecified state, when the bytes there are not this batch.
+/// Reads the stored batch at `at` into `batch`, which has been started with the same strands, and advances
+/// `at` past the stored batch. Returns false, with the batch in an unspecified state, when the bytes there
+/// are not this batch.
 bool read_layer(std::span<const std::byte> bytes, size_t& at, StrandBatch& batch);
 
 }  // namespace pelage

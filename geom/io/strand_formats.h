@@ -67,7 +67,7 @@ class RawStrands {
   const CurveBasis basis;
   size_t strand_count = 0;
   bool has_widths = false;
-  float file_width = 0;                     ///< of files without widths per point, if stated; else 0
+  float file_width = 0;                     ///< width that a file without widths per point states; else 0
   std::vector<StrandAttribute> attributes;  ///< without values, except for constants
 };
 
