@@ -21,7 +21,8 @@ struct Flow {
 struct LinkLimits {
   float largest_time = 1;    ///< max magnitude of all times that the field will be warped to
   float tear = 1.5f;         ///< max change of the distance of neighbours, in pixels
-  float depth_step = 0.05f;  ///< step of 1 / depth, as a fraction of the nearer one's
+  float depth_step = 0.05f;  ///< max step of 1 / depth between neighbours, relative to 1 / depth of the
+                             ///< nearer one
 };
 
 /// Motion and depth of every pixel of a picture, and which neighbours belong to the same surface (the
@@ -52,9 +53,9 @@ class FlowField {
   bool linked_right(int x, int y) const { return links_[at(x, y)] & kRight; }
   bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
 
-  /// Whether a neighbour on another, nearer surface may separate from this pixel. Neither may be infinitely
-  /// far away: an empty pixel or a sky does not end where it is occluded. Nor may the pixel be thin: the
-  /// background is visible beside a strand.
+  /// Whether a neighbour on another, nearer surface may separate from this pixel. False if either pixel is
+  /// infinitely far away, because an empty pixel or a sky does not end where it is occluded. Also false if
+  /// this pixel is thin, because the background is visible beside a strand.
   bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
   /// Whether the first of two neighbours is the farther one; the later one if both are equally far.
   bool is_behind(int x, int y, int other_x, int other_y) const;
@@ -78,10 +79,10 @@ class FlowField {
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.
   const std::vector<Block>& blocks() const { return blocks_; }
-  /// One for each row of blocks, bounding all of them.
+  /// One block for each row of blocks; it bounds all blocks of the row.
   const std::vector<Block>& block_rows() const { return block_rows_; }
   int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
-  /// By how much a corner may move farther than any pixel of its block.
+  /// Max distance by which a corner may move farther than every pixel of its block.
   float slack() const { return slack_; }
   /// Bounds of all vectors.
   Flow low() const { return low_; }

@@ -45,7 +45,7 @@ struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};
   StereoFilter filter = StereoFilter::kLanczos;
-  RowEnds ends;               ///< whether the source is cut off at its sides, rather than complete
+  RowEnds ends;               ///< whether the source is cut off at its sides
   int longest_fill = 0;       ///< max number of pixels to fill in a gap
   int width = 0, height = 0;  ///< of the whole result
   int first_row = 0, last_row = 0;

@@ -12,7 +12,8 @@ namespace pelage {
 /// their basis needs, or without extent are dropped; the ids of the others stay;
 /// - points equal to the previous one are removed, except where the basis gives them a meaning (kBSpline);
 /// - negative and NaN radii become 0; strands without any width get the radius `default_width` / 2. In a file
-///   without widths, these are all strands. Non-finite attribute values become 0.
+///   without widths, these are all strands.
+/// Non-finite attribute values become 0.
 StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 
 /// Assumed width when neither the file nor the reader states one: a thousandth of the largest side of the box

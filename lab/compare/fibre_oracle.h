@@ -42,9 +42,10 @@ struct FibreOracle {
   /// Blur of a smooth fibre's scattering that matches the model's roughness: deviations in radians for R, TT
   /// and all internal reflections. Light scattered by the medulla is not blurred.
   std::array<float, 3> longitudinal{}, azimuthal{};
-  bool opaque = false;  ///< opaque model: the traced fibre is the one that it approximates
+  bool opaque = false;  ///< whether the model is opaque; the traced fibre is then the fibre that the model
+                        ///< approximates
 
-  /// `look` is called from time to time meanwhile, and may throw.
+  /// Called from time to time by model() and trace(); may throw to stop them.
   using Look = std::function<void()>;
   FibreHistogram model(
       float theta_o, int samples, const Look& look = [] {}) const;

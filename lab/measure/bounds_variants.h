@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// One approximation or optimisation that can be switched off, and the variant without it. The variant with
-/// it is kExactId.
+/// One approximation or optimisation that can be switched off, and the variant without it. The variant that
+/// uses it is kExactId.
 struct Switch {
   std::string title;  ///< "compact attributes"
   Variant off;

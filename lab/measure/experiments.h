@@ -24,7 +24,7 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup,
 /// Every bounding strategy: time, memory, growth, box tests, lost pixels.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Memory budgets, from the size of all chunks down to one that is refused.
+/// Memory budgets, from the size of all chunks down to a budget that is refused.
 Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
 /// Time to grow with and without the operator cache, and per operator.

@@ -16,14 +16,14 @@ struct LabVariant {
   enum class Kind {
     kPrepare,        ///< no tracing: grows the fur, makes the rays, writes the pages
     kEmbreeFast,     ///< Embree's default layout
-    kEmbreeCompact,  ///< its compact layout
+    kEmbreeCompact,  ///< Embree's compact layout
     kFur128,         ///< the fur tree with float nodes
-    kFur64,          ///< with quantised nodes
-    kPaged,          ///< the same, read from its file
+    kFur64,          ///< the fur tree with quantised nodes
+    kPaged,          ///< as kFur64, but pages are read from a file
   };
   Kind kind = Kind::kFur64;
-  /// For kPaged: memory relative to the size of the tree. 1: enough for all of it, in addition to the always
-  /// resident part.
+  /// For kPaged: memory relative to the size of the tree. 1: enough for the whole tree, in addition to the
+  /// always resident part.
   double share = 1;
   std::vector<std::string> kinds;  ///< kinds of rays to trace; empty: all
 

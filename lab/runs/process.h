@@ -15,7 +15,7 @@ constexpr double kNoLimit_s = std::numeric_limits<double>::infinity();
 /// How a process ended, and its resource usage as reported by the kernel.
 struct ProcessEnd {
   int exit_code = 0;         ///< meaningless when a signal ended it
-  int signal = 0;            ///< that ended it; 0: it exited by itself
+  int signal = 0;            ///< signal that ended the process; 0: it exited by itself
   bool interrupted = false;  ///< it was asked to stop because `cancelled` returned true
   bool timed_out = false;    ///< it was asked to stop because it exceeded the time limit
   double wall_s = 0;
