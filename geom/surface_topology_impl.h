@@ -22,9 +22,8 @@ struct CageConnectivity {
   std::vector<uint32_t> corner_vertex;
   std::vector<uint32_t> corner_edge;
   std::vector<uint32_t> edge_vertices;  ///< 2 per edge
-  std::vector<uint8_t>
-      edge_split;  ///< the normals of its faces differ: an infinitely sharp edge, an edge of three faces, or
-                   ///< scheme bilinear
+  std::vector<uint8_t> edge_split;  ///< the normals of its faces differ: an infinitely sharp edge, an edge of
+                                    ///< three faces, or scheme bilinear
   std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
   std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
 
