@@ -14,7 +14,7 @@ namespace pelage {
 struct CoatStats {
   float width = 0;
   float length = 0;
-  float area_share = 0;  ///< width * length over the skin area that they cover; 0 when unknown
+  float area_share = 0;  ///< mean width * length of a strand / area of the whole skin; 0 when unknown
   float density = 0;     ///< strands per unit of skin area; 0 when unknown
   bool even = true;      ///< whether every prefix of their order is blue noise
 };
