@@ -10,7 +10,7 @@
 
 namespace pelage {
 
-/// Poses of a cage, one OBJ file each, numbered from `first`, which is shown at frame `first`; positions are
+/// Poses of a cage, one OBJ file each, numbered from `first`. Frame `first` shows pose `first`. Positions are
 /// interpolated linearly between poses. A cycle repeats in both directions. Without a cycle, the first pose
 /// also holds before the sequence, and the last pose after it.
 ///

@@ -21,8 +21,8 @@ struct LatticePoint {
   V2f uv{0};
 };
 
-/// Divides the edges of a cage, each with its own rate, and fills the faces between them with triangles that
-/// use the vertices of their edges: neighbours share these, so no cracks can occur. If a face is split into
+/// Divides each edge of a cage at a separate rate, and fills the faces with triangles that use the vertices
+/// on their edges. Neighbouring faces share these vertices, so no cracks can occur. If a face is split into
 /// several ptex faces, its edges are divided into an even number of parts, because two ptex faces share each
 /// edge.
 ///

@@ -71,8 +71,8 @@ struct PointRules {
   size_t point_count() const { return control_count + made_count(); }
   /// Computes all points (xyz) after the control points.
   void apply(float* points) const;
-  /// The same for the needed points, which include everything that they depend on; `points` holds the kept
-  /// blocks.
+  /// The same for the needed points of `blocks`, which must include all points that they depend on. `points`
+  /// holds the kept blocks.
   void apply(float* points, const PointBlocks& blocks) const;
   /// Temporary memory of apply() for this number of points.
   static size_t temporary_bytes(size_t points);

@@ -51,8 +51,9 @@ class GroomManifest {
   };
   /// Recent states, the latest first.
   const std::vector<State>& states() const { return states_; }
-  /// Inserts the current state before the states of `before`, the manifest that this one replaces. Drops
-  /// states that are followed by eight later ones and have not been used for a day, and removes their files.
+  /// Inserts the current state before the states of `before`, which is the manifest that this manifest
+  /// replaces. Drops states that are followed by eight later ones and have not been used for a day, and
+  /// removes their files.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);
   /// The text that `pelage info` shows.

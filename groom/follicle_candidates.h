@@ -39,7 +39,7 @@ struct CandidateShare {
   uint64_t begin = 0, end = uint64_t(1) << 32;
 };
 
-/// Properties of all candidates together, which must be known before the first one is used.
+/// Properties of all candidates together. They must be known before the first candidate is used.
 struct CandidateSurvey {
   size_t count = 0;
   Box3f box;

@@ -64,9 +64,9 @@ struct FrozenGrowth {
     MemoryCharge charge;  ///< of the leaves
   };
   /// Grows all leaves, starting after the last operator whose result is in the store, and stores the state
-  /// after each operator that runs except the last. Prepares the operators that it needs. Passes on the
-  /// exceptions of operators. Throws Error: kMemory as soon as the first leaves show that all leaves together
-  /// will not fit, kStopped when the job is stopped. After an exception, nothing is stored.
+  /// after each operator that runs, except after the last. Prepares the operators that it needs. Passes on
+  /// the exceptions of operators. Throws Error: kMemory as soon as the first leaves show that all leaves
+  /// together will not fit, kStopped when the job is stopped. After an exception, nothing is stored.
   Result run(const PrepareContext& context, int leaf_strands) const;
   void charge_grown(size_t done, Result& result) const;
   /// Whether growth can continue from a layer; if so, sets `reaches` to the reaches after the layer's

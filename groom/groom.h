@@ -27,7 +27,8 @@ struct PosedSkin {
   std::span<const LimitSurface> keys;       ///< empty for a groom without a skin
   std::span<const ClosestPointTree> trees;  ///< empty when no operator needs the skin's inside
   float scale = 1;  ///< uniform scale of the character, applied to strands about their roots
-  /// Transforms of strands without a skin, one per motion key; empty: they stay where their file places them.
+  /// Transforms of strands without a skin, one per motion key. Empty: the strands keep the positions of their
+  /// file.
   std::span<const M44f> free_transforms;
   float length = 1;  ///< scale of the finished strands about their roots, excluding their widths
 };
@@ -78,8 +79,8 @@ class Groom {
 
   /// All strands of a leaf in a pose, ids ascending. They have the attribute "color" (3 components) when an
   /// operator colours them: constant, per strand or per point, the smallest of these that can hold the
-  /// colours. With `kept`, only some of the strands; growing them costs as much as growing every strand up to
-  /// the last one kept.
+  /// colours. With `kept`, grows only some of the strands. This costs as much as growing every strand up to
+  /// the last kept strand.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
   /// Exact counts of grow() for the whole leaf or its first `count` strands. The number of motion keys is not

@@ -42,8 +42,8 @@ struct GroomParams {
   static const Schema<GroomParams>& schema();
 };
 
-/// The problem with `cache.freeze`: it names no operator, or one that does not depend on rest state alone.
-/// Empty when there is none.
+/// The problem with `cache.freeze`: it names no operator of the groom, or an operator that does not depend on
+/// rest state alone. Empty when there is none.
 std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

@@ -17,8 +17,8 @@ class ProgressStage;
 class ImportedStrands {
  public:
   /// `rest` may be null: no skin. `owner` is for messages. Warns through the job about strands that are too
-  /// far from the skin to follow it. Throws Error (kInput) when the file cannot be read, Error (kMemory)
-  /// before reading it when it does not fit, and Error (kStopped) when the job is stopped.
+  /// far from the skin to follow it. Throws Error: kInput when the file cannot be read, kMemory (before
+  /// reading) when its strands do not fit, kStopped when the job is stopped.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 

@@ -61,9 +61,10 @@ struct PrepareContext {
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
 ///
-/// Contract: pure and deterministic per strand. The result depends on the strand's own points, id and root,
-/// the operator's parameters and what prepare() computed from rest state, never on which other strands are in
-/// the batch. Roots never move. Thread safety: apply() may run on many batches at once.
+/// Contract: pure and deterministic per strand. The result for a strand depends on the points, the id and the
+/// root of this strand, on the operator's parameters, and on the data that prepare() computed from rest
+/// state. It never depends on the other strands of the batch. Roots never move. Thread safety: apply() may
+/// run on many batches at once.
 class Operator {
  public:
   virtual ~Operator() = default;
@@ -76,7 +77,7 @@ class Operator {
   virtual bool reads_rest_only() const { return true; }
   /// Whether apply() uses the posed skin (StrandBatch::skin).
   virtual bool needs_closest_point() const { return false; }
-  /// Frequency of the colours that apply() writes; empty when it writes none.
+  /// Frequency of the colours that apply() writes; empty if apply() writes no colours.
   virtual std::optional<AttributeClass> colors() const { return {}; }
   /// Random factor that apply() applies to the colour of a strand, for the seed passed to prepare(), and its
   /// mean over all strands.

@@ -12,7 +12,7 @@ namespace pelage {
 
 /// Coding options for widths and colours of a coat, determined by its operators.
 struct CodeOptions {
-  /// Strands share one width profile, which then may use 16 bits per point; else 8.
+  /// Whether all strands share one width profile. If so, the profile may use 16 bits per point, otherwise 8.
   bool one_width_profile = false;
 };
 

@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-// Lossless state of strands between two frozen operators, in rest space, which allows a coat to be grown
-// again from the middle of its operators. Widths that are not set and colours that are still white take no
+// Lossless state of strands between two frozen operators, in rest space. With it, a coat can be grown again
+// from the middle of its list of operators. Widths that are not set and colours that are still white take no
 // space.
 
 /// Appends a batch.

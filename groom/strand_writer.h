@@ -13,7 +13,7 @@ namespace pelage {
 /// Writes all strands, or some strands with modified widths and colours.
 class StrandWriter {
  public:
-  /// The strands to write, as ascending indices, each with a factor on its width and one on its colours.
+  /// The strands to write, as ascending indices. Each has a factor on its width and a factor on its colours.
   struct Chosen {
     std::span<const uint32_t> strands;
     std::span<const float> width;

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` of them: when
-/// full, drops those that wait for the highest levels. Levels are 0 .. `levels` - 1.
+/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` candidates. When
+/// full, drops the candidates that wait for the highest levels. Levels are 0 .. `levels` - 1.
 ///
 /// Add candidates one by one with add(), or all at once with hold_all(), which takes less memory per
 /// candidate.

@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-/// How far a point moves across the picture while the shutter is open, in scene units at its depth: its
-/// motion relative to the camera, projected onto the plane perpendicular to the line of sight [Ryu07].
-/// Multiply by pixels_per_unit() for the length of the blur in pixels.
+/// Distance by which a point moves across the picture while the shutter is open, in scene units at the depth
+/// of the point. It is the motion relative to the camera, projected onto the plane perpendicular to the line
+/// of sight [Ryu07]. Multiply by pixels_per_unit() for the length of the blur in pixels.
 float motion_across(const LodView& view, const V3f& at_open, const V3f& at_close);
 
 /// The component of this motion across a line through the point. `line`: direction of the line at shutter

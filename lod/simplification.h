@@ -26,8 +26,8 @@ struct RootPlace {
   V3f direction{0};       ///< of the strands there at that time: unit, shorter where they vary
 };
 
-/// Stochastic simplification of one coat: the fraction of the strands that suffices at a place, and the width
-/// of those that remain [Cook07, Ryu07].
+/// Stochastic simplification of one coat: determines the fraction of the strands that suffices at a place,
+/// and the width of the kept strands [Cook07, Ryu07].
 ///
 /// Every strand has a fixed priority x, uniformly distributed over [0, 1) and independent of everything else.
 /// Where the fraction (share) lambda suffices, strands with x < lambda - t are kept, strands with x up to
@@ -96,7 +96,8 @@ class Simplification {
 
  private:
   float share(float pixels, float motion, float across, float confusion) const;
-  /// The minimum share that widths or the scene require; a budget may increase it, never decrease it.
+  /// The minimum share that widths or the scene require. A budget may increase this share, but never decrease
+  /// it.
   float min_kept(float share) const;
   void tabulate_area();
 

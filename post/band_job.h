@@ -61,8 +61,8 @@ class BandJob {
   /// Rows of the view's canvas that the band needs.
   using Reach = std::function<RowRange(const MovingView& view, const WarpTarget& target, Band band)>;
 
-  /// A part to write, with the plane number of each of its channels: a channel number of the file, or that
-  /// number plus the count of channels for additional planes that `process` fills.
+  /// A part to write, with a plane number for each channel. Numbers below the channel count of the file are
+  /// channels of the file. The following numbers are additional planes that `process` fills.
   struct Part {
     ExrOutputPart part;
     std::vector<size_t> planes;

@@ -57,13 +57,15 @@ class FlowField {
   /// infinitely far away, because an empty pixel or a sky does not end where it is occluded. Also false if
   /// this pixel is thin, because the background is visible beside a strand.
   bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
-  /// Whether the first of two neighbours is the farther one; the later one if both are equally far.
+  /// Whether the first of two neighbours is farther away. If both are equally far, the later neighbour counts
+  /// as farther.
   bool is_behind(int x, int y, int other_x, int other_y) const;
 
   /// Whether all four corners move like the pixel, so that it stays a unit square.
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
-  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean over all pixels of the same surface among
-  /// the four that meet there. All these pixels get the same bits, so that a surface has no cracks.
+  /// Motion of the pixel's corner (right, bottom: 0 or 1): of the four pixels that meet at the corner, the
+  /// mean over those on the same surface. All these pixels get the same bits, so that a surface has no
+  /// cracks.
   Flow corner(int x, int y, int right, int bottom) const {
     const int left = x + right - 1, top = y + bottom - 1;
     if (left < 0 || top < 0 || !(links_[at(left, top)] & kFour)) return torn_corner(x, y, right, bottom);

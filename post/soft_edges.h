@@ -13,8 +13,8 @@ namespace pelage {
 inline constexpr uint8_t kPartlyCovered = 1;  ///< alpha between 0 and 1: an edge, or something thin
 inline constexpr uint8_t kSoftEdge = 2;       ///< partly covered, and without a depth
 
-/// Soft edges are pixels to which a filter gave some coverage, although no surface was hit there. They have
-/// neither a depth nor a vector. Without changes, they would stay behind when their surface moves.
+/// Soft edges are pixels to which a filter gave some coverage, although no ray of the pixel hit a surface.
+/// They have neither a depth nor a vector. Without changes, they would stay behind when their surface moves.
 inline uint8_t edge_bits(float alpha, float depth) {
   if (!(alpha > 0 && alpha < 1)) return 0;
   const float distance = depth < 0 ? -depth : depth;

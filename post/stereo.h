@@ -39,8 +39,9 @@ inline constexpr int kStripRows = 16;
 
 enum class StereoFilter { kLanczos, kBox };
 
-/// The field contains the parallax (time 1 is the other eye). Rows and columns as in BlurJob. `invented` and
-/// `missing`, if given, receive the fraction of each pixel that was filled, and that stayed empty.
+/// The field contains the parallax (time 1 is the other eye). Rows and columns as in BlurJob. `invented`, if
+/// given, receives the filled fraction of each pixel; `missing`, if given, receives the fraction that stayed
+/// empty.
 struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};

@@ -21,9 +21,9 @@ struct StereoFileParams {
 };
 
 /// `pelage stereo` on one file: makes the other eye's picture of one view, with parts named after the other
-/// eye. The layer `invented` of the part with the colours contains the fraction of each pixel that was filled
-/// (`mask`) and that stayed empty (`hole`). Camera matrices, if any, become the other eye's. Throws Error:
-/// kInput when the view, its depth or a camera is missing; also throws the errors of BandJob.
+/// eye. The layer `invented` of the part with the colours contains the filled fraction (`mask`) and the empty
+/// fraction (`hole`) of each pixel. Camera matrices, if any, become the other eye's. Throws Error: kInput
+/// when the view, its depth or a camera is missing; also throws the errors of BandJob.
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
                        const StereoFileParams& params, const Job& job);
 

@@ -17,8 +17,8 @@ namespace pelage {
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// Divides the skin into pieces of at most `max_cost` each where its faces allow it (divide_skin). Throws
-  /// Error (kStopped).
+  /// Divides the skin into pieces that cost at most `max_cost` each, if the faces allow it (divide_skin).
+  /// Throws Error (kStopped).
   virtual std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const = 0;
   /// A box that contains every triangle of a piece over the span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;

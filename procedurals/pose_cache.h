@@ -34,7 +34,7 @@ class PoseCache {
   void reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
   /// Announces partial poses with `keys` times that may contain all faces.
   void reserve_for_whole(const SurfaceTopology& topology, size_t keys);
-  /// Keeps `pose` alive until as many others as there are threads have been used after it.
+  /// Keeps `pose` alive until as many other poses as there are threads have been used after it.
   void keep(std::shared_ptr<const SkinPose> pose);
 
  private:

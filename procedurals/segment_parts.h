@@ -29,7 +29,7 @@ struct SegmentDivision {
 
 /// The segments of a batch in groups of neighbours. The groups ignore strands: the box of pieces of many
 /// strands is much smaller than the box of a few whole strands. Strands with consecutive indices are not
-/// neighbours either: a batch is stored by priority, so that each of its prefixes is spread over the whole
+/// neighbours either: a batch is stored by priority, so every prefix of the batch is spread over the whole
 /// leaf.
 ///
 /// The batch is divided into cells with about the same number of segments, by recursive halving at the median

@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-/// A skin, or the part of it below one leaf, ready to grow hair in one pose. Made from posed cages when
+/// A skin in one pose, or its part below one leaf, ready for growing hair. Made from posed cages when
 /// something grows, and freed afterwards. Immutable. Thread safety: const members may be called from any
 /// thread.
 struct SkinPose {

@@ -31,7 +31,7 @@ Override parse_override(const std::string& text);
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 /// Support for renamed keys. A document may use an old name: the loader replaces it by the new name before
-/// files are merged, so that the including file and the overrides win under either name. A file or an
+/// files are merged, so the including file and the overrides take precedence under either name. A file or an
 /// override that gives a key under both names adds a problem.
 struct RenamedKeys {
   const SchemaInfo& root;              ///< table of the whole document

@@ -33,7 +33,7 @@ class RenamedPath {
   std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // next on the path
 };
 
-/// Moves `over` into `base`: entries of maps one by one, everything else as a whole. `over` wins.
+/// Merges `over` into `base`: entries of maps one by one, other values as a whole. `over` wins.
 void merge_into(Value& base, Value over);
 
 }  // namespace pelage

@@ -23,8 +23,8 @@ struct DrawnCharacter {
 /// outlive the result.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
-/// Memory of one animal of a character in a frame, without grown hair and whole poses: its names, its posed
-/// cages and the description of its coats.
+/// Memory of one animal of a character in a frame: names, posed cages and the description of the coats.
+/// Excludes grown hair and whole poses.
 int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
                               const CharacterParams& character);
 

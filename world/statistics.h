@@ -12,7 +12,7 @@
 namespace pelage {
 
 /// Numbers of one run, as `--stats` writes them: the counts of every room, over all frames. A plain value:
-/// code that runs a step adds the counts that the step returned; no step registers itself here.
+/// the code that runs a step adds the counts that the step returns.
 struct Statistics {
   ProcessUsage process = {};
   WorldCounts world = {};

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Distribution of the light that a fibre scatters, for light from one inclination, uniform over its width:
-/// energy by cells of sin(theta_i) and phi. One colour channel.
+/// Distribution of the light that a fibre scatters, as energy by cells of sin(theta_i) and phi. The light
+/// arrives at one inclination, uniformly over the width of the fibre. One colour channel.
 class FibreHistogram {
  public:
   static constexpr int kSines = 40, kAzimuths = 72;

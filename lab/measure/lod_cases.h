@@ -33,8 +33,8 @@ std::vector<LodSetting> lod_ideas();
 LodSetting other_hairs(const SceneDescription& scene);
 /// Values of `quality`, from coarse to fine.
 std::vector<LodSetting> lod_qualities();
-/// Moves the LOD camera to `factor` of its distance, with the shutter and lens of the picture's camera, which
-/// does not move.
+/// Moves the LOD camera to `factor` times its distance. The LOD camera has the shutter and lens of the
+/// picture's camera, which does not move.
 Settings detail_camera(const SceneDescription& scene, float factor);
 
 }  // namespace pelage

@@ -12,10 +12,10 @@
 
 namespace pelage {
 
-/// Estimates the cost of full detail for a whole crowd without rendering it. Some of its characters keep all
-/// their hair, while the others surround and occlude them with reduced detail. A line is fitted to the cost
-/// by the number of characters with all their hair, and extrapolated to all characters. A crowd of few
-/// characters is also rendered in full, which shows the error of the extrapolation.
+/// Estimates the cost of full detail for a whole crowd without rendering it. Some characters keep all their
+/// hair, while the others surround and occlude them with reduced detail. A line is fitted to the cost by the
+/// number of characters with all their hair, and extrapolated to all characters. A crowd of few characters is
+/// also rendered in full, which shows the error of the extrapolation.
 class LodCrowd {
  public:
   /// `characters`: numbers of characters with all their hair, one run each.

@@ -23,10 +23,10 @@ struct PictureError {
 /// Empty when the pictures differ in size or lack R, G, B or A.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
 
-/// The same with two tested pictures x and y of independent seeds: their noise is not counted either, only
-/// the error that both share. Here t is the mean over the 9 x 9 pixels around each pixel. The value of a
-/// single pixel would be small where a and b both happen to be too dark, and at these pixels errors are not
-/// zero on average.
+/// The same with two tested pictures x and y of independent seeds: the noise of x and y is not counted
+/// either, only the error that both pictures share. Here t is the mean over the 9 x 9 pixels around each
+/// pixel. The value of a single pixel would be small where a and b both happen to be too dark, and at these
+/// pixels errors are not zero on average.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
                                           const ExrImage& b);
 

@@ -13,8 +13,8 @@
 
 namespace pelage {
 
-/// The strand that a ray starts from, as identified by the accelerator (Hit::start). Near the start of the
-/// ray, that strand is not hit again.
+/// The strand from which a ray starts, as identified by the accelerator (Hit::start). Near its start, the ray
+/// does not hit this strand again.
 struct StrandStart {
   static constexpr uint32_t kNone = StrandHandle::kNone;
 

@@ -19,8 +19,8 @@ namespace pelage {
 /// A ray visits each chunk at most once: first the resident chunks, then the others that it can still hit. A
 /// chunk that is not resident and has fine boxes is grown only for rays that intersect one of these boxes in
 /// front of the nearest hit so far. The geometry that is hit is copied while the chunk is pinned. Results
-/// depend neither on the budget, nor on the boxes as long as they contain their chunks, nor on which chunks
-/// are resident.
+/// depend neither on the budget, nor on which chunks are resident, nor on the boxes, provided that the boxes
+/// contain their chunks.
 ///
 /// Errors of a grower pass through closest() and transmittance(). Thread safety: as Accel; each
 /// TraceThread::worker is used by one thread at a time, for one ray or one visit of chunks() at a time.

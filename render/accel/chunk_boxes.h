@@ -16,8 +16,8 @@ namespace pelage {
 
 class Workers;
 
-/// The known boxes of the chunks of a frame: those given before any chunk was grown, and those measured when
-/// a chunk was first grown.
+/// The known boxes of the chunks of a frame: the boxes given before any chunk was grown, and the boxes
+/// measured when a chunk was first grown.
 ///
 /// Thread safety: any thread may call const members and learn() at any time, but learn() only for different
 /// chunks. Call all other members before these.

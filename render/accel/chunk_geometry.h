@@ -39,7 +39,8 @@ class ChunkGeometry : public Resident {
   /// Finds the nearest hit on this chunk between near and far. If it precedes `nearest`, stores the hit in
   /// `nearest` and its geometry in `met`, and returns true. `rays` is reused from chunk to chunk.
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
-  /// Adds the semi-transparent crossings of a ray; false when an opaque one blocks it.
+  /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
+  /// the ray.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
 
   /// Number of strands with at least one segment; 0 for a skin.

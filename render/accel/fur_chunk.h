@@ -36,7 +36,7 @@ class FurChunk final : public ChunkGeometry {
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
   /// Bezier curves on the grid of the coat, strands in ascending order of their ids. No ray hits segments
   /// whose points are not finite. At the beginning of a strand, such segments collapse to the first point of
-  /// the remaining segments; between others, they become a connection from joint to joint.
+  /// the remaining segments. Between other segments, they become a connection from joint to joint.
   void strand(uint32_t index, Strands& out) const override;
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_.first_segment(index), strands_.strand_segments(index), place};

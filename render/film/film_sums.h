@@ -25,7 +25,7 @@ namespace pelage {
 /// Thread safety: different tiles may be written at once; without a filter, different pixels.
 class FilmSums {
  public:
-  /// Pixels along the side of a tile whose samples are added by one thread at a time.
+  /// Side of a tile in pixels. One thread at a time adds the samples of a tile.
   static constexpr int kTileSide = 16;
 
   FilmSums(int width, int height, size_t channels, std::optional<PixelFilter> splat);

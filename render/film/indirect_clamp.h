@@ -18,7 +18,8 @@ struct IndirectClamp {
           indirect = 0;  ///< luminance in units of 1/65,536; integers, so that the order of summation does
                          ///< not matter
 
-  /// Factor applied to light that reaches the camera as lobes[g] * light, summed over lobe groups g.
+  /// Returns the factor to apply to light that reaches the camera. This light is the sum of lobes[g] * light
+  /// over lobe groups g.
   float keep(const Rgb* lobes, const Rgb& light) {
     if (limit == 0) return 1;
     float all = 0;

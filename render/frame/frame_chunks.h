@@ -38,7 +38,7 @@ class FrameChunks final : public ChunkGrower {
   /// control points. `counts` receives the counts of the leaves. Passes on errors of growth; throws Error
   /// (kMemory) before growing anything that does not fit. When cancelled, chunks have no boxes.
   std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
-  /// Whether strands are stored in fur trees, which need no boxes of parts above them.
+  /// Whether strands are stored in fur trees. Chunks with fur trees need no boxes of parts.
   bool in_fur_trees() const;
   /// Memory of the descriptions of the chunks, grown or not.
   size_t bytes() const;

@@ -45,8 +45,8 @@ struct VisiblePoint {
   Rgb weight() const { return weights[0] + weights[1] + weights[2]; }
 };
 
-/// A shadow ray that may be traced from a visible point, chosen among the light points of one light in
-/// proportion to the luminance that they scatter to the camera.
+/// A shadow ray that may be traced from a visible point to one light. Its target is chosen among several
+/// points on the light, in proportion to the luminance that each point scatters to the camera.
 struct LightRay {
   uint32_t point = 0, light = 0;  ///< indices
   float unoccluded = 0;  ///< luminance that all of the light scatters to the camera if nothing blocks it

@@ -12,7 +12,8 @@ namespace pelage {
 
 class CoatColor;
 
-/// Parameters that every fibre model has, so that changing the name of the model is enough to replace it.
+/// Parameters that every fibre model has. A user can therefore change the model of a material by changing
+/// only its name.
 struct FibreParams {
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};

@@ -61,7 +61,7 @@ class PathWalk {
         options_(options),
         direct_(scene.lights, scene.render.light_samples, options.direct) {}
 
-  /// Follows a path from its first vertex, whose scattering is `first`, to its end.
+  /// Follows a path from its first vertex to its end. `first`: scattering at the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
     if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
@@ -85,8 +85,8 @@ class PathWalk {
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Rough guess at how bright a surface looks, as a fraction of the light around it: between pale fur and
-  /// skin.
+  /// Rough guess of the brightness of a surface as a fraction of the light around it: between the values of
+  /// pale fur and of skin.
   static constexpr float kShown = 0.5f;
 
   static void seek(PathState& path, Draw draw) {

@@ -23,7 +23,7 @@ struct FurPart {
   std::vector<std::unique_ptr<Procedural>> procedurals;
   size_t material = 0;
   /// The rest pose of the skin that the strands grow on, for material fields that depend on the rest
-  /// position; may be null: the roots then serve as rest positions.
+  /// position; may be null: the roots are then used as rest positions.
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};                             ///< multiplies the colour of the strands
   std::optional<Simplification> lod = {};  ///< how detail was reduced; empty: it was not reduced

@@ -36,8 +36,8 @@ enum class FurRotation : uint8_t {
   kAlways,      ///< for tests
 };
 
-/// A frame that suits most segments, estimated from a few hundred of them: one axis is their common
-/// direction; the other two are the best of several pairs. Deterministic.
+/// A frame that suits most segments, estimated from a few hundred segments. One axis is the common direction
+/// of the segments; the other two axes are the best of several pairs. Deterministic.
 FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation);
 
 }  // namespace pelage

@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// The grid that the curves of one groom are snapped to once, when a strand is grown. Its step is a power of
-/// two, so that conversion to grid units and back is exact. The step depends only on the groom's parameters,
-/// the origin only on the position of the character. So a strand decodes to the same floats in the tree of
-/// any chunk.
+/// The grid to which the curves of one groom are snapped. A strand is snapped once, when it is grown. Its
+/// step is a power of two, so that conversion to grid units and back is exact. The step depends only on the
+/// groom's parameters, the origin only on the position of the character. So a strand decodes to the same
+/// floats in the tree of any chunk.
 ///
 /// In grid units, coordinates are integers. Floats beyond 2^24 are integers already, so large coordinates
 /// need no special case. Radii have the form k^2 / 256 with an integer k, so their steps are finer at the

@@ -55,9 +55,9 @@ struct FurPageTable {
 /// Cuts fur trees into pages. A page contains consecutive treelets of a tree, which are therefore close
 /// together in space; the levels above all treelets are replaced by a tree over their boxes.
 ///
-/// A subtree that fits the remaining space of a page becomes a treelet. Otherwise its children are tried,
-/// unless the page is nearly full, in which case it is closed. Pages are therefore filled to at least kFull,
-/// except for the last.
+/// A subtree that fits the remaining space of a page becomes a treelet. Otherwise, if the page is nearly
+/// full, the page is closed; if not, the children of the subtree are tried. Pages are therefore filled to at
+/// least kFull, except for the last.
 class FurCutter {
  public:
   using Sink = std::function<void(std::span<const std::byte>)>;

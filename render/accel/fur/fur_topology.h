@@ -71,8 +71,8 @@ inline size_t piece_count_bound(size_t segments, float cuts) {
 }
 
 /// Builds with the binned surface area heuristic [Wald07]; n segments cost as much as ceil(n / 4) tests. Sets
-/// of a few dozen are swept exactly and split at multiples of four only, so that nearly every lane is filled.
-/// Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
+/// of up to a few dozen segments are swept exactly and split only at multiples of four, so that nearly every
+/// lane is filled. Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options);
 
 }  // namespace pelage
