@@ -31,8 +31,8 @@ struct FollicleOptions {
   std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< factor on the density; may be empty
   uint64_t seed = 0;
   int leaf_strands = 8000;
-  std::string owner = "groom";   ///< for messages: whose follicles they are
-  std::string noun = "strands";  ///< for messages: name of the placed objects, plural
+  std::string owner = "groom";   ///< name of the owner of the follicles, for messages
+  std::string noun = "strands";  ///< name of the placed objects in the plural, for messages
 };
 
 /// Memory that suffices for placing `count` follicles, including the tree (progressive_order.h). If the

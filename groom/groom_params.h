@@ -17,7 +17,8 @@ namespace pelage {
 /// `cache:` of a groom.
 struct GroomCacheParams {
   AssetPath directory{"cache", {}};
-  NameReference freeze;  ///< the last frozen operator; when several have this name, the last of them
+  NameReference freeze;  ///< name of the last frozen operator; if several operators have this name, the last
+                         ///< of these
   static const Schema<GroomCacheParams>& schema();
 };
 

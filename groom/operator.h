@@ -52,11 +52,11 @@ struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
   TextureLibrary& textures;
   const Job& job;
-  std::span<const std::unique_ptr<Operator>> preceding;  ///< already prepared
-  uint64_t seed = 0;  ///< of this operator: depends on the groom's seed, differs between equal operators
-  int points = 8;     ///< per grown strand
-  SourcePosition position = {};  ///< of the operator in the scene file, for errors
-  std::string owner = {};        ///< for messages: "groom 'coat'"
+  std::span<const std::unique_ptr<Operator>> preceding;  ///< the operators before this one, already prepared
+  uint64_t seed = 0;  ///< seed of this operator: depends on the groom's seed, differs between equal operators
+  int points = 8;     ///< number of points of a grown strand
+  SourcePosition position = {};  ///< position of the operator in the scene file, for errors
+  std::string owner = {};        ///< name for messages: "groom 'coat'"
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.

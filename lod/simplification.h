@@ -21,9 +21,10 @@ struct CoatStats {
 
 /// The root of a strand, which determines its level of detail. World space.
 struct RootPlace {
-  V3f open{0}, close{0};  ///< when the shutter opens and closes
-  V3f normal{0};          ///< of the skin when the shutter opens; 0: unknown
-  V3f direction{0};       ///< of the strands there at that time: unit, shorter where they vary
+  V3f open{0}, close{0};  ///< position when the shutter opens and closes
+  V3f normal{0};          ///< unit normal of the skin when the shutter opens; 0: unknown
+  V3f direction{0};       ///< mean direction of the strands at the root when the shutter opens: unit, shorter
+                          ///< where directions vary
 };
 
 /// Stochastic simplification of one coat: determines the fraction of the strands that suffices at a place,

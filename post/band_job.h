@@ -77,7 +77,7 @@ class BandJob {
 
   std::vector<MovingView> views;
   std::vector<Part> parts;
-  PixelBox window;  ///< of the result; contains all its parts
+  PixelBox window;  ///< window of the result; contains all its parts
   size_t extra_planes = 0;
   const int scale;
   const int longest_fill;  ///< max number of pixels to fill in a gap

@@ -76,7 +76,7 @@ class FlowField {
   /// Pixels whose motion is bounded together.
   struct Block {
     int x0, y0, x1, y1;
-    Flow low{0, 0}, high{0, 0};  ///< of the vectors within
+    Flow low{0, 0}, high{0, 0};  ///< bounds of the vectors in the block
   };
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.

@@ -48,7 +48,7 @@ struct StereoJob {
   StereoFilter filter = StereoFilter::kLanczos;
   RowEnds ends;               ///< whether the source is cut off at its sides
   int longest_fill = 0;       ///< max number of pixels to fill in a gap
-  int width = 0, height = 0;  ///< of the whole result
+  int width = 0, height = 0;  ///< size of the whole result
   int first_row = 0, last_row = 0;
   std::optional<Plane> invented, missing;
 };

@@ -16,7 +16,7 @@ class MemoryLedger;
 
 struct BoundingOptions {
   BoundingStrategy strategy = BoundingStrategy::kExact;
-  float factor = 1;  ///< of kUser, about the centre of each box
+  float factor = 1;  ///< scale of the boxes of kUser about their centres
   /// Drops the parts of a chunk as soon as the chunk has been recorded, for callers that do not need parts.
   /// Parts are most of the data.
   bool in_one_part = false;
@@ -32,7 +32,7 @@ int bound_keys(BoundingStrategy strategy);
 struct BoundingCounts {
   int64_t measured = 0;    ///< chunks grown to be measured: the first of two passes
   int64_t remembered = 0;  ///< chunks whose boxes were read from a side file
-  BoundsArea area;         ///< of all chunks, with all their parts
+  BoundsArea area;         ///< area of the boxes of all chunks and parts
 };
 
 /// Memory for measuring the strands of a leaf: the strands and their division into parts, without the memory

@@ -51,8 +51,8 @@ struct ChunkBounds {
 
 /// Sums of surface areas, which tell how tight boxes are. The area of a moving box is the mean over its keys.
 struct BoundsArea {
-  double chunks = 0;  ///< of the box around each chunk
-  double parts = 0;   ///< of the boxes of all parts
+  double chunks = 0;  ///< area of the boxes around whole chunks
+  double parts = 0;   ///< area of the boxes of all parts
 
   BoundsArea& operator+=(const BoundsArea& other) {
     chunks += other.chunks;

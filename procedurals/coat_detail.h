@@ -35,7 +35,7 @@ class CoatDetail {
     std::vector<float> width;
     std::vector<float> contrast;
     std::vector<RootDetail> detail;
-    std::vector<float> tolerance;  ///< for fewer control points
+    std::vector<float> tolerance;  ///< tolerance of with_fewer_points()
     KeptStrands kept() const { return {strands, width, contrast}; }
   };
   /// `pose` must contain the faces of the candidates.

@@ -26,8 +26,8 @@ struct CrowdPhaseParams {
 };
 struct CrowdScaleParams {
   float value = 1;
-  float variation = 0;  ///< of the whole animal, as a fraction
-  V3f axes{0};          ///< of each axis separately, as a fraction
+  float variation = 0;  ///< variation of the whole animal's size, as a fraction
+  V3f axes{0};          ///< variation of the size along each axis, as a fraction
   static const Schema<CrowdScaleParams>& schema();
 };
 struct CrowdLengthParams {
@@ -63,7 +63,7 @@ struct CrowdMember {
   float heading = 0;  ///< radians about y, 0 looks along +z
   V3f scale{1};       ///< along the axes of the prototype
   float frame_offset = 0;
-  float length = 1;  ///< of its hair
+  float length = 1;  ///< factor on the length of its hair
   Rgb tint{1};       ///< multiplies the colours of its hair and skins
 };
 

@@ -11,7 +11,7 @@ namespace pelage {
 struct GrowthCounts {
   int64_t chunks = 0;   ///< leaves of coats and skins that could be grown
   int64_t strands = 0;  ///< strands grown; strands that are grown again count again
-  BoundsArea area;      ///< of the boxes of all leaves of coats
+  BoundsArea area;      ///< area of the boxes of all leaves of coats
 
   GrowthCounts& operator+=(const GrowthCounts& other) {
     chunks += other.chunks;

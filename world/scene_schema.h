@@ -100,7 +100,7 @@ struct SceneDescription {
   Named<CrowdParams> crowds;
   Named<LightParams> lights;
   RenderParams render;
-  std::string hash;  ///< of the document with its overrides, not of the files it names
+  std::string hash;  ///< hash of the document with its overrides, without the files that it names
   /// Every file from which the document was read: the scene and its includes. See asset_files() for the files
   /// that they name.
   std::vector<std::filesystem::path> files;

@@ -16,10 +16,11 @@ namespace pelage {
 struct Statistics {
   ProcessUsage process = {};
   WorldCounts world = {};
-  StrandRepairs repairs = {};  ///< of strand files
+  StrandRepairs repairs = {};  ///< repairs of strand files
   FrameStatistics frames = {};
   std::map<std::string, double> stages_s = {};  ///< wall seconds by stage, except those in `frames`
-  double first_pixel_s = 0;  ///< from the start of the run until the first tile of the first frame was done
+  double first_pixel_s = 0;  ///< seconds from the start of the run until the first tile of the first frame
+                             ///< was done
   double samples_per_pixel = 0;  ///< mean over all pixels of all frames
   double noise = 0;              ///< frame_noise() of the noisiest frame; 0 if the film keeps no moments
   bool time_limited = false;     ///< some frame reached render.time_limit

@@ -22,7 +22,8 @@ class FibreHistogram {
   void add(const V3f& wi, double weight);
   double cell(int sine, int azimuth) const { return cells_[index(sine, azimuth)]; }
   double total() const;
-  std::vector<double> by_azimuth() const;  ///< from -pi to pi; 0 is where the light came from
+  std::vector<double> by_azimuth() const;  ///< energy by azimuth, from -pi to pi; light arrives from azimuth
+                                           ///< 0
   std::vector<double> by_sine() const;     ///< from -1 to 1
 
  private:
@@ -38,7 +39,7 @@ struct FibreOracle {
   /// The model without tilt, with given absorption.
   MaterialParams params;
   TracedFibre traced;
-  float absorption = 0;  ///< of cortex and medulla, per radius
+  float absorption = 0;  ///< absorption of cortex and medulla, per radius
   /// Blur of a smooth fibre's scattering that matches the model's roughness: deviations in radians for R, TT
   /// and all internal reflections. Light scattered by the medulla is not blurred.
   std::array<float, 3> longitudinal{}, azimuthal{};

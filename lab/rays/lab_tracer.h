@@ -34,7 +34,7 @@ struct LabVariant {
 
 /// Cost of rays of one kind; sums over all of them.
 struct LabCost {
-  double wall_s = 0, cpu_s = 0;  ///< of the fastest timed pass
+  double wall_s = 0, cpu_s = 0;  ///< time of the fastest timed pass
   double rays = 0, hits = 0;
   double answers = 0;    ///< a checksum that any other answer would change; 0 for Embree
   double box_tests = 0;  ///< 0 where unknown
@@ -46,7 +46,7 @@ struct LabCost {
 /// Results of one variant.
 struct LabResult {
   double segments = 0;
-  double bytes = 0;           ///< of the tree and the points that it reads
+  double bytes = 0;           ///< size of the tree and of the points that it reads
   double resident_bytes = 0;  ///< max charged to `chunks` while rays were traced
   double limit_bytes = 0;     ///< its memory limit; 0: none
   double build_cpu_s = 0;

@@ -51,7 +51,7 @@ struct Outcome {
   bool timed_out() const;      ///< a run exceeded the time limit
   bool interrupted() const;    ///< stopped from outside, or never started
   std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
-  std::string error() const;   ///< of the run that failed
+  std::string error() const;   ///< error message of the run that failed
 
   /// The successful run with the median wall time; null when there is none.
   const VariantRun* typical() const;

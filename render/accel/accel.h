@@ -19,7 +19,7 @@ struct StrandStart {
   static constexpr uint32_t kNone = StrandHandle::kNone;
 
   uint32_t chunk = kNone;      ///< chunk that holds the strand; kNone: the ray does not start on a strand
-  uint32_t first_segment = 0;  ///< of the strand in the chunk
+  uint32_t first_segment = 0;  ///< index of the strand's first segment in the chunk
   uint32_t segment_count = 0;
   float place = 0;  ///< index of the segment in the strand + curve parameter in that segment
 };
@@ -43,11 +43,11 @@ struct Hit {
   float distance = std::numeric_limits<float>::infinity();
   uint32_t part = 0;       ///< index of the coat of a character, or of the skin
   uint64_t strand_id = 0;  ///< unique within the part
-  uint32_t segment = 0;    ///< of the strand
+  uint32_t segment = 0;    ///< index of the segment in the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
-  StrandStart start = {};     ///< for rays that continue from here
-  uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
+  StrandStart start = {};     ///< value of Ray::start for rays that continue from this hit
+  uint32_t strand_index = 0;  ///< index of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
   /// Locates the strand that was hit. Empty for a skin, or if the accelerator has no chunks.

@@ -30,7 +30,7 @@ struct ChunkCounts {
   size_t strands = 0;
   size_t points = 0;  ///< of one motion key
   size_t segments = 0;
-  size_t attribute_floats = 0;  ///< of all attributes together
+  size_t attribute_floats = 0;  ///< number of floats of all attributes together
   size_t vertices = 0;          ///< of one motion key
   size_t triangles = 0;
   int motion_keys = 1;

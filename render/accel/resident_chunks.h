@@ -22,7 +22,8 @@
 namespace pelage {
 
 struct ResidentChunksOptions {
-  AccelKind kind = AccelKind::kEmbree;  ///< for flat strands; round ones and skins always use Embree
+  AccelKind kind = AccelKind::kEmbree;  ///< accelerator for flat strands; round strands and skins always use
+                                        ///< Embree
   EmbreeChunkOptions chunk;
   FurChunkOptions fur;
   bool eager = false;         ///< everything is grown before the first visit

@@ -18,7 +18,7 @@ namespace pelage {
 class SegmentPatterns {
  public:
   struct Pattern {
-    std::vector<uint32_t> first_vertex;  ///< of each segment of each strand
+    std::vector<uint32_t> first_vertex;  ///< first control point of each segment of each strand
     MemoryCharge charge;
   };
 

@@ -81,7 +81,7 @@ class Camera {
  private:
   struct Pose {
     V3f position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-    float tan_half = 1;  ///< of half the vertical field of view
+    float tan_half = 1;  ///< tangent of half the vertical field of view
   };
   static Pose make_pose(const CameraParams& params, double frame);
   static Pose blend(const Pose& a, const Pose& b, float t);

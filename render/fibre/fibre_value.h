@@ -17,7 +17,7 @@ inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary
 /// rho * L_in over the whole sphere, without a further cosine.
 struct FibreValue {
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
-  float pdf = 0;  ///< of the mixture sampled by sample(), per solid angle
+  float pdf = 0;  ///< density of sample(), per solid angle
 
   Rgb& operator[](LobeGroup group) { return lobes[static_cast<int>(group)]; }
   Rgb total() const { return lobes[0] + lobes[1] + lobes[2]; }

@@ -26,12 +26,12 @@ struct LightPoint {
   float distance = 0;
   FibreValue value;     ///< scattering towards the light point
   Rgb arriving{0};      ///< weighted radiance / density of one point
-  float luminance = 0;  ///< of the scattered light
+  float luminance = 0;  ///< luminance of the light that is scattered
 };
 
 /// Per-thread memory, reused from point to point.
 struct DirectLightScratch {
-  std::vector<float> probabilities;  ///< of selecting each light, at the current point
+  std::vector<float> probabilities;  ///< probability of selecting each light at the current point
   std::vector<LightPoint> points;
 };
 

@@ -29,9 +29,9 @@ struct PathState {
   float time = 0;
   Ray ray;                 ///< the ray that hit `hit`
   Hit hit;                 ///< at the current vertex
-  Rgb first[kLobeGroups];  ///< rho / pdf of the first vertex, by lobe group
-  Rgb throughput{1};       ///< of the vertices after the first
-  Rgb weight{1};           ///< of all vertices before this one
+  Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
+  Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
+  Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
 };
 
 /// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex,

@@ -37,7 +37,8 @@ struct SkinPart {
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies the colour of the skin
-  std::optional<Simplification> lod = {};  ///< of the densest coat on it, if detail was reduced
+  std::optional<Simplification> lod = {};  ///< level of detail of the densest coat on the skin; empty: not
+                                           ///< reduced
 };
 
 /// Everything that a renderer needs for one frame. World space.

@@ -10,8 +10,8 @@ namespace pelage {
 /// Scattering of a glossy surface, rho = f cos(theta_i) per solid angle, with the cosine to the normal.
 struct GlossyValue {
   Rgb diffuse{0};
-  float specular = 0;  ///< of the clear coat, without the base colour
-  float pdf = 0;       ///< of the mixture sampled by sample(), per solid angle
+  float specular = 0;  ///< reflection by the clear coat, without the base colour
+  float pdf = 0;       ///< density of sample(), per solid angle
 };
 
 struct GlossySample {

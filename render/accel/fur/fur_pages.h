@@ -30,7 +30,7 @@ struct FurTreelet {
   uint32_t tree = 0;
   uint32_t nodes = 0;   ///< offset in the page, a multiple of 64
   uint32_t leaves = 0;  ///< offset in the page, a multiple of 16: the end of the nodes
-  uint32_t end = 0;     ///< of the leaves
+  uint32_t end = 0;     ///< end of the leaves
 };
 
 /// Data about all treelets that is available without their pages. Treelets are in the order of their pages.

@@ -39,8 +39,8 @@ struct FurBuildOptions {
 /// The structure of a fur tree, independent of the node layout.
 struct FurTopology {
   struct Child {
-    uint32_t node = 0;              ///< when count is 0: index of the node
-    uint32_t first = 0, count = 0;  ///< of a leaf: range of its parts in `order`
+    uint32_t node = 0;              ///< index of the child node, if count is 0
+    uint32_t first = 0, count = 0;  ///< for a leaf: range of its parts in `order`
   };
   struct Node {
     std::array<Child, 4> children;

@@ -29,7 +29,7 @@ struct FurTreeView {
   float step = 1;   ///< of the grid
   V3f anchor{0};    ///< of the grid
   float reach = 0;  ///< max coordinate of the boxes, in grid units
-  FurFrame frame;   ///< frame of the nodes' boxes
+  FurFrame frame;   ///< axes of the nodes' boxes
 };
 
 /// Intersection of rays with the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments in
