@@ -63,11 +63,11 @@ class ContentStore {
   /// Path of an entry, existing or not.
   std::filesystem::path file(const std::string& kind, const ContentHash& key) const;
 
-  /// Empty when the entry is missing, damaged or foreign; the latter two call `warn`. Updates the
-  /// modification time of the file to record its last use, with a resolution of one hour.
+  /// Returns nothing if the entry is missing, damaged or foreign. Calls `warn` for a damaged or foreign
+  /// entry. Updates the modification time of the file to record its last use, with a resolution of one hour.
   std::optional<StoredFile> open(const std::string& kind, const ContentHash& key,
                                  const WarningSink& warn) const;
-  /// The same for an entry whose sections are read one by one; each is verified when it is read.
+  /// The same for an entry whose sections are read one by one. Each section is verified when it is read.
   std::optional<StoredSections> open_sections(const std::string& kind, const ContentHash& key,
                                               const WarningSink& warn) const;
 
@@ -105,7 +105,7 @@ class ContentStore {
   bool store(const std::string& kind, const ContentHash& key,
              std::span<const std::span<const std::byte>> sections, const WarningSink& warn) const;
 
-  /// Held by the one process (or thread) that computes an entry.
+  /// A lock on one entry. The process (or thread) that computes the entry holds the lock.
   class Lock {
    public:
     Lock(Lock&& other) noexcept;

@@ -69,7 +69,7 @@ class Problems {
     }
   }
   bool empty() const { return list_.empty(); }
-  /// Sorts by line, for readers of a single file that find some mistakes only at its end.
+  /// Sorts by line. For code that reads a single file and finds some mistakes only at the end of the file.
   void sort_by_line();
   const std::vector<Problem>& list() const { return list_; }
   /// Throws an Error of `kind` with all problems, if there are any. States how many more were only counted.

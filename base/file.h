@@ -19,7 +19,8 @@ std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4
 /// cyclic links.
 std::filesystem::path target_of_links(std::filesystem::path path);
 
-/// Whether two paths refer to one file, by any spelling, symbolic or hard link; the files need not exist.
+/// Whether two paths refer to the same file, even by different spellings, symbolic links or hard links. The
+/// files need not exist.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// How AtomicFile treats a symbolic link at its path.
@@ -29,9 +30,9 @@ enum class Links {
 };
 
 /// A file that appears completely or not at all (law 6): written under a temporary name in the same folder,
-/// synced, and renamed by commit(). Without commit() the temporary file is removed; sweep_temporaries() finds
-/// those of killed processes. Creates missing folders and refuses to replace a device or pipe. Throws Error
-/// (kFailed).
+/// synced, and renamed by commit(). Without commit(), the temporary file is removed. sweep_temporaries()
+/// removes the temporary files of killed processes. Creates missing folders and refuses to replace a device
+/// or pipe. Throws Error (kFailed).
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Links links = Links::kFollow);

@@ -34,8 +34,8 @@ class MemoryLedger {
   /// Bytes in use by the tags that `render.memory` covers.
   int64_t budgeted() const;
 
-  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger only stores it: code
-  /// that allocates checks it first (base/memory_budget.h).
+  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger only stores the limit:
+  /// code that allocates memory checks it first (base/memory_budget.h).
   void set_limit(uint64_t bytes) { limit_ = static_cast<int64_t>(bytes); }
   int64_t limit() const { return limit_; }
 

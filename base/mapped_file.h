@@ -11,7 +11,7 @@ namespace pelage {
 
 /// A whole file mapped into memory, read-only. Its pages are loaded on access and may be evicted by the
 /// system, so they are not charged to the ledger (law 5). The file must not be truncated meanwhile: use only
-/// for files that are replaced by a rename. Thread safety: as an array of constants.
+/// for files that are replaced by a rename. Thread safety: const members may be called from any thread.
 class MappedFile {
  public:
   MappedFile() = default;

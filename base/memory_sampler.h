@@ -17,8 +17,8 @@ struct MemoryHistory {
   std::vector<MemorySample> timeline;  ///< in order of time; includes the first and the last sample
 };
 
-/// Samples this process's memory periodically, on its own thread. Thread safety: stop() by one thread; the
-/// ledger may be charged by any.
+/// Samples this process's memory periodically, on its own thread. Thread safety: only one thread may call
+/// stop(); any thread may charge the ledger.
 class MemorySampler {
  public:
   using Clock = std::chrono::steady_clock;

@@ -14,8 +14,8 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 /// "; did you mean 'clump'?" or an empty string.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
-/// did_you_mean(), or the list of all candidates (when it is short) if none is similar: "; expected one of a,
-/// b".
+/// did_you_mean(). If no candidate is similar and the list of candidates is short, returns this list: ";
+/// expected one of a, b".
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
 /// A user's text for a message: quoted, on one line, shortened when it is long.

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// A regular file that is open for reading, with attributes of this very file, whatever its path refers to
-/// later.
+/// A regular file that is open for reading, with its attributes. They belong to the open file, even if its
+/// path refers to another file later.
 class OpenFile {
  public:
   enum class Links { kFollow, kRefuse };

@@ -28,9 +28,10 @@ class Workers {
   Workers(Workers&&) noexcept;
   Workers& operator=(Workers&&) noexcept;
 
-  /// The calling thread alone: loops run in place, so it may be used inside a loop of another pool, on many
-  /// threads at once. run_library() also stays on that thread. While the thread waits, it runs no task of
-  /// another loop: such a task could need a result that this thread has not finished yet.
+  /// A pool that consists of the calling thread alone. Loops run in place, so this pool may be used inside a
+  /// loop of another pool, on many threads at once. run_library() also stays on the calling thread. While
+  /// this thread waits, it runs no task of another loop, because such a task could need a result that this
+  /// thread has not finished yet.
   static Workers alone();
 
   int thread_count() const;
@@ -38,8 +39,8 @@ class Workers {
   /// Calls `body` for disjoint ranges of at most `grain` indices that together cover 0 .. count-1.
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 
-  /// Calls `body` once, in a place where libraries that use TBB themselves run on the threads of this pool
-  /// only; in the thread-sanitizer build, on the calling thread only.
+  /// Calls `body` once. Libraries that `body` calls and that use TBB run only on the threads of this pool; in
+  /// the thread-sanitizer build, only on the calling thread.
   void run_library(const std::function<void()>& body) const;
 
  private:

@@ -23,7 +23,7 @@ struct ProcessUsage {
   std::vector<MemorySample> timeline;           ///< memory over time, if requested
 };
 
-/// Resident set of this process, now and at its highest, in bytes; user + system CPU seconds so far.
+/// Current and highest resident set of this process, in bytes; user + system CPU seconds so far.
 int64_t current_rss_bytes();
 int64_t peak_rss_bytes();
 double cpu_seconds();

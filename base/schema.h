@@ -228,7 +228,7 @@ class Schema : public SchemaInfo {
   std::vector<std::function<void(const P&, const std::string&, std::vector<ParameterText>&)>> describers_;
 };
 
-/// Reads a struct that has a table of its own, so that it may be used wherever a value may.
+/// Reads a struct that has a table of keys, so that such a struct can be the value of a key.
 template <class P>
 struct ValueReader<P, std::void_t<decltype(P::schema())>> {
   static bool read(const Value& value, const KeyOptions&, P& out, Problems& problems) {

@@ -14,8 +14,8 @@ namespace pelage {
 
 /// A node of a scene document with its position, independent of the parser that made it.
 ///
-/// Scalars keep their text. The schema they are read against decides the meaning, so that `strands: 1e5` and
-/// `name: 007` both mean what the schema says. Maps keep the order of the file; their keys are unique.
+/// Scalars keep their text. The schema of the key decides the meaning of the text: `strands: 1e5` is a
+/// number, `name: 007` is a text. Maps keep the order of the file; their keys are unique.
 class Value {
  public:
   enum class Kind { kNull, kScalar, kList, kMap };

@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// The fur of the bumpy ball in chunks of neighbouring strands, as the leaves of a groom are, and its skin as
-/// one more chunk. Each is handed out as a copy.
+/// The fur of the bumpy ball in chunks of neighbouring strands, like the leaves of a groom, and the skin of
+/// the ball as one more chunk. Each is handed out as a copy.
 class BallChunks final : public ChunkGrower {
  public:
   BallChunks(const BumpyBall& ball, size_t chunk_strands);

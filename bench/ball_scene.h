@@ -12,8 +12,8 @@ struct BallPicture {
   size_t chunk_strands = 0;  ///< max strands per chunk; 0: one chunk
 };
 
-/// The scene that other renderers were measured on: the bumpy ball between two rectangle lights under a
-/// constant sky, one pixel wide box filter, no motion.
+/// The scene for measurements against other renderers: the bumpy ball between two rectangle lights under a
+/// constant sky, a box filter of one pixel, no motion.
 RenderScene ball_scene(const BumpyBall& ball, const MaterialParams& fibre, const BallPicture& picture,
                        MemoryLedger& ledger);
 

@@ -9,9 +9,10 @@
 
 namespace pelage {
 
-/// The unit sphere with combed and curled strands of 8 points that accelerators are compared on: length 0.15,
-/// bent by 0.8 of it, curl radius 0.02; 0.0008 wide at 100,000 strands, tapering to a tenth; with more
-/// strands thinner, so that they cover as much.
+/// The unit sphere with combed and curled strands, for comparing accelerators. Strands have 8 points, the
+/// length 0.15, a bend of 0.8 times the length, and the curl radius 0.02. With 100,000 strands, they are
+/// 0.0008 wide at the root and taper to a tenth. With more strands, they are thinner, so that coverage stays
+/// the same.
 Strands make_furball(size_t strand_count);
 
 /// Rays from places spread evenly in the shell of height 0 to 0.12, over the outward half space.

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Ratio of the times that two implementations take, on a busy machine. Work is done in slices of some
-/// milliseconds by both implementations in turn, so that other load slows both down alike.
+/// Ratio of the times that two implementations take, on a busy machine. The two implementations work in turn,
+/// in slices of some milliseconds, so that other load slows down both equally.
 class Interleaved {
  public:
   /// `first(slice)` and `second(slice)` do the same work for one slice. Both run once before they are timed.

@@ -8,7 +8,8 @@
 namespace pelage {
 
 /// A ring of numbers below a fixed capacity, with a hand on one of them, for CLOCK replacement [Corbato68]:
-/// the hand goes round and evicts entries that were not used since its last visit. Not thread safe.
+/// the hand moves around the ring and evicts entries that were not used since its last visit. Not thread
+/// safe.
 class ClockRing {
  public:
   explicit ClockRing(size_t capacity) : links_(capacity) {}

@@ -9,11 +9,11 @@ namespace pelage {
 /// Limits how many threads may grow units of a Residency (chunks of fur or skin) at the same time. When most
 /// of the units being grown were evicted only recently, the threads are evicting each other's units: the
 /// working sets of all threads do not fit together. The limit is then lowered, down to one thread, and the
-/// others wait; it is raised when this no longer happens.
+/// other threads wait. The limit is raised when threads no longer evict each other's units.
 ///
 /// While the limit is below the number of threads, a thread needs a turn to grow units. It keeps its turn as
-/// long as it grows units. A thread that has grown nothing for kIdleTimeout loses its turn, so that no thread
-/// waits for one that has all it needs or has ended. Not thread safe.
+/// long as it grows units. A thread that has grown nothing for kIdleTimeout loses its turn, so that other
+/// threads do not wait for a thread that needs no more units or has ended. Not thread safe.
 class GrowthThrottle {
  public:
   using Clock = std::chrono::steady_clock;

@@ -44,9 +44,9 @@ class Grower {
   /// Name of the slot's owner for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
   /// Grows the unit of a slot; a slot always has the same content. Called by a thread that pins nothing; must
-  /// not visit the Residency itself. May throw. If the slot needs more memory than reserved, returns no unit
-  /// and the required size in `bytes`. reserve_bytes() must return that size from then on, and the Residency
-  /// calls grow() again with that reservation. The Grower must hold no memory for the slot in between.
+  /// not visit the Residency itself. May throw. If the slot needs more memory than reserved, returns no unit,
+  /// and the required size in `bytes`. From then on, reserve_bytes() must return this size. The Residency
+  /// then reserves this size and calls grow() again. The Grower must hold no memory for the slot in between.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
@@ -97,9 +97,10 @@ class Residency {
   Residency& operator=(const Residency&) = delete;
 
   /// Calls use(Resident&) and returns its result. If the unit is not resident, first grows it, or waits while
-  /// another thread grows it. `use` must not visit any slot, which is checked, and must not keep a reference.
-  /// If the grower throws, all visits that wait for the slot and all later ones throw the same exception.
-  /// Throws Error (kMemory) when other users of the budget have left too little for the slot.
+  /// another thread grows it. `use` must not visit any slot (this is checked), and it must not keep a
+  /// reference to the unit. If the grower throws, all visits that wait for the slot and all later visits of
+  /// it throw the same exception. Throws Error (kMemory) when other users of the budget have left too little
+  /// for the slot.
   template <class Use>
   decltype(auto) visit(uint32_t slot, int thread, Use&& use) {
     Resident& unit = pin(slot, thread);

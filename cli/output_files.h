@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// Throws Error (kArguments) when writing `output`, given by `flag`, would replace one of the files in
-/// `kept`, by any path.
+/// Throws Error (kArguments) when writing `output` would replace one of the files in `kept`, even if the
+/// paths differ. `flag`: the flag that names `output`.
 void check_replaces_none(const std::string& flag, const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& kept);
 

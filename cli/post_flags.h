@@ -12,7 +12,8 @@ class App;
 
 namespace pelage {
 
-/// Flags of motionblur and stereo that stay text until they are validated, so that all messages are our own.
+/// Flags of motionblur and stereo that stay text until they are validated, so that all error messages come
+/// from Pelage.
 struct PostTexts {
   std::string units, up, filter, eye, convergence;
   std::string motion_layer, depth_layer;

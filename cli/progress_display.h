@@ -22,11 +22,12 @@ struct ProgressTarget {
   bool color = false;
 };
 
-/// Shows progress as a bar, as lines or as JSON lines. The first thread that passes the next step draws;
-/// other threads never wait for it. A nested stage is shown instead of the outer one until it ends.
+/// Shows progress as a bar, as lines or as JSON lines. The first thread that passes the next step draws the
+/// progress; other threads never wait for this thread. A nested stage is shown instead of the outer one until
+/// it ends.
 ///
-/// Lines are for logs: one when a stage has taken ten seconds, one every half minute afterwards, and one at
-/// the end of each stage that took a second or more.
+/// Lines are for logs. A stage gets a line after ten seconds, one every half minute afterwards, and one at
+/// its end if it took a second or more.
 class ProgressDisplay final : public Progress {
  public:
   /// Writes to standard error. kAuto becomes a bar on a terminal and lines elsewhere; colour follows NO_COLOR

@@ -9,7 +9,7 @@
 namespace pelage {
 
 /// During its lifetime, the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that a render can write a
-/// partial result; the second one ends the process at once. Signals that were ignored when the process was
+/// partial result. The second signal ends the process at once. Signals that were ignored when the process was
 /// started (nohup) stay ignored. Only one at a time.
 class SignalGuard {
  public:
@@ -32,7 +32,7 @@ class SignalGuard {
 
 /// Call once per process, before starting threads. Makes writing beyond a file size limit (SIGXFSZ) and to a
 /// closed pipe (SIGPIPE) an error of that write. Opens closed standard streams on /dev/null, so that no other
-/// file gets their numbers; writing to a closed output fails.
+/// file gets their descriptors. Writing to a closed output then fails.
 void prepare_process();
 
 }  // namespace pelage

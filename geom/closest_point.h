@@ -20,11 +20,11 @@ struct ClosestPoint {
   uint32_t triangle = 0;
 };
 
-/// Closest-point queries on one motion key of a skin, using a box tree over its triangles. Refers to `mesh`.
-/// Thread safety: const members may be called from any thread.
+/// Closest-point queries on one motion key of a skin, using a box tree over its triangles. `mesh` must
+/// outlive this object. Thread safety: const members may be called from any thread.
 class ClosestPointTree {
  public:
-  /// With a job, throws Error (kStopped).
+  /// With a job, throws Error (kStopped) when the job is stopped.
   ClosestPointTree(const SkinMesh& mesh, int key, const Job* job = nullptr);
   ~ClosestPointTree();
   ClosestPointTree(ClosestPointTree&&) noexcept;

@@ -22,8 +22,8 @@ CubicSegment bezier_segment(const Strands& strands, size_t strand, uint32_t segm
 CubicSegment bezier_segment_at(const Strands& strands, size_t strand, uint32_t segment, float time);
 
 V3f curve_position(const CubicSegment& segment, float t);
-/// Derivative with respect to t, not normalised. Where it vanishes, the direction of the nearest point with a
-/// derivative (+y for a segment that is a single point).
+/// Derivative with respect to t, not normalised. Where the derivative vanishes, returns the direction at the
+/// nearest point with a derivative (+y for a segment that is a single point).
 V3f curve_tangent(const CubicSegment& segment, float t);
 /// Never negative: a Catmull-Rom radius that overshoots below 0 counts as 0.
 float curve_radius(const CubicSegment& segment, float t);

@@ -10,9 +10,9 @@
 
 namespace pelage {
 
-// All boxes contain the swept spheres of the curve: every point +- radius, and therefore a ribbon that faces
-// any ray. They are enlarged by 2^-21 of the largest coordinate, so that points evaluated in float lie
-// inside.
+// All boxes contain the swept spheres of the curve: every point +- radius. They therefore contain the ribbons
+// that face any ray. They are enlarged by 2^-21 of the largest coordinate, so that points evaluated in float
+// lie inside.
 
 /// Box of the Bezier hull: on each axis, the extent of the Bezier points +- their radii. Fast, and for fur
 /// within 2 % of the exact box (the hull of B-spline points is 7 to 9 times larger).

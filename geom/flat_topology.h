@@ -25,7 +25,7 @@ size_t flat_bytes(size_t triangles, size_t vertices, bool has_uv);
 size_t flat_triangle_count(const ControlMesh& mesh);
 
 /// Unit normal at a vertex: the mean of the adjacent triangles' normals, weighted by their angles
-/// [Baerentzen05]; 0 where they cancel, or none has one. Independent of other queries.
+/// [Baerentzen05]; 0 if the normals cancel or no triangle has a normal. Independent of other queries.
 V3f flat_vertex_normal(const SurfaceTopology::Impl& impl, std::span<const V3f> positions, uint32_t vertex);
 
 }  // namespace pelage

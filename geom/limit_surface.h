@@ -27,7 +27,7 @@ struct EnumNames<BoundaryRule> {
   static constexpr const char* names[] = {"edge-and-corner", "edge-only"};
 };
 
-/// The part of a subdivision surface that all poses and all characters with one cage share: refinement,
+/// The part of a subdivision surface that all poses and all characters with the same cage share: refinement,
 /// patches, texture coordinates. Immutable. Thread safety: const members may be called from any thread.
 class SurfaceTopology {
  public:
@@ -45,8 +45,8 @@ class SurfaceTopology {
   /// Max number of faces around a vertex, and of corners of a face. The number of subdivision weights grows
   /// with the square of each. A cage may contain ten such vertices or faces.
   static constexpr uint32_t kMaxValence = 1000;
-  /// Above this number of faces a mesh is probably not a cage made for subdivision: scheme none serves as
-  /// well.
+  /// Above this number of faces, a mesh is probably not a cage made for subdivision, and scheme none gives
+  /// the same quality.
   static constexpr size_t kDenseFaces = 20000;
 
   /// Ptex faces: one per quad, n per n-gon (Catmull-Clark); one per triangle (Loop; none, after cutting).
@@ -101,18 +101,18 @@ struct SurfacePoint {
 /// Exact up to rounding at all (u, v) that are multiples of 1/8 and wherever the cage is regular. In the last
 /// eighth around an extraordinary vertex, positions are off by up to 1e-4 of the size of the faces (1e-3 for
 /// a valence above five), and the normal at the vertex itself by 4e-3 rad. In cages of more than 6,000 faces,
-/// quarters take the place of eighths; above kDenseFaces, halves do. Positions are then off by up to 1e-5 of
-/// the size of the cage, normals by 1e-2 rad. Creases are resolved up to sharpness 6. Scheme none evaluates
-/// the triangles themselves with smooth frames: angle-weighted vertex normals are interpolated, and sharpness
-/// is ignored.
+/// read quarter instead of eighth; above kDenseFaces, half. Positions are then off by up to 1e-5 of the size
+/// of the cage, normals by 1e-2 rad. Creases are resolved up to sharpness 6. Scheme none evaluates the
+/// triangles themselves with smooth frames: angle-weighted vertex normals are interpolated, and sharpness is
+/// ignored.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class LimitSurface {
  public:
   /// `positions`: one per control vertex; they define the space of the surface.
   LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions);
-  /// The same on `faces` only, in any order: bit-identical there, and must not be evaluated elsewhere. Time
-  /// and memory are proportional to these faces and the vertices that shape them.
+  /// The same on `faces` only, in any order. Bit-identical on these faces; other faces must not be evaluated.
+  /// Time and memory are proportional to these faces and the vertices that shape them.
   LimitSurface(std::shared_ptr<const SurfaceTopology> topology, std::span<const V3f> positions,
                std::span<const uint32_t> faces);
 

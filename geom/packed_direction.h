@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// A line through the origin as two multiples of 1/255 in [0, 1], with an error of up to a degree: its unit
-/// direction on the octahedron |x| + |y| + |z| = 1, flipped so that z >= 0, seen from its tip. Opposite
-/// directions are equal.
+/// A line through the origin as two multiples of 1/255 in [0, 1], with an error of up to a degree. The
+/// direction is flipped so that z >= 0, projected to the octahedron |x| + |y| + |z| = 1, and then projected
+/// along z. Opposite directions give equal values.
 inline V2f packed_line(const V3f& direction) {
   const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
   if (!(sum > 0)) return V2f(1);

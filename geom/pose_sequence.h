@@ -10,9 +10,9 @@
 
 namespace pelage {
 
-/// Poses of a cage, one OBJ file each, numbered from `first`, which is shown at frame `first`; positions are
-/// interpolated linearly between poses. A cycle repeats in both directions; otherwise the first and the last
-/// pose hold.
+/// Poses of a cage, one OBJ file each, numbered from `first`. Frame `first` shows pose `first`. Positions are
+/// interpolated linearly between poses. A cycle repeats in both directions. Without a cycle, the first pose
+/// also holds before the sequence, and the last pose after it.
 ///
 /// A file is read when first needed. Up to `kMaxBytes` of positions are kept, so that a crowd reads each pose
 /// once. Thread safety: const members may be called from any thread.

@@ -9,10 +9,10 @@
 namespace pelage {
 
 /// Root data of a strand in a thinned coat: the line of the skin's normal at shutter open, with an error of
-/// up to a degree, and the share of the strands kept there. Packed into three bytes.
+/// up to a degree, and the fraction of strands kept at the root. Packed into three bytes.
 ///
-/// Stored as an attribute of the strands, so that it follows them into batches, chunks, files, and the single
-/// strand of a hit. Only this class knows the encoding.
+/// Stored as an attribute of the strands, so that it is copied with them to batches, chunks, files, and the
+/// single strand of a hit. Only this class knows the encoding.
 class RootDetail {
  public:
   static constexpr size_t kFloats = 3;  ///< per strand, as attributes are counted

@@ -21,12 +21,13 @@ struct LatticePoint {
   V2f uv{0};
 };
 
-/// Divides the edges of a cage, each with its own rate, and fills the faces between them with triangles that
-/// use the vertices of their edges: neighbours share these, so no cracks can occur. Edges of a face that is
-/// split into several ptex faces are divided into an even number, because two of these share each edge.
+/// Divides each edge of a cage at a separate rate, and fills the faces with triangles that use the vertices
+/// on their edges. Neighbouring faces share these vertices, so no cracks can occur. If a face is split into
+/// several ptex faces, its edges are divided into an even number of parts, because two ptex faces share each
+/// edge.
 ///
-/// Covers a whole skin, or some of its faces, whose triangles and vertex positions are the same as in the
-/// whole.
+/// Covers a whole skin or some of its faces. The triangles and vertex positions of a face are the same in
+/// both cases.
 class SkinLattice {
   using CheckStop = std::function<void()>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
@@ -36,7 +37,8 @@ class SkinLattice {
   /// centre.
   struct Line {
     uint32_t id = 0;        ///< the cage edge, or edge_count + the ptex face whose side 1 is the spoke
-    uint32_t face = kNone;  ///< the first non-hole face with the line, or half of it, as side `side`
+    uint32_t face = kNone;  ///< the first face, not a hole, that has the line or half of it as its side
+                            ///< `side`
     uint32_t side = 0;
     bool halved = false;   ///< the line is split by a face with several ptex faces: its rate must be even
     bool is_half = false;  ///< `side` of `face` is one half of the line
@@ -48,8 +50,8 @@ class SkinLattice {
   /// For all faces. `check_stop` is called every few thousand faces.
   explicit SkinLattice(
       const SurfaceTopology::Impl& topology, const CheckStop& check_stop = [] {});
-  /// For `faces`, all ptex faces of some cage faces; `around`: these and all that touch them (faces_around).
-  /// Both ascending.
+  /// For some faces only. `faces`: all ptex faces of some cage faces. `around`: these faces and all faces
+  /// that touch them (faces_around). Both are ascending.
   SkinLattice(
       const SurfaceTopology::Impl& topology, std::span<const uint32_t> faces,
       std::span<const uint32_t> around, const CheckStop& check_stop = [] {});
@@ -58,7 +60,7 @@ class SkinLattice {
   std::vector<Line>& lines() { return lines_; }
   /// Copies the rates from a lattice of all faces.
   void take_rates(const SkinLattice& whole);
-  /// The piece of a line that is `side` of its face: parameters of the face at fraction t.
+  /// Parameters in a face of the point at fraction `t` of its side `side`.
   V2f side_uv(uint32_t side, float t) const;
   /// Numbers vertices and triangles. Throws Error (kMemory) when there are more than fit 31 bits.
   void number(const CheckStop& check_stop = [] {});
@@ -79,8 +81,8 @@ class SkinLattice {
   }
   /// Writes the triangles of ptex face number `i` to their positions in a skin's arrays.
   void write_triangles(size_t i, uint32_t* triangles, uint32_t* faces, V2f* uv) const;
-  /// Calls `visit` for every vertex, and each adjacent face, where the normals of the adjacent faces differ,
-  /// in order of faces.
+  /// For every vertex at which the normals of the adjacent faces differ, calls `visit` for each adjacent
+  /// face, in order of faces.
   void visit_split(const std::function<void(uint32_t vertex, const LatticePoint& place)>& visit) const;
 
   /// Max memory of a lattice with this number of surrounding faces and vertices.

@@ -25,11 +25,11 @@ struct SkinPiece {
 constexpr size_t kTrianglesPerPose = 16;
 constexpr size_t kMaxPieces = 64;
 
-/// Divides a skin into compact pieces of similar cost. Each costs at most `max_cost` (its triangles, plus
-/// kTrianglesPerPose per face), or consists of one cage face, or costs a kMaxPieces-th of the whole, because
-/// each piece also poses the faces around it. Returns one piece when the whole costs no more. Every face is
-/// in exactly one piece, holes included. The result is the same for any number of threads. Throws as
-/// tessellate().
+/// Divides a skin into compact pieces of similar cost. A piece costs its triangles, plus kTrianglesPerPose
+/// per face. Each piece costs at most `max_cost`, unless it consists of one cage face or costs 1 / kMaxPieces
+/// of the whole skin. Smaller pieces would be wasteful, because each piece also poses the faces around it.
+/// Returns one piece if the whole skin costs at most `max_cost`. Every face is in exactly one piece, holes
+/// included. The result is the same for any number of threads. Throws as tessellate().
 std::vector<SkinPiece> divide_skin(std::span<const LimitSurface> keys, const View& view,
                                    const TessellationOptions& options, size_t max_cost, const Job& job);
 

@@ -13,8 +13,8 @@ struct StrandPoint {
   V3f tangent{0};  ///< unit, root to tip
 };
 
-/// Evaluates parameter t of a segment at shutter time [0, 1]. The same curve as bezier_segment_at(), computed
-/// directly from the strand's points: for renderers, which need one point at a time.
+/// Evaluates parameter t of a segment at shutter time [0, 1]. Gives the same curve as bezier_segment_at(),
+/// but computes it directly from the strand's points, for renderers, which need one point at a time.
 StrandPoint strand_point(const Strands& strands, size_t strand, uint32_t segment, float t, float time);
 
 /// Unit tangent at v in [0, 1] over the whole strand, where all segments have equal parameter length.

@@ -6,10 +6,10 @@
 namespace pelage {
 
 /// Required precision and approximate position of the strands of one coat; they determine how coordinates are
-/// rounded. The same for all strands of a coat in a frame, however it is divided into chunks.
+/// rounded. All strands of a coat in a frame have the same scale, however the coat is divided into chunks.
 struct StrandScale {
   float width = 0;   ///< approximate width of strands at their roots
-  V3f anchor{0};     ///< a point near them
+  V3f anchor{0};     ///< a point near the strands
   float widest = 0;  ///< approximate width of the widest strands; 0 when unknown
 };
 

@@ -106,8 +106,8 @@ class Strands {
 
 /// Segments of a strand of `points` points in `basis`; 0 when there are too few.
 uint32_t segment_count(CurveBasis basis, uint32_t points);
-/// Linear interpolation. Returns exactly a where a and b are equal, so that a value that never changes is the
-/// same however densely it is stored.
+/// Linear interpolation. If a and b are equal, returns exactly a. So a constant value stays bit-identical for
+/// any number of points.
 inline float interpolate(float a, float b, float t) { return a == b ? a : a * (1.0f - t) + b * t; }
 /// Writes the `components` values of an attribute at parameter `t` of segment `segment` of a strand to `out`.
 /// Per-point values are interpolated linearly between the two points of the segment; constant and per-strand

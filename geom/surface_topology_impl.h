@@ -22,8 +22,8 @@ struct CageConnectivity {
   std::vector<uint32_t> corner_vertex;
   std::vector<uint32_t> corner_edge;
   std::vector<uint32_t> edge_vertices;  ///< 2 per edge
-  std::vector<uint8_t>
-      edge_split;  ///< the normals of its faces differ: infinitely sharp, with three faces, or bilinear
+  std::vector<uint8_t> edge_split;  ///< the normals of its faces differ: an infinitely sharp edge, an edge of
+                                    ///< three faces, or scheme bilinear
   std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
   std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
 
@@ -71,8 +71,8 @@ struct PointRules {
   size_t point_count() const { return control_count + made_count(); }
   /// Computes all points (xyz) after the control points.
   void apply(float* points) const;
-  /// The same for the needed points, which include everything that they depend on; `points` holds the kept
-  /// blocks.
+  /// The same for the needed points of `blocks`, which must include all points that they depend on. `points`
+  /// holds the kept blocks.
   void apply(float* points, const PointBlocks& blocks) const;
   /// Temporary memory of apply() for this number of points.
   static size_t temporary_bytes(size_t points);
@@ -97,10 +97,10 @@ struct SurfaceTopology::Impl {
   /// Ascending for each vertex: corner numbers of flat triangles, otherwise faces of the cage.
   std::vector<uint32_t> uses;
 
-  // Of flat triangles.
+  // Only in a flat topology.
   std::vector<uint32_t> polygon;  // mesh face that each triangle was cut from; empty when all are triangles
 
-  // Of the others.
+  // Only in a subdivided topology.
   std::unique_ptr<const Far::PatchTable> patches;
   std::optional<Far::PatchMap> patch_map;
   std::vector<uint32_t> first_patch;  ///< face_count + 1 entries: patches of a ptex face

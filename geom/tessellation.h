@@ -48,13 +48,12 @@ struct TessellationOptions {
 };
 
 /// Tessellates poses of one topology (one per motion key, at evenly spaced times over the shutter) for
-/// `view`. Every edge of the cage is divided according to its own length on screen, so that the cost of a
-/// skin depends on its visible size; adjacent faces share the vertices of their edge. Holes are omitted. The
-/// result is the same for any number of threads. Throws Error (kMemory) for more than 2^31 vertices or
-/// triangles.
+/// `view`. Every edge of the cage is divided according to its length on screen, so the cost of a skin depends
+/// on its visible size. Adjacent faces share the vertices of their common edge. Holes are omitted. The result
+/// is the same for any number of threads. Throws Error (kMemory) for more than 2^31 vertices or triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
-/// The same, but throws Error (kStopped).
+/// The same, but throws Error (kStopped) when the job is stopped.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Job& job);
 /// The triangles of `faces` only: all ptex faces of some cage faces, ascending. Bit-identical to the

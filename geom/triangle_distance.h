@@ -14,8 +14,8 @@ struct TrianglePacket {
   uint32_t triangle[4];  ///< their numbers
 };
 
-/// Squared distances from a point to four triangles. Never smaller than the exact ones except for rounding,
-/// including degenerate triangles: each is the distance to an actual point of the triangle.
+/// Squared distances from a point to four triangles. Each is the distance to an actual point of the triangle,
+/// even of a degenerate one, and so, except for rounding, never smaller than the exact distance.
 Four packet_distances(const TrianglePacket& packet, const V3f& point);
 
 struct Triangle {

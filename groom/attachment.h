@@ -39,10 +39,10 @@ struct SkinGaps {
 
 struct GroomParams;
 
-/// Finds the nearest point on the skin for every strand of `params.strands_file` and moves its root in
-/// `positions` there. Returns false, with nothing changed, when the strands are not to follow the skin; warns
-/// `job` of strands that are too far from it. Throws Error (kInput) when they must follow a skin without
-/// faces.
+/// For every strand of `params.strands_file`, finds the point of the skin nearest to its root and moves the
+/// root in `positions` to this point. Returns false, with nothing changed, when the strands are not to follow
+/// the skin; warns `job` of strands that are too far from it. Throws Error (kInput) when they must follow a
+/// skin without faces.
 bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
                  std::vector<V3f>& positions, std::vector<RootAddress>& roots);
 

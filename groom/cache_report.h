@@ -44,15 +44,16 @@ class GroomManifest {
 
   const std::vector<GroomStage>& stages() const { return stages_; }
 
-  /// The files of one state of the groom: those that growing it would write.
+  /// The files that growing the groom in one state would write.
   struct State {
     std::string offsets, follicles;  ///< names in the folder
     bool operator==(const State&) const = default;
   };
   /// Recent states, the latest first.
   const std::vector<State>& states() const { return states_; }
-  /// Inserts the current state before the states of `before`, the manifest that this one replaces. States
-  /// that are eight behind and have not been used for a day are dropped, and their files removed.
+  /// Inserts the current state before the states of `before`, which is the manifest that this manifest
+  /// replaces. Drops states that are followed by eight later ones and have not been used for a day, and
+  /// removes their files.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);
   /// The text that `pelage info` shows.

@@ -8,15 +8,16 @@
 
 namespace pelage {
 
-/// Candidates in their order, a few at a time. Does not keep candidates that it has returned. With more than
-/// one part, every candidate is made twice: first for the survey, then for next(). Refers to the source.
+/// Makes candidates in their order, part by part. Does not keep candidates that it has returned. With more
+/// than one part, every candidate is made twice: first for the survey, then for next(). The source must
+/// outlive this object.
 class CandidateSupply {
  public:
-  /// Candidates come in `parts` of about the same size. The same candidates for any number of parts.
+  /// `parts`: number of parts, of about the same size. The candidates are the same for any number of parts.
   CandidateSupply(const FollicleCandidates& source, size_t parts, const Job& job);
 
   const CandidateSurvey& survey() const { return survey_; }
-  /// How many were returned by next().
+  /// Number of candidates that next() has returned.
   size_t supplied() const { return supplied_; }
   bool ended() const { return part_ == parts_; }
   /// The candidates of the next part. FollicleCandidate::number is the rank of each.

@@ -38,9 +38,9 @@ struct ClumpParams {
 /// the coarser levels have already pulled.
 ///
 /// A strand and its centre are matched by arc length, so that strands of unequal length lie together. A
-/// strand that would become longer is scaled back about its root, completely unless it is shorter than 1.5
-/// times the distance to its centre. Where a strand and its centre diverge by 30 degrees, half the amount
-/// shortens it by 3 %.
+/// strand that clumping would lengthen is scaled back about its root: completely if its length is at least
+/// 1.5 times the distance to its centre, otherwise partly. Where a strand and its centre diverge by 30
+/// degrees, an amount of 0.5 shortens the strand by 3 %.
 class Clump final : public OperatorOf<ClumpParams> {
  public:
   static constexpr const char* kName = "clump";

@@ -14,13 +14,13 @@ namespace pelage {
 class ClumpCentres {
  public:
   /// Distributes centres as blue noise, one per spacing^2 of the rest skin; `grow` shapes strands that have
-  /// been placed and started. Charged to the ledger. Throws Error (kInput) at the operator's position for too
-  /// many centres, Error (kMemory) before making any that do not fit, Error (kStopped).
+  /// been placed and started. Charged to the ledger. Throws Error: kInput at the operator's position for too
+  /// many centres, kMemory before making centres that do not fit, kStopped when the job is stopped.
   ClumpCentres(const PrepareContext& context, float spacing, uint64_t seed,
                const std::function<void(StrandBatch&)>& grow);
 
-  /// Search radius of a strand for its centre, in spacings: with blue noise, no place is farther from a
-  /// centre.
+  /// Radius within which a strand searches its centre, in spacings. With blue noise, every place has a centre
+  /// within this radius.
   static constexpr float kReach = 1.25f;
 
   const RootGrid& roots() const { return roots_; }

@@ -16,8 +16,8 @@ namespace pelage {
 /// or the strands of a file. Immutable once made. Thread safety: const members may be called from any thread.
 struct CoatSource {
   std::shared_ptr<const LimitSurface> rest;  ///< null: strands without a skin
-  int points = 8;                            ///< of a strand that is not imported
-  FollicleTree grown;                        ///< of strands that are not imported
+  int points = 8;                            ///< number of points of a strand that is not imported
+  FollicleTree grown;                        ///< follicles of strands that are not imported
   std::optional<ImportedStrands> imported;
 
   const FollicleTree& follicles() const { return imported ? imported->follicles() : grown; }

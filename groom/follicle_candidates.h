@@ -25,7 +25,7 @@ struct FollicleDensity {
   float at(const SurfaceTopology& topology, const RootAddress& address, const SurfacePoint& point) const;
 };
 
-/// A place where a follicle may grow. Many of them are held at a time, so every byte counts.
+/// A place where a follicle may grow. Many candidates are in memory at a time, so every byte counts.
 struct FollicleCandidate {
   float x = 0, y = 0, z = 0;
   uint32_t normal = 0;   ///< packed, see pack_normal
@@ -39,7 +39,7 @@ struct CandidateShare {
   uint64_t begin = 0, end = uint64_t(1) << 32;
 };
 
-/// Properties of all candidates together, which must be known before the first one is used.
+/// Properties of all candidates together. They must be known before the first candidate is used.
 struct CandidateSurvey {
   size_t count = 0;
   Box3f box;
@@ -58,7 +58,7 @@ struct SurfaceMeasure {
   double mass = 0;
 };
 
-/// By 4 x 4 Gauss points per ptex face for the area and a grid of samples for the density.
+/// Integrates the area with 4 x 4 Gauss points per ptex face, and the density with a grid of samples.
 SurfaceMeasure measure_surface(const LimitSurface& rest, const FollicleDensity& density, const Job& job);
 
 /// Per-face data for making candidates: its area, and bounds for rejection.
@@ -71,16 +71,16 @@ struct FaceStatistics {
 
 /// Makes candidates: independent places, with a probability proportional to density times area, each a pure
 /// function of (seed, face, number within the face). Density is sampled on a grid per ptex face first, so
-/// that few candidates are rejected where it is low; features of a map thinner than a 32nd of a face may come
-/// out thinned. Refers to the surface and the density.
+/// that few candidates are rejected where it is low; features of a map that are thinner than a 32nd of a face
+/// may get too few candidates. The surface and the density must outlive this object.
 class FollicleCandidates {
  public:
-  /// Throws Error (kInput) where the density is so uneven that too many places would have to be tried.
+  /// Throws Error (kInput) if the density is so uneven that too many places would have to be tried.
   FollicleCandidates(const LimitSurface& rest, const FollicleDensity& density, uint64_t seed, size_t wanted,
                      const Job& job);
 
-  /// Makes the candidates of a share, in random order. There are about `wanted` in all; the exact number is
-  /// random.
+  /// Makes the candidates of a share, in random order. The full range has about `wanted` candidates; the
+  /// exact number is random.
   std::vector<FollicleCandidate> make(const Job& job, const CandidateShare& share = {}) const;
   /// The survey of all candidates that make() returns; keeps none of them in memory.
   CandidateSurvey survey(const Job& job) const;
@@ -88,7 +88,7 @@ class FollicleCandidates {
   static constexpr uint64_t max_of(uint64_t wanted) { return wanted + wanted / 64 + 1024; }
   /// Approximate number of candidates that make() returns without a share.
   size_t wanted() const { return wanted_; }
-  /// Where on the skin a candidate is, and its position there.
+  /// Root of a candidate on the skin. Stores its position in `position`.
   RootAddress root(uint32_t attempt, V3f* position) const;
 
  private:

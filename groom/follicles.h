@@ -31,12 +31,13 @@ struct FollicleOptions {
   std::function<float(const V3f& rest, const V3f& normal)> coverage;  ///< factor on the density; may be empty
   uint64_t seed = 0;
   int leaf_strands = 8000;
-  std::string owner = "groom";   ///< for messages: whose follicles they are
-  std::string noun = "strands";  ///< for messages: name of the placed objects, plural
+  std::string owner = "groom";   ///< name of the owner of the follicles, for messages
+  std::string noun = "strands";  ///< name of the placed objects in the plural, for messages
 };
 
-/// Memory that suffices for placing `count` follicles, including the tree (progressive_order.h). Where the
-/// ledger has room, up to 340,000 follicles are placed with twice as much, in less time.
+/// Memory that suffices for placing `count` follicles, including the tree (progressive_order.h). If the
+/// ledger has room for twice as much, up to 340,000 follicles are placed with twice as much memory, in less
+/// time.
 int64_t follicle_temporary_bytes(int64_t count);
 /// Memory of a tree of `count` follicles, without its leaves.
 int64_t follicle_bytes(int64_t count);
@@ -57,10 +58,10 @@ class FollicleTree {
     Box3f rest_roots;             ///< box of their rest positions
   };
 
-  /// Empty where the density is 0 everywhere. Throws Error (kInput) for more than kMaxFollicles, Error
-  /// (kMemory) before making anything that the ledger has no room for, Error (kStopped).
+  /// The tree is empty if the density is 0 everywhere. Throws Error: kInput for more than kMaxFollicles,
+  /// kMemory before making anything for which the ledger has no room, kStopped when the job is stopped.
   static FollicleTree build(const LimitSurface& rest, const FollicleOptions& options, const Job& job);
-  /// The same hierarchy over given positions with ascending ids; without roots for strands without a skin.
+  /// The same hierarchy over given positions with ascending ids. `roots` is empty for strands without a skin.
   /// `order` receives the index of each follicle's position.
   static FollicleTree over(std::span<const V3f> rest_positions, std::span<const RootAddress> roots,
                            std::span<const uint32_t> ids, int leaf_strands, const Job& job,

@@ -64,9 +64,9 @@ struct FrozenGrowth {
     MemoryCharge charge;  ///< of the leaves
   };
   /// Grows all leaves, starting after the last operator whose result is in the store, and stores the state
-  /// after each operator that runs except the last. Prepares the operators that it needs. Passes on their
-  /// exceptions; throws Error (kMemory) as soon as the first leaves show that all of them will not fit, Error
-  /// (kStopped); nothing is stored then.
+  /// after each operator that runs, except after the last. Prepares the operators that it needs. Passes on
+  /// the exceptions of operators. Throws Error: kMemory as soon as the first leaves show that all leaves
+  /// together will not fit, kStopped when the job is stopped. After an exception, nothing is stored.
   Result run(const PrepareContext& context, int leaf_strands) const;
   void charge_grown(size_t done, Result& result) const;
   /// Whether growth can continue from a layer; if so, sets `reaches` to the reaches after the layer's
@@ -77,7 +77,8 @@ struct FrozenGrowth {
 /// The file with the state after the operator whose stage has this hash.
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands);
 
-/// Key of a layer or the offsets: the same strands in another layout of leaves use another file.
+/// Key of the file of a layer or of the offsets. The same strands in another layout of leaves use another
+/// file.
 ContentHash in_leaves(const ContentHash& hash, int leaf_strands);
 
 }  // namespace pelage

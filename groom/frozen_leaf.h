@@ -16,17 +16,18 @@ namespace pelage {
 
 /// The strands of a leaf after the frozen operators, read in place from bytes.
 ///
-/// Blocks of at most kBlockStrands strands in the leaf's order, each with rows over its strands, so that a
-/// prefix of the strands is a prefix of the bytes. Every number is a function of its strand alone
-/// (groom/strand_codes.h); only its encoding depends on the leaf.
+/// Consists of blocks of at most kBlockStrands strands, in the leaf's order. A block has rows over its
+/// strands. A prefix of the blocks is therefore a prefix of the bytes. Every number is a function of its
+/// strand alone (groom/strand_codes.h); only its encoding depends on the leaf.
 ///
-/// Shapes are in the follicle frame of the rest skin: 16 bits per component and point, each point relative to
-/// the previous decoded one in steps whose size is chosen per strand, so that no point is off by more than
-/// 0.87 steps. A step is 1/32766 of the strand's longest segment (largest component), or up to 2^-10 more.
-/// Widths: the strand's max width to a relative error of 2^-11, and each point to 1/510 of it, or 1/131070
-/// where all strands share one profile. Colours: each point and the root to 0.0015 of the strand's brightest
-/// channel. Strands that this would move by more than a twentieth of their width, or whose numbers are too
-/// large, are kept in floats, together with their block.
+/// Shapes are in the follicle frame of the rest skin, with 16 bits per component and point. Each point is
+/// stored relative to the previous decoded point, in steps whose size is chosen per strand. The error of a
+/// point is at most 0.87 steps. A step is 1/32766 of the strand's longest segment (largest component), or up
+/// to 2^-10 more. The max width of a strand has a relative error of at most 2^-11. The width at a point has
+/// an error of at most 1/510 of the max width, or 1/131070 if all strands share one profile. Colours, at each
+/// point and at the root, have an error of at most 0.0015 of the strand's brightest channel. If this encoding
+/// would move a strand by more than a twentieth of its width, or its numbers are too large, its whole block
+/// is stored in floats.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class FrozenLeaf {

@@ -15,7 +15,8 @@ class FrozenLeafWriter {
  public:
   explicit FrozenLeafWriter(const CodeOptions& options = {}) : options_(options) {}
   void add(const StrandBatch& batch) { blocks_.emplace_back(batch, options_); }
-  /// The bytes that FrozenLeaf reads: the same for the same strands, on any machine with the same byte order.
+  /// The bytes that FrozenLeaf reads. The same strands give the same bytes on all machines with the same byte
+  /// order.
   std::vector<std::byte> finish() const;
 
  private:

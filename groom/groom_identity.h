@@ -16,7 +16,8 @@ namespace pelage {
 struct GroomStage {
   std::string name;  ///< "skin", "strands", "points", or the name of an operator
   std::vector<std::pair<std::string, std::string>> inputs;  ///< "amount", "0.6"
-  ContentHash hash;                                         ///< of this stage and all before it
+  ContentHash hash;                                         ///< hash of this stage and of all stages before
+                                                            ///< it
 };
 
 /// The inputs of a groom's strands, step by step: skin, strands, points, then each operator. Equal hashes

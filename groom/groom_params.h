@@ -17,7 +17,8 @@ namespace pelage {
 /// `cache:` of a groom.
 struct GroomCacheParams {
   AssetPath directory{"cache", {}};
-  NameReference freeze;  ///< the last frozen operator; when several have this name, the last of them
+  NameReference freeze;  ///< name of the last frozen operator; if several operators have this name, the last
+                         ///< of these
   static const Schema<GroomCacheParams>& schema();
 };
 
@@ -30,7 +31,7 @@ struct GroomParams {
   Attachment attach = Attachment::kAuto;  ///< of strands_file
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
-  std::optional<Field> density;  ///< with strands: relative; without: strands per square unit
+  std::optional<Field> density;  ///< relative if `strands` is given; else strands per square scene unit
   int points = 8;
   int64_t seed = 0;
   OperatorList operators;
@@ -42,8 +43,8 @@ struct GroomParams {
   static const Schema<GroomParams>& schema();
 };
 
-/// The problem with `cache.freeze`: it names no operator, or one that does not depend on rest state alone.
-/// Empty when there is none.
+/// The problem with `cache.freeze`: it names no operator of the groom, or an operator that does not depend on
+/// rest state alone. Empty when there is none.
 std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

@@ -28,7 +28,7 @@ class GuideSet {
   size_t size() const { return normals_.size(); }
   int points() const { return points_; }
   const std::vector<V3f>& roots() const { return roots_; }      ///< on the skin
-  const std::vector<V3f>& normals() const { return normals_; }  ///< of the skin there
+  const std::vector<V3f>& normals() const { return normals_; }  ///< of the skin at the roots
   /// Control point `p` of guide `g` as an offset from its base, along the axes of rest space.
   const V3f& offset(size_t g, int p) const {
     return offsets_[g * static_cast<size_t>(points_) + static_cast<size_t>(p)];

@@ -29,13 +29,13 @@ struct GuidesParams {
   static const Schema<GuidesParams>& schema();
 };
 
-/// Gives strands the shape of nearby guides: the offsets of each guide from its root, rotated by the smallest
-/// rotation from the guide's root normal to the strand's, weighted by (1 - d / R)^2, with the weighted mean
-/// of their lengths.
+/// Gives a strand the weighted mean of the shapes of nearby guides, and the weighted mean of their lengths.
+/// The shape of a guide is its offsets from its root, after the smallest rotation from the guide's root
+/// normal to the strand's root normal. A guide at the distance d has the weight (1 - d / R)^2.
 ///
-/// R is the distance of the first guide that is not used, or the radius if that is smaller, so that the coat
-/// is continuous where the set of nearest guides changes. A strand without a guide within the radius stays
-/// unchanged.
+/// R is the distance of the nearest guide that is not used, or the radius if the radius is smaller. The coat
+/// is therefore continuous where the set of nearest guides changes. A strand without a guide within the
+/// radius stays unchanged.
 class Guides final : public OperatorOf<GuidesParams> {
  public:
   static constexpr const char* kName = "guides";

@@ -11,14 +11,14 @@ namespace pelage {
 
 class ProgressStage;
 
-/// The strands of a file that a groom starts from: each is bound to the nearest point of the rest skin, or
-/// none has a skin. The strands stay in the file; only their positions are kept in memory. Immutable. Thread
-/// safety: const members may be called from any thread.
+/// The strands of a file that a groom starts from. Either every strand is bound to the nearest point of the
+/// rest skin, or the strands have no skin. The strands stay in the file; only their positions are kept in
+/// memory. Immutable. Thread safety: const members may be called from any thread.
 class ImportedStrands {
  public:
   /// `rest` may be null: no skin. `owner` is for messages. Warns through the job about strands that are too
-  /// far from the skin to follow it. Throws Error (kInput) when the file cannot be read, Error (kMemory)
-  /// before reading it when it does not fit, and Error (kStopped) when the job is stopped.
+  /// far from the skin to follow it. Throws Error: kInput when the file cannot be read, kMemory (before
+  /// reading) when its strands do not fit, kStopped when the job is stopped.
   ImportedStrands(const GroomParams& params, const LimitSurface* rest, const std::string& owner,
                   const Job& job);
 

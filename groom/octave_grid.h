@@ -25,9 +25,10 @@ class OctaveGrid {
   void rebuild(size_t expected, float radius);
   void insert(const FollicleCandidate& follicle);
 
-  /// Distance from a candidate to the nearest follicle whose normal lies within 60 degrees of its own, in
-  /// units of the smaller of both spacings, or `radius` when none is nearer. The search stops at a follicle
-  /// that is much nearer than that, although there may be a nearer one.
+  /// Distance from a candidate to the nearest follicle, in units of the smaller of the two spacings; at most
+  /// `radius`. Ignores follicles whose normals differ by more than 60 degrees from the candidate's normal.
+  /// The search stops at a follicle that is much nearer than `radius`, even if another follicle is nearer
+  /// still.
   float nearest(const FollicleCandidate& candidate, float radius) const;
 
  private:

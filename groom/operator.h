@@ -52,18 +52,19 @@ struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
   TextureLibrary& textures;
   const Job& job;
-  std::span<const std::unique_ptr<Operator>> preceding;  ///< already prepared
-  uint64_t seed = 0;  ///< of this operator: depends on the groom's seed, differs between equal operators
-  int points = 8;     ///< per grown strand
-  SourcePosition position = {};  ///< of the operator in the scene file, for errors
-  std::string owner = {};        ///< for messages: "groom 'coat'"
+  std::span<const std::unique_ptr<Operator>> preceding;  ///< the operators before this one, already prepared
+  uint64_t seed = 0;  ///< seed of this operator: depends on the groom's seed, differs between equal operators
+  int points = 8;     ///< number of points of a grown strand
+  SourcePosition position = {};  ///< position of the operator in the scene file, for errors
+  std::string owner = {};        ///< name for messages: "groom 'coat'"
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
 ///
-/// Contract: pure and deterministic per strand. The result depends on the strand's own points, id and root,
-/// the operator's parameters and what prepare() computed from rest state, never on which other strands are in
-/// the batch. Roots never move. Thread safety: apply() may run on many batches at once.
+/// Contract: pure and deterministic per strand. The result for a strand depends on the points, the id and the
+/// root of this strand, on the operator's parameters, and on the data that prepare() computed from rest
+/// state. It never depends on the other strands of the batch. Roots never move. Thread safety: apply() may
+/// run on many batches at once.
 class Operator {
  public:
   virtual ~Operator() = default;
@@ -71,12 +72,12 @@ class Operator {
   virtual std::string_view name() const = 0;
   /// Every parameter that prepare() and apply() depend on.
   virtual std::vector<ParameterText> parameters() const = 0;
-  /// True: uses rest state only, so that the offsets serve every pose and may be frozen. Otherwise the
-  /// operator sees posed strands.
+  /// Whether the operator uses rest state only. Its result is then valid in every pose and may be frozen.
+  /// Otherwise the operator receives posed strands.
   virtual bool reads_rest_only() const { return true; }
   /// Whether apply() uses the posed skin (StrandBatch::skin).
   virtual bool needs_closest_point() const { return false; }
-  /// Frequency of the colours that apply() writes; empty when it writes none.
+  /// Frequency of the colours that apply() writes; empty if apply() writes no colours.
   virtual std::optional<AttributeClass> colors() const { return {}; }
   /// Random factor that apply() applies to the colour of a strand, for the seed passed to prepare(), and its
   /// mean over all strands.
@@ -96,16 +97,16 @@ class Operator {
   /// Whether prepare() runs the operators before this one.
   virtual bool runs_preceding() const { return false; }
   /// Reads maps and files, and gathers data about the whole coat (clump centres, guides). Called once.
-  /// Charges retained memory to the ledger. Throws Error (kInput), Error (kMemory) before allocating what
-  /// does not fit, Error (kStopped).
+  /// Charges retained memory to the ledger. Throws Error: kInput, kMemory before allocating memory that does
+  /// not fit, kStopped when the job is stopped.
   virtual void prepare(const PrepareContext&) {}
   /// Number of strands to grow at a point of the rest skin, relative to the density of the groom.
   virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
   /// Whether coverage() differs from 1 anywhere.
   virtual bool restricts_coverage() const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
-  /// Upper bound of how far apply() moves any point of a strand bounded by `before`: at most 1.5 times the
-  /// actual displacement of the worst strand.
+  /// Upper bound of the distance by which apply() moves any point of a strand with the properties `before`.
+  /// The bound is at most 1.5 times the actual displacement of the worst strand.
   virtual float displacement_bound(const StrandReach& before) const = 0;
   /// Properties after apply().
   virtual StrandReach reach_after(const StrandReach& before) const = 0;

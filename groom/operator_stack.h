@@ -23,8 +23,8 @@ class OperatorStack {
   explicit OperatorStack(const OperatorList& list);
 
   /// Prepares each operator of [begin, end) that is not prepared yet. If preparing an operator runs the
-  /// preceding operators, prepares these first. Sets `preceding`, `seed` (here the groom's) and `position` of
-  /// the context for each.
+  /// preceding operators, prepares these first. Each operator gets a copy of `context` in which `preceding`,
+  /// `seed` and `position` are set for this operator. `context.seed` is the seed of the groom.
   void prepare(size_t begin, size_t end, const PrepareContext& context);
   void prepare_all(const PrepareContext& context) { prepare(0, size(), context); }
   /// Prepares the operators that coverage() needs.

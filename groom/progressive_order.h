@@ -21,28 +21,29 @@ struct HeldCandidates {
 
   /// All candidates at once: the choice never fails.
   static HeldCandidates all(size_t candidates) { return {1, candidates}; }
-  /// As few as are enough for `count` follicles on almost any skin.
+  /// As few candidates as suffice for `count` follicles on almost any skin.
   static HeldCandidates least(size_t candidates, size_t count);
-  /// All of up to two million, which takes the least time; the least of more.
+  /// all() for up to two million candidates, which takes the least time; least() for more.
   static HeldCandidates fastest(size_t candidates, size_t count);
 };
 
-/// Chooses `count` candidates in an order of which every prefix is blue noise: progressive dart throwing, in
-/// which the forbidden radius shrinks slowly and each radius is tried on all candidates before the next
-/// [McCool92, section 4]. The Euclidean distance between two follicles is at least the radius times the
-/// smaller of their spacings; those whose normals differ by more than 60 degrees ignore each other.
+/// Chooses `count` candidates and orders them so that every prefix of the order is blue noise. The method is
+/// progressive dart throwing: the forbidden radius shrinks slowly, and each radius is tried on all candidates
+/// before the next radius [McCool92, section 4]. The Euclidean distance between two follicles is at least the
+/// radius times the smaller of their spacings; follicles whose normals differ by more than 60 degrees ignore
+/// each other.
 ///
-/// Differs from the paper in cost: a rejected candidate waits until the radius has shrunk to its distance
-/// from the nearest follicle, and candidates join in proportion to the follicles placed so far, so that each
-/// is examined only a few times: O(N log N). `area`: of the surface scaled to spacing 1 (the integral of the
-/// density); used only to estimate the number of follicles at a radius.
+/// The cost is lower than in the paper, O(N log N), because each candidate is examined only a few times. A
+/// rejected candidate waits until the radius has shrunk to its distance from the nearest follicle, and new
+/// candidates are added in proportion to the follicles placed so far. `area`: of the surface scaled to
+/// spacing 1 (the integral of the density); used only to estimate the number of follicles at a radius.
 ///
 /// Returns FollicleCandidate::attempt of each chosen candidate; fewer than `count` when there are fewer
-/// candidates. When `held` has no room for all candidates, drops those that the follicles placed so far would
-/// reject even at the final radius: the order is the same, bit by bit. The final radius is predicted from the
-/// number of follicles, which grows as 1 / radius^2. On a skin that is narrower than the distance between
-/// follicles, the prediction may be wrong and dropped candidates may be needed; the result is then empty.
-/// Only the making of candidates is parallel. Throws Error (kStopped).
+/// candidates. When `held` has no room for all candidates, drops candidates that the follicles placed so far
+/// would reject even at the final radius. This does not change the result by a bit. The final radius is
+/// predicted from the number of follicles, which grows as 1 / radius^2. On a skin that is narrower than the
+/// distance between follicles, the prediction may be wrong and dropped candidates may be needed; the result
+/// is then empty. Only the making of candidates is parallel. Throws Error (kStopped) when the job is stopped.
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
                                                        const HeldCandidates& held, const Job& job);
 

@@ -17,9 +17,9 @@ struct PushOutParams {
 /// Moves strands out of the posed skin. Live: runs in every pose, using the same tessellation as all other
 /// consumers.
 ///
-/// Afterwards no point of a strand's curve lies inside a closed skin, and control points keep a distance to
-/// it that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a strand
-/// that finds no way out is retracted along itself to where it last was outside.
+/// Afterwards, no point of a strand's curve lies inside a closed skin. Control points keep a distance from
+/// the skin that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a
+/// strand that cannot be moved out is retracted along its curve to its last point outside the skin.
 class PushOut final : public OperatorOf<PushOutParams> {
  public:
   static constexpr const char* kName = "push_out";

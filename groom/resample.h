@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Control points of a pinned uniform cubic B-spline with `count` points that follows strand `strand` at even
-/// arc length: the spline interpolates the strand at its knots.
+/// Control points of a pinned uniform cubic B-spline with `count` points. The knots of the spline lie on
+/// strand `strand`, at even arc length.
 std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count);
 
 }  // namespace pelage

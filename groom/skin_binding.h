@@ -16,8 +16,8 @@ struct Job;
 /// called from any thread.
 class SkinBinding {
  public:
-  /// Charged to the ledger for its lifetime. Throws Error (kMemory), which names the file whose strands are
-  /// to be bound, Error (kStopped).
+  /// Charges its memory to the ledger for its lifetime. Throws Error: kMemory, naming the file whose strands
+  /// are to be bound; kStopped when the job is stopped.
   SkinBinding(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job);
   ~SkinBinding();
 

@@ -20,7 +20,7 @@ inline float decode(uint16_t code) {
 }
 
 /// With `round_up` 0: the largest number not above `value`; with all dropped mantissa bits set: the smallest
-/// not below. Empty for negative, too large and NaN values.
+/// number not below `value`. Empty for negative, too large and NaN values.
 inline std::optional<uint16_t> encode(float value, uint32_t round_up) {
   if (value == 0) return uint16_t{0};
   if (!(value > 0) || !std::isfinite(value)) return {};

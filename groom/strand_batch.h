@@ -41,9 +41,9 @@ struct RootRows {
 /// A block of strands during the evaluation of the operators, as rows over strands: [point][strand].
 ///
 /// Points are offsets from the root along the axes of the batch's space: rest space for frozen operators, the
-/// posed space of one motion key for live ones. All strands of a batch have the same number of points. Point
-/// 0 is the base of the strand: zero for grown strands, the gap to the skin for imported ones; operators must
-/// not move it.
+/// posed space of one motion key for live operators. All strands of a batch have the same number of points.
+/// Point 0 is the base of the strand. It is zero for grown strands, and the offset from the skin for imported
+/// strands. Operators must not move it.
 struct StrandBatch {
   struct PointRows {
     VectorRow offset;

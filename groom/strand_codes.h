@@ -12,7 +12,7 @@ namespace pelage {
 
 /// Coding options for widths and colours of a coat, determined by its operators.
 struct CodeOptions {
-  /// Strands share one width profile, which then may use 16 bits per point; else 8.
+  /// Whether all strands share one width profile. If so, the profile may use 16 bits per point, otherwise 8.
   bool one_width_profile = false;
 };
 
@@ -32,8 +32,8 @@ class StrandCodes {
   size_t color_rows = 0;  ///< 0, 1 or the number of points
   bool has_base = false;  ///< some strand does not start at its root
   bool clumped = false;   ///< some strand belongs to a clump
-  /// Some strand cannot be represented by the codes. The batch is then stored as floats, which for the other
-  /// strands are their decoded codes.
+  /// Some strand cannot be represented by the codes. The batch is then stored as floats. For the other
+  /// strands, these are the decoded codes.
   bool plain = false;
 
   std::vector<uint16_t> steps;  ///< small floats, [strand]
@@ -65,7 +65,8 @@ inline float clump(uint16_t code) { return (code + 0.5f) * 0x1p-16f; }
 inline uint16_t clump_code(float clump) { return static_cast<uint16_t>(clump * 65536.0f); }
 inline float width_ratio(uint8_t code) { return code / 255.0f; }
 inline float width_ratio(uint16_t code) { return code / 65535.0f; }
-/// Each channel's max relative to the strand's max: ten bits each, of the square root.
+/// Max of each channel relative to the strand's max. The code has ten bits per channel, for the square root
+/// of this ratio.
 inline float hue(uint32_t code, int channel) {
   const float root = static_cast<float>(code >> (10 * channel) & 1023u) / 1023.0f;
   return root * root;

@@ -19,8 +19,8 @@ void evaluate(const Field& field, const StrandBatch& batch, float along, StrandR
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
 /// Evaluates a field over a batch at successive positions along the strands. A factor of a product (and any
-/// other field) that does not change along strands is evaluated once per strand; one that only changes along
-/// them, once per position.
+/// other field) that does not change along strands is evaluated once per strand; a factor that changes only
+/// along strands is evaluated once per position.
 class StrandField {
  public:
   StrandField(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}

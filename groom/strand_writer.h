@@ -9,11 +9,11 @@
 
 namespace pelage {
 
-/// Collects finished batches into the arrays of a Strands, reserved exactly: all of their strands, or some of
-/// them with modified widths and colours.
+/// Collects the strands of finished batches in the arrays of a Strands, whose memory is reserved exactly.
+/// Writes all strands, or some strands with modified widths and colours.
 class StrandWriter {
  public:
-  /// The strands to write, as ascending indices, each with a factor on its width and one on its colours.
+  /// The strands to write, as ascending indices. Each has a factor on its width and a factor on its colours.
   struct Chosen {
     std::span<const uint32_t> strands;
     std::span<const float> width;
@@ -23,8 +23,8 @@ class StrandWriter {
   StrandWriter(size_t strands, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
   StrandWriter(Chosen chosen, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
 
-  /// How many of `count` strands from `first` on must be made to cover all that are written: 0, or up to the
-  /// last of them.
+  /// Number of the `count` strands from `first` on that must be made: all up to the last strand that is
+  /// written, or 0 if none is written.
   size_t needed(size_t first, size_t count) const;
 
   /// Sets the point count of the next strand / of all strands; call before writing.

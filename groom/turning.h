@@ -25,9 +25,10 @@ struct TurnProfile {
 /// reassembles the strand.
 void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const Rotation& rotation);
 
-/// Upper bound of how far any point of a strand moves when its segments are rotated by at most `angle` times
-/// the profile. A segment moves its end by 2 sin(a / 2) of its length; that is concave in a, so by Jensen's
-/// inequality the sum over any partition is at most the value for the mean angle.
+/// Upper bound of the distance by which any point of a strand moves when the segments are rotated by at most
+/// `angle` times the profile. A rotation by a moves the end of a segment by 2 sin(a / 2) times the length of
+/// the segment. This function is concave in a, so by Jensen's inequality the sum over any partition is at
+/// most the value for the mean angle.
 float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle);
 
 }  // namespace pelage

@@ -8,10 +8,10 @@
 
 namespace pelage {
 
-/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` of them: when
-/// full, drops those that wait for the highest levels. Levels are 0 .. `levels` - 1.
+/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` candidates. When
+/// full, drops the candidates that wait for the highest levels. Levels are 0 .. `levels` - 1.
 ///
-/// Candidates come one by one, by add(), or all at once, by hold_all(), which takes less memory per
+/// Add candidates one by one with add(), or all at once with hold_all(), which takes less memory per
 /// candidate.
 class WaitingCandidates {
  public:
@@ -32,7 +32,7 @@ class WaitingCandidates {
   /// Rank of the candidate among all candidates.
   uint32_t rank(uint32_t place) const { return all_.empty() ? items_[place].candidate.number : place; }
 
-  /// Makes a candidate that waits for no level wait for this one. It may be dropped from now on.
+  /// Makes a candidate that waits for no level wait for `level`. The candidate may be dropped from now on.
   void wait_for(int level, uint32_t place);
   size_t size(int level) const { return sizes_[static_cast<size_t>(level)]; }
   /// Calls visit(place) for each candidate that waits for the level. These wait for no level afterwards.

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-// Errors of EXR files in our own words; only for the sources of image/.
+// Errors about EXR files; only for the sources of image/.
 
 namespace pelage {
 

@@ -80,8 +80,9 @@ class ExrReader {
   int64_t buffer_bytes_ = 0;
 };
 
-/// A part to write: everything in the header of part `like` of the input file, known to us or not, but with
-/// this name, view, data window and channels, and these additional attributes.
+/// A part to write. Its header is a copy of the header of part `like` of the input file, including attributes
+/// that Pelage does not know. `header` replaces the name, the view, the data window and the channels, and
+/// adds its attributes.
 struct ExrOutputPart {
   size_t like = 0;
   ExrPart header;

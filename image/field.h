@@ -37,7 +37,7 @@ struct FieldDependence {
 };
 
 /// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an
-/// attribute or a product of those. docs/MANUAL.md has the keys. An immutable value, cheap to copy.
+/// attribute, or a product of fields. docs/MANUAL.md has the keys. An immutable value, cheap to copy.
 ///
 ///   0.5 | [r, g, b]
 ///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}    # without channel: colour

@@ -28,9 +28,9 @@ struct EnumNames<ColorSpace> {
 /// (linking it would cost 0.3 s and 130 MB at every start). Keeps one copy of the texels per file, in the
 /// type that the file stores.
 ///
-/// With a ledger limit, images stay in memory while all of them together take at most a quarter of it. Others
-/// become a temporary file of tiles; a cache of an eighth of the limit holds the recently used ones. Both
-/// give the same values. Thread safety: all members may be called from any thread.
+/// With a ledger limit, images stay in memory as long as all images together take at most a quarter of the
+/// limit. Each further image becomes a temporary file of tiles; a cache of an eighth of the limit holds the
+/// recently used ones. Both give the same values. Thread safety: all members may be called from any thread.
 class TextureLibrary {
  public:
   /// `progress` shows the reading of large images and may stop it. Both arguments must outlive the library.

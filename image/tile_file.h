@@ -12,8 +12,8 @@ namespace pelage {
 constexpr int kTileSide = 64;
 
 /// An image as square tiles in an unnamed file in the folder for temporary files (TMPDIR). The file
-/// disappears with this value, or with the process, however it ends. Layout: PelageTiles in
-/// image/reader_module.h.
+/// disappears when this object is destroyed or the process ends, even if the process is killed. Layout:
+/// PelageTiles in image/reader_module.h.
 class TileFile {
  public:
   /// Throws Error (kFailed) when the file cannot be created.

@@ -14,26 +14,27 @@ namespace pelage {
 struct CoatStats {
   float width = 0;
   float length = 0;
-  float area_share = 0;  ///< width * length over the skin area that they cover; 0 when unknown
+  float area_share = 0;  ///< mean width * length of a strand / area of the whole skin; 0 when unknown
   float density = 0;     ///< strands per unit of skin area; 0 when unknown
   bool even = true;      ///< whether every prefix of their order is blue noise
 };
 
 /// The root of a strand, which determines its level of detail. World space.
 struct RootPlace {
-  V3f open{0}, close{0};  ///< when the shutter opens and closes
-  V3f normal{0};          ///< of the skin when the shutter opens; 0: unknown
-  V3f direction{0};       ///< of the strands there at that time: unit, shorter where they vary
+  V3f open{0}, close{0};  ///< position when the shutter opens and closes
+  V3f normal{0};          ///< unit normal of the skin when the shutter opens; 0: unknown
+  V3f direction{0};       ///< mean direction of the strands at the root when the shutter opens: unit, shorter
+                          ///< where directions vary
 };
 
-/// Stochastic simplification of one coat: the fraction of the strands that suffices at a place, and the width
-/// of those that remain [Cook07, Ryu07].
+/// Stochastic simplification of one coat: determines the fraction of the strands that suffices at a place,
+/// and the width of the kept strands [Cook07, Ryu07].
 ///
 /// Every strand has a fixed priority x, uniformly distributed over [0, 1) and independent of everything else.
-/// Where the fraction (share) lambda suffices, strands with x < lambda - t are kept, those up to lambda + t
-/// fade out by width, and the others do not exist: the strands kept at one share are a subset of those kept
-/// at every larger one. Everything is a continuous function of the root's position, so nothing pops and no
-/// boundary between chunks is visible.
+/// Where the fraction (share) lambda suffices, strands with x < lambda - t are kept, strands with x up to
+/// lambda + t fade out by width, and all other strands do not exist. The strands kept at one share are
+/// therefore a subset of the strands kept at every larger share. Everything is a continuous function of the
+/// root's position, so nothing pops and no boundary between chunks is visible.
 ///
 /// A value. Thread safety: const members may be called from any thread.
 class Simplification {
@@ -51,9 +52,9 @@ class Simplification {
   /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but at least large enough that a widened strand
   /// stays below hypot(1, a tenth of the blur across it) pixels and a quarter of its own length: otherwise
   /// widths would grow without bound where a coat becomes small. lambda_size = w^(2 ln(1/2) / ln h) for a
-  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur is raised to the power blur_strength; at 1,
-  /// it keeps the number of strands that contribute to a pixel as it is without blur. Back-facing skin keeps
-  /// less, down to a fifth; its strands may be wider accordingly.
+  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur is raised to the power blur_strength; with
+  /// the exponent 1, blur does not change the number of strands that contribute to a pixel. Back-facing skin
+  /// keeps fewer strands, down to a fifth, and these may be wider accordingly.
   float share(const RootPlace& root) const;
   /// Upper bound of share() for roots at this distance from the camera or farther away.
   float max_share(float distance) const;
@@ -78,12 +79,12 @@ class Simplification {
   float gain(float share) const;
   /// Upper bound of width_factor() for roots up to this distance.
   float max_width_factor(float distance) const;
-  /// A strand that is kept represents others beside it. Light continues from one of these: at the same
-  /// position along its length, with a root up to this distance away on the skin. 0 at share 1.
+  /// A kept strand represents strands around it. Light continues from one of the represented strands: at the
+  /// same position along its length, with a root up to this distance away on the skin. 0 at share 1.
   float spread(float share) const;
   /// Probability that light leaving a represented strand may hit the strand that represents it. Evenly spread
-  /// strands have free space around them, more so the fewer there are, in which the omitted strands would
-  /// have blocked light. 0 at share 1.
+  /// strands have free space around them, in which the omitted strands would have blocked light. The fewer
+  /// strands are kept, the larger this space is. 0 at share 1.
   float own_shadow(float share) const;
   /// Factor on the deviation of a strand's colour from the mean [Cook07, eq. 22].
   float contrast(float share) const;
@@ -96,7 +97,8 @@ class Simplification {
 
  private:
   float share(float pixels, float motion, float across, float confusion) const;
-  /// The minimum share that widths or the scene require; a budget may increase it, never decrease it.
+  /// The minimum share that widths or the scene require. A budget may increase this share, but never decrease
+  /// it.
   float min_kept(float share) const;
   void tabulate_area();
 

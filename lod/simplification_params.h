@@ -48,7 +48,7 @@ void add_simplification_keys(Schema<P>& s) {
       {.help = "Removes control points of a strand where this moves it by less than a tenth of a pixel"});
   key("guard", &Base::guard,
       {.help = "Factor on the number of strands that grooms of role guard keep. Values below 1 keep fewer "
-               "strands, but never so few that the remaining ones would become wider than a pixel",
+               "strands, as long as the widened strands stay narrower than a pixel",
        .min = 0.01,
        .max = 1000});
   key("under", &Base::under, {.help = "The same factor for role under", .min = 0.01, .max = 1000});

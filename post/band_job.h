@@ -16,7 +16,7 @@ namespace pelage {
 /// Result of processing a file.
 struct PostReport {
   bool cancelled = false;  ///< nothing was written
-  PixelBox window;         ///< of all that was written
+  PixelBox window;         ///< box of all pixels that were written
   int steps = 1;
   int bands = 1;                      ///< number of bands in which the file was processed
   float longest = 0;                  ///< max motion or parallax, in pixels
@@ -41,15 +41,15 @@ struct PostSource {
   const std::vector<NamedChannel> channels;
 };
 
-/// A view whose pixels move; without a field they are copied.
+/// A view whose pixels move. Without a field, its pixels are copied.
 struct MovingView {
   std::unique_ptr<ViewImage> image;
   std::unique_ptr<FlowField> field;
 };
 
 /// Processes a file band by band: reads the source rows that a band needs, calls `process` to make the band,
-/// and writes it. Memory: the fields, `scratch_bytes`, the blocks of rows that the library decodes and
-/// encodes, and as many rows as the budget allows.
+/// and writes it. Uses memory for the fields, `scratch_bytes`, the blocks of rows that the library decodes
+/// and encodes, and the rows of a band. A band has the max number of rows that the budget allows.
 class BandJob {
  public:
   struct Band {
@@ -61,14 +61,14 @@ class BandJob {
   /// Rows of the view's canvas that the band needs.
   using Reach = std::function<RowRange(const MovingView& view, const WarpTarget& target, Band band)>;
 
-  /// A part to write, with the plane number of each of its channels: a channel number of the file, or that
-  /// number plus the count of channels for additional planes that `process` fills.
+  /// A part to write, with a plane number for each channel. Numbers below the channel count of the file are
+  /// channels of the file. The following numbers are additional planes that `process` fills.
   struct Part {
     ExrOutputPart part;
     std::vector<size_t> planes;
   };
 
-  /// `source` outlives it. `fill`: pixels of a gap that are filled unless `params` say otherwise.
+  /// `source` must outlive this object. `fill`: default of the max number of pixels to fill in a gap.
   BandJob(PostSource& source, const PostFileParams& params, int fill)
       : scale(params.scale),
         longest_fill(params.longest_fill.value_or(fill)),
@@ -77,7 +77,7 @@ class BandJob {
 
   std::vector<MovingView> views;
   std::vector<Part> parts;
-  PixelBox window;  ///< of the result; contains all its parts
+  PixelBox window;  ///< window of the result; contains all its parts
   size_t extra_planes = 0;
   const int scale;
   const int longest_fill;  ///< max number of pixels to fill in a gap
@@ -113,15 +113,15 @@ class BandJob {
   Band band_{0, 0};
 };
 
-/// Throws Error (kMemory) naming the file when the field of this picture, while it is made, and `held` bytes
-/// of others exceed the budget.
+/// Throws Error (kMemory) naming the file when the memory for making the field of this picture and `held`
+/// bytes of other fields together exceed the budget.
 void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
 /// Throws Error (kInput) naming a layer that was declared as data or colours but is found in no view.
 void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
 
-/// The vectors of a layer by `params`. Reports those that are not finite, and warns of a wrong unit; `flag`
-/// is the beginning of the flags that say it, `where` ends every message.
+/// Reads the vectors of a layer, which `params` describes. Reports non-finite vectors and warns of a wrong
+/// unit. `flag`: prefix of the flags that set the unit; `where`: end of every message.
 std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, size_t> layer,
                                      const VectorParams& params, const std::string& flag,
                                      const std::string& where, PostReport& report);

@@ -11,11 +11,11 @@
 namespace pelage {
 
 /// Converts work buffers to pixels with equal weights for all samples. Counts are integers, so a pixel that
-/// sees a single pixel of the source becomes an exact copy of it, however often it is sampled. NaN colours
-/// count as zero in averages.
+/// sees only one pixel of the source is an exact copy of this source pixel, for any number of samples. NaN
+/// colours count as zero in averages.
 ///
-/// Colours are read once for each run of steps in which a pixel sees the same thing. Thread safety: one
-/// thread at a time; use one per worker.
+/// Colours are read once for each run of steps in which a pixel sees the same pixels of the source. Thread
+/// safety: one thread at a time; use one per worker.
 class BoxResolve {
  public:
   /// `with_colors`: otherwise channels of role kColor are not written.

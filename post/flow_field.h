@@ -21,7 +21,8 @@ struct Flow {
 struct LinkLimits {
   float largest_time = 1;    ///< max magnitude of all times that the field will be warped to
   float tear = 1.5f;         ///< max change of the distance of neighbours, in pixels
-  float depth_step = 0.05f;  ///< step of 1 / depth, as a fraction of the nearer one's
+  float depth_step = 0.05f;  ///< max step of 1 / depth between neighbours, relative to 1 / depth of the
+                             ///< nearer one
 };
 
 /// Motion and depth of every pixel of a picture, and which neighbours belong to the same surface (the
@@ -52,17 +53,19 @@ class FlowField {
   bool linked_right(int x, int y) const { return links_[at(x, y)] & kRight; }
   bool linked_down(int x, int y) const { return links_[at(x, y)] & kDown; }
 
-  /// Whether a neighbour on another, nearer surface may separate from this pixel. Neither may be infinitely
-  /// far away: an empty pixel or a sky does not end where it is occluded. Nor may the pixel be thin: the
-  /// background is visible beside a strand.
+  /// Whether a neighbour on another, nearer surface may separate from this pixel. False if either pixel is
+  /// infinitely far away, because an empty pixel or a sky does not end where it is occluded. Also false if
+  /// this pixel is thin, because the background is visible beside a strand.
   bool has_seam(int x, int y) const { return links_[at(x, y)] & kSeam; }
-  /// Whether the first of two neighbours is the farther one; the later one if both are equally far.
+  /// Whether the first of two neighbours is farther away. If both are equally far, the later neighbour counts
+  /// as farther.
   bool is_behind(int x, int y, int other_x, int other_y) const;
 
   /// Whether all four corners move like the pixel, so that it stays a unit square.
   bool is_rigid(int x, int y) const { return links_[at(x, y)] & kRigid; }
-  /// Motion of the pixel's corner (right, bottom: 0 or 1): the mean over all pixels of the same surface among
-  /// the four that meet there. All these pixels get the same bits, so that a surface has no cracks.
+  /// Motion of the pixel's corner (right, bottom: 0 or 1): of the four pixels that meet at the corner, the
+  /// mean over those on the same surface. All these pixels get the same bits, so that a surface has no
+  /// cracks.
   Flow corner(int x, int y, int right, int bottom) const {
     const int left = x + right - 1, top = y + bottom - 1;
     if (left < 0 || top < 0 || !(links_[at(left, top)] & kFour)) return torn_corner(x, y, right, bottom);
@@ -73,15 +76,15 @@ class FlowField {
   /// Pixels whose motion is bounded together.
   struct Block {
     int x0, y0, x1, y1;
-    Flow low{0, 0}, high{0, 0};  ///< of the vectors within
+    Flow low{0, 0}, high{0, 0};  ///< bounds of the vectors in the block
   };
   static constexpr int kBlockWidth = 64, kBlockHeight = 8;
   /// Row by row.
   const std::vector<Block>& blocks() const { return blocks_; }
-  /// One for each row of blocks, bounding all of them.
+  /// One block for each row of blocks; it bounds all blocks of the row.
   const std::vector<Block>& block_rows() const { return block_rows_; }
   int blocks_across() const { return (width_ + kBlockWidth - 1) / kBlockWidth; }
-  /// By how much a corner may move farther than any pixel of its block.
+  /// Max distance by which a corner may move farther than every pixel of its block.
   float slack() const { return slack_; }
   /// Bounds of all vectors.
   Flow low() const { return low_; }

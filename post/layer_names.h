@@ -12,10 +12,10 @@
 
 namespace pelage {
 
-/// A channel of a file and the meaning of its name. In a part of its own, a layer's channels often have names
-/// without a layer; the layer is then the name of the part.
+/// A channel of a file and the meaning of its name. If a layer is stored in a separate part, its channel
+/// names often contain no layer; the name of the part is then the layer.
 struct NamedChannel {
-  size_t part = 0, channel = 0;  ///< of ExrReader::parts()
+  size_t part = 0, channel = 0;  ///< indices in ExrReader::parts() and in the part
   std::string view;              ///< empty when the file has no views, or the channel belongs to none
   std::string layer;             ///< "key.diffuse" of "key.diffuse.R"; empty for a bare name
   std::string component;         ///< "R"

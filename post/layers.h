@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// How a channel is resolved where several pixels of the source meet in one of the result.
+/// How a channel is resolved where one pixel of the result shows several pixels of the source.
 enum class LayerRole {
   kColor,  ///< premultiplied light or coverage: averaged
   kData,   ///< normals, ids, vectors ...: from the front-most visible pixel, zero where there is none

@@ -20,7 +20,7 @@ struct ShutterParams {
 };
 
 /// The sample times: centres of equal parts of the shutter. `longest`: max length of all vectors, in pixels.
-/// A single time without motion.
+/// Without motion, there is a single time.
 std::vector<float> shutter_times(const ShutterParams& shutter, float longest);
 
 /// Default max size of gaps to close, in pixels.
@@ -41,10 +41,10 @@ struct BlurJob {
 };
 
 /// Pixmotor [Neulander07; Neulander13]: warps the picture to each of the job's times, resolves visibility,
-/// and averages. The layers' sources must contain all rows of the field that can reach the job's rows
-/// (`rows_reaching`), their targets those rows. Throws nothing of its own. Reports a step per row to
-/// `progress`, and returns early when that is cancelled; otherwise a function of its arguments, except for
-/// the tiling and the workers.
+/// and averages. The sources of the layers must contain all rows of the field that can reach the job's rows
+/// (`rows_reaching`). The targets of the layers must contain the job's rows. Throws no Error. Reports a step
+/// per row to `progress` and returns early when `progress` is cancelled. Otherwise the result depends only on
+/// the job and the layers, not on the tiling and the workers.
 void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, const Workers& workers,
                Progress& progress);
 

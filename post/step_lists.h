@@ -20,9 +20,9 @@ class StepLists {
     uint16_t x, y;
   };
 
-  /// Removes from `blocks` those whose vectors diverge by more than kWild pixels between two times, and lists
-  /// their pixels instead. When the lists are full, the other blocks stay. `times` in any order; only those
-  /// in ascending order are listed.
+  /// Removes from `blocks` all blocks whose vectors diverge by more than kWild pixels between two times, and
+  /// lists the pixels of these blocks instead. When the lists are full, the other blocks stay. `times` may be
+  /// in any order; only times in ascending order are listed.
   void gather(const Warp& warp, const std::vector<float>& times, const PixelBox& samples,
               std::vector<const FlowField::Block*>& blocks);
   const std::vector<Pixel>& at(size_t step) const { return by_step_[step]; }

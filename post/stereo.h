@@ -39,15 +39,16 @@ inline constexpr int kStripRows = 16;
 
 enum class StereoFilter { kLanczos, kBox };
 
-/// The field contains the parallax (time 1 is the other eye). Rows and columns as in BlurJob. `invented` and
-/// `missing`, if given, receive the fraction of each pixel that was filled, and that stayed empty.
+/// The field contains the parallax (time 1 is the other eye). Rows and columns as in BlurJob. `invented`, if
+/// given, receives the filled fraction of each pixel; `missing`, if given, receives the fraction that stayed
+/// empty.
 struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};
   StereoFilter filter = StereoFilter::kLanczos;
-  RowEnds ends;               ///< whether the source is cut off at its sides, rather than complete
+  RowEnds ends;               ///< whether the source is cut off at its sides
   int longest_fill = 0;       ///< max number of pixels to fill in a gap
-  int width = 0, height = 0;  ///< of the whole result
+  int width = 0, height = 0;  ///< size of the whole result
   int first_row = 0, last_row = 0;
   std::optional<Plane> invented, missing;
 };

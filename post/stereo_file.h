@@ -13,17 +13,17 @@ struct StereoFileParams {
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units
   std::optional<float> focal_pixels;                           ///< overrides the camera of the file
   std::optional<float> fov_deg;                                ///< vertical; overrides the camera of the file
-  std::string parallax;  ///< layer to read the parallax from, by `file.vectors`, instead of computing it from
-                         ///< a camera
+  std::string parallax;  ///< layer that contains the parallax, as described by `file.vectors`; empty:
+                         ///< computed from a camera
   bool to_left = false;  ///< makes the left eye from the right one
   StereoFilter filter = StereoFilter::kLanczos;
   int strip_rows = kStripRows;
 };
 
-/// `pelage stereo` on one file: the other eye's picture of one view, with parts named for it. The layer
-/// `invented` of the part with the colours contains the fraction of each pixel that was filled (`mask`) and
-/// that stayed empty (`hole`). Camera matrices, if any, become the other eye's. Throws Error: kInput when the
-/// view, its depth or a camera is missing, and as BandJob does.
+/// `pelage stereo` on one file: makes the other eye's picture of one view, with parts named after the other
+/// eye. The layer `invented` of the part with the colours contains the filled fraction (`mask`) and the empty
+/// fraction (`hole`) of each pixel. Camera matrices, if any, become the other eye's. Throws Error: kInput
+/// when the view, its depth or a camera is missing; also throws the errors of BandJob.
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
                        const StereoFileParams& params, const Job& job);
 

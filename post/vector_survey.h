@@ -13,7 +13,7 @@ namespace pelage {
 struct VectorParams {
   bool is_ndc = false;   ///< fractions of the display window instead of pixels
   bool is_y_up = false;  ///< positive v points up, as in Nuke; Pelage writes it pointing down
-  float scale = 1;       ///< additional factor that converts them to motion per frame
+  float scale = 1;       ///< additional factor that converts the vectors to motion per frame
 };
 
 /// Statistics of a layer of vectors, collected while it is read, to recognise a wrong unit.
@@ -26,8 +26,8 @@ class VectorSurvey {
   void add(float u, float v, Flow pixels);
 
   size_t not_finite() const { return not_finite_; }
-  /// A warning when the vectors are probably in another unit than the parameters declare, with the option to
-  /// change; empty otherwise. `flag`: prefix of the options' names, "--motion". `width`: of the display
+  /// A warning if the vectors probably have another unit than the parameters declare; it names the option to
+  /// change. Empty otherwise. `flag`: prefix of the options' names, "--motion". `width`: of the display
   /// window. `is_ours`: the file comes from Pelage, whose vectors are always in pixels.
   std::optional<std::string> warning(const VectorParams& params, const std::string& flag, int width,
                                      bool is_ours) const;

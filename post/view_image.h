@@ -25,9 +25,9 @@ class ViewImage {
   const PixelBox& canvas() const { return canvas_; }
   /// Bounds of the parts' frames and pixels.
   const PixelBox& limits() const { return limits_; }
-  /// Max distance in pixels by which motion may move something outside the canvas: the diagonal of the frame.
-  /// When the frame is far larger than the canvas, the larger of the canvas's own diagonal and kUsualReach,
-  /// so that the size of the source bounds the size of the result.
+  /// Max distance in pixels by which motion may move a pixel outside the canvas: the diagonal of the frame.
+  /// If the frame is far larger than the canvas, it is the max of the canvas's diagonal and kUsualReach, so
+  /// that the size of the source bounds the size of the result.
   int largest_reach() const;
   static constexpr int kUsualReach = 1024;
   const std::vector<NamedChannel>& channels() const { return channels_; }
@@ -35,12 +35,12 @@ class ViewImage {
   const std::vector<size_t>& own() const { return own_; }
   ExrReader& reader() const { return reader_; }
 
-  /// Reads rows first <= y < last of the canvas for some channels, one after the other, each rows * width
-  /// words; zero where a part has no pixels.
+  /// Reads rows first <= y < last of the canvas. Stores the given channels one after the other, rows * width
+  /// words each, with zeros where a part has no pixels.
   void read(const std::vector<size_t>& channels, int first, int last, std::vector<float>& words) const;
 
-  /// Depth for the whole canvas: infinite where alpha is zero; without `depth`: 1 wherever alpha is not zero.
-  /// `edges` receives the bits of post/soft_edges.h.
+  /// Depth for the whole canvas, infinite where alpha is zero. Without `depth`, it is 1 wherever alpha is not
+  /// zero. `edges` receives the bits of post/soft_edges.h.
   std::vector<float> read_depth(std::optional<size_t> depth, std::optional<size_t> alpha,
                                 std::vector<uint8_t>& edges) const;
   /// Vectors for the whole canvas, also added to `survey`.

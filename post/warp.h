@@ -12,7 +12,7 @@
 namespace pelage {
 
 /// Destination of a field: pixel (x, y) of the picture is pixel (x + origin_x, y + origin_y) of the field,
-/// which need not exist.
+/// which may lie outside the field.
 struct WarpTarget {
   int scale = 4;  ///< samples per pixel and side
   int origin_x = 0, origin_y = 0;
@@ -24,16 +24,16 @@ struct WarpTarget {
 /// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies inside. Neighbours
 /// on one surface share their corners, so that each sample between them belongs to exactly one of them.
 ///
-/// Where neighbours on different surfaces have separated, the farther one is extended to the other one. This
-/// is a seam, visible only where there is no surface.
+/// Where neighbours on different surfaces have separated, the farther pixel is extended to the nearer pixel.
+/// The extension is called a seam. It is visible only where there is no surface.
 ///
-/// `Buffer` is WorkBuffer or has its samples() and put(). Thread safety: const, any number of threads with
-/// their own buffers.
+/// `Buffer` is WorkBuffer, or has the same members samples() and put(). Thread safety: const members from any
+/// thread, each with a separate buffer.
 class Warp {
  public:
   Warp(const FlowField& field, WarpTarget target) : field_(field), target_(target) {}
 
-  /// Blocks of the field that may reach `samples` at any time between the two.
+  /// Blocks of the field that may reach `samples` at any time from `first_time` to `last_time`.
   std::vector<const FlowField::Block*> reaching(const PixelBox& samples, float first_time,
                                                 float last_time) const;
   /// Whether the block may reach `samples` at one time.
@@ -57,7 +57,7 @@ class Warp {
   struct Times {
     float first, last;  ///< empty when last < first
   };
-  /// The range of times, by magnitude up to `largest`, outside of which the pixel draws nothing into
+  /// A range of times with magnitudes up to `largest`. Outside of this range, the pixel draws nothing into
   /// `samples`.
   Times times_near(int x, int y, float largest, const PixelBox& samples) const;
 

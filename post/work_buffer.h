@@ -13,10 +13,10 @@
 namespace pelage {
 
 /// One sample of the work buffer: the visible pixel of the source as a pair of 16-bit coordinates, and its
-/// distance as a float; 8 bytes without colours [Neulander13]. Packed so that the smaller number is the
-/// nearer one and, at equal distance, the pixel that comes first: the final sample does not depend on the
-/// drawing order. Seams (post/warp.h) are visible where there is no surface: they are behind everything at a
-/// finite distance, and in front of everything infinitely far away.
+/// distance as a float; 8 bytes without colours [Neulander13]. The nearer of two samples has the smaller
+/// packed number; at equal distance, the pixel that comes first in the source has it. So the final sample
+/// does not depend on the drawing order. Seams (post/warp.h) are visible where there is no surface: they are
+/// behind everything at a finite distance, and in front of everything infinitely far away.
 class Sample {
  public:
   Sample() = default;
@@ -71,8 +71,8 @@ class WorkBuffer {
   Sample* row(int y) { return &data_[static_cast<size_t>(y - samples_.y0) * width_]; }
   const Sample* row(int y) const { return const_cast<WorkBuffer*>(this)->row(y); }
 
-  /// Stores `sample` wherever it is nearer than the current one, in columns x0 <= x < x1 of row y, which must
-  /// lie within samples().
+  /// Stores `sample` in columns x0 <= x < x1 of row y wherever it is nearer than the current sample. The
+  /// columns and the row must lie within samples().
   void put(int y, int x0, int x1, Sample sample) {
     Sample* const to = row(y) - samples_.x0;
     for (int x = x0; x < x1; ++x) to[x] = sample.is_nearer_than(to[x]) ? sample : to[x];

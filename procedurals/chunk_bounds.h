@@ -13,22 +13,23 @@ namespace pelage {
 /// How the box of a chunk is determined before the chunk is grown (`render.bounds`).
 enum class BoundingStrategy {
   kNone,          ///< not needed: everything is grown up front
-  kUser,          ///< conservative, scaled by a factor about its centre: may lose pixels
-  kConservative,  ///< roots, longest strand, each operator's reach
-  kExact,         ///< grown once, measured, discarded; for the whole frame interval
-  kExactShutter,  ///< the same, for the open shutter only
-  kLinear,        ///< the same, two boxes linear in time
+  kUser,          ///< as kConservative, but scaled about its centre by a factor of the user: hair outside the
+                  ///< box is lost
+  kConservative,  ///< computed from the roots, the longest strand and the reach of each operator
+  kExact,         ///< the chunk is grown, measured and discarded; the box holds for the whole frame interval
+  kExactShutter,  ///< as kExact, but the box holds only while the shutter is open
+  kLinear,        ///< as kExactShutter, with two boxes: at shutter open and close, interpolated linearly
 };
 template <>
 struct EnumNames<BoundingStrategy> {
   static constexpr const char* names[] = {"none", "user", "conservative", "exact", "exact-shutter", "linear"};
 };
 
-/// Boxes of one chunk, one per part: a group of neighbouring segments, or all of it. The box of a part at key
-/// k is boxes[part * keys + k]. With one key it contains the part over the whole span. With two keys they are
-/// the boxes at shutter open and close, and the box interpolated linearly to a ray's time contains the part
-/// at that time. Measured chunks also have fine boxes, which avoid growing a chunk for rays that miss its
-/// contents.
+/// Boxes of one chunk, one per part. A part is a group of neighbouring segments, or the whole chunk. The box
+/// of a part at key k is boxes[part * keys + k]. With one key, the box contains the part over the whole span.
+/// With two keys, the boxes are at shutter open and close; interpolated linearly to the time of a ray, they
+/// contain the part at that time. Measured chunks also have fine boxes, so that rays that miss the contents
+/// of a chunk do not grow it.
 struct ChunkBounds {
   int keys = 1;
   std::vector<Box3f> boxes;
@@ -48,10 +49,10 @@ struct ChunkBounds {
   }
 };
 
-/// Tightness of boxes: sums of surface areas, averaged over their keys where they move.
+/// Sums of surface areas, which tell how tight boxes are. The area of a moving box is the mean over its keys.
 struct BoundsArea {
-  double chunks = 0;  ///< of the box around each chunk
-  double parts = 0;   ///< of the boxes of all parts
+  double chunks = 0;  ///< area of the boxes around whole chunks
+  double parts = 0;   ///< area of the boxes of all parts
 
   BoundsArea& operator+=(const BoundsArea& other) {
     chunks += other.chunks;

@@ -26,7 +26,7 @@ class CoatDetail {
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
 
-  /// Number of strands of a leaf, counted from the first, that are examined: no other strand can be kept.
+  /// Number of strands of a leaf, counted from the first, that may be kept. The others are never kept.
   size_t candidates(size_t leaf) const;
 
   /// The strands kept of a leaf.
@@ -35,7 +35,7 @@ class CoatDetail {
     std::vector<float> width;
     std::vector<float> contrast;
     std::vector<RootDetail> detail;
-    std::vector<float> tolerance;  ///< for fewer control points
+    std::vector<float> tolerance;  ///< tolerance of with_fewer_points()
     KeptStrands kept() const { return {strands, width, contrast}; }
   };
   /// `pose` must contain the faces of the candidates.
@@ -53,7 +53,7 @@ class CoatDetail {
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 
-/// Scale of a whole coat; `detail`: null where every strand is grown.
+/// Scale of a whole coat. `detail`: null if every strand is grown.
 StrandScale coat_scale(const Groom& groom, const PosedCharacterSkin& skin, const CoatDetail* detail);
 
 }  // namespace pelage

@@ -19,8 +19,8 @@ class CoatDirection {
  public:
   CoatDirection(const Groom& groom, std::shared_ptr<const LimitSurface> rest, const Workers& workers);
 
-  /// The direction in the pose where the skin at `root` is `posed`: a unit vector, shorter where strands
-  /// point in many directions, zero where there are none.
+  /// The direction in the pose in which the skin at `root` is `posed`. A unit vector where all strands are
+  /// parallel, shorter where they point in many directions, zero where there are no strands.
   V3f at(const RootAddress& root, const SurfacePoint& posed) const;
 
  private:

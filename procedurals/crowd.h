@@ -26,8 +26,8 @@ struct CrowdPhaseParams {
 };
 struct CrowdScaleParams {
   float value = 1;
-  float variation = 0;  ///< of the whole animal, as a fraction
-  V3f axes{0};          ///< of each axis separately, as a fraction
+  float variation = 0;  ///< variation of the whole animal's size, as a fraction
+  V3f axes{0};          ///< variation of the size along each axis, as a fraction
   static const Schema<CrowdScaleParams>& schema();
 };
 struct CrowdLengthParams {
@@ -37,8 +37,8 @@ struct CrowdLengthParams {
 };
 struct CrowdColorParams {
   Rgb value{1};
-  float variation = 0;  ///< of all channels together
-  float hue = 0;        ///< of each channel separately
+  float variation = 0;  ///< variation that all channels share
+  float hue = 0;        ///< variation of each channel separately
   static const Schema<CrowdColorParams>& schema();
 };
 
@@ -63,13 +63,14 @@ struct CrowdMember {
   float heading = 0;  ///< radians about y, 0 looks along +z
   V3f scale{1};       ///< along the axes of the prototype
   float frame_offset = 0;
-  float length = 1;  ///< of its hair
+  float length = 1;  ///< factor on the length of its hair
   Rgb tint{1};       ///< multiplies the colours of its hair and skins
 };
 
-/// The animals of a crowd, a function of the arguments. `footprints`: of its prototypes; `obstacles`: animals
-/// of other crowds; `named_at`: position of the crowd in the scene. Throws Error (kInput) when the animals do
-/// not fit their area, Error (kMemory) before any is placed, Error (kStopped).
+/// Makes the animals of a crowd; the result depends only on the arguments. `footprints`: of the crowd's
+/// prototypes; `obstacles`: animals of other crowds; `named_at`: position of the crowd in the scene. Throws
+/// Error: kInput when the animals do not fit their area, kMemory (before any animal is placed) when memory
+/// does not suffice, kStopped when the job is stopped.
 std::vector<CrowdMember> make_crowd(const std::string& name, const SourcePosition& named_at,
                                     const CrowdParams& params, const std::vector<Footprint>& footprints,
                                     const Job& job, const std::vector<PlacedFootprint>& obstacles = {});

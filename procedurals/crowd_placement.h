@@ -31,17 +31,18 @@ struct CrowdRules {
   std::vector<Footprint> footprints;  ///< one per animal; an empty one is a single point
   float spacing = 0;                  ///< min distance between two footprints
   float heading = 0;                  ///< middle of the allowed headings, radians
-  float heading_variation = 0;        ///< max deviation from it, radians
+  float heading_variation = 0;        ///< max deviation from `heading`, radians
   uint64_t seed = 0;
   std::vector<PlacedFootprint> obstacles;  ///< fixed; `spacing` applies to them too
 };
 
-/// Spreads animals evenly over an area, then pushes and rotates those that are too close until none are.
-/// Positions (not footprints) stay inside the area. A deterministic function of its arguments,
-/// single-threaded. Throws Error (kInput) when they do not fit, Error (kStopped).
+/// Spreads animals evenly over an area, then pushes and rotates animals that are too close until none are too
+/// close. Positions (not footprints) stay inside the area. The result depends only on the arguments.
+/// Single-threaded. Throws Error: kInput when the animals do not fit, kStopped when the job is stopped.
 std::vector<CrowdPlace> place_crowd(const GroundArea& area, const CrowdRules& rules, const Job& job);
 
-/// Max memory that place_crowd() holds, including its rules, per animal with this number of discs.
+/// Max memory per animal that place_crowd() holds, including its rules, for animals with this number of
+/// discs.
 size_t crowd_placement_bytes(size_t discs);
 
 /// Distance between two footprints, negative when they overlap.

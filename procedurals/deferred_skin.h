@@ -11,16 +11,16 @@
 
 namespace pelage {
 
-/// A skin whose triangles exist only while something needs them, piece by piece. World space.
+/// A skin whose triangles are made on demand, piece by piece. World space.
 ///
 /// Thread safety: all members may be called from many threads at once. Same skin, same view, same bytes.
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// Divides the skin into pieces of at most `max_cost` each where its faces allow it (divide_skin). Throws
-  /// Error (kStopped).
+  /// Divides the skin into pieces that cost at most `max_cost` each, if the faces allow it (divide_skin).
+  /// Throws Error (kStopped).
   virtual std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const = 0;
-  /// Contains every triangle of a piece over the span.
+  /// A box that contains every triangle of a piece over the span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
   /// Number of poses of tessellate(), at evenly spaced times over the shutter.
   virtual int motion_keys() const = 0;

@@ -14,12 +14,13 @@ namespace pelage {
 /// Level of detail of the coats of a frame. Measures each groom once, however many characters wear it.
 class DetailPolicy {
  public:
-  /// `job` must outlive it. `shutter`: opening and closing time, in frames.
+  /// `job` must outlive this object. `shutter`: opening and closing time, in frames.
   DetailPolicy(const SimplificationParams& params, const LodView& view, const V2f& shutter, const Job& job)
       : params_(params), view_(view), blurs_(params.motion_blur && shutter.y > shutter.x), job_(job) {}
 
-  /// Simplification of a groom on the skin of a character. `rest`: null for a groom without a skin. Whiskers,
-  /// a few dozen isolated strands, are thinned by size only: omitting more would save nothing and be visible.
+  /// Simplification of a groom on the skin of a character. `rest`: null for a groom without a skin. Whiskers
+  /// are a few dozen isolated strands. They are thinned by size only: omitting more would be visible and
+  /// would save nothing.
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
   /// Direction of the groom's strands, for motion blur; null when not needed.

@@ -11,10 +11,10 @@
 
 namespace pelage {
 
-/// Many small boxes around the contents of one chunk, in few bytes: each side is an integer number of steps,
-/// 0 to 255, from a corner of the chunk, which moves linearly over the shutter. Above them is an implicit
-/// tree: each box of a coarser level contains four consecutive boxes of the level below, so consecutive boxes
-/// should be neighbours.
+/// Many small boxes around the contents of one chunk, in few bytes. Each side is 0 to 255 steps from a corner
+/// of the chunk; the corner moves linearly over the shutter. The boxes are the leaves of an implicit tree:
+/// each box of a coarser level contains four consecutive boxes of the level below, so consecutive boxes
+/// should be close together.
 ///
 /// Immutable once made.
 class FineBoxes {
@@ -32,7 +32,7 @@ class FineBoxes {
   /// Boxes that contain `boxes`, which must not be empty: box b at key k (evenly spaced times of the shutter)
   /// is boxes[b * keys + k]. The contents move linearly between keys.
   FineBoxes(std::span<const Box3f> boxes, size_t keys);
-  /// As stored: the finest level and its number of boxes.
+  /// From stored data: the finest level and its number of boxes.
   FineBoxes(const Grid& grid, std::span<const Group> finest, size_t count);
 
   /// Number of boxes of the finest level.

@@ -9,7 +9,8 @@
 
 namespace pelage {
 
-/// The coat of one groom on one character: splits into one leaf per leaf of the groom's follicle hierarchy.
+/// The coat of one groom on one character. Splits into one leaf procedural per leaf of the groom's follicle
+/// tree.
 class FurProcedural final : public Procedural {
  public:
   /// With `lod`, reduces detail as described by `lod` and `direction` (CoatDetail); several leaves may then

@@ -47,7 +47,7 @@ class GroundArea {
   V2f min() const { return min_; }
   V2f max() const { return max_; }
   double surface() const { return surface_; }
-  double border() const { return border_; }  ///< its length
+  double border() const { return border_; }  ///< length of the border
   float height() const { return height_; }
 
  private:

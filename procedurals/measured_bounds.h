@@ -12,17 +12,17 @@
 
 namespace pelage {
 
-/// The first of two passes (bound_chunks): boxes of chunks that are grown once to be measured, in this run or
-/// an earlier one. Call read(), then measure(), then use the results. Reports once when side files cannot be
-/// written.
+/// The first of two passes (bound_chunks): obtains the boxes of chunks by growing each chunk once and
+/// measuring it, in this run or an earlier run. Call read(), then measure(), then use the results. Warns once
+/// when side files cannot be written.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
                  const WarningSink& warn);
 
-  /// Reads the boxes in side files.
+  /// Reads the boxes that earlier runs stored in side files.
   void read(const Job& job);
-  /// Measures the others, and writes each side file when all of its chunks are known.
+  /// Measures the other chunks, and writes each side file when all of its chunks are known.
   void measure(const Job& job);
 
   BoundingCounts counts() const;

@@ -12,13 +12,14 @@
 
 namespace pelage {
 
-/// Owns the memory of poses. Whole poses with trees are expensive: the most recently used ones are kept
-/// alive, one per thread, so that a sequence of chunks of one character makes its pose once. Partial poses
-/// for a single leaf are made for it and freed. Thread safety: all members may be called from any thread.
+/// Owns the memory of poses. Whole poses with trees are expensive. The cache keeps the most recently used
+/// whole poses alive, one per thread, so that consecutive chunks of a character share one pose. A partial
+/// pose is made for a single leaf and freed after it. Thread safety: all members may be called from any
+/// thread.
 ///
-/// Each thread uses at most one whole pose besides those that are kept. Therefore 2 * threads of the largest
-/// pose, and one partial pose per thread, are charged to the skins from the start: poses made later need no
-/// further budget.
+/// Each thread uses at most one whole pose that the cache does not keep. From the start, the cache therefore
+/// charges 2 * threads whole poses of the largest size, and one partial pose per thread, to the skins. Poses
+/// made later need no further budget.
 class PoseCache {
  public:
   PoseCache(int threads, MemoryLedger& ledger);
@@ -26,14 +27,14 @@ class PoseCache {
   PoseCache(const PoseCache&) = delete;
   PoseCache& operator=(const PoseCache&) = delete;
 
-  /// Announces whole poses of `bytes`.
+  /// Announces whole poses of up to `bytes` bytes.
   void reserve(size_t bytes);
-  /// Announces that leaves of a groom will grow on partial poses with `keys` times. Both must outlive the
-  /// cache.
+  /// Announces that leaves of a groom will grow on partial poses with `keys` times. Groom and topology must
+  /// outlive the cache.
   void reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
   /// Announces partial poses with `keys` times that may contain all faces.
   void reserve_for_whole(const SurfaceTopology& topology, size_t keys);
-  /// Keeps `pose` alive until as many others as there are threads have been used after it.
+  /// Keeps `pose` alive until as many other poses as there are threads have been used after it.
   void keep(std::shared_ptr<const SkinPose> pose);
 
  private:

@@ -19,7 +19,7 @@ namespace pelage {
 /// Control points of one skin of one character at several times, in world space.
 struct PosedCages {
   std::vector<std::vector<V3f>> cages;  ///< one per time
-  std::vector<M44f> transforms;         ///< of the character, per time: for strands without a skin
+  std::vector<M44f> transforms;         ///< of the character, one per time; used for strands without a skin
 };
 
 /// Input of a PosedCharacterSkin.
@@ -29,17 +29,17 @@ struct CharacterPose {
   PosedCages shutter;
   /// At the two ends of the frame's interval [frame - 1/2, frame + 1/2]; empty when `shutter` has one time.
   PosedCages frame_ends;
-  /// Scale of the character, applied to strands about their roots. For a non-uniform scale: the cube root of
-  /// the determinant (frames come from the posed cage).
+  /// Scale of the character, applied to strands about their roots. For a non-uniform scale, it is the cube
+  /// root of the determinant (frames come from the posed cage).
   float scale = 1;
   float length = 1;  ///< factor on the length of its strands; their radii are unchanged
-  /// The view for which the skin is tessellated when strands are pushed out of it; empty when no groom does
-  /// that.
+  /// The view for which the skin is tessellated when the operator push_out needs triangles; empty when no
+  /// groom has this operator.
   std::optional<View> push_out_view;
 };
 
-/// A skin of one character in a frame. Stores only the posed cages, a few kilobytes: limit surfaces and trees
-/// are made when something grows; the expensive parts are shared through a PoseCache.
+/// A skin of one character in a frame. Stores only the posed cages, which take a few kilobytes. Limit
+/// surfaces and trees are made when something grows, and the expensive ones are shared through a PoseCache.
 class PosedCharacterSkin final : public DeferredSkin {
  public:
   PosedCharacterSkin(CharacterPose pose, std::shared_ptr<PoseCache> poses);
@@ -54,10 +54,10 @@ class PosedCharacterSkin final : public DeferredSkin {
   /// at each end of the frame, in order of time, so that a bound over the frame contains everything visible
   /// during the shutter.
   std::shared_ptr<const SkinPose> pose(BoundSpan span) const;
-  /// A pose for strands on `faces` that need no push_out: without trees, not shared.
+  /// A pose for strands on `faces` that need no push_out. It has no trees and is not shared.
   SkinPose pose(BoundSpan span, std::span<const uint32_t> faces) const;
-  /// Announces that the leaves of a groom will grow here, each in the pose of its own faces or, with
-  /// `together`, any number of leaves at once.
+  /// Announces that the leaves of a groom will grow on this skin. Each leaf grows in a pose of only its
+  /// faces; with `together`, any number of leaves share a pose.
   void reserve_for_leaves(const Groom& groom, bool together = false) const;
 
   /// The hull of the control points, slightly enlarged.

@@ -32,7 +32,7 @@ struct BoundsRecord {
   size_t count = 0;
 };
 
-/// Geometry that exists only while something needs it: bound, split, generate, like RenderMan's RiProcedural
+/// Geometry that is made on demand, in the steps bound, split and generate, like RenderMan's RiProcedural
 /// [RISPEC 3.2, procedural primitives]. World space.
 ///
 /// Thread safety: all members may be called from many threads at once. The same procedural always generates
@@ -40,7 +40,8 @@ struct BoundsRecord {
 class Procedural {
  public:
   virtual ~Procedural() = default;
-  /// Contains every point +- radius that generate() can return, over the span (law 4). Does not grow strands.
+  /// A box that contains every point +- radius that generate() can return, over the span (law 4). Does not
+  /// grow strands.
   virtual Box3f bound(BoundSpan span) const = 0;
   /// Smaller procedurals that replace this one; empty for a leaf.
   virtual std::vector<std::unique_ptr<Procedural>> split() const { return {}; }
@@ -48,20 +49,20 @@ class Procedural {
   virtual Strands generate() const = 0;
   /// Size of the result of generate(): exact, or an upper bound.
   virtual StrandCounts counts() const = 0;
-  /// Scale of the coat; the same for all procedurals it is split into.
+  /// Scale of the coat; the same for all procedurals that this one is split into.
   virtual StrandScale scale() const = 0;
-  /// Temporary memory that generate() needs in addition to its result and to the memory that every leaf with
-  /// as many strands needs while it grows.
+  /// Temporary memory of generate() that is neither its result nor the memory that growing any leaf with this
+  /// number of strands needs.
   virtual size_t temporary_bytes() const { return 0; }
   /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
   /// discards it. `keys`: 1, or 2 for boxes linear in time over the shutter.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;
-  /// Identifies the result of generate(): equal hashes, equal strands, in any run of this program. Empty when
-  /// unknown.
+  /// Identifies the result of generate(): equal hashes mean equal strands, in any run of this program. Empty
+  /// when unknown.
   virtual std::optional<ContentHash> content() const { return {}; }
-  /// Empty when the boxes are not stored.
+  /// Where the exact boxes of this leaf are stored; empty if they are not stored.
   virtual std::optional<BoundsRecord> bounds_record() const { return {}; }
-  /// Its own heap memory; a frame has hundreds of thousands of procedurals.
+  /// Heap memory of this object. A frame has hundreds of thousands of procedurals.
   virtual size_t bytes() const { return 0; }
 };
 

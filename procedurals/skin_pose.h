@@ -12,15 +12,15 @@
 
 namespace pelage {
 
-/// A skin, or the part of it below one leaf, ready to grow hair in one pose. Made from posed cages when
+/// A skin in one pose, or its part below one leaf, ready for growing hair. Made from posed cages when
 /// something grows, and freed afterwards. Immutable. Thread safety: const members may be called from any
 /// thread.
 struct SkinPose {
   std::vector<LimitSurface> keys;        ///< one per motion key
-  std::unique_ptr<const SkinMesh> mesh;  ///< the mesh of `trees`; null without them
+  std::unique_ptr<const SkinMesh> mesh;  ///< the mesh of `trees`; null if there are no trees
   std::vector<ClosestPointTree> trees;   ///< one per key, only for grooms with push_out
-  std::vector<M44f> transforms;          ///< of the character, per key: for strands without a skin
-  size_t open_key = 0, close_key = 0;    ///< when the shutter opens and closes
+  std::vector<M44f> transforms;          ///< of the character, one per key; used for strands without a skin
+  size_t open_key = 0, close_key = 0;    ///< keys at which the shutter opens and closes
   float scale = 1;
   float length = 1;
 
@@ -28,8 +28,8 @@ struct SkinPose {
   size_t bytes() const;
 };
 
-/// Adds the ptex faces below the first `count` strands of a leaf, possibly with repetitions; none for a groom
-/// without a skin.
+/// Appends to `faces` the ptex faces below the first `count` strands of a leaf, possibly with repetitions.
+/// Appends none for a groom without a skin.
 void add_faces(const Groom& groom, size_t leaf, size_t count, std::vector<uint32_t>& faces);
 /// The ptex faces below the strands of a leaf, ascending; none for a groom without a skin.
 std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf);

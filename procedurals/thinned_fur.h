@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// A coat with reduced detail, in chunks: the strands kept from one leaf, or from many adjacent leaves, up to
-/// all of them for a distant character. Strands that are not kept are never grown.
+/// A chunk of a coat with reduced detail. It has the strands kept from one leaf or from several adjacent
+/// leaves; for a distant character, from all leaves. Strands that are not kept are never grown.
 class ThinnedFurProcedural final : public Procedural {
  public:
   /// All leaves of the coat, in chunks with about as many strands as its largest leaf.

@@ -9,8 +9,8 @@
 namespace pelage {
 
 /// Renders one frame with the integrator of the scene (render.integrator). Bounds all chunks, then takes
-/// samples in passes over the whole image (SampleSchedule), so that a picture cancelled at any time is valid,
-/// with fewer samples.
+/// samples in passes over the whole image (SampleSchedule). A picture cancelled at any time is therefore
+/// valid; it has fewer samples.
 ///
 /// The same scene gives the same film for any number of threads, unless the time limit is reached. Throws
 /// Error; exceptions never leave the render loops directly.

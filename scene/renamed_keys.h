@@ -19,9 +19,11 @@ void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems);
 class RenamedPath {
  public:
   RenamedPath(Value& document, RenamedKeys& renamed);
-  /// The current name of a key of `block`. Adds a warning, at `where`, for an old one.
+  /// The current name of a key of `block`. If `name` is an old name, adds a warning with the position
+  /// `where`.
   std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
-  /// Takes the next step of the path: from `block`, by the current name of a key, to its `value`.
+  /// Takes the next step of the path: from `block` to the `value` of one of its keys. `name`: the current
+  /// name of this key.
   void enter(const Value& block, const std::string& name, Value& value);
 
  private:
@@ -31,7 +33,7 @@ class RenamedPath {
   std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // next on the path
 };
 
-/// Moves `over` into `base`: entries of maps one by one, everything else as a whole. `over` wins.
+/// Merges `over` into `base`: entries of maps one by one, other values as a whole. `over` wins.
 void merge_into(Value& base, Value over);
 
 }  // namespace pelage

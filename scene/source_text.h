@@ -30,7 +30,7 @@ class SourceText {
   SourcePosition position_of_byte(size_t byte);
 
   /// Adds a problem and returns false when the text is not UTF-8, contains control characters, or opens
-  /// hundreds of brackets: yaml-cpp queues a quarter kilobyte for each before its first event.
+  /// hundreds of brackets: yaml-cpp queues a quarter kilobyte for each bracket before its first event.
   bool check(Problems& problems);
 
  private:

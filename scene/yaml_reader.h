@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// Limits for one scene, over all its files and overrides. Readers count down.
+/// Remaining allowance of one scene, over all its files and overrides. Readers subtract what they use.
 struct DocumentLimits {
   size_t bytes = size_t(2) << 20;
   size_t values = 100'000;
@@ -21,8 +21,8 @@ struct DocumentLimits {
 /// is a null value; text that is not YAML adds a problem and returns nothing. Never throws because of the
 /// text.
 ///
-/// `file`: file name in positions; with `fixed`, every position is that one instead (text from the command
-/// line).
+/// `file`: file name in positions; with `fixed`, every value has this position instead (for text from the
+/// command line).
 std::optional<Value> read_yaml(std::string text, const std::string& file,
                                const std::optional<SourcePosition>& fixed, DocumentLimits& limits,
                                Problems& problems);

@@ -38,10 +38,10 @@ struct Assets {
   std::vector<MemoryCharge> charges;
 };
 
-/// Reads every file that the scene names and makes everything that does not move: rest surfaces, follicles,
-/// prepared operators, coats (from their cache where they have one), positions of crowds. Sets the limit of
-/// the ledger. Throws Error (kInput); Error (kMemory) before making anything that does not fit
-/// `render.memory`; Error (kStopped).
+/// Reads every file that the scene names and makes all data that does not change from frame to frame: rest
+/// surfaces, follicles, prepared operators, coats (from their cache if they have one), positions of crowds.
+/// Sets the limit of the ledger. Throws Error: kInput, kMemory before making anything that does not fit
+/// `render.memory`, kStopped when the job is stopped.
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

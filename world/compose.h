@@ -13,10 +13,11 @@ namespace pelage {
 
 /// Counts for one frame, or for all frames of a run together.
 struct WorldCounts {
-  int64_t strands_described = 0;    ///< before level of detail
+  int64_t strands_described = 0;    ///< number of strands before level of detail
   int64_t strands_unique = 0;       ///< coats of equal poses counted once
-  int64_t characters = 0;           ///< those with a coat
-  int64_t characters_in_frame = 0;  ///< of these, those whose bound intersects the camera's view
+  int64_t characters = 0;           ///< number of characters with a coat
+  int64_t characters_in_frame = 0;  ///< number of characters with a coat whose bound intersects the camera's
+                                    ///< view
 
   WorldCounts& operator+=(const WorldCounts& other) {
     strands_described += other.strands_described;
@@ -31,12 +32,12 @@ struct WorldCounts {
 struct World {
   RenderScene scene;
   WorldCounts counts;
-  FrameHeader header;  ///< of the EXR; write_frame() adds the results of rendering
+  FrameHeader header;  ///< header of the EXR file; write_frame() adds the results of rendering
   std::vector<MemoryCharge> charges;
 };
 
-/// Poses everything for a frame: skins, coats, materials, lights, camera. Throws Error (kInput) for missing
-/// poses and images, Error (kStopped).
+/// Poses everything for a frame: skins, coats, materials, lights, camera. Throws Error: kInput for missing
+/// poses and images, kStopped when the job is stopped.
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
 
 }  // namespace pelage

@@ -9,9 +9,9 @@
 
 namespace pelage {
 
-/// Throws Error (kInput) with every map of grooms, and of materials of characters' parts, that is used
-/// without texture coordinates: on a mesh that has none, or on strands without a skin. Each at its place in
-/// the scene.
+/// Throws Error (kInput) if maps of grooms, or of materials of characters' parts, are used without texture
+/// coordinates: on a mesh that has none, or on strands without a skin. Lists every such map with its position
+/// in the scene.
 void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins);
 
 }  // namespace pelage

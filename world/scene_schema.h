@@ -48,7 +48,7 @@ struct PosesParams {
   int first = 1;
   int count = 1;
   double frames_per_pose = 1;
-  bool cycle = false;  ///< pose first + count is pose first again; else the first and last poses hold
+  bool cycle = false;  ///< pose `first` follows the last pose again; else the first and last poses hold
   static const Schema<PosesParams>& schema();
 };
 
@@ -100,8 +100,9 @@ struct SceneDescription {
   Named<CrowdParams> crowds;
   Named<LightParams> lights;
   RenderParams render;
-  std::string hash;  ///< of the document with its overrides, not of the files it names
-  /// Every file the document was read from: the scene and its includes. Files that these name: asset_files().
+  std::string hash;  ///< hash of the document with its overrides, without the files that it names
+  /// Every file from which the document was read: the scene and its includes. See asset_files() for the files
+  /// that they name.
   std::vector<std::filesystem::path> files;
   std::vector<Problem> warnings;  ///< old names of keys in the document, each with the new one
   static const Schema<SceneDescription>& schema();

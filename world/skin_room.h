@@ -13,7 +13,7 @@ namespace pelage {
 MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, const Job& job);
 
 /// Charges the cage and the max memory for making a skin of `cage`; throws Error (kMemory) when it does not
-/// fit. Warns of a mesh with so many faces that it was probably not meant to be subdivided.
+/// fit. Warns if the mesh has so many faces that it was probably not made for subdivision.
 MemoryCharge reserve_skin(const std::string& name, const SkinParams& params, const ControlMesh& cage,
                           const Job& job);
 

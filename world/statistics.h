@@ -12,18 +12,20 @@
 namespace pelage {
 
 /// Numbers of one run, as `--stats` writes them: the counts of every room, over all frames. A plain value:
-/// code that runs a step adds the counts that the step returned; no step registers itself here.
+/// the code that runs a step adds the counts that the step returns.
 struct Statistics {
   ProcessUsage process = {};
   WorldCounts world = {};
-  StrandRepairs repairs = {};  ///< of strand files
+  StrandRepairs repairs = {};  ///< repairs of strand files
   FrameStatistics frames = {};
   std::map<std::string, double> stages_s = {};  ///< wall seconds by stage, except those in `frames`
-  double first_pixel_s = 0;  ///< from the start of the run until the first tile of the first frame was done
+  double first_pixel_s = 0;  ///< seconds from the start of the run until the first tile of the first frame
+                             ///< was done
   double samples_per_pixel = 0;  ///< mean over all pixels of all frames
-  double noise = 0;           ///< of the noisiest frame: see frame_noise(); 0 where the film keeps no moments
-  bool time_limited = false;  ///< some frame ran into render.time_limit
-  double clamped_fraction = 0;  ///< of indirect light, by render.clamp_indirect: the highest of all frames
+  double noise = 0;              ///< frame_noise() of the noisiest frame; 0 if the film keeps no moments
+  bool time_limited = false;     ///< some frame reached render.time_limit
+  double clamped_fraction = 0;   ///< fraction of the indirect light that render.clamp_indirect removed: max
+                                 ///< over all frames
 
   /// Adds a frame that began to render `posed_s` seconds after the start of the run. `share`: 1 / the
   /// number of frames of the run.

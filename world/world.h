@@ -20,9 +20,9 @@
 //
 // A Job (base/job.h) holds the threads, the memory ledger, and the Progress that reports how far the work is
 // and can request a stop. One scene and its assets serve any number of frames. All five throw Error
-// (base/error.h): kInput for mistakes in files, with file, line and column; kMemory for what does not fit
-// `render.memory`; kStopped once Progress::cancelled() returned true, except that render() then returns a
-// partial picture.
+// (base/error.h): kInput for mistakes in files, with file, line and column; kMemory if memory does not
+// suffice under `render.memory`; kStopped once Progress::cancelled() returned true. Exception: when
+// cancelled, render() returns a partial picture instead.
 
 namespace pelage {
 
@@ -36,7 +36,7 @@ void write_frame(const std::filesystem::path& path, const World& world, const Fr
 
 /// Sets the limit of the ledger to `render.memory` and reserves memory for the film of a frame, so that
 /// load_assets() fails early when there would be no room for it. Release the charge before render(), which
-/// makes its own.
+/// charges the film again.
 MemoryCharge reserve_film(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

@@ -18,7 +18,7 @@ struct Job;
 /// Throws Error (kInput) with all problems, the first 20 with file and line: malformed or non-finite numbers,
 /// indices out of range, faces with fewer than 3 different vertices, hierarchical edits, no faces.
 ControlMesh read_obj(const std::filesystem::path& path);
-/// The same, but throws Error (kStopped).
+/// The same, but throws Error (kStopped) when the job is stopped.
 ControlMesh read_obj(const std::filesystem::path& path, const Job& job);
 
 /// Reads only the vertex positions, for a pose of a cage with `expected` vertices. Throws Error (kInput) when

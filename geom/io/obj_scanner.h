@@ -37,7 +37,7 @@ class ObjScanner {
   bool parse_number(std::string_view token, const char* what, float& value);
   bool parse_integer(std::string_view token, const char* what, int64_t& value);
 
-  /// Reports a problem at the token that was read last, or at a line that was passed before.
+  /// report() adds a problem at the token that was read last, report_line() at an earlier line.
   void report(std::string message);
   void report_line(int line, std::string message);
   /// Throws an Error (kInput) with everything that was reported, in order of lines.

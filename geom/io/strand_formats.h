@@ -67,7 +67,7 @@ class RawStrands {
   const CurveBasis basis;
   size_t strand_count = 0;
   bool has_widths = false;
-  float file_width = 0;                     ///< of files without widths per point, if stated; else 0
+  float file_width = 0;                     ///< width that a file without widths per point states; else 0
   std::vector<StrandAttribute> attributes;  ///< without values, except for constants
 };
 
@@ -96,10 +96,10 @@ void append_places(const RawStrands& raw, size_t begin, size_t end, StrandArrays
 /// Appends `count` records of an attribute's floats at `offset`.
 void append_values(FileWindows& file, uint64_t offset, size_t count, StrandAttribute& attribute);
 
-/// The width of strands without one, as stated by the file or the options; else 0.
+/// The width that the file or the options state for strands without a width; else 0.
 float stated_width(const RawStrands& raw, const StrandReadOptions& options);
 
-/// Repairs the strands that were read, with `width` for strands that have none.
+/// Repairs the strands that were read. `width`: for strands without a width.
 StrandFile finish_strands(StrandArrays arrays, const RawStrands& raw, float width);
 
 /// Throws Error (kFailed): "path: why".

@@ -11,8 +11,8 @@ namespace pelage {
 /// - strands with a point that is not finite or farther than 1e18 from the origin, with fewer points than
 /// their basis needs, or without extent are dropped; the ids of the others stay;
 /// - points equal to the previous one are removed, except where the basis gives them a meaning (kBSpline);
-/// - negative and NaN radii become 0; strands without any width, and all strands when `default_width` is for
-/// a file without widths, get half of `default_width`.
+/// - negative and NaN radii become 0; strands without any width get the radius `default_width` / 2. In a file
+///   without widths, these are all strands.
 /// Non-finite attribute values become 0.
 StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 
@@ -20,7 +20,7 @@ StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 /// of all points.
 float assumed_width(const StrandArrays& arrays);
 float assumed_width(const Box3f& box);
-/// The points used for that box: those that are finite and not absurdly far away.
+/// Box of all points that are finite and not absurdly far away, for assumed_width().
 Box3f usable_box(const StrandArrays& arrays);
 
 }  // namespace pelage

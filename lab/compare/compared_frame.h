@@ -14,9 +14,9 @@ namespace pelage {
 struct ComparedFrame {
   std::string model, light;
   double wall_s = 0, cpu_s = 0;
-  double cpu_spread = 0;  ///< difference of its two halves in CPU time, over the longer one
-  double rays = 0;        ///< of all kinds
-  double fur_share = 0;   ///< of the pixels
+  double cpu_spread = 0;  ///< difference of the CPU times of the two halves / the longer time
+  double rays = 0;        ///< number of rays of all kinds
+  double fur_share = 0;   ///< fraction of the pixels that show fur
   double luminance = 0;   ///< mean over the pixels whose front-most surface is a strand
   double noise = 0;       ///< relMSE of these pixels, from the difference of two halves of the samples
   Picture picture;

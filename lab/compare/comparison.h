@@ -21,7 +21,8 @@ struct Comparison {
 /// the single fibres. `comparison` must have frames.
 Report comparison_report(const Comparison& comparison, const SceneDescription& scene);
 
-/// Data for plots, as JSON: for every fibre the energies around and along it, of the model and traced.
+/// Data for plots, as JSON: for every fibre, the distributions of energy around and along the fibre, from the
+/// model and from tracing.
 std::string fibres_json(const std::vector<SingleFibre>& fibres);
 
 }  // namespace pelage

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Distribution of the light that a fibre scatters, for light from one inclination, uniform over its width:
-/// energy by cells of sin(theta_i) and phi. One colour channel.
+/// Distribution of the light that a fibre scatters, as energy by cells of sin(theta_i) and phi. The light
+/// arrives at one inclination, uniformly over the width of the fibre. One colour channel.
 class FibreHistogram {
  public:
   static constexpr int kSines = 40, kAzimuths = 72;
@@ -22,7 +22,8 @@ class FibreHistogram {
   void add(const V3f& wi, double weight);
   double cell(int sine, int azimuth) const { return cells_[index(sine, azimuth)]; }
   double total() const;
-  std::vector<double> by_azimuth() const;  ///< from -pi to pi; 0 is where the light came from
+  std::vector<double> by_azimuth() const;  ///< energy by azimuth, from -pi to pi; light arrives from azimuth
+                                           ///< 0
   std::vector<double> by_sine() const;     ///< from -1 to 1
 
  private:
@@ -38,13 +39,14 @@ struct FibreOracle {
   /// The model without tilt, with given absorption.
   MaterialParams params;
   TracedFibre traced;
-  float absorption = 0;  ///< of cortex and medulla, per radius
+  float absorption = 0;  ///< absorption of cortex and medulla, per radius
   /// Blur of a smooth fibre's scattering that matches the model's roughness: deviations in radians for R, TT
   /// and all internal reflections. Light scattered by the medulla is not blurred.
   std::array<float, 3> longitudinal{}, azimuthal{};
-  bool opaque = false;  ///< opaque model: the traced fibre is the one that it approximates
+  bool opaque = false;  ///< whether the model is opaque; the traced fibre is then the fibre that the model
+                        ///< approximates
 
-  /// `look` is called from time to time meanwhile, and may throw.
+  /// Called from time to time by model() and trace(); may throw to stop them.
   using Look = std::function<void()>;
   FibreHistogram model(
       float theta_o, int samples, const Look& look = [] {}) const;

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// A light named as photographers do, by its position relative to the camera and its target.
+/// A light with a photographer's name for its position relative to the camera and the camera's target.
 struct LightSide {
   const char* name;
   float turn;  ///< degrees about the camera's up axis, 0 at the camera, positive to its left
@@ -16,9 +16,9 @@ struct LightSide {
 inline constexpr std::array<LightSide, 3> kLightSides = {
     {{"front", 25, 30}, {"side", 80, 30}, {"back", 155, 40}}};
 
-/// Replaces the lights of a scene by one lamp from that side and a weak uniform fill. The lamp is at the
-/// camera's distance from the target, subtends 16 degrees from there, and lights a white wall facing it to a
-/// radiance of 1.8.
+/// Replaces the lights of a scene by one lamp on this side and a weak uniform fill light. The lamp is as far
+/// from the target as the camera and subtends 16 degrees at the target. A white wall at the target that faces
+/// the lamp has the radiance 1.8.
 Named<LightParams> lights_from(const LightSide& side, const CameraParams& camera, double frame);
 
 /// Uniform white light, in which objects without absorption are invisible.

@@ -11,7 +11,7 @@
 namespace pelage {
 
 /// One fibre of a model beside the same fibre traced by brute force, lit from kInclination uniformly over its
-/// width and seen from everywhere.
+/// width and seen from all directions.
 struct SingleFibre {
   static constexpr float kInclination = 0.4f;  ///< radians
   static constexpr float kAbsorption = 0.2f;   ///< per radius
@@ -19,11 +19,11 @@ struct SingleFibre {
   std::string model;
   bool opaque = false;
   FibreHistogram by_model, traced;
-  double white_across = 0;   ///< albedo of a fibre without absorption for light across it,
-  double white_slanted = 0;  ///< and of light from 1 radian
+  double white_across = 0;   ///< albedo of a fibre without absorption for light across the fibre
+  double white_slanted = 0;  ///< the same for light at an inclination of 1 radian
 
   double azimuth_distance() const;      ///< total variation of the distributions around the fibre
-  double inclination_distance() const;  ///< and along it
+  double inclination_distance() const;  ///< total variation of the distributions along the fibre
 };
 
 /// The result is the same for any number of threads.

@@ -16,7 +16,7 @@ struct BoundsResults {
   std::vector<Outcome> outcomes;
   size_t strategies = 0;  ///< number of outcomes, from the first, that are strategies
   std::vector<std::optional<PictureDifference>> differences;
-  std::optional<Picture> picture;  ///< of strategy none
+  std::optional<Picture> picture;  ///< picture of strategy none
   bool cached = false;             ///< whether the scene's grooms have caches
   int repeat = 1;
 };

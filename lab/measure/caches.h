@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// Replaces the cache folders of a scene's grooms by folders of the experiment, which thus controls what is
-/// cold and warm, and leaves the scene's caches unchanged.
+/// Replaces the cache folders of a scene's grooms by folders of the experiment. The experiment thus controls
+/// which caches are cold and which are warm. The scene's caches stay unchanged.
 class CacheFolders {
  public:
   CacheFolders(const SceneDescription& scene, const std::filesystem::path& folder);

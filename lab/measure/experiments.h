@@ -15,8 +15,8 @@ struct Measured {
   std::vector<Outcome> outcomes;
 };
 
-// One function per experiment. Each runs its variants until all are done or `progress` requests a stop, and
-// reports on the variants that were run. Throws Error (kFailed) when the folder cannot be written.
+// One function per experiment. Each function runs its variants until all are done or `progress` requests a
+// stop, and reports on the variants that were run. Throws Error (kFailed) when the folder cannot be written.
 
 /// Acceleration structures for fur: memory, build time, speed for several kinds of rays, tests, page faults.
 Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
@@ -24,7 +24,7 @@ Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup,
 /// Every bounding strategy: time, memory, growth, box tests, lost pixels.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Memory budgets, from the size of all chunks down to one that is refused.
+/// Memory budgets, from the size of all chunks down to a budget that is refused.
 Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
 /// Time to grow with and without the operator cache, and per operator.

@@ -18,8 +18,8 @@ struct GrowthEdit {
   Variant variant;
 };
 
-/// One edit for each frozen operator of a groom with a cache, in order. Before each run, the folder, which
-/// must be filled and used by this groom only, is set to its state after an edit of the operator.
+/// One edit for each frozen operator of a groom with a cache, in order. The folder must be filled and used by
+/// this groom only. Before each run, it is reset to the state after an edit of the operator.
 std::vector<GrowthEdit> growth_edits(const std::string& groom, const GroomParams& params,
                                      const std::filesystem::path& cache, const Variant& common);
 

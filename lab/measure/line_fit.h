@@ -10,7 +10,7 @@ namespace pelage {
 struct LineFit {
   double at_zero = 0, slope = 0;
   double residual = 0;  ///< standard deviation of the points about the line (of n - 2); 0 for two points
-  double mean = 0;      ///< of x
+  double mean = 0;      ///< mean of x
   double spread = 0;    ///< sum of (x - mean)^2
   double count = 0;
 

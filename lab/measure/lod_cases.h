@@ -17,23 +17,24 @@ struct LodPlace {
   std::string id, title;
   Settings view;  ///< camera
 };
-/// A way to reduce its detail.
+/// A way to reduce the detail of the scene.
 struct LodSetting {
   std::string id, title;
   Settings lod;         ///< `render.lod`
   bool reduced = true;  ///< false: full detail
 };
 
-/// The scene as it is, and from farther away, with more blur, with a wider lens; the first is the scene.
+/// The unchanged scene, then the scene from farther away, with more blur, and with a wider lens.
 std::vector<LodPlace> lod_places(const SceneDescription& scene);
-/// All criteria, then each separately.
+/// A setting with all criteria, then one for each criterion alone.
 std::vector<LodSetting> lod_ideas();
-/// Full detail with coats that differ only in their seeds: the difference caused by seeing other hairs.
+/// Full detail with other seeds for the coats. It shows how much a picture changes if only the individual
+/// hairs differ.
 LodSetting other_hairs(const SceneDescription& scene);
 /// Values of `quality`, from coarse to fine.
 std::vector<LodSetting> lod_qualities();
-/// Moves the LOD camera to `factor` of its distance, with the shutter and lens of the picture's camera, which
-/// does not move.
+/// Moves the LOD camera to `factor` times its distance. The LOD camera has the shutter and lens of the
+/// picture's camera, which does not move.
 Settings detail_camera(const SceneDescription& scene, float factor);
 
 }  // namespace pelage

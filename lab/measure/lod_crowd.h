@@ -12,10 +12,10 @@
 
 namespace pelage {
 
-/// Estimates the cost of full detail for a whole crowd without rendering it. Some of its characters keep all
-/// their hair, while the others surround and occlude them with reduced detail. The cost per additional
-/// character is a line, which is extrapolated to all. A crowd of few characters is also rendered in full,
-/// which shows the error of the extrapolation.
+/// Estimates the cost of full detail for a whole crowd without rendering it. Some characters keep all their
+/// hair, while the others surround and occlude them with reduced detail. A line is fitted to the cost by the
+/// number of characters with all their hair, and extrapolated to all characters. A crowd of few characters is
+/// also rendered in full, which shows the error of the extrapolation.
 class LodCrowd {
  public:
   /// `characters`: numbers of characters with all their hair, one run each.
@@ -23,7 +23,7 @@ class LodCrowd {
 
   /// Max number of variants.
   size_t max_variants() const { return characters_.size() + 3; }
-  /// Runs them; `run` returns null for a failed one.
+  /// Runs the variants. `run` returns null if a variant failed.
   void run(const std::function<const Outcome*(const Variant&)>& run);
 
   /// False when less than two runs succeeded, or the scene has too few characters.
@@ -49,7 +49,7 @@ class LodCrowd {
   double all_ = 0;  // characters with a coat
   std::vector<Outcome> points_;
   std::vector<double> full_detail_;  // the number for each point
-  std::vector<Outcome> whole_;       // all in full: one or none
+  std::vector<Outcome> whole_;       // the run in which all characters keep their hair: one or none
 };
 
 }  // namespace pelage

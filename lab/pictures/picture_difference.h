@@ -12,10 +12,10 @@ namespace pelage {
 
 /// Difference of two pictures of the same scene.
 struct PictureDifference {
-  int64_t pixels = 0;     ///< of the picture
+  int64_t pixels = 0;     ///< number of pixels of the picture
   int64_t differing = 0;  ///< pixels where any channel differs in any bit
   double largest = 0;     ///< max difference of red, green or blue
-  Picture mask;           ///< white where they differ
+  Picture mask;           ///< white where the pictures differ
 };
 
 /// Empty unless both have the same size and channels.

@@ -23,9 +23,10 @@ struct PictureError {
 /// Empty when the pictures differ in size or lack R, G, B or A.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b);
 
-/// The same with two tested pictures x and y of independent seeds: their noise is not counted either, only
-/// the error that both share. Here t is the mean over 9 x 9 pixels around each: the value of a single pixel
-/// would be small where a and b both happen to be too dark, and errors there are not zero on average.
+/// The same with two tested pictures x and y of independent seeds: the noise of x and y is not counted
+/// either, only the error that both pictures share. Here t is the mean over the 9 x 9 pixels around each
+/// pixel. The value of a single pixel would be small where a and b both happen to be too dark, and at these
+/// pixels errors are not zero on average.
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
                                           const ExrImage& b);
 
@@ -42,7 +43,7 @@ std::optional<PictureError> picture_error_of_files(const std::filesystem::path& 
 /// relMSE.
 struct BestGain {
   double surface = 0;  ///< on pixels with alpha
-  double all = 0;      ///< over all pixels, if the others were free
+  double all = 0;      ///< over all pixels, if pixels without alpha cost nothing
 };
 /// Computed from the variance of every pixel in the layers `samples` and `noise`: mean(v) / mean(sqrt(v))^2
 /// over pixels with alpha, v the variance of a sample's luminance over t^2 + 0.01 m^2 [Neyman34]. Slightly

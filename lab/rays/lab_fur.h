@@ -23,8 +23,8 @@ struct LabFur {
 /// differ in basis or number of motion keys, or when there is no fur. Passes on errors of growth.
 LabFur grow_lab_fur(const RenderScene& scene, const Job& job);
 
-/// Stores it beside a measurement for the participating processes. Throws Error (kFailed) when it cannot be
-/// written or read.
+/// Stores the fur for all processes of a measurement. Throws Error (kFailed) when it cannot be written or
+/// read.
 void store_lab_fur(const ContentStore& store, const LabFur& fur);
 LabFur load_lab_fur(const ContentStore& store);
 

@@ -16,7 +16,7 @@ struct LabRays {
   bool shadow = false;  ///< whether any hit suffices
   std::vector<Ray> rays;
   std::vector<FurStart> starts;  ///< the strands that they start on
-  /// Start distance for accelerators that do not know the strand: two widths.
+  /// Start distance for accelerators that do not use `starts`: two widths.
   std::vector<float> clear;
 
   size_t size() const { return rays.size(); }
@@ -24,11 +24,10 @@ struct LabRays {
 
 /// The rays of a measurement, the same for the same scene:
 ///
-/// camera: through points of the picture, tile by tile;
-/// gather: from the hits of these on fur, in all directions, in the order of the hits;
-/// sorted: the same rays, sorted by the octant of their direction and along a space-filling curve;
-/// shadow: from the hits of camera rays on fur to points on lights; none without lights;
-/// deep: from points spread evenly over all strands, in all directions.
+/// camera: through points of the picture, tile by tile; gather: from the hits of camera rays on fur, in all
+/// directions, in the order of the hits; sorted: the gather rays, sorted by the octant of their direction and
+/// along a space-filling curve; shadow: from the hits of camera rays on fur to points on lights; none without
+/// lights; deep: from points spread evenly over all strands, in all directions.
 ///
 /// `max`: max number of rays of each kind. Throws Error (kArguments) when the camera sees no fur.
 std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& strands,

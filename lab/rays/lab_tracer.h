@@ -16,14 +16,14 @@ struct LabVariant {
   enum class Kind {
     kPrepare,        ///< no tracing: grows the fur, makes the rays, writes the pages
     kEmbreeFast,     ///< Embree's default layout
-    kEmbreeCompact,  ///< its compact layout
+    kEmbreeCompact,  ///< Embree's compact layout
     kFur128,         ///< the fur tree with float nodes
-    kFur64,          ///< with quantised nodes
-    kPaged,          ///< the same, read from its file
+    kFur64,          ///< the fur tree with quantised nodes
+    kPaged,          ///< as kFur64, but pages are read from a file
   };
   Kind kind = Kind::kFur64;
-  /// For kPaged: memory relative to the size of the tree. 1: enough for all of it, in addition to the always
-  /// resident part.
+  /// For kPaged: memory relative to the size of the tree. 1: enough for the whole tree, in addition to the
+  /// always resident part.
   double share = 1;
   std::vector<std::string> kinds;  ///< kinds of rays to trace; empty: all
 
@@ -34,7 +34,7 @@ struct LabVariant {
 
 /// Cost of rays of one kind; sums over all of them.
 struct LabCost {
-  double wall_s = 0, cpu_s = 0;  ///< of the fastest timed pass
+  double wall_s = 0, cpu_s = 0;  ///< time of the fastest timed pass
   double rays = 0, hits = 0;
   double answers = 0;    ///< a checksum that any other answer would change; 0 for Embree
   double box_tests = 0;  ///< 0 where unknown
@@ -46,7 +46,7 @@ struct LabCost {
 /// Results of one variant.
 struct LabResult {
   double segments = 0;
-  double bytes = 0;           ///< of the tree and the points that it reads
+  double bytes = 0;           ///< size of the tree and of the points that it reads
   double resident_bytes = 0;  ///< max charged to `chunks` while rays were traced
   double limit_bytes = 0;     ///< its memory limit; 0: none
   double build_cpu_s = 0;

@@ -12,7 +12,7 @@ namespace pelage {
 /// Maps numbers to pixels along one axis.
 struct PlotScale {
   double low = 0, high = 1;  ///< raw numbers at the ends
-  double from = 0, to = 1;   ///< pixels there
+  double from = 0, to = 1;   ///< pixels at the ends
   bool log = false;
   DisplayUnit unit;
 

@@ -7,7 +7,8 @@
 
 namespace pelage {
 
-/// Ratio of a number of two variants: of their typical runs, and the min and max over all pairs of runs.
+/// Ratio of one number between two variants: for their typical runs, and the min and max over all pairs of
+/// runs.
 struct RatioSpread {
   double typical = 0, min = 0, max = 0;
 };

@@ -36,7 +36,7 @@ struct Variant {
 struct VariantRun {
   std::vector<std::string> command;
   ProcessEnd end;
-  std::string error;  ///< its message when it did not succeed
+  std::string error;  ///< error message of a run that failed
   double load = 0;    ///< load average (1 min) when it started
   std::optional<RunStatistics> statistics;
 };
@@ -51,11 +51,11 @@ struct Outcome {
   bool timed_out() const;      ///< a run exceeded the time limit
   bool interrupted() const;    ///< stopped from outside, or never started
   std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
-  std::string error() const;   ///< of the run that failed
+  std::string error() const;   ///< error message of the run that failed
 
   /// The successful run with the median wall time; null when there is none.
   const VariantRun* typical() const;
-  /// A number of that run's statistics, by path; NaN when unknown.
+  /// A number from the statistics of typical(), by path; NaN when unknown.
   double number(const std::string& path) const;
   /// Min and max over all successful runs.
   double min(const std::string& path) const;
@@ -69,8 +69,8 @@ class VariantRunner {
   VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count);
 
   /// Writes ID.json (--stats), ID.exr or nothing (-o), and ID.log for every variant; repeated runs write
-  /// ID.2.json and so on. A failing variant is a result. Throws Error (kFailed) when the folder cannot be
-  /// written.
+  /// ID.2.json and so on. A variant that fails is a valid result. Throws Error (kFailed) when the folder
+  /// cannot be written.
   Outcome run(const Variant& variant);
   /// Runs many variants in rounds, every variant once per round, so that changing load of the machine affects
   /// all alike. A variant that failed is not run again.

@@ -13,15 +13,15 @@
 
 namespace pelage {
 
-/// The strand that a ray starts from, as identified by the accelerator (Hit::start). Near the start of the
-/// ray, that strand is not hit again.
+/// The strand from which a ray starts, as identified by the accelerator (Hit::start). Near its start, the ray
+/// does not hit this strand again.
 struct StrandStart {
   static constexpr uint32_t kNone = StrandHandle::kNone;
 
   uint32_t chunk = kNone;      ///< chunk that holds the strand; kNone: the ray does not start on a strand
-  uint32_t first_segment = 0;  ///< of the strand in the chunk
+  uint32_t first_segment = 0;  ///< index of the strand's first segment in the chunk
   uint32_t segment_count = 0;
-  float place = 0;  ///< segment of the strand + parameter within it
+  float place = 0;  ///< index of the segment in the strand + curve parameter in that segment
 };
 
 struct Ray {
@@ -43,16 +43,16 @@ struct Hit {
   float distance = std::numeric_limits<float>::infinity();
   uint32_t part = 0;       ///< index of the coat of a character, or of the skin
   uint64_t strand_id = 0;  ///< unique within the part
-  uint32_t segment = 0;    ///< of the strand
+  uint32_t segment = 0;    ///< index of the segment in the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
   float v = 0;  ///< offset h in [-1, 1] across the strand, or barycentric weight of corner 2
-  StrandStart start = {};     ///< for rays that continue from here
-  uint32_t strand_index = 0;  ///< of the strand in the chunk `start.chunk`
+  StrandStart start = {};     ///< value of Ray::start for rays that continue from this hit
+  uint32_t strand_index = 0;  ///< index of the strand in the chunk `start.chunk`
 
   explicit operator bool() const { return kind != HitKind::kNone; }
-  /// Where the strand is held; an empty handle for a skin, or if the accelerator has no chunks.
+  /// Locates the strand that was hit. Empty for a skin, or if the accelerator has no chunks.
   StrandHandle handle() const { return {start.chunk, strand_index}; }
-  /// Which strand was hit; meaningless for a skin.
+  /// Identifies the strand that was hit. Meaningless for a skin.
   StrandKey key() const { return {part, strand_id}; }
 };
 
@@ -66,7 +66,7 @@ struct HitGeometry {
 /// Per-thread state of tracing.
 struct TraceThread {
   int worker = 0;   ///< unique among the threads that trace concurrently
-  HitGeometry met;  ///< of the last hit that closest() returned to this thread
+  HitGeometry met;  ///< geometry of the last hit that closest() found for this thread
   TraceCounts counts;
 };
 

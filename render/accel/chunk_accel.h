@@ -13,21 +13,21 @@
 
 namespace pelage {
 
-/// Accel over geometry that exists only while something needs it. A ChunkTree says which chunks a ray may
-/// meet, ResidentChunks grow and drop them, and a ChunkGeometry is the content of one resident chunk.
+/// Accel over chunks that are grown on demand and may be evicted. A ChunkTree finds the chunks that a ray may
+/// hit, ResidentChunks grows and evicts chunks, and a ChunkGeometry is the content of one resident chunk.
 ///
-/// A ray visits the resident chunks first, front to back, then those of the others that it still reaches;
-/// each at most once. A chunk that is not resident is grown only for rays that intersect one of its fine
-/// boxes, if it has any, in front of the nearest hit so far. The geometry that is hit is copied while the
-/// chunk is pinned. Results depend neither on the budget, nor on the boxes as long as they contain their
-/// chunks, nor on which chunks are resident.
+/// A ray visits each chunk at most once: first the resident chunks, then the others that it can still hit. A
+/// chunk that is not resident and has fine boxes is grown only for rays that intersect one of these boxes in
+/// front of the nearest hit so far. The geometry that is hit is copied while the chunk is pinned. Results
+/// depend neither on the budget, nor on which chunks are resident, nor on the boxes, provided that the boxes
+/// contain their chunks.
 ///
 /// Errors of a grower pass through closest() and transmittance(). Thread safety: as Accel; each
 /// TraceThread::worker is used by one thread at a time, for one ray or one visit of chunks() at a time.
 class ChunkAccel final : public Accel {
  public:
-  /// Arguments as for ResidentChunks. Charges the memory that rays need before it makes the chunks, so that
-  /// the smallest sufficient budget includes it.
+  /// Arguments as for ResidentChunks. Charges the memory of the rays before it makes the chunks. The error
+  /// for a budget that is too small therefore names a sufficient one.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ResidentChunksOptions& options,
              const Job& job);
   ~ChunkAccel() override;

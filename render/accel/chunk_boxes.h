@@ -16,11 +16,11 @@ namespace pelage {
 
 class Workers;
 
-/// The known boxes of the chunks of a frame: those given before any chunk was grown, and those measured when
-/// a chunk was first grown.
+/// The known boxes of the chunks of a frame: the boxes given before any chunk was grown, and the boxes
+/// measured when a chunk was first grown.
 ///
-/// Thread safety: const members may be called from any thread, and at the same time learn() from any thread,
-/// for different chunks. Call the other members before.
+/// Thread safety: any thread may call const members and learn() at any time, but learn() only for different
+/// chunks. Call all other members before these.
 class ChunkBoxes {
  public:
   /// `given`: one per chunk, over the whole shutter. `fur_trees`: fur chunks are traced by fur trees. The
@@ -33,14 +33,14 @@ class ChunkBoxes {
 
   /// Builds the tree over the given boxes.
   void build_tree(const Workers& workers);
-  /// Builds the tree over the measured boxes. Every chunk must have learned its own.
+  /// Builds the tree over the measured boxes. Call learn() for every chunk first.
   void build_tree_of_learned(const Workers& workers);
 
   size_t size() const { return known_.size(); }
   /// Null before the tree is built.
   const ChunkTree* tree() const { return tree_.get(); }
   /// Box that contains the whole chunk at all times of the shutter, in world space; empty for an empty chunk.
-  /// Requires the tree. (With `bounds: user` the box is as loose or as tight as the user chose.)
+  /// Requires the tree. (With `bounds: user`, the user chose the box, and it may be too large or too small.)
   const Box3f& whole(uint32_t chunk) const { return whole_[chunk]; }
   /// Number of the chunk's boxes in the tree.
   size_t parts_in_tree(uint32_t chunk) const { return tree_parts_[chunk]; }
@@ -48,7 +48,7 @@ class ChunkBoxes {
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
   bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
   const FineBoxes& fine(uint32_t chunk) const { return known_[chunk].fine; }
-  /// By how much fine boxes must be enlarged.
+  /// Distance by which fine boxes must be enlarged on every side.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
   /// Whether boxes measured on the chunk may be tighter than the given ones.

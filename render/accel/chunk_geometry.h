@@ -17,14 +17,15 @@ namespace pelage {
 struct NearestSoFar {
   Hit hit;
   uint32_t face = 0;      ///< ptex face of a hit on a skin
-  uint32_t triangle = 0;  ///< in the chunk, of a hit on a skin; same order in every chunk with the face
+  uint32_t triangle = 0;  ///< index in the chunk, of a hit on a skin; every chunk stores the triangles of a
+                          ///< face in the same order
 
   /// Breaks ties in distance: strands before skins, then strand id, part, segment, or face and triangle.
   auto rank() const {
     return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? face : hit.segment,
                       triangle);
   }
-  /// Whether `other` precedes it.
+  /// Whether `other` precedes this hit.
   bool comes_after(const NearestSoFar& other) const {
     if (other.hit.distance != hit.distance) return other.hit.distance < hit.distance;
     return !hit || other.rank() < rank();
@@ -35,20 +36,21 @@ struct NearestSoFar {
 /// members from any thread, each inside a FlushDenormals scope.
 class ChunkGeometry : public Resident {
  public:
-  /// Returns whether the ray hits something here between near and far that precedes `nearest`. If so, updates
-  /// `nearest`, and `met` with its geometry. `rays` is reused from chunk to chunk.
+  /// Finds the nearest hit on this chunk between near and far. If it precedes `nearest`, stores the hit in
+  /// `nearest` and its geometry in `met`, and returns true. `rays` is reused from chunk to chunk.
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
-  /// Adds the semi-transparent crossings of a ray; false when an opaque one blocks it.
+  /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
+  /// the ray.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
 
   /// Number of strands with at least one segment; 0 for a skin.
   virtual size_t strand_count() const = 0;
   virtual StrandKey strand_key(uint32_t index) const = 0;
-  /// Makes strand `index` the only one of `out`, whose memory is reused: the curve that rays hit, at all
-  /// motion keys, in world space, with its id, its root and its attributes. Bit-identical to the strand that
-  /// closest() stores in `met`.
+  /// Copies strand `index` to `out`, replacing the contents of `out` but reusing its memory. The copy is the
+  /// curve that rays hit, at all motion keys, in world space, with its id, root and attributes. Bit-identical
+  /// to the strand that closest() stores in `met`.
   virtual void strand(uint32_t index, Strands& out) const = 0;
-  /// Ray::start of a ray that leaves strand `index` at `place`: segment + parameter in it.
+  /// Ray::start of a ray that leaves strand `index` at `place` (see StrandStart::place).
   virtual StrandStart start_on(uint32_t index, float place) const = 0;
 
   /// Memory in use, including this object.

@@ -30,14 +30,14 @@ struct ChunkCounts {
   size_t strands = 0;
   size_t points = 0;  ///< of one motion key
   size_t segments = 0;
-  size_t attribute_floats = 0;  ///< of all attributes together
+  size_t attribute_floats = 0;  ///< number of floats of all attributes together
   size_t vertices = 0;          ///< of one motion key
   size_t triangles = 0;
   int motion_keys = 1;
   size_t growth_bytes = 0;  ///< temporary memory of grow(), without the contents
 };
 
-/// Makes the contents of the chunks of a frame, which are numbered, and bounds their size in advance. An
+/// Makes the contents of the numbered chunks of a frame, and gives upper bounds of their size in advance. An
 /// interface, so that contents may come from any source. Thread safety: all members may be called from many
 /// threads at once.
 class ChunkGrower {
@@ -45,8 +45,8 @@ class ChunkGrower {
   virtual ~ChunkGrower() = default;
   /// Same chunk, same contents. Runs on the calling thread only; may throw.
   virtual ChunkContents grow(uint32_t chunk) const = 0;
-  /// Whether the chunk is a skin rather than fur. Counts cannot tell: a skin that is all holes has no
-  /// vertices.
+  /// Whether the chunk is a skin rather than fur. The counts do not show this: a skin that consists of holes
+  /// has no vertices.
   virtual bool is_skin(uint32_t chunk) const = 0;
   /// ChunkContents::part, without growing.
   virtual uint32_t part(uint32_t chunk) const = 0;

@@ -23,7 +23,7 @@ class ChunkTree {
   /// The tree is the same for any number of workers. At most 2^31 - 1 chunks.
   ChunkTree(std::span<const ChunkBounds> chunks, const Workers& workers);
 
-  /// Contains all boxes at all times; empty for none.
+  /// Contains all boxes at all times; empty if there are no boxes.
   const Box3f& bounds() const { return bounds_; }
   size_t bytes() const { return nodes_.capacity() * sizeof(Node) + motions_.capacity() * sizeof(FourBoxes); }
 

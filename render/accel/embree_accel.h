@@ -31,9 +31,9 @@ struct EmbreeOptions {
   uint64_t memory_limit = 0;  ///< max bytes of the whole ledger while the tree is built; 0 = no limit
 };
 
-/// Accel based on Intel Embree [Wald14]. Flat curves are ray-facing ribbons. Ignores hits within two radii of
-/// the ray's start, on any strand; does not know the strand that a ray starts on. Chunks improve both
-/// (EmbreeChunk).
+/// Accel based on Intel Embree [Wald14]. Flat curves are ray-facing ribbons. Ignores hits on all strands
+/// within two radii of the ray's start, because it does not use Ray::start. EmbreeChunk ignores such hits
+/// only on the strand that the ray starts on.
 class EmbreeAccel final : public Accel {
  public:
   /// Reads points, triangles and opacities in place where Embree can, so `strands` and `skins` must outlive

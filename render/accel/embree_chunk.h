@@ -21,9 +21,9 @@ struct EmbreeChunkOptions {
 /// scope.
 class EmbreeChunk final : public ChunkGeometry {
  public:
-  /// `number`: identifies this chunk in Ray::start. `widest`: as StrandScale::widest. Built by the calling
-  /// thread only, so that it may be made inside a loop of another pool. Throws Error for errors that Embree
-  /// reports; the device must outlive the chunk.
+  /// `number`: identifies this chunk in Ray::start. `widest`: as StrandScale::widest. The calling thread
+  /// alone builds the chunk, so chunks may be made inside a parallel loop of another thread pool. Throws
+  /// Error for errors that Embree reports; the device must outlive the chunk.
   EmbreeChunk(ChunkContents contents, uint32_t number, float widest, const EmbreeChunkOptions& options,
               const EmbreeDevice& device, SegmentPatterns& patterns);
   ~EmbreeChunk() override;
@@ -47,10 +47,10 @@ class EmbreeChunk final : public ChunkGeometry {
   /// Including Embree's memory.
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
-  /// given contents, and afterwards.
+  /// Upper bound of the memory that a chunk with these counts holds, both while it is made (including the
+  /// given contents) and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);
-  /// The same when the build_peak_bytes() of an equal chunk are known.
+  /// The same bound, computed from the build_peak_bytes() of an equal chunk.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:

@@ -17,9 +17,9 @@ namespace pelage {
 /// copy with a phantom point at each end.
 ///
 /// Embree splits each flat segment into tessellation_rate straight pieces. The maximum rate is 16. Of the
-/// camera rays that hit a ball of 100,000 strands, 5.9 % hit a different strand at rate 4 than at rate 16; at
-/// rate 8 it is 1.2 %, at rate 12 0.4 %. Rates 4 and 8 cost the same (one AVX register); rate 16 makes shadow
-/// rays 4 to 10 % slower. Hence 8.
+/// camera rays that hit a ball of 100,000 strands, 5.9 % hit a different strand at rate 4 than at rate 16. At
+/// rate 8, 1.2 % differ from rate 16; at rate 12, 0.4 %. Rates 4 and 8 cost the same (one AVX register); rate
+/// 16 makes shadow rays 4 to 10 % slower. Hence 8.
 class EmbreeCurves {
  public:
   explicit EmbreeCurves(const AccelStrands& source);

@@ -30,9 +30,9 @@ class EmbreeDevice {
   void rethrow() const;
   /// Throws the last error of this thread, for concurrent builds.
   void rethrow_of_thread() const;
-  /// Hold while a scene is built or released concurrently with others. Does nothing except in the
-  /// thread-sanitizer build: Embree guards the list of its threads' allocators with a spin lock that the
-  /// sanitizer does not recognise, which would cause false reports.
+  /// Hold this lock while building or releasing a scene at the same time as other threads. There is a lock
+  /// only in the thread-sanitizer build: Embree guards the list of its threads' allocators with a spin lock
+  /// that the sanitizer does not recognise, which would cause false reports.
   std::unique_lock<std::mutex> one_at_a_time() const;
 
   static constexpr size_t kTreeBlock = 6 * 4096;
@@ -52,8 +52,8 @@ class EmbreeDevice {
   std::string text_;
 };
 
-/// Counts Embree's allocations on this thread during its lifetime, on any device, as heap_bytes(). Must not
-/// be nested.
+/// Counts the memory that Embree allocates on this thread, for any device, while the meter exists. Sizes are
+/// counted as in heap_bytes(). Meters must not be nested.
 class EmbreeMeter {
  public:
   EmbreeMeter();
@@ -61,7 +61,7 @@ class EmbreeMeter {
   EmbreeMeter(const EmbreeMeter&) = delete;
   EmbreeMeter& operator=(const EmbreeMeter&) = delete;
 
-  /// Bytes allocated and not freed since construction, and their maximum.
+  /// Bytes allocated since construction and not freed yet, and the maximum of this number.
   int64_t held() const { return held_; }
   int64_t peak() const { return peak_; }
 

@@ -17,9 +17,9 @@ struct FurChunkOptions {
   bool compact_attributes = true;
 };
 
-/// Fur of one part in a fur tree, which has the only copy of the points, and the strands' data for shading:
-/// ids, roots, attributes. Hits return strands of Bezier curves on the grid of the coat, the curves that were
-/// hit.
+/// Fur of one part: a fur tree, which has the only copy of the points, and the strands' data for shading
+/// (ids, roots, attributes). A hit returns its strand as Bezier curves on the grid of the coat: exactly the
+/// curves that rays hit.
 class FurChunk final : public ChunkGeometry {
  public:
   /// `number`: identifies this chunk in Ray::start. `grid`: the same for all chunks of a coat. Built by the
@@ -36,7 +36,7 @@ class FurChunk final : public ChunkGeometry {
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
   /// Bezier curves on the grid of the coat, strands in ascending order of their ids. No ray hits segments
   /// whose points are not finite. At the beginning of a strand, such segments collapse to the first point of
-  /// the remaining segments; between others, they become a connection from joint to joint.
+  /// the remaining segments. Between other segments, they become a connection from joint to joint.
   void strand(uint32_t index, Strands& out) const override;
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_.first_segment(index), strands_.strand_segments(index), place};
@@ -50,10 +50,10 @@ class FurChunk final : public ChunkGeometry {
   ChunkBounds part_bounds(size_t parts) const;
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
-  /// Upper bound of the memory held at any moment while a chunk with these counts is made, including the
-  /// given contents, and afterwards.
+  /// Upper bound of the memory that a chunk with these counts holds, both while it is made (including the
+  /// given contents) and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts, const FurChunkOptions& options);
-  /// The same when the build_peak_bytes() of an equal chunk are known.
+  /// The same bound, computed from the build_peak_bytes() of an equal chunk.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:

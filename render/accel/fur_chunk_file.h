@@ -37,8 +37,8 @@ class FurChunkFile {
     ContentStore::Writer entry_;
   };
 
-  /// Null when the entry is missing, or when its table shows that it is damaged or foreign; the latter call
-  /// `warn`.
+  /// Returns null if the entry is missing, or if its table shows that it is damaged or foreign. Calls `warn`
+  /// for a damaged or foreign entry.
   static std::unique_ptr<const FurChunkFile> open(const ContentStore& store, const ContentHash& key,
                                                   size_t chunk_count, const WarningSink& warn);
   explicit FurChunkFile(StoredSections file);
@@ -49,11 +49,10 @@ class FurChunkFile {
     return chunk < chunk_count() && file_.section_bytes(kSections * size_t(chunk)) > 0 &&
            !lost_[chunk].load(std::memory_order_relaxed);
   }
-  /// Upper bound of the memory held at any moment while a chunk is read, and afterwards.
+  /// Upper bound of the memory that a chunk holds, both while it is read and afterwards.
   size_t bytes_bound(uint32_t chunk) const;
-  /// `pool` as in FurTreeOptions. Null when the chunk cannot be read or is damaged: it is then lost, and the
-  /// file is removed, so that it will be made again; if removing fails, `warn` is called, once for all
-  /// chunks.
+  /// `pool` as in FurTreeOptions. Returns null when the chunk cannot be read or is damaged. The chunk is then
+  /// lost, and the file is removed so that the next run makes it again. Calls `warn` once per file.
   std::unique_ptr<FurChunk> read(uint32_t chunk, const WarningSink& warn, PagePool* pool = nullptr) const;
 
   /// Memory of this object.

@@ -22,9 +22,9 @@ enum class PackedPoints {
   kInFurTree  ///< in a fur tree: strands are ordered by id, segments are numbered as in the tree
 };
 
-/// The strands of a chunk in compact form: one block of memory with the control points as Embree reads them,
-/// including phantom ends, unless they are stored elsewhere, and the other data in the smallest form from
-/// which it can be restored.
+/// The strands of a chunk in compact form, in one block of memory. The block has the control points as Embree
+/// reads them, including phantom ends, unless the points are stored elsewhere. All other data has the
+/// smallest form from which it can be restored.
 ///
 /// Points, radii and ids are restored bit by bit. Attributes, opacities, root addresses and texture
 /// coordinates are lossless without `compact`; otherwise they are rounded by packed_value() and stored at the
@@ -68,7 +68,7 @@ class PackedStrands {
     return wide_ids_ ? at<uint64_t>(ids_)[strand] : first_id_ + at<uint32_t>(ids_)[strand];
   }
   float opacity(Place place, float u) const;
-  /// Makes strand `strand` the only one of `out`, whose memory is reused.
+  /// Copies a strand to `out`, replacing the contents of `out` but reusing its memory.
   void copy_strand(uint32_t strand, Strands& out) const;
   uint32_t first_segment(uint32_t strand) const {
     return segments_per_strand_ != 0 ? strand * segments_per_strand_ : at<uint32_t>(first_segments_)[strand];
@@ -76,13 +76,14 @@ class PackedStrands {
   uint32_t strand_segments(uint32_t strand) const {
     return first_segment(strand + 1) - first_segment(strand);
   }
-  /// A strand as Bezier curves, complete except for the points, for which memory is allocated; reuses
-  /// `memory`.
+  /// A strand as Bezier curves, without the values of its points: memory for the points is allocated but not
+  /// written. Reuses `memory`.
   StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
-  /// Serialised strands whose points are stored elsewhere: everything except the block, and the block.
+  /// The two parts of serialised strands whose points are stored elsewhere: all data except the block, and
+  /// the block.
   std::vector<std::byte> stored_head() const;
   std::span<const std::byte> stored_block() const { return {block_.data(), block_.bytes()}; }
-  /// Restores the strands; empty where the two are inconsistent.
+  /// Restores the strands from both parts; empty if the parts are inconsistent.
   static std::optional<PackedStrands> from_stored(std::span<const std::byte> head, PageBlock block);
 
   /// Prefetches the first data that copy_strand() will read.

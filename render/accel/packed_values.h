@@ -17,12 +17,12 @@ inline size_t precision_bytes(Precision precision) {
   return precision == Precision::kFloat ? 4 : precision == Precision::kUnorm16 ? 2 : 1;
 }
 
-/// Rounds a number for packing: in [0, 1] to the nearest multiple of 1/65535 (0 and 1 are exact, the error is
-/// at most 2^-17); other numbers are unchanged. A function of the number alone: the division of strands into
-/// chunks never affects a pixel.
+/// Rounds a number for packing. Numbers in [0, 1] are rounded to the nearest multiple of 1/65535 (0 and 1 are
+/// exact, the error is at most 2^-17); other numbers are unchanged. The result depends on the number alone,
+/// so the division of strands into chunks never affects a pixel.
 float packed_value(float x);
 
-/// The coarsest precision that restores `values`, which may be packed_value()s or any other numbers.
+/// The coarsest precision that restores `values` exactly, whether they were rounded by packed_value() or not.
 Precision coarsest_precision(std::span<const float> values);
 
 /// Writes `values` in a precision that can hold them; `out` must be aligned for it.

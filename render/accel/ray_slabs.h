@@ -19,8 +19,8 @@ class GridSlabs;
 
 /// A ray prepared for the slab test [Kay86].
 ///
-/// The test is conservative: a box counts as intersected when rounding, on the scale of the scene and of the
-/// ray's origin, makes it uncertain, so that no hit of an exact intersector inside a box is lost.
+/// The test is conservative: a box counts as intersected if rounding errors, on the scale of the scene and of
+/// the ray's origin, leave the result uncertain. So no hit of an exact intersector inside a box is lost.
 class RaySlabs {
  public:
   /// `reach`: max coordinate of all boxes.
@@ -42,9 +42,9 @@ class RaySlabs {
 
   float near() const { return near_; }
 
-  /// Which of the boxes the ray intersects between its near end and `far`: lanes of -1, others 0. `enter` and
-  /// `leave` become bounds of the entry and exit distances. `motion`, if any: displacement of their sides
-  /// until shutter close.
+  /// Finds the boxes that the ray intersects between its near end and `far`: their lanes are -1, the others
+  /// 0. Stores bounds of the entry and exit distances in `enter` and `leave`. `motion`, if any: displacement
+  /// of the boxes' sides until shutter close.
   auto intersect(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
@@ -78,10 +78,11 @@ class RaySlabs {
   Four time_;
 };
 
-/// The same ray against boxes whose sides are whole steps from a moving corner (FineBoxes).
+/// The same ray for the slab test of fine boxes: the sides of these boxes are whole numbers of steps from a
+/// corner that may move (FineBoxes).
 class GridSlabs {
  public:
-  /// `margin`: by how much boxes are enlarged on every side.
+  /// `margin`: distance by which boxes are enlarged on every side.
   GridSlabs(const RaySlabs& ray, const FineBoxes::Grid& grid, float margin) : near_(ray.near_) {
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<size_t>(i);
@@ -95,8 +96,8 @@ class GridSlabs {
     }
   }
 
-  /// As RaySlabs::intersect(). The error bound on the scale of the scene covers the rounding here, because
-  /// the corner lies in the scene.
+  /// As RaySlabs::intersect(). Its error bound also covers the rounding of the corner, because the corner
+  /// lies in the scene.
   auto intersect(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);

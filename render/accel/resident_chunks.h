@@ -22,22 +22,23 @@
 namespace pelage {
 
 struct ResidentChunksOptions {
-  AccelKind kind = AccelKind::kEmbree;  ///< for flat strands; round ones and skins always use Embree
+  AccelKind kind = AccelKind::kEmbree;  ///< accelerator for flat strands; round strands and skins always use
+                                        ///< Embree
   EmbreeChunkOptions chunk;
   FurChunkOptions fur;
   bool eager = false;         ///< everything is grown before the first visit
   bool opaque = false;        ///< every strand is known to be opaque
   uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
-  int threads = 1;            ///< every `worker` passed to visit() is below it
+  int threads = 1;            ///< every `worker` passed to visit() is below this number
   /// Source of fur chunks that are read instead of grown; null: none. Not used with `eager`. Damaged chunks
   /// are grown.
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
-/// The chunks of a frame. A chunk is grown when it is visited, dropped when the memory limit needs its room,
-/// and grown again at the next visit. A visit sees the same contents for every limit, whichever chunks are
-/// resident. ChunkAccel traces rays through the chunks; code that needs strands rather than rays visits one
-/// chunk after the other.
+/// The chunks of a frame. A chunk is grown when it is visited, dropped when other chunks need its memory
+/// under the limit, and grown again at the next visit. A visit sees the same contents for every limit,
+/// whichever chunks are resident. ChunkAccel traces rays through the chunks; code that needs strands rather
+/// than rays visits one chunk after the other.
 ///
 /// Procedural and DeferredSkin make strands and skins; Residency keeps them. Two classes connect these. A
 /// ChunkGrower, which is FrameChunks for a frame, knows the scene: it numbers the chunks and makes the plain
@@ -45,7 +46,7 @@ struct ResidentChunksOptions {
 /// traced against, states how much memory this needs, and stores the boxes of the chunks.
 ///
 /// Thread safety: const members from any thread; each number `worker` is used by one thread at a time. Call
-/// all other members before. visit() passes on the exceptions of the grower.
+/// all other members before these. visit() passes on the exceptions of the grower.
 class ResidentChunks final : private Grower {
  public:
   /// `bounds`: one per chunk, over the whole shutter; with `eager` only their number is used, because boxes
@@ -58,10 +59,11 @@ class ResidentChunks final : private Grower {
 
   size_t size() const { return boxes_.size(); }
   bool is_skin(uint32_t chunk) const { return grower_.is_skin(chunk); }
-  /// Which coat of which character, or which skin.
+  /// Index of the chunk's coat or skin in the frame.
   uint32_t part(uint32_t chunk) const { return grower_.part(chunk); }
   bool opaque() const { return options_.opaque; }
-  /// ChunkBoxes::whole() serves to sort chunks into buckets: it is known for grown and other chunks.
+  /// Code that sorts chunks into buckets uses ChunkBoxes::whole(), which is known whether the chunk was grown
+  /// or not.
   const ChunkBoxes& boxes() const { return boxes_; }
 
   /// Grows the chunk if it is not resident, calls use(const ChunkGeometry&), and returns a copy of its

@@ -18,16 +18,17 @@ namespace pelage {
 class SegmentPatterns {
  public:
   struct Pattern {
-    std::vector<uint32_t> first_vertex;  ///< of each segment of each strand
+    std::vector<uint32_t> first_vertex;  ///< first control point of each segment of each strand
     MemoryCharge charge;
   };
 
   explicit SegmentPatterns(MemoryLedger& ledger) : ledger_(ledger) {}
 
-  /// Charges the memory that get() may need for batches with this number of strands, so that get() takes
-  /// nothing from the budget later. Call for all batches before the first get().
+  /// Charges the memory that get() may need for batches with this number of strands, so that get() charges
+  /// nothing later. Call for all batches before the first get().
   void expect(size_t segments, size_t strands);
-  /// For at least `strands` strands of `segments` segments each, with first control points `stride` apart.
+  /// Returns the array for at least `strands` strands of `segments` segments each. The first control points
+  /// of consecutive strands are `stride` apart.
   std::shared_ptr<const Pattern> get(uint32_t segments, uint32_t stride, size_t strands);
 
  private:

@@ -7,10 +7,9 @@
 namespace pelage {
 
 /// Where a strand is stored: its chunk, and its index in that chunk. A handle identifies the same strand for
-/// any number of threads and any memory limit, even after its chunk was dropped and grown again. This holds
-/// as long as the frame is divided into the same chunks and traced by the same kind of accelerator. The
-/// division may depend on `render.memory`, so no random number and no result may depend on a handle: use a
-/// StrandKey for these.
+/// any number of threads and any memory limit, even after its chunk was dropped and grown again. The frame
+/// must be divided into the same chunks and traced by the same kind of accelerator. The division may depend
+/// on `render.memory`, so no random number and no result may depend on a handle: use a StrandKey for these.
 struct StrandHandle {
   static constexpr uint32_t kNone = ~0u;
 
@@ -23,7 +22,7 @@ struct StrandHandle {
 
 /// Identifies a strand within its frame, however the frame is divided into chunks.
 struct StrandKey {
-  uint32_t part = 0;  ///< which coat of which character
+  uint32_t part = 0;  ///< index of the coat in the frame
   uint64_t id = 0;    ///< within the part
 
   friend auto operator<=>(const StrandKey&, const StrandKey&) = default;

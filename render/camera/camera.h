@@ -24,7 +24,7 @@ struct CameraParams {
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};
   Keyed<float> fov{40.0f};  ///< vertical, degrees
-  V2f shutter{0, 0};        ///< frames around the frame
+  V2f shutter{0, 0};        ///< opening and closing time, in frames relative to the frame
   int motion_keys = 2;
   std::optional<LensParams> lens;
   static const Schema<CameraParams>& schema();
@@ -48,15 +48,16 @@ class Camera {
 
   /// Ray through raster position (x, y), lens position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
-  /// Raster position and depth along the axis of a world point at a shutter time; empty behind the camera.
+  /// Projects a world point at a shutter time: returns its raster position, and its depth along the axis.
+  /// Empty if the point is behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
   /// The same at the time of the frame itself, or of the next one with `frames_ahead` = 1.
   std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {
     return project(frames_ahead == 0 ? frame_ : next_frame_, world);
   }
 
-  /// Whether any of a box may be in the picture while the shutter is open, seen through any point of the
-  /// lens: false only when all of it is behind the camera or beyond one border of the picture.
+  /// Whether any part of a box may be in the picture while the shutter is open, seen through any point of the
+  /// lens. False only when the whole box is behind the camera or beyond one border of the picture.
   bool may_see(const Box3f& box) const;
 
   /// View at the time of the frame itself, for tessellation.
@@ -67,7 +68,8 @@ class Camera {
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
   float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
-  /// Time of the frame itself relative to the shutter; outside [0, 1] when the shutter does not contain it.
+  /// Time of the frame itself relative to the shutter; outside [0, 1] when the frame is not within the
+  /// shutter.
   float frame_time() const;
 
   /// Values of the EXR attributes of the same names: camera space is left-handed, +y up, looking along +z;
@@ -79,7 +81,7 @@ class Camera {
  private:
   struct Pose {
     V3f position{0}, right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-    float tan_half = 1;  ///< of half the vertical field of view
+    float tan_half = 1;  ///< tangent of half the vertical field of view
   };
   static Pose make_pose(const CameraParams& params, double frame);
   static Pose blend(const Pose& a, const Pose& b, float t);

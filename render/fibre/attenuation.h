@@ -15,7 +15,7 @@ inline constexpr int kFibreLobes = 4;
 /// Geometry of light that hits a dielectric cylinder at h [Marschner03, section 4]; independent of colour.
 /// Lengths in radii.
 struct FibreCrossing {
-  /// `layers` of cuticle as in cuticle_reflectance(), 0 for one smooth interface.
+  /// `layers`: of the cuticle, as in cuticle_reflectance(); 0 for one smooth interface.
   FibreCrossing(float eta, float layers, float sin_theta, float cos_theta, float h);
 
   float reflectance;

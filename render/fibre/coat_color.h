@@ -11,8 +11,8 @@ namespace pelage {
 
 /// Converts the colour of dense fur to the absorption of a single fibre of a model, so that `color` means the
 /// same for every model. The reference is an infinite medium of Chiang fibres whose absorption follows the
-/// fit of [Chiang16]: a medium of the converted fibres has the same brightness. The fit was made for another
-/// scene but matches the colour of the medium to a few hundredths.
+/// fit of [Chiang16]. A medium of the converted fibres has the same brightness as the reference. The fit was
+/// made for another scene but matches the colour of the medium to a few hundredths.
 ///
 /// Uses a table over the logarithm of the colour, computed by random walks on construction. The table is
 /// bit-identical for any number of threads.

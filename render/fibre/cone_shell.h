@@ -36,10 +36,11 @@ struct ShellPoint {
 /// [Neulander10, Neulander13], normalised to integrate to one over the sphere.
 ///
 /// A cylinder reflects into the cone that mirrors the inclination of wo: the middle cone has polar angle
-/// Theta_mid = acos(-sin theta_o) + tilt. The shell extends by half_width to both sides and is cut off at the
-/// poles. The literal variant has the weight of the slides, cos(Theta - Theta_mid), in the whole shell. The
-/// Wigner variant has sqrt(1 - u^2), where u in [-1, 1] is the relative position of z = cos Theta between the
-/// cones; it falls to zero at both, and is the density of the Wigner sampler. Both are uniform in azimuth.
+/// Theta_mid = acos(-sin theta_o) + tilt. The shell extends by half_width to either side of the middle cone
+/// and is cut off at the poles. The weight of the literal variant is that of the slides: cos(Theta -
+/// Theta_mid) in the whole shell. The weight of the Wigner variant is sqrt(1 - u^2), where u in [-1, 1] is
+/// the relative position of z = cos Theta between the two outer cones. It is zero at these cones and is the
+/// density of the Wigner sampler. Both variants are uniform in azimuth.
 class ConeShell {
  public:
   ConeShell(const ShellShape& shape, ShellVariant variant, float sin_theta_o);
@@ -59,7 +60,7 @@ class ConeShell {
     if (variant_ == ShellVariant::kLiteral) return sample_literal(xi);
     return std::clamp(center_ + half_range_ * WignerTable::instance().sample(xi), -1.0f, 1.0f);
   }
-  /// The same with any sampler, with the sampler's actual density.
+  /// Draws z with the given sampler and returns it with that sampler's density.
   ShellPoint sample(ShellSampler sampler, float xi) const;
 
   /// Range of z: cosines of the outer and the inner cone.

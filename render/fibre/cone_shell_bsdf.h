@@ -14,12 +14,12 @@ namespace pelage {
 struct ConeShellMaterial {
   explicit ConeShellMaterial(const ConeShellParams& params);
 
-  /// Where along its strand (0 root, 1 tip) a lobe of a point at `v` looks up its tangent: shifted by a fixed
-  /// amount plus a random one that is constant per strand, so that highlights differ from hair to hair but do
-  /// not flicker. Clamped to the strand.
+  /// Position along the strand (0 root, 1 tip) whose tangent a lobe uses for a point at `v`. It is `v` plus a
+  /// fixed shift and a random shift that is constant per strand, so highlights differ from hair to hair but
+  /// do not flicker. Clamped to [0, 1].
   float tangent_place(LobeGroup lobe, float v, uint64_t strand_id, uint64_t seed) const;
 
-  float diffuse;  ///< where not given: the energy that a white fibre's highlights do not use
+  float diffuse;  ///< if the user gives none: the energy that the highlights of a white fibre leave
   float balance;
   Rgb primary;
   Rgb secondary;
@@ -34,12 +34,12 @@ struct ConeShellMaterial {
 using LobeTangents = std::array<V3f, kLobeGroups>;
 
 /// The cone-shell model at a point of a fibre: a diffuse lobe (the shell that covers the whole sphere) with a
-/// balance between forward and back scattering, and two specular shells about tangents of their own
+/// balance between forward and back scattering, and two specular shells, each about a separate tangent
 /// [Neulander10, Neulander13].
 ///
-/// Never gains energy: albedos whose sum exceeds one in a channel are scaled down together. A plain value,
-/// cheap to construct at every vertex of a path: does not allocate; trigonometric functions are called only
-/// in sample() and where a literal shell is cut at a pole.
+/// Never gains energy: albedos whose sum exceeds one in a channel are scaled down together. A plain value
+/// that is cheap to construct at every vertex of a path. It does not allocate, and it calls trigonometric
+/// functions only in sample() and where a literal shell is cut at a pole.
 class ConeShellBsdf {
  public:
   /// `color` is the material's colour at the point; `wo` points to the viewer or previous vertex.
@@ -47,8 +47,8 @@ class ConeShellBsdf {
                 const V3f& wo);
 
   FibreValue eval(const V3f& wi) const;
-  /// Preserves stratification of (u.x, u.y): u.x selects the lobe and, rescaled, the polar angle, u.y the
-  /// azimuth; u.z balances forward and back scattering.
+  /// Preserves the stratification of (u.x, u.y). u.x selects the lobe and, rescaled, the polar angle; u.y
+  /// selects the azimuth; u.z decides between forward and back scattering.
   std::optional<FibreSample> sample(const V3f& u) const;
   Rgb albedo() const { return albedos_[0] + albedos_[1] + albedos_[2]; }
 

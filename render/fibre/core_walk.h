@@ -37,7 +37,8 @@ struct CoreWalk {
     const Line line = about(radius);
     return std::max(0.0f, (std::sqrt(std::max(0.0f, line.discriminant)) - line.b) / line.a);
   }
-  /// Distance to the entry into that cylinder, from outside; empty when missed.
+  /// Distance to the entry into the cylinder of `radius`, from outside it; empty when the line misses the
+  /// cylinder.
   std::optional<float> length_in(float radius) const {
     const Line line = about(radius);
     if (!(line.discriminant > 0) || line.b >= 0) return std::nullopt;

@@ -27,9 +27,10 @@ inline float dielectric_reflectance(float cosine, float eta) {
   return 0.5f * (r.perpendicular + r.parallel);
 }
 
-/// Reflectance of a stack of cuticle scales instead of one interface [Yan15, equation 7]. One layer is two
-/// interfaces and includes all reflections between them, r -> 2 r / (1 + r) per polarisation; `layers` of
-/// them reflect l p / (1 + (l - 1) p). Half a layer equals one interface, exactly so at normal incidence.
+/// Reflectance of a stack of cuticle scales instead of one interface [Yan15, equation 7]. One layer has two
+/// interfaces. With all reflections between them it reflects p = 2 r / (1 + r) per polarisation, where r is
+/// the reflectance of one interface. A number l of layers reflects l p / (1 + (l - 1) p). Half a layer equals
+/// one interface: exactly at normal incidence, approximately elsewhere.
 inline float cuticle_reflectance(float cosine, float eta, float layers) {
   const Reflectances r = fresnel(cosine, eta);
   const float layer = r.perpendicular / (1 + r.perpendicular) + r.parallel / (1 + r.parallel);

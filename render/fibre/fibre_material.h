@@ -19,8 +19,8 @@ struct FibrePoint {
   Rgb color{0};           ///< the material's colour there
 };
 
-/// The parameters with the tables that their model and colour need, loaded or computed. Call once per run
-/// rather than once per frame. Throws Error (kStopped) as Job does.
+/// Adds the tables that the model and the colour need to the parameters: loads or computes them. Call once
+/// per run rather than once per frame. Throws Error (kStopped) when the job is stopped.
 MaterialParams with_tables(MaterialParams params, const Job& job);
 
 /// A fibre material: the data that all its points share. Thread safety: const members may be called from any
@@ -29,8 +29,8 @@ class FibreMaterial {
  public:
   /// Whether the parameters belong to a fibre model.
   static bool is_one(const MaterialParams& params) { return fibre_params(params) != nullptr; }
-  /// `params` must belong to a fibre model. Computes the tables that with_tables() has not made; calls `look`
-  /// often meanwhile, which may throw.
+  /// `params` must belong to a fibre model. Computes the tables that with_tables() has not made. Meanwhile it
+  /// calls `look` often; `look` may throw to stop it.
   explicit FibreMaterial(
       const MaterialParams& params, const Workers& workers = Workers::alone(),
       const std::function<void()>& look = [] {});
@@ -38,11 +38,12 @@ class FibreMaterial {
   /// The result refers to this material.
   FibreBsdf at(const FibrePoint& point) const;
 
-  /// Distance along the tangent, in radii, from `point` to where most of the light leaves the fibre after
-  /// crossing it. 0 for opaque models, which reflect at the hit.
+  /// Distance along the tangent, in radii, from `point` to the place where most of the light leaves after
+  /// crossing the fibre. 0 for opaque models, which reflect at the hit.
   float farther(const FibrePoint& point) const;
 
-  /// The cone-shell model, which looks up its lobes' tangents at shifted places; null for all other models.
+  /// The cone-shell model, whose lobes use tangents from shifted positions on the strand; null for all other
+  /// models.
   const ConeShellMaterial* cone_shell() const { return std::get_if<ConeShellMaterial>(&model_); }
   /// Whether FibrePoint::h should be drawn uniformly for each point instead of taken from the hit.
   bool far_field() const { return far_field_; }

@@ -22,15 +22,15 @@ struct FibrePath {
   V3f wi{0};               ///< exit direction: x along the fibre, wo in the half plane of x and y
   int reflections = 0;     ///< internal reflections; 0 with `entered` is TT, 1 is TRT
   bool entered = false;    ///< false: reflected by the surface (R)
-  bool scattered = false;  ///< by the medulla, once or more
+  bool scattered = false;  ///< whether the medulla scattered the light at least once
   float cortex = 0;        ///< length travelled outside the medulla, inside the fibre
   float core = 0;          ///< length travelled in the medulla
 };
 
 /// One random light path through a fibre, with a random choice at every interface and in the medulla: the
 /// reference for the models. Nothing is absorbed; weight a path by exp(-sigma_ca cortex - sigma_ma core).
-/// Every path leaves, with weight 1: the scattering of a fibre at `h` for wo at inclination theta_o is the
-/// distribution of wi. A path is a function of (seed, number) and the inputs.
+/// Every path leaves the fibre with weight 1. So the distribution of wi is the scattering of a fibre at `h`,
+/// for wo at inclination theta_o. A path is a function of (seed, number) and the inputs.
 FibrePath trace_fibre(const TracedFibre& fibre, float sin_theta_o, float h, uint64_t seed, uint64_t number);
 
 }  // namespace pelage

@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-/// Groups of lobes that images are split into. A model uses a subset; the physical models count surface
-/// reflection (R) as primary, light that leaves after one internal reflection (TRT) as secondary, and all
-/// other light that entered the fibre as diffuse.
+/// The groups of lobes for which images have separate layers. A model uses a subset; the physical models
+/// count surface reflection (R) as primary, light that leaves after one internal reflection (TRT) as
+/// secondary, and all other light that entered the fibre as diffuse.
 enum class LobeGroup { kDiffuse, kPrimary, kSecondary, kCount };
 inline constexpr int kLobeGroups = static_cast<int>(LobeGroup::kCount);
 inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary", "secondary"};
@@ -17,7 +17,7 @@ inline constexpr const char* kLobeGroupNames[kLobeGroups] = {"diffuse", "primary
 /// rho * L_in over the whole sphere, without a further cosine.
 struct FibreValue {
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
-  float pdf = 0;  ///< of the mixture sampled by sample(), per solid angle
+  float pdf = 0;  ///< density of sample(), per solid angle
 
   Rgb& operator[](LobeGroup group) { return lobes[static_cast<int>(group)]; }
   Rgb total() const { return lobes[0] + lobes[1] + lobes[2]; }

@@ -10,13 +10,13 @@
 
 namespace pelage {
 
-/// Samples theta_h = (theta_i + theta_o) / 2 for a longitudinal lobe that is a Gaussian of theta_h times a
-/// slowly varying function, its energy: attenuation and change of measure. theta_i stays in [-pi/2, pi/2],
-/// which truncates the Gaussian.
+/// Samples theta_h = (theta_i + theta_o) / 2 for a longitudinal lobe. The lobe is a Gaussian of theta_h times
+/// its energy, a slowly varying function that combines attenuation and change of measure. theta_i stays in
+/// [-pi/2, pi/2], which truncates the Gaussian.
 ///
-/// With s in [0, 1] the cumulative distribution of the truncated Gaussian, the energy is interpolated
-/// linearly between a few values of s, so that their product is sampled exactly; sample weights vary with the
-/// interpolation error.
+/// Let s in [0, 1] be the cumulative distribution of the truncated Gaussian. The energy is interpolated
+/// linearly between a few values of s. The product of the Gaussian and the interpolated energy is sampled
+/// exactly, so sample weights vary only with the interpolation error.
 class HalfAngleLobe {
  public:
   HalfAngleLobe() = default;
@@ -39,7 +39,7 @@ class HalfAngleLobe {
     for (int k = 0; k < kPlaces - 1; ++k) mean_ += part(k);
   }
 
-  /// Approximate integral of the Gaussian times the energy. 0: never sample this lobe.
+  /// Approximate integral of the Gaussian times the energy. If it is 0, do not sample this lobe.
   float energy() const { return within_ * mean_; }
 
   /// Density of theta_h.
@@ -72,8 +72,8 @@ class HalfAngleLobe {
   static constexpr float kMinMass = 1e-5f;   // below it, float precision in the tail is insufficient
 
   static float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
-  /// Ratio of the energy at an end to that beside it: 0 at a pole that truncates the Gaussian, 1 where it is
-  /// not truncated. `at`: position of the pole, in deviations from the centre.
+  /// Ratio of the energy at an end to the energy beside the end: 0 at a pole that truncates the Gaussian, 1
+  /// where the Gaussian is not truncated. `at`: position of the pole, in deviations from the centre.
   static float left_at_end(float at) { return std::clamp(0.5f * (at - 1), 0.0f, 1.0f); }
   float part(int k) const { return 0.5f * (energy_[k] + energy_[k + 1]) * (kPlace[k + 1] - kPlace[k]); }
 

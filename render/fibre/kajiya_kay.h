@@ -19,7 +19,8 @@ class KajiyaKayMaterial {
   float diffuse;  ///< albedo; by default 1 minus the max component of `specular`
   Rgb specular;
   float exponent;
-  LongitudinalLobe proposal;  ///< density for sampling the highlight; times a constant, an upper bound of it
+  LongitudinalLobe proposal;  ///< density for sampling the highlight; a constant multiple of it bounds the
+                              ///< highlight from above
 
   /// K_p(theta_o) = 2 pi integral of max(0, cos(theta_i + theta_o))^p cos(theta_i) d theta_i.
   float specular_norm(float sin_theta_o, float cos_theta_o) const;

@@ -20,7 +20,7 @@ class MarschnerBsdf;
 class MarschnerMaterial {
  public:
   explicit MarschnerMaterial(const MarschnerParams& params);
-  /// `absorption` is used when the material has none.
+  /// `absorption` is used when the material does not define any.
   MarschnerBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
@@ -45,9 +45,9 @@ class MarschnerBsdf {
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
 
   FibreValue eval(const V3f& wi) const;
-  /// Draws theta_h from the lobes, then the azimuth about the exit azimuth at that theta_d. Attenuations,
-  /// exit azimuths and the measure depend on theta_d: lobes evaluated at theta_o would miss the brightest
-  /// light of slanted fibres.
+  /// Draws theta_h from the lobes, then the azimuth about the exit azimuth at the resulting theta_d.
+  /// Attenuations, exit azimuths and the measure depend on theta_d. If lobes were evaluated at theta_o
+  /// instead, sampling would miss the brightest light of slanted fibres.
   std::optional<FibreSample> sample(const V3f& u) const;
   /// Approximate: uses attenuations at theta_o, times 2 for the published variant.
   Rgb albedo() const;

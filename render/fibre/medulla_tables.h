@@ -26,14 +26,14 @@ class MedullaTables {
   static constexpr int kAzimuths = 72, kSines = 40;        ///< cells of phi and of sin(theta_i)
   static constexpr int kPaths = 40000;                     ///< from each node
 
-  /// Takes seconds; throws Error (kStopped) as Job does.
+  /// Takes seconds. Throws Error (kStopped) when the job is stopped.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Job& job,
                                                    int paths = kPaths);
-  /// The same without progress, not stoppable.
+  /// The same without progress reports; it cannot be stopped.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Workers& workers,
                                                    int paths = kPaths);
-  /// Loaded from `store`, or computed and stored there. Warns the user of a damaged file and computes it
-  /// again.
+  /// Loads the tables from `store`, or computes them and stores them there. If the file is damaged, warns the
+  /// user and computes the tables again.
   static std::shared_ptr<const MedullaTables> find_or_make(const YanOptics& optics, const ContentStore& store,
                                                            const Job& job, int paths = kPaths);
 

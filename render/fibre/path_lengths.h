@@ -9,13 +9,13 @@
 
 namespace pelage {
 
-/// Path lengths of scattered light in the cortex and in the medulla, in radii: means of groups of paths, from
-/// the shortest to the longest. A single mean would be too dark for strong absorption, where only short paths
-/// contribute.
+/// Path lengths of scattered light in the cortex and in the medulla, in radii. Paths are sorted by length and
+/// divided into groups; each group stores its mean. With a single mean, strongly absorbing fibres would be
+/// too dark, because only their short paths contribute.
 class PathLengths {
  public:
   PathLengths() = default;
-  /// From traced paths; the order matters only among equal lengths.
+  /// From traced paths. The order of `paths` matters only among paths of equal length.
   explicit PathLengths(std::vector<FibrePath> paths);
 
   /// The mean of exp(-sigma . length).

@@ -73,7 +73,8 @@ class SeparableBsdf {
     return value;
   }
 
-  /// Draws a direction only. u.x: azimuth; u.y: distance from the peak; u.z: lobe and, rescaled, the side.
+  /// Draws a direction without evaluating it. u.x selects the azimuth, u.y the distance from the peak, u.z
+  /// the lobe and, rescaled, the side of the peak.
   V3f draw(const V3f& u) const {
     int p = 0;
     float rest = u.z;

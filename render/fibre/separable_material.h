@@ -12,7 +12,7 @@ namespace pelage {
 template <class Azimuth>
 class SeparableMaterial {
  public:
-  /// Refers to the material.
+  /// The result refers to the material.
   SeparableBsdf<Azimuth> at(const FibreFrame& frame, float h, const Rgb& color) const {
     const FibreCrossing crossing(eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
     const Rgb sigma = fibre_absorption(absorption_, by_color_, color);
@@ -23,7 +23,7 @@ class SeparableMaterial {
   }
 
  protected:
-  /// `color_roughness`: azimuthal, of the fit from colour to absorption.
+  /// `color_roughness`: azimuthal roughness for the fit that converts colour to absorption.
   SeparableMaterial(float eta, const AbsorptionParams& absorption, float color_roughness)
       : eta_(eta), absorption_(absorption), by_color_(color_roughness) {}
 

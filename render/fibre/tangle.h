@@ -8,13 +8,13 @@
 
 namespace pelage {
 
-/// Where a random walk through a dense medium of fibres hits one.
+/// The point at which a random walk through a dense medium of fibres hits a fibre.
 struct TangleHit {
   V3f tangent{0};
   V3f wo{0};    ///< unit, back along the walk
   float h = 0;  ///< across the fibre, as FibrePoint::h
 };
-/// Scatters a walk at a fibre, using three numbers in [0, 1); empty when it ends there.
+/// Scatters a walk at a fibre, using three numbers in [0, 1); empty when the walk ends at this fibre.
 using TangleScatter = std::function<std::optional<FibreSample>(const TangleHit&, const V3f&)>;
 
 /// Fraction of uniform light that an infinitely deep medium of randomly oriented fibres reflects: the colour

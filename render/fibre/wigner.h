@@ -21,9 +21,9 @@ inline float wigner_pdf(float u) {
 double wigner_cdf(double u);
 
 /// Inverts F with a table. F^-1 has no closed form and infinite slope at both ends, where 1 + u grows as
-/// xi^(2/3). The cells are eighths of octaves of min(xi, 1 - xi), found from the bits of the float, so that a
-/// cubic per cell has an error of 5e-7 of the distance to the nearer end. Its density equals the analytic one
-/// to that accuracy.
+/// xi^(2/3). The cells are eighths of octaves of min(xi, 1 - xi) and are found from the bits of the float.
+/// With a cubic per cell, the error is 5e-7 of the distance to the nearer end. Its density equals the
+/// analytic one to that accuracy.
 class WignerTable {
  public:
   /// Constructed once. Thread safe.

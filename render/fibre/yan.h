@@ -15,10 +15,11 @@ namespace pelage {
 using YanFastBsdf = MedullaBsdf<WignerScatter>;
 using YanBsdf = MedullaBsdf<TabulatedScatter>;
 
-/// Light at one h before the medulla scatters it [Yan17, section 4]. T is the fraction of a leg's light that
-/// stays unscattered, and R = F. The unscattered paths are those of a clear fibre whose legs transmit T; the
-/// fraction (1 - F) (1 - T) / (1 - F T) is scattered. The fractions of all paths and of scattered light add
-/// up to 1.
+/// Splits the light that hits a fibre at one h into light that the medulla scatters and light that it does
+/// not [Yan17, section 4]. T is the fraction of a leg's light that stays unscattered; R equals the
+/// reflectance F. Unscattered light follows the paths of a clear fibre whose legs transmit T. The fraction (1
+/// - F) (1 - T) / (1 - F T) of the light is scattered. The fractions of all unscattered paths and of
+/// scattered light add up to 1.
 struct MedullaCrossing {
   MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h);
 
@@ -35,10 +36,11 @@ struct MedullaCrossing {
 ///
 /// Longitudinal functions have d'Eon's form and the variances of the paper's Gaussians, so that energy is
 /// exact. There is no variant with the Gaussians themselves: at a width of 10 degrees they lose 2 % of the
-/// light across the fibre and 6 % of light from 1.3 radians. R is a product, whereas the cone and the width
-/// of [Yan17] vary with the azimuth: light traced through a smooth cylinder without tilt shows no such
-/// variation, and tilts are only two or three degrees. Azimuthal functions are Gaussians of deviation sqrt(p
-/// + 1) beta_n. Tilts have the signs of ChiangMaterial: +2 alpha for R, -alpha for TT, -3 alpha for TRT.
+/// light across the fibre and 6 % of light from 1.3 radians. The R lobe is a product of a longitudinal and an
+/// azimuthal function. In [Yan17] its cone and its width vary with the azimuth, but light traced through a
+/// smooth cylinder without tilt shows no such variation, and tilts are only two or three degrees. Azimuthal
+/// functions are Gaussians of deviation sqrt(p + 1) beta_n. Tilts have the signs of ChiangMaterial: +2 alpha
+/// for R, -alpha for TT, -3 alpha for TRT.
 class MedullaFibre {
  public:
   explicit MedullaFibre(const YanOptics& optics);
@@ -58,7 +60,7 @@ class MedullaFibre {
 class YanFastMaterial {
  public:
   explicit YanFastMaterial(const YanFastParams& params);
-  /// `absorption` of cortex and medulla is used when the material has none.
+  /// `absorption`: of cortex and medulla, used when the material does not define any.
   YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:

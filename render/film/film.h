@@ -21,7 +21,7 @@ struct FilmSample {
   Rgb radiance{0};
   float alpha = 0;
   VisibleSurface surface;
-  V2f offset{0};  ///< of the camera ray from the centre of the pixel, in pixels
+  V2f offset{0};  ///< offset of the camera ray from the centre of the pixel, in pixels
 
   /// Whether the camera ray passed within the pixel itself, not only within its filter.
   bool inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }

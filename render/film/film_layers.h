@@ -16,8 +16,8 @@ namespace pelage {
 
 /// How the pixel filter is applied to the samples of a picture (image.filter_samples).
 enum class FilterSamples {
-  kDrawn,    ///< the filter of a pixel draws the position of each sample, which counts for that pixel alone
-  kSplatted  ///< samples lie evenly; each counts for all pixels around it, weighted by their filters
+  kDrawn,    ///< sample positions are drawn from the pixel's filter; each sample counts for that pixel alone
+  kSplatted  ///< samples are spread evenly; each counts for all pixels around it, weighted by their filters
 };
 template <>
 struct EnumNames<FilterSamples> {

@@ -13,10 +13,10 @@
 
 namespace pelage {
 
-/// Weighted sums of the channels of a picture. Without a splat filter, the pixel filter has drawn the
-/// position of each sample, which counts for its own pixel alone, with weight 1. With a splat filter, a
-/// sample lies anywhere in its pixel and counts for every pixel whose filter reaches it, weighted by the
-/// value of that filter. Twice as many samples then reach a pixel, but neighbouring pixels share noise.
+/// Weighted sums of the channels of a picture. Without a splat filter, sample positions were drawn from the
+/// pixel filter, and a sample counts for its own pixel alone, with weight 1. With a splat filter, a sample
+/// lies anywhere in its pixel and counts for every pixel whose filter reaches it, weighted by the value of
+/// that filter. Twice as many samples then reach a pixel, but neighbouring pixels share noise.
 ///
 /// Splatted samples are added to a buffer of their tile, which overlaps its neighbours by the reach of the
 /// filter; a pixel is the sum over at most four buffers, always in the same order. So the result does not
@@ -25,13 +25,13 @@ namespace pelage {
 /// Thread safety: different tiles may be written at once; without a filter, different pixels.
 class FilmSums {
  public:
-  /// Pixels along the side of a tile whose samples are added by one thread at a time.
+  /// Side of a tile in pixels. One thread at a time adds the samples of a tile.
   static constexpr int kTileSide = 16;
 
   FilmSums(int width, int height, size_t channels, std::optional<PixelFilter> splat);
   static size_t bytes_needed(int width, int height, size_t channels, std::optional<PixelFilter> splat);
 
-  /// The pixels that a sample counts for, and by how much.
+  /// The pixels that a sample counts for, and its weight in each.
   class Footprint;
   /// Footprint of a sample that lies `offset` pixels from the centre of its pixel; with a splat filter, at
   /// most half a pixel along each axis.
@@ -39,10 +39,11 @@ class FilmSums {
 
   /// Adds a sample of pixel (x, y): `values`, one per channel, starting with channel `first`.
   void add(int x, int y, const Footprint& footprint, size_t first, std::span<const float> values);
-  /// Adds to the weights by which the sums of a pixel are divided; once per sample.
+  /// Adds a sample's weights to the pixels' total weights, by which the sums are divided. Call once per
+  /// sample.
   void add_weight(int x, int y, const Footprint& footprint);
 
-  /// Removes everything that was added for the pixels of the tile that contains pixel (x, y).
+  /// Removes all samples of the tile that contains pixel (x, y).
   void clear_tile(int x, int y);
 
   /// Weighted mean of a channel; 0 where nothing was added.

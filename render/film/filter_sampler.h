@@ -20,7 +20,7 @@ class FilterSampler {
  private:
   float axis(float u) const;
 
-  std::vector<float> inverse_;  // of filter_integral(), at even steps of u; empty for the box
+  std::vector<float> inverse_;  // inverse of filter_integral(), at even steps of u; empty for the box
 };
 
 }  // namespace pelage

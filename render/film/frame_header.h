@@ -18,15 +18,15 @@ struct FrameHeader {
   double frames_per_second = 24;
   double meters_per_unit = 0.01;
   int64_t seed = 0;
-  uint32_t samples = 0;       ///< that every pixel has, at least
+  uint32_t samples = 0;       ///< min over all pixels
   double mean_samples = 0;    ///< over all pixels
-  std::string adaptive;       ///< rule of adaptive sampling; empty without
+  std::string adaptive;       ///< rule of adaptive sampling; empty if not adaptive
   bool partial = false;       ///< interrupted: some pixels have fewer samples
   bool time_limited = false;  ///< the time limit determined the number of samples
   double render_seconds = 0;
   int64_t peak_memory_bytes = 0;
   std::string program_version;
-  std::string scene_hash;  ///< of everything that determines the picture
+  std::string scene_hash;  ///< hash of everything that determines the picture
 };
 
 /// The EXR attributes of a frame: standard ones (worldToCamera, worldToNDC, framesPerSecond, and expTime, the

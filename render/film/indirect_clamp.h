@@ -10,13 +10,16 @@
 
 namespace pelage {
 
-/// Limit on the contribution of single paths (render.clamp_indirect), and the amount it removed.
+/// Limit on the contribution of single paths (render.clamp_indirect), and the amount of light that it
+/// removed.
 struct IndirectClamp {
   float limit = 0;  ///< luminance; 0 is none
   int64_t lost = 0,
-          indirect = 0;  ///< luminance, in units of 1/65,536: integers sum in any order
+          indirect = 0;  ///< luminance in units of 1/65,536; integers, so that the order of summation does
+                         ///< not matter
 
-  /// Factor applied to light that reaches the camera as lobes[g] * light, summed over lobe groups g.
+  /// Returns the factor to apply to light that reaches the camera. This light is the sum of lobes[g] * light
+  /// over lobe groups g.
   float keep(const Rgb* lobes, const Rgb& light) {
     if (limit == 0) return 1;
     float all = 0;
@@ -27,7 +30,7 @@ struct IndirectClamp {
     return kept;
   }
 
-  /// Adds what another clamp counted.
+  /// Adds the counts of another clamp.
   void add_counts(const IndirectClamp& other) {
     lost += other.lost;
     indirect += other.indirect;

@@ -13,9 +13,9 @@ struct EnumNames<PixelFilter> {
 
 /// A filter is zero farther than this from the centre of the pixel, along either axis, in pixels.
 float filter_radius(PixelFilter filter);
-/// Its value at a distance along one axis, relative to its maximum.
+/// Value of the filter at a distance along one axis, relative to its maximum.
 float filter_value(PixelFilter filter, float distance);
-/// Its integral along one axis from -radius to x, normalised to 1.
+/// Integral of the filter along one axis from -radius to x; 1 at x = radius.
 double filter_integral(PixelFilter filter, double x);
 
 }  // namespace pelage

@@ -22,13 +22,14 @@ struct VisibleSurface {
   float left_out = 0;       ///< fraction of the strands that level of detail omitted here
 };
 
-/// The surface of a pixel for data that cannot be averaged (depth, normal, id ...): that of the front-most
-/// sample within the pixel, or, if none is within the pixel, of the front-most sample of all.
+/// The surface of a pixel for data that cannot be averaged (depth, normal, id ...). It is the surface of the
+/// front-most sample within the pixel or, if no sample is within the pixel, of the front-most sample of all.
 struct FrontSurface {
   VisibleSurface surface;
   bool inside_pixel = false;
 
-  /// Replaces the surface by that of another sample if that is in front. Returns whether it is.
+  /// Replaces the surface by the surface of another sample if that sample takes precedence. Returns whether
+  /// it does.
   bool offer(const VisibleSurface& other, bool inside) {
     const bool first_inside = inside && !inside_pixel;
     const bool nearer = inside == inside_pixel && other.depth < surface.depth;

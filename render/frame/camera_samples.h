@@ -19,10 +19,10 @@ struct CameraSample {
   V2f offset{0};  ///< from the centre of the pixel, in pixels
 };
 
-/// The camera samples of a frame, each a function of (seed, pixel, number of the sample).
+/// The camera samples of a frame. A sample is a function of (seed, pixel, number of the sample).
 class CameraSamples {
  public:
-  /// `scene` outlives it. With `splatted`, samples lie evenly in their pixel.
+  /// `scene` must outlive this object. With `splatted`, samples are spread evenly over their pixel.
   CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
 
   /// The random numbers of a sample.

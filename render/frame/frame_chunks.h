@@ -12,13 +12,13 @@
 
 namespace pelage {
 
-/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Makes each of them
-/// from the scene, which it refers to.
+/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Makes each chunk from
+/// the scene, which must outlive this object.
 class FrameChunks final : public ChunkGrower {
  public:
-  /// Splits every coat down to its leaves and divides skins. Dividing skins poses them whole, a few at a
-  /// time, charged to the ledger meanwhile. Throws Error (kInput) for a coat whose material is not for
-  /// fibres, Error (kMemory) when a single skin does not fit `render.memory`.
+  /// Splits every coat down to its leaves and divides skins. To divide skins, it poses whole skins, a few at
+  /// a time, and charges their memory to the ledger meanwhile. Throws Error (kInput) for a coat whose
+  /// material is not for fibres, Error (kMemory) when a single skin does not fit `render.memory`.
   FrameChunks(const RenderScene& scene, const Job& job);
 
   ChunkContents grow(uint32_t chunk) const override;
@@ -28,17 +28,17 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
-  /// Name of its coat or skin: "walker.under".
+  /// Name of the chunk's coat or skin, such as "walker.under".
   std::string name(uint32_t chunk) const override;
 
   size_t size() const { return leaves_.size() + pieces_.size(); }
   /// The leaves: chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
-  /// The boxes of all chunks by the strategy of the scene; a skin's box is the hull of its control points.
-  /// `counts`: of leaves. Passes on errors of growth; throws Error (kMemory) before growing anything that
-  /// does not fit. When cancelled, chunks have no boxes.
+  /// Computes the boxes of all chunks with the strategy of the scene. The box of a skin is the hull of its
+  /// control points. `counts` receives the counts of the leaves. Passes on errors of growth; throws Error
+  /// (kMemory) before growing anything that does not fit. When cancelled, chunks have no boxes.
   std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
-  /// Whether strands are stored in fur trees, which need no boxes of parts above them.
+  /// Whether strands are stored in fur trees. Chunks with fur trees need no boxes of parts.
   bool in_fur_trees() const;
   /// Memory of the descriptions of the chunks, grown or not.
   size_t bytes() const;

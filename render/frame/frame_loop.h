@@ -21,11 +21,11 @@ namespace pelage {
 /// Traces passes of samples over a film, tile by tile.
 class FrameLoop {
  public:
-  /// The number of samples that a pixel with `given` samples should have. Called again until it has them, by
-  /// the thread that traces the pixel.
+  /// The number of samples that a pixel with `given` samples should have. The thread that traces the pixel
+  /// calls this repeatedly, until the pixel has that number.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
 
-  /// `clock`: the reference of deadlines.
+  /// `clock`: deadlines are times on this clock.
   FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
 
   int width() const { return film_.width(); }

@@ -13,7 +13,7 @@
 
 namespace pelage {
 
-/// Evaluates the materials of a scene at hits. Refers to the scene for its lifetime. `met`: the geometry that
+/// Evaluates the materials of a scene at hits. The scene must outlive this object. `met`: the geometry that
 /// the accelerator copied for the hit. Thread safety: const members may be called from any thread.
 class FrameShading {
  public:

@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Cost of rendering one frame, or several frames one after the other. A value: each part is filled by the
-/// room that counts it.
+/// Cost of rendering one frame, or several frames one after the other. Each room fills the part that it
+/// counts.
 struct FrameStatistics {
   GrowthCounts growth;
   ResidencyCounts residency;

@@ -13,7 +13,7 @@ struct SkinPoint {
   /// Origin of rays that leave the surface: on the curved surface that the triangle approximates, so that a
   /// convex skin is not shadowed by its own facets at grazing light [Hanika21].
   V3f start{0};
-  V3f shutter_motion{0};  ///< how far the point travels while the shutter is open
+  V3f shutter_motion{0};  ///< displacement of the point while the shutter is open
 };
 
 /// `triangle`: HitGeometry::triangle of the hit.

@@ -12,8 +12,8 @@
 namespace pelage {
 
 /// The chunks of fur that `render.bvh.file` stores for a frame: opened, or grown, built and written first.
-/// Null, after one warning, when they cannot be stored: for fur whose content has no hash, coats that are not
-/// opaque everywhere, and a folder that cannot be written. Also null when cancelled. Passes on errors of
+/// Returns null after one warning if they cannot be stored: the content of the fur has no hash, a coat is not
+/// opaque everywhere, or the folder cannot be written. Also returns null when cancelled. Passes on errors of
 /// growth.
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
                                                const ResidentChunksOptions& options, const Job& job);

@@ -21,8 +21,8 @@ struct StrandPlace {
   float v = 0;  ///< over the whole strand: 0 at the root, 1 at the tip
 };
 
-/// The attributes that `field` reads, in the order of its names. Throws Error (kInput) when the strands of
-/// the part named `part` do not have one of them.
+/// The attributes that `field` reads, in the order of its names. Throws Error (kInput) when one of these
+/// attributes is missing from the strands. `part`: name of the part, for the message.
 std::vector<const StrandAttribute*> find_attributes(const Field& field, const Strands& strands,
                                                     const std::string& part);
 

@@ -13,7 +13,7 @@ struct Tile {
 };
 
 /// All tiles of a picture, in the order of a Hilbert curve [Hilbert1891]: consecutive tiles are neighbours,
-/// so that fur grown for one is available for the next.
+/// so fur that was grown for one tile is available for the next.
 std::vector<Tile> tiles_along_curve(int width, int height, int side);
 
 /// The same tiles, reordered so that consecutive ones are far apart, like van der Corput numbers [Corput35]:

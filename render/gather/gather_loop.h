@@ -30,12 +30,13 @@ class GatherLoop {
     int tiles = 0;
     MemoryCharge charge;
   };
-  /// Reserves memory before chunks take the rest: for one tile per thread, or fewer where these would take
-  /// more than an eighth of `render.memory`; then threads wait for each other. Throws Error (kMemory) when
-  /// not even one fits.
+  /// Reserves memory for one tile per thread, before chunks take the rest. If this were more than an eighth
+  /// of `render.memory`, it reserves memory for fewer tiles, and threads wait for each other. Throws Error
+  /// (kMemory) when not even one tile fits.
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
-  /// References are kept. `result.film` gets the samples. `clock`: starts when the time limit does.
+  /// Keeps references to its arguments. Adds the samples to `result.film`. `clock`: starts with the time
+  /// limit.
   GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Memory& memory,
              const Job& job, const Stopwatch& clock, FrameResult& result);
 
@@ -50,7 +51,7 @@ class GatherLoop {
     bool scattered = false;
   };
   PassEnd trace(const Pass& pass, double deadline_s);
-  /// Samples of the next pass that fit the time limit; 0: none.
+  /// Number of samples of the next pass that fit the time limit.
   uint32_t fitting(uint32_t count, uint32_t given) const;
   bool trace_tile(const Pass& pass, const Tile& tile, int worker);
   void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);

@@ -14,9 +14,9 @@
 
 namespace pelage {
 
-/// Renders a tile: finds what its camera samples see, traces some of the rays that leave these points, and
-/// divides the light that they find among the points of the same knot. The result depends only on the scene,
-/// the tile and the numbers of its samples.
+/// Renders a tile: finds the points that its camera samples see, traces some of the rays that leave these
+/// points, and shares the light that these rays find among the points of the same knot. The result depends
+/// only on the scene, the tile and the numbers of its samples.
 ///
 /// Thread safety: const members from any thread, each with its own scratch.
 class GatherTile {
@@ -24,13 +24,13 @@ class GatherTile {
   /// Side of a tile in pixels. Samples of different tiles share no knot.
   static constexpr int kSide = FilmSums::kTileSide;
 
-  /// References are kept.
+  /// Keeps references to its arguments.
   GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
              const PathOptions& options);
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;
-  /// Max number of samples per pixel of one call of trace(), which limits the memory of a scratch.
+  /// Max number of samples per pixel in one call of trace(). It limits the memory of a scratch.
   static uint32_t max_samples(size_t lights);
   /// Max memory of a scratch for up to `samples` per pixel at once.
   static size_t scratch_bytes(size_t lights, uint32_t samples);

@@ -11,11 +11,11 @@
 
 namespace pelage {
 
-/// Continues some of the visible points of a tile as paths: those that roulette chooses. Thread safety: const
-/// members from any thread, each with its own scratch.
+/// Traces paths from the visible points of a tile. Roulette chooses the points. Thread safety: const members
+/// from any thread, each with its own scratch.
 class IndirectPaths {
  public:
-  /// References are kept.
+  /// Keeps references to its arguments.
   IndirectPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
                 const CameraSamples& camera, const PathOptions& options)
       : scene_(scene), camera_(camera), options_(options), walk_(scene, accel, shading, options) {}
@@ -23,10 +23,10 @@ class IndirectPaths {
   struct Scratch {
     DirectLightScratch direct;
     std::vector<KnotItem> order;  // points
-    std::vector<Rgb> arriving;    // along the first ray of a path, by light
+    std::vector<Rgb> arriving;    // radiance that arrives along the first ray of a path, by light
   };
 
-  /// Traces paths and adds what they find to `light`. Returns false when `job` was cancelled.
+  /// Traces paths and adds their light to `light`. Returns false when `job` was cancelled.
   bool trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
              PathSharing& light) const;
 

@@ -31,7 +31,7 @@ struct KnotKey {
 /// A key is a function of the camera and the hit only. Thread safety: const members from any thread.
 class KnotKeys {
  public:
-  /// References are kept.
+  /// Keeps references to its arguments.
   KnotKeys(const Camera& camera, const GatherParams& params) : camera_(camera), params_(params) {}
 
   /// `random`: two random numbers in [0, 1), which select among neighbouring knots.

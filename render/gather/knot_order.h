@@ -17,8 +17,8 @@ struct KnotItem {
   friend auto operator<=>(const KnotItem&, const KnotItem&) = default;
 };
 
-/// Sorts the items first .. count - 1 by knot, then by light, then by index. `item(i)` returns the KnotItem
-/// of item i. Reuses the memory of `order`.
+/// Stores the items first .. count - 1 in `order`, sorted by knot, then by light, then by index. `item(i)`
+/// returns the KnotItem of item i. Reuses the memory of `order`.
 template <class Item>
 void sort_by_knot(size_t first, size_t count, const Item& item, std::vector<KnotItem>& order) {
   order.clear();

@@ -8,28 +8,30 @@
 
 namespace pelage {
 
-/// Fraction of the light of each source that reaches the points of each knot, from shadow rays of some of the
-/// points.
+/// Fraction of the light of each source that reaches the points of each knot, estimated from shadow rays of
+/// some of the points.
 ///
-/// Shadow rays are an unbiased sample of the unoccluded light (SystematicChoice). With `seen` the sum over
-/// the rays of a knot of the unoccluded light that each stands for, `arrived` what is left of it in front of
-/// blockers, U the exact unoccluded light of the knot, and p a guess, the fraction is
+/// Each shadow ray has a weight: the amount of unoccluded light that it represents. The weights are an
+/// unbiased sample of the unoccluded light (SystematicChoice). For one light and one knot, `seen` is the sum
+/// of the weights of the rays, `arrived` is the sum of the weights times the transmitted fractions, U is the
+/// exact unoccluded light, and p is a guess of the result. The estimated fraction is
 ///   p + (arrived - p * seen) / U.
-/// On average it is right for any p that does not depend on these rays: p * seen varies as arrived does, so
-/// that the noise of the choice cancels. p is the mean over the other knots of the zone.
+/// This estimate is unbiased for any p that does not depend on these rays. The random choice of rays changes
+/// `p * seen` and `arrived` in the same way, so most of its noise cancels. p is the mean over the other knots
+/// of the zone.
 class LightSharing {
  public:
-  /// `guess`: whether other knots are asked; otherwise p = 0.
+  /// `guess`: whether p is the mean over other knots; otherwise p = 0.
   void begin(size_t lights, bool guess);
 
-  /// Knots and zones are numbered from 0, in any order.
+  /// Adds to the exact unoccluded light of a knot. Knots and zones are numbered from 0, in any order.
   void add_unoccluded(uint32_t knot, size_t light, float luminance);
-  /// A shadow ray that stands for `luminance`, of which the fraction `through` arrives.
+  /// Adds a shadow ray with the weight `luminance`; it transmits the fraction `through`.
   void add_ray(uint32_t knot, uint32_t zone, size_t light, float luminance, float through);
-  /// Estimate of the fraction of a light that arrives in a zone, from the rays so far: for the choice of
-  /// further rays. At least kMinChance, so that no light is given up.
+  /// Estimate of the fraction of a light that arrives in a zone, from the rays so far. It controls the choice
+  /// of further rays. At least kMinChance, so that every light keeps some rays.
   float chance(uint32_t zone, size_t light) const;
-  /// Computes the fractions, once everything is added.
+  /// Computes the fractions. Call after all rays were added.
   void finish(const std::vector<uint32_t>& zone_of_knot);
   static size_t bytes_per_knot(size_t lights) { return 2 * lights * sizeof(Knot); }  // vectors grow twofold
   float fraction(uint32_t knot, size_t light) const { return knots_[knot * lights_ + light].fraction; }

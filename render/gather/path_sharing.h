@@ -10,17 +10,18 @@
 
 namespace pelage {
 
-/// Indirect light that arrives at the points of each knot, from paths of some of the points: by light and
-/// lobe group, the mean radiance by which the weights of a point's own direction are multiplied.
+/// Indirect light that arrives at the points of each knot, estimated from paths of some of the points. For
+/// each light and lobe group, it is a mean radiance; a point's indirect light is its weight (rho / pdf) times
+/// this radiance.
 ///
-/// The same estimate as that of LightSharing, with the weights (rho / pdf) of all points of a knot in place
-/// of unoccluded light, and radiance in place of the fraction that arrives.
+/// The estimate is the same as in LightSharing, but the weights of all points of a knot replace the
+/// unoccluded light, and radiance replaces the fraction that arrives.
 class PathSharing {
  public:
   void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
 
   void add_weights(uint32_t knot, const Rgb* weights);
-  /// A path that stands for `factor` points: weights[g] * radiance[light] reach the camera.
+  /// Adds a path that represents `factor` points. It brings weights[g] * radiance[light] to the camera.
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
   void finish(const std::vector<uint32_t>& zone_of_knot);
   static size_t bytes_per_knot(size_t lights) { return sizeof(Weights) + lights * kLobeGroups * sizeof(Rgb); }

@@ -14,22 +14,23 @@
 
 namespace pelage {
 
-/// Chooses and traces shadow rays of the visible points of a tile: about `gather.light_rays` per point, more
-/// where the light that arrives is bright and uncertain compared to the light of the pixel. Thread safety:
-/// const members from any thread, each with its own scratch.
+/// Chooses and traces shadow rays of the visible points of a tile: about `gather.light_rays` per point.
+/// Points get more rays if their direct light is bright and uncertain compared to the light of the pixel.
+/// Thread safety: const members from any thread, each with its own scratch.
 class ShadowRays {
  public:
-  /// References are kept.
+  /// Keeps references to its arguments.
   ShadowRays(const RenderScene& scene, const Accel& accel) : scene_(scene), accel_(accel) {}
 
   struct Scratch {
-    std::vector<KnotItem> order;      // light rays
-    std::vector<float> masses;        // of these, in that order
+    std::vector<KnotItem> order;      // candidate rays
+    std::vector<float> masses;        // masses of the candidate rays, in the same order
     std::vector<double> pixel_light;  // luminance expected to reach the camera, by pixel
   };
 
-  /// Chooses among the rays of `samples.light_rays` from `first` on, by what `light` has learnt from the rays
-  /// before, and adds the result to `light`. Returns false when `job` was cancelled.
+  /// Chooses among the rays of `samples.light_rays` from `first` on, using the fractions that `light` has
+  /// estimated from earlier rays. Traces the chosen rays and adds the results to `light`. Returns false when
+  /// `job` was cancelled.
   bool trace(const TileSamples& samples, size_t first, const Job& job, Scratch& scratch,
              SampleScratch& thread, LightSharing& light) const;
 

@@ -27,7 +27,7 @@ struct VisiblePoint {
   uint32_t knot = 0;    ///< index in TileSamples::zone_of_knot
   float time = 0;
   uint32_t random = 0;     ///< PathState::random
-  StrandStart start = {};  ///< Hit::start; empty where rays may hit their own strand
+  StrandStart start = {};  ///< Hit::start; empty if a ray may hit the strand that it leaves
 
   LeavingRay scattered;  ///< a direction drawn from the lobes
   /// rho / pdf of that direction, by lobe group; all 0: none was drawn
@@ -45,22 +45,22 @@ struct VisiblePoint {
   Rgb weight() const { return weights[0] + weights[1] + weights[2]; }
 };
 
-/// A shadow ray that may be traced from a visible point, chosen among the light points of one light in
-/// proportion to the luminance that they scatter to the camera.
+/// A shadow ray that may be traced from a visible point to one light. Its target is chosen among several
+/// points on the light, in proportion to the luminance that each point scatters to the camera.
 struct LightRay {
   uint32_t point = 0, light = 0;  ///< indices
   float unoccluded = 0;  ///< luminance that all of the light scatters to the camera if nothing blocks it
   LeavingRay ray;
 };
 
-/// The camera samples of a tile, as one thread finds them.
+/// The camera samples of a tile, with the points and lights that they see. One thread fills it.
 struct TileSamples {
   static constexpr uint32_t kNoPoint = ~0u;
 
   struct Sample {
     V2f offset{0};              ///< in its pixel
     uint32_t pixel = 0;         ///< within the tile
-    uint32_t point = kNoPoint;  ///< what it sees
+    uint32_t point = kNoPoint;  ///< the visible point; kNoPoint: none
   };
   /// Light that a sample sees directly.
   struct SeenLight {
@@ -73,7 +73,7 @@ struct TileSamples {
   };
 
   Tile tile;
-  uint64_t random_key = 0;      ///< of the random numbers of the tile
+  uint64_t random_key = 0;      ///< key of the tile's random numbers
   std::vector<Sample> samples;  ///< in the order in which they were traced
   std::vector<SeenLight> seen_lights;
   std::vector<Front> fronts;  ///< by pixel

@@ -15,11 +15,12 @@
 
 namespace pelage {
 
-/// Finds what the camera samples of a tile see, what light they would reflect if nothing blocked it, and the
-/// knots that they belong to. Thread safety: const members from any thread, each with its own scratch.
+/// Finds the points and lights that the camera samples of a tile see, the light that the points would scatter
+/// if nothing blocked it, and the knots of the points. Thread safety: const members from any thread, each
+/// with its own scratch.
 class VisiblePoints {
  public:
-  /// References are kept.
+  /// Keeps references to its arguments.
   VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
                 const CameraSamples& camera);
 

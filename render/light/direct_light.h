@@ -24,28 +24,29 @@ struct LightPoint {
   size_t light = 0;
   V3f direction{0};
   float distance = 0;
-  FibreValue value;     ///< of the scattering towards it
-  Rgb arriving{0};      ///< radiance, weighted, over the density of one point
-  float luminance = 0;  ///< of the scattered light
+  FibreValue value;     ///< scattering towards the light point
+  Rgb arriving{0};      ///< weighted radiance / density of one point
+  float luminance = 0;  ///< luminance of the light that is scattered
 };
 
 /// Per-thread memory, reused from point to point.
 struct DirectLightScratch {
-  std::vector<float> probabilities;  ///< of selecting each light, at the current point
+  std::vector<float> probabilities;  ///< probability of selecting each light at the current point
   std::vector<LightPoint> points;
 };
 
-/// Direct light at a scatter point. The target of a shadow ray is resampled from several points on lights,
-/// which are selected by importance, in proportion to their unoccluded contribution: evaluating a fibre costs
-/// much less than tracing a ray [Talbot05]. The other technique samples directions from the lobes; both are
-/// weighted by the power heuristic [Veach97, section 9.2]. Lights are transparent to rays and to each other.
+/// Direct light at a scatter point. Several candidate points are drawn on lights, which are selected by
+/// importance. The target of a shadow ray is resampled from the candidates in proportion to their unoccluded
+/// contribution, because evaluating a fibre costs much less than tracing a ray [Talbot05]. The other
+/// technique samples directions from the lobes; both are weighted by the power heuristic [Veach97, section
+/// 9.2]. Lights are transparent to rays and to each other.
 ///
 /// At each point: begin(); propose() and choose() for shadow rays; find_lights() for a ray sampled from the
 /// lobes. The caller traces the rays. Thread safety: const members may be called from any thread, each with
 /// its own scratch.
 class DirectLight {
  public:
-  /// `lights` must outlive it. `rays`: number of shadow rays per point.
+  /// `lights` must outlive this object. `rays`: number of shadow rays per point.
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques)
       : lights_(lights), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
@@ -53,7 +54,7 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Weight of one candidate point: the light of a light is the mean over all candidates.
+  /// Weight of one candidate point: direct light is the mean over all candidates.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
 
   /// Computes the probabilities of the lights at a point.
@@ -64,8 +65,8 @@ class DirectLight {
   }
 
   /// Samples points on lights and returns the sum of their luminances, which is 0 where no light arrives.
-  /// `u`: two random numbers. `lobe_pdf(value)`: density of the other technique for a direction with that
-  /// value.
+  /// `u`: two random numbers. `lobe_pdf(value)`: density with which lobe sampling draws a direction whose
+  /// scattering is `value`.
   template <class LobePdf>
   double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                  DirectLightScratch& scratch) const;
@@ -87,9 +88,9 @@ class DirectLight {
   static constexpr float kGolden = 0.6180339887f;
 
   /// Density assigned to points on a light in the weights against lobe sampling, given the density of one
-  /// point. All candidate points count where a lobe would rarely hit the light, although only some of them
-  /// get a shadow ray: small bright lights cause the noise of long paths. Every ray that leaves the scene
-  /// hits an environment, so only shadow rays count there.
+  /// point. For a light at a finite distance, all candidate points count, although only some of them get a
+  /// shadow ray: lobes rarely hit such lights, and small bright lights would otherwise cause noise in long
+  /// paths. For an environment, only shadow rays count, because every ray that leaves the scene hits it.
   float competing_pdf(float pdf, float distance) const {
     const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
     return pdf * points * static_cast<float>(rays_);

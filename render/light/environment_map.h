@@ -50,7 +50,7 @@ class EnvironmentMap {
   double texel_solid_angle(int row) const;
   /// Memory without the image.
   size_t bytes() const { return bytes(image_->width(), image_->height(), cell_); }
-  /// The same for an image of this size.
+  /// Memory of the map of an image of this size, without the image.
   static size_t bytes_for(int width, int height, int64_t max_cells = kMaxCells);
 
  private:

@@ -11,13 +11,14 @@
 
 namespace pelage {
 
-/// Where light leaves a fibre: a circle around `center` perpendicular to the unit `tangent`, on lines at the
-/// distance h * radius from the axis. A smooth cylinder preserves that distance through any number of
-/// internal reflections, and h has the sign of the fibre's frame. The direction therefore determines the
-/// position on the circle: the hit itself for the mirror direction, the far side for transmitted light.
+/// The positions at which light leaves a fibre: a circle around `center`, perpendicular to the unit
+/// `tangent`. Light leaves along lines at the distance h * radius from the axis. A smooth cylinder preserves
+/// that distance through any number of internal reflections, and h has the sign of the fibre's frame. The
+/// direction therefore determines the position on the circle: the hit itself for the mirror direction, the
+/// far side for transmitted light.
 ///
-/// A nearby light is seen from that position rather than from the axis, which makes a difference of the order
-/// of radius / distance.
+/// A nearby light is sampled from this position, not from the axis. The directions differ by about radius /
+/// distance.
 struct ExitCircle {
   V3f center{0};
   V3f tangent{0};
@@ -37,9 +38,9 @@ struct ExitCircle {
     return center + radius * outside(side / std::sqrt(length2));
   }
 
-  /// Converts a sample of a light seen from the center to one of the line that ends at the same point of the
-  /// light: direction, distance, and density per solid angle of line directions. Empty when no line of the
-  /// fibre reaches that side of the light.
+  /// Converts a sample of a light seen from the center to a sample of the line that ends at the same point of
+  /// the light: direction, distance, and density per solid angle of line directions. Empty when no line of
+  /// the fibre reaches that side of the light.
   std::optional<LightSample> toward(const LightSample& seen) const {
     if (radius == 0 || std::isinf(seen.distance)) return seen;
     const V3f to = seen.distance * seen.direction;
@@ -75,8 +76,8 @@ struct ExitCircle {
 
  private:
   /// Density per solid angle of lines for `seen` from the center, and the line along `wi` that ends at the
-  /// same point of the light after `distance`. Lines diverge less than those from a point: because their
-  /// azimuths start on the circle, the area between two of them is from_nearest / way of the latter.
+  /// same point of the light after `distance`. Because the lines start on the circle, the area between two
+  /// neighbouring lines is from_nearest / way times the area between lines that start at one point.
   float line_pdf(const LightSample& seen, const V3f& wi, float distance) const {
     const float way = distance * (wi - wi.dot(tangent) * tangent).length();
     if (!(way > 0)) return seen.pdf;

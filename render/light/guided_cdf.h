@@ -22,7 +22,7 @@ struct GuidedSample {
   size_t index;
   float rest;
 };
-/// Never returns an entry of weight zero, unless all are.
+/// Never returns an entry of weight zero, unless all weights are zero.
 GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u);
 
 }  // namespace pelage

@@ -16,7 +16,7 @@ struct LightSample {
   float distance = 0;  ///< infinity for an environment
   Rgb radiance{0};
   float pdf = 0;  ///< per solid angle, of this light alone (excluding the selection of the light)
-  V3f normal{0};  ///< of the light at that point, unit, on either side; null for an environment
+  V3f normal{0};  ///< unit normal of the light at that point, on either side; null for an environment
 };
 
 /// Intersection of a ray with a light.

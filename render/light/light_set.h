@@ -36,10 +36,10 @@ class LightSet {
   /// The same for lobes that scatter with density `lobes(direction)` per solid angle: lights in directions of
   /// strong scattering are selected more often. Otherwise, narrow lobes that point at small bright lights
   /// with a low probability of selection would cause the brightest noise of paths through fur. Half of each
-  /// importance ignores the density, since the middle of a large light says little about the rest of it.
-  /// Importances have no factor that bounds cos(theta_i). Such a factor would lower the importance of lights
-  /// along the fibre. But when the fibre is seen at a slant, R, TT and TRT scatter light from there as
-  /// brightly as from other directions.
+  /// importance ignores the density, since the density towards the middle of a large light differs from the
+  /// density towards the rest of the light. Importances have no factor that bounds cos(theta_i). Such a
+  /// factor would lower the importance of lights along the fibre. But when the fibre is seen at a slant, R,
+  /// TT and TRT scatter light from there as brightly as from other directions.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
     importances(from, out);

@@ -37,12 +37,12 @@ class ScatterPoint {
   ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
 
-  /// Point for which lights are sampled. exit() then converts the samples to lines from where light leaves
-  /// the fibre.
+  /// Point for which lights are sampled. exit() then converts the samples to lines that start where light
+  /// leaves the fibre.
   const V3f& position() const { return exit_.center; }
   /// Unit tangent of a fibre, the null vector for a skin.
   const V3f& tangent() const { return exit_.tangent; }
-  /// Where light leaves, as seen from nearby lights; a point for a skin.
+  /// The positions at which light leaves; for a skin, a single point.
   const ExitCircle& exit() const { return exit_; }
 
   /// Whether rays that start here may hit the strand itself again, even near this point.
@@ -61,9 +61,9 @@ class ScatterPoint {
   }
 
   /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never below
-  /// the fibre's surface, which does not shadow itself. Light that arrives uniformly across the width of a
-  /// fibre leaves uniformly. The circle is centred at the hit's own position along the fibre, so that a bent
-  /// fibre does not cover it.
+  /// the fibre's surface, so that the fibre does not shadow itself. Light that arrives uniformly across the
+  /// width of a fibre leaves uniformly. The circle is centred at the hit's own position along the fibre, so
+  /// that a bent fibre does not cover it.
   V3f start(const V3f& wi) const {
     const float radius = exit_.radius;
     if (radius == 0) return surface_;

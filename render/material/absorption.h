@@ -14,7 +14,8 @@ inline Rgb melanin_absorption(float eumelanin, float pheomelanin) {
 }
 
 /// The fit that converts the colour of a mass of fibres to the absorption of a single one, for an azimuthal
-/// roughness in [0, 1] [Chiang16, section 4.2]. A single such fibre is far lighter than the colour.
+/// roughness in [0, 1] [Chiang16, section 4.2]. A single fibre with this absorption looks far lighter than
+/// the colour.
 class ColorToAbsorption {
  public:
   explicit ColorToAbsorption(float azimuthal_roughness);

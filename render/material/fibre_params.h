@@ -12,7 +12,8 @@ namespace pelage {
 
 class CoatColor;
 
-/// Parameters that every fibre model has, so that changing the name of the model is enough to replace it.
+/// Parameters that every fibre model has. A user can therefore change the model of a material by changing
+/// only its name.
 struct FibreParams {
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};
@@ -68,15 +69,15 @@ struct EnumNames<HairPreset> {
                                           "fox",       "mouse",       "panther"};
 };
 
-/// Colour of a translucent fibre: by its absorption, or else by `color`.
+/// Absorption of a translucent fibre. If none of these is given, it follows from FibreParams::color.
 struct AbsorptionParams {
   HairPreset preset = HairPreset::kNone;  ///< used for pigments that are not given
   std::optional<Rgb> absorption;          ///< per radius
   std::optional<float> eumelanin;         ///< concentration of the black and brown pigment
-  std::optional<float> pheomelanin;       ///< of the red and yellow one
+  std::optional<float> pheomelanin;       ///< concentration of the red and yellow pigment
 };
 
-/// Height of the lobes: as in the paper, or half of that. Half the height roughly conserves energy.
+/// Height of the lobes: as published, or half of it. Half the height roughly conserves energy.
 enum class MarschnerVariant { kPublished, kHalved };
 template <>
 struct EnumNames<MarschnerVariant> {

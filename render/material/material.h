@@ -43,7 +43,7 @@ struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
   std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; empty: derived from the colour
-  float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the viewer, -1 forward
+  float balance = 0;             ///< direction of the diffuse lobe: 1 scatters back to the viewer, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
   float primary_width = 12;      ///< half width of its shell, degrees
   float primary_shift = -0.03f;  ///< along-strand shift of the tangent lookup, in v

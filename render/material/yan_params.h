@@ -38,7 +38,7 @@ struct YanOptics {
   float kappa = 0.8f;           ///< radius of the medulla / radius of the fibre
   float sigma_ms = 2.5f;        ///< scattering of the medulla
   float g = 0.5f;               ///< mean cosine of the medulla's scattering
-  float layers = 0.5f;          ///< of the cuticle; half a layer is one smooth interface
+  float layers = 0.5f;          ///< layers of the cuticle; half a layer is one smooth interface
   std::optional<Rgb> sigma_ca;  ///< absorption of the cortex; empty: derived from the colour
   std::optional<Rgb> sigma_ma;  ///< absorption of the medulla
 };
@@ -67,7 +67,7 @@ struct YanParams : MedullaParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "yan";
   AssetPath tables;  ///< folder that keeps the tables
-  /// Loaded or computed by prepare_fibre(). Null: computed with the material.
+  /// Loaded or computed by with_tables(). Null: computed with the material.
   std::shared_ptr<const MedullaTables> made;
   static const Schema<YanParams>& schema();
 };

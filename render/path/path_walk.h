@@ -29,15 +29,16 @@ struct PathState {
   float time = 0;
   Ray ray;                 ///< the ray that hit `hit`
   Hit hit;                 ///< at the current vertex
-  Rgb first[kLobeGroups];  ///< rho / pdf of the first vertex, by lobe group
-  Rgb throughput{1};       ///< of the vertices after the first
-  Rgb weight{1};           ///< of all vertices before this one
+  Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
+  Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
+  Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
 };
 
-/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex
-/// `light_samples` shadow rays go to lights (DirectLight), and one direction is drawn from the lobes; the
-/// density of that direction includes roulette. At most `bounces` scatterings follow the first; roulette may
-/// end a path earlier, the more likely the lower its weight (survival()).
+/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex,
+/// `light_samples` shadow rays are traced to lights (DirectLight), and one direction is drawn from the lobes.
+/// The density of that direction includes the probability of surviving roulette. At most `bounces`
+/// scatterings follow the first. Roulette may end a path earlier: the lower the weight of a path, the more
+/// likely it ends (survival()).
 ///
 /// A Sink has
 ///   shadow(path, point, factor, through)
@@ -60,13 +61,13 @@ class PathWalk {
         options_(options),
         direct_(scene.lights, scene.render.light_samples, options.direct) {}
 
-  /// Follows a path from its first vertex, whose scattering is `first`, to its end.
+  /// Follows a path from its first vertex to its end. `first`: scattering at the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
     if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
-  /// Follows a path whose direction at the first vertex was drawn before, along `ray`, without the lights
-  /// that this ray itself hits. `path.first` and `path.weight` include the density of that direction.
+  /// Follows a path along `ray`, whose direction was drawn before at the first vertex. Does not report the
+  /// lights that `ray` itself hits. `path.first` and `path.weight` include the density of that direction.
   void follow(const Ray& ray, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
               Sink& sink) const {
     path.ray = ray;
@@ -77,15 +78,15 @@ class PathWalk {
   }
 
   /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
-  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, paths would
-  /// end that contribute as much as others: in pale fur, that takes a quarter fewer rays, but has two thirds
-  /// more variance.
+  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, roulette
+  /// would also end paths that contribute as much as others: in pale fur, a quarter fewer rays would be
+  /// traced, but the variance would be two thirds higher.
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Rough guess at how bright a surface looks, as a fraction of the light around it: between pale fur and
-  /// skin.
+  /// Rough guess of the brightness of a surface as a fraction of the light around it: between the values of
+  /// pale fur and of skin.
   static constexpr float kShown = 0.5f;
 
   static void seek(PathState& path, Draw draw) {
@@ -102,7 +103,8 @@ class PathWalk {
   }
   bool is_last(const PathState& path) const { return path.vertex == bounces_; }
 
-  /// Light at the current vertex, and the way to the next one. Returns false where the path ends.
+  /// Finds the light at the current vertex and traces the ray to the next vertex. Returns false where the
+  /// path ends.
   bool scatter(const ScatterPoint& point, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
                Sink& sink) const {
     direct_.begin(point, lights);
@@ -126,9 +128,9 @@ class PathWalk {
   const DirectLight direct_;
 };
 
-/// The density with which sample_lobes() arrives at a light in a direction: the density of the lobes times
-/// the probability of surviving roulette. Without the second factor, light scattered by a dark surface would
-/// be left to a few rays of great weight.
+/// The density with which sample_lobes() traces a ray in a direction: the density of the lobes times the
+/// probability of surviving roulette. Without the second factor, MIS would rely on a few rays of high weight
+/// for the light that a dark surface scatters.
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
@@ -163,7 +165,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
 }
 
 /// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
-/// `shadowed`, a shadow ray finds out how much of each arrives.
+/// `shadowed`, a shadow ray to each light finds the fraction that arrives.
 template <class Sink>
 void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,

@@ -80,7 +80,7 @@ struct RenderParams {
   BvhParams bvh;
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
-  float bounds_factor = 1;  ///< of BoundingStrategy::kUser
+  float bounds_factor = 1;  ///< factor of BoundingStrategy::kUser
   LodParams lod;
   bool shared_topology = true;  ///< characters with one cage share its refinement and patches
   static const Schema<RenderParams>& schema();

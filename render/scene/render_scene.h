@@ -23,21 +23,22 @@ struct FurPart {
   std::vector<std::unique_ptr<Procedural>> procedurals;
   size_t material = 0;
   /// The rest pose of the skin that the strands grow on, for material fields that depend on the rest
-  /// position; may be null: the roots then serve as rest positions.
+  /// position; may be null: the roots are then used as rest positions.
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};                             ///< multiplies the colour of the strands
-  std::optional<Simplification> lod = {};  ///< how detail was reduced; empty: it was not
+  std::optional<Simplification> lod = {};  ///< how detail was reduced; empty: it was not reduced
 };
 
-/// A skin. `rest` provides rest positions of hits, and its topology texture coordinates; where it is null,
-/// both are zero.
+/// A skin. `rest` provides the rest positions of hits, and its topology provides their texture coordinates.
+/// If `rest` is null, both are zero.
 struct SkinPart {
   std::string name;
   std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
-  Rgb tint{1};                             ///< multiplies its colour
-  std::optional<Simplification> lod = {};  ///< of the densest coat on it, if detail was reduced
+  Rgb tint{1};                             ///< multiplies the colour of the skin
+  std::optional<Simplification> lod = {};  ///< level of detail of the densest coat on the skin; empty: not
+                                           ///< reduced
 };
 
 /// Everything that a renderer needs for one frame. World space.

@@ -10,8 +10,8 @@ namespace pelage {
 /// Scattering of a glossy surface, rho = f cos(theta_i) per solid angle, with the cosine to the normal.
 struct GlossyValue {
   Rgb diffuse{0};
-  float specular = 0;  ///< of the clear coat, without the base colour
-  float pdf = 0;       ///< of the mixture sampled by sample(), per solid angle
+  float specular = 0;  ///< reflection by the clear coat, without the base colour
+  float pdf = 0;       ///< density of sample(), per solid angle
 };
 
 struct GlossySample {
@@ -21,12 +21,12 @@ struct GlossySample {
 
 /// A diffuse base under a smooth clear coat, for eyes, noses, wet ground. The coat is a GGX microfacet
 /// dielectric [Walter07] with height-correlated shadowing [Heitz14], sampled by visible normals [Heitz18],
-/// with Fresnel by [Schlick94]; light transmitted in and out again reaches the base. Reciprocal; never gains
+/// with Fresnel by [Schlick94]; the base scatters the light that the coat transmits. Reciprocal; never gains
 /// energy. World space; directions point away from the surface; `normal` and `wo` are on one side. A plain
 /// value, cheap to construct.
 class GlossyBsdf {
  public:
-  /// `roughness` in [0, 1], squared to the width of the microfacets; `ior` > 1.
+  /// `roughness` in [0, 1]: its square is the width of the microfacet distribution. `ior` > 1.
   GlossyBsdf(const Rgb& albedo, float roughness, float ior, const V3f& normal, const V3f& wo);
 
   GlossyValue eval(const V3f& wi) const;

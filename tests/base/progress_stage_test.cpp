@@ -9,7 +9,7 @@
 namespace pelage {
 namespace {
 
-/// Writes down what it is told.
+/// Records the calls that it receives.
 class Written final : public Progress {
  public:
   void begin(std::string_view stage, double total) override {

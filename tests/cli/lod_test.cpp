@@ -75,8 +75,8 @@ TEST_F(LodPictures, WhereEverythingIsKeptItIsAsIfThereWereNone) {
   expect_equal(off, render("on", kept));
 }
 
-// Six rats: with none of them in full it is reduced detail, with all of them full detail; in between every
-// character is either.
+// Six rats. If none keeps its full detail, the picture has reduced detail; if all do, it has full detail.
+// Otherwise each character has either full or reduced detail.
 TEST_F(LodPictures, SomeCharactersKeepEveryHair) {
   const auto hairs = [&](const std::string& name) {
     return RunStatistics::read(folder_.path() / (name + ".json"))->number("strands_generated");

@@ -115,7 +115,7 @@ class Memory(unittest.TestCase):
         self.render(self.scene("{strands_file: many.hair}"))
 
     def test_many_long_imported_strands(self):
-        """Small parts of them fit: they are not refused, with detail reduced or in full."""
+        """Small parts of the strands fit, so they are not refused, in reduced and in full detail."""
         hair_file(self.folder / "strings.hair", 3000, 1024)
         for lod in ("true", "false"):
             with self.subTest(lod=lod):

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// What a combed coat covers of a flat skin, seen from above, in full detail and in reduced.
+// SPDX-License-Identifier: Apache-2.0 The fraction of a flat skin that a combed coat covers, seen from above,
+// in full and in reduced detail.
 #include <algorithm>
 #include <vector>
 

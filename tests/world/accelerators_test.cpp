@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// How bright fur is does not depend on what its strands are traced with: our own tree against Embree's
-// curves, of a coat in full and of one that level of detail has thinned.
+// SPDX-License-Identifier: Apache-2.0 The brightness of fur does not depend on the accelerator: compares our
+// tree with Embree's curves, for a coat in full detail and for a coat thinned by level of detail.
 #include <cmath>
 
 #include <gtest/gtest.h>

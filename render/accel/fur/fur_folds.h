@@ -16,9 +16,10 @@ struct PlaneCurve {
 /// The parameters in (0, 1] where the curve's distance to the origin has a local minimum: at most three,
 /// ascending.
 ///
-/// The derivative of half the squared distance, c . c', is a quintic. Its Bernstein coefficients change sign
-/// at least as often as it has roots; where they change more than once, the curve is halved repeatedly
-/// ([Nakamaru02] halves until the curve is straight, which finds the same minima up to its tolerance).
+/// The derivative of half the squared distance, c . c', is a quintic. The number of sign changes of its
+/// Bernstein coefficients is at least the number of its roots. Where there is more than one sign change, the
+/// curve is halved repeatedly ([Nakamaru02] halves until the curve is straight, which finds the same minima
+/// up to its tolerance).
 size_t nearest_parameters(const PlaneCurve& curve, float (&out)[3]);
 
 }  // namespace pelage

@@ -11,7 +11,7 @@ namespace pelage {
 
 struct FurBox;
 
-/// The axes of all boxes of one fur tree: those of the grid, or a rotated orthogonal frame. Combed fur has
+/// The axes of all boxes of one fur tree: the axes of the grid, or a rotated orthogonal frame. Combed fur has
 /// one main direction, and boxes aligned to it are much smaller; a ray is rotated once for the whole tree.
 /// Curves and hits are not affected.
 struct FurFrame {
@@ -31,12 +31,13 @@ struct FurFrame {
 /// The frames a tree may use. Trees over moving strands always use the grid's axes.
 enum class FurRotation : uint8_t {
   kNever,
-  kWhenUseful,  ///< where boxes of single segments become so much smaller that boxes of four do, too
+  kWhenUseful,  ///< if rotation makes the boxes of single segments so much smaller that boxes of four
+                ///< segments shrink, too
   kAlways,      ///< for tests
 };
 
-/// A frame that suits most segments, estimated from a few hundred of them: one axis is their common
-/// direction; the other two are the best of several pairs. Deterministic.
+/// A frame that suits most segments, estimated from a few hundred segments. One axis is the common direction
+/// of the segments; the other two axes are the best of several pairs. Deterministic.
 FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation);
 
 }  // namespace pelage

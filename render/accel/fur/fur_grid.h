@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// The grid that the curves of one groom are snapped to once, when a strand is grown. Its step is a power of
-/// two, so that conversion to grid units and back is exact. The step depends on the groom's parameters only,
-/// its origin on the position of the character, so that every tree over a strand decodes the same floats,
-/// whatever its chunk.
+/// The grid to which the curves of one groom are snapped. A strand is snapped once, when it is grown. Its
+/// step is a power of two, so that conversion to grid units and back is exact. The step depends only on the
+/// groom's parameters, the origin only on the position of the character. So a strand decodes to the same
+/// floats in the tree of any chunk.
 ///
 /// In grid units, coordinates are integers. Floats beyond 2^24 are integers already, so large coordinates
 /// need no special case. Radii have the form k^2 / 256 with an integer k, so their steps are finer at the
@@ -21,7 +21,7 @@ class FurGrid {
  public:
   /// `root_width`: width of the groom's strands at the root, in scene units. The step is the power of two for
   /// which this width has 192 to 384 steps; a width that is not a positive number is replaced by 2^-12.
-  /// `anchor`: any finite point near all strands of the groom, the same for all of them.
+  /// `anchor`: any finite point near the strands of the groom, the same for all strands.
   explicit FurGrid(float root_width, const V3f& anchor = V3f(0));
   /// The grid of a coat.
   explicit FurGrid(const StrandScale& scale) : FurGrid(scale.width, scale.anchor) {}

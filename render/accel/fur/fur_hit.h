@@ -8,12 +8,12 @@
 
 namespace pelage {
 
-/// The position on a strand that a ray starts from. Near it the same strand is not hit: neither the ribbon's
-/// rotation towards the ray nor rounding causes a self-intersection.
+/// The position on a strand from which a ray starts. Near this position the ray ignores this strand, so
+/// neither the ribbon's rotation towards the ray nor rounding causes a self-intersection.
 struct FurStart {
   uint32_t first_segment = 0,
            segment_count = 0;  ///< range of the strand's segment numbers; count 0: no strand
-  float place = 0;             ///< segment of the strand + parameter within it
+  float place = 0;             ///< index of the segment in the strand + curve parameter in that segment
 };
 
 /// Intersection of a ray with a segment.
@@ -26,7 +26,7 @@ struct FurHit {
   float h = 0;                                              ///< across it, as Hit::v
 
   explicit operator bool() const { return number != kNone; }
-  /// Nearer, or equally near with a smaller number.
+  /// Whether this hit is nearer, or equally near with a smaller number.
   bool precedes(const FurHit& o) const {
     return distance != o.distance ? distance < o.distance : number < o.number;
   }
@@ -43,7 +43,7 @@ struct FurTests {
   }
 };
 
-/// Receives hits, in any order and possibly the same several times; decides whether they count.
+/// Decides which hits count. Hits arrive in any order; the same hit may arrive several times.
 class FurFilter {
  public:
   virtual ~FurFilter() = default;

@@ -36,14 +36,14 @@ struct FurBlockSizes {
 };
 inline constexpr FurBlockSizes kNarrowBlock{32, 16}, kWideBlock{64, 64};
 
-/// Input of a block: its segments (at most four), key by key.
+/// Input of a block: at most four segments at all motion keys.
 struct FurBlockContents {
   std::array<uint32_t, FurBlockHeader::kLanes> numbers{FurBlockHeader::kNone, FurBlockHeader::kNone,
                                                        FurBlockHeader::kNone, FurBlockHeader::kNone};
   std::span<const SnappedSegment> segments;  ///< lane by lane; for each lane all keys
 };
 
-/// Whether a narrow block can represent these.
+/// Whether a narrow block can represent these segments.
 bool fits_narrow_block(const FurBlockContents& contents);
 /// Writes a block; `out` must be large enough.
 void write_block(const FurBlockContents& contents, int motion_keys, bool wide, std::byte* out);

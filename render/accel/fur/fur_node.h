@@ -53,7 +53,7 @@ size_t node_size(FurNodeLayout layout, int motion_keys);
 /// product and one sum.
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
 
-/// Child `i` of a node written by write_node(); none where there are fewer.
+/// Child `i` of a node written by write_node(); FurReference::is_none() if the node has fewer children.
 FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
 void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
                          FurReference reference);

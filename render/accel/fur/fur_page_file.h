@@ -33,8 +33,8 @@ class FurPageFile {
     FurCutter cutter_;
   };
 
-  /// Empty when the entry is missing, or when its table shows that it is damaged or foreign; the latter call
-  /// `warn`.
+  /// Returns nothing if the entry is missing, or if its table shows that it is damaged or foreign. Calls
+  /// `warn` for a damaged or foreign entry.
   static std::optional<FurPageFile> open(const ContentStore& store, const ContentHash& key,
                                          const WarningSink& warn);
   /// Opens a file, whatever its name. Throws Error (kInput).
@@ -48,8 +48,8 @@ class FurPageFile {
 
   /// The treelets of a page: from first_treelet(page) to first_treelet(page + 1).
   uint32_t first_treelet(uint32_t page) const { return first_treelet_[page]; }
-  /// Reads one page into `out`, which must have its length and be aligned to 64 bytes. Throws Error (kInput)
-  /// when it cannot be read or its checksum is wrong.
+  /// Reads one page into `out`, which must be as long as the page and aligned to 64 bytes. Throws Error
+  /// (kInput) when the page cannot be read or its checksum is wrong.
   void read(uint32_t page, std::span<std::byte> out) const;
   /// Announces that a page will be read next, so that the system may load it.
   void prefetch(uint32_t page) const { file_.prefetch(page); }

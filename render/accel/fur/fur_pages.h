@@ -23,14 +23,14 @@ struct FurPagedTree {
   FurFrame frame;
 };
 
-/// A part of a fur tree that is a fur tree of its own, and its location: nodes (the root first) followed by
-/// leaves, in one page. References are relative to its own nodes and leaves.
+/// A part of a fur tree that can be traced as a separate tree. It is stored in one page: nodes (the root
+/// first) followed by leaves. References are relative to the nodes and leaves of the treelet.
 struct FurTreelet {
   uint32_t page = 0;
   uint32_t tree = 0;
   uint32_t nodes = 0;   ///< offset in the page, a multiple of 64
   uint32_t leaves = 0;  ///< offset in the page, a multiple of 16: the end of the nodes
-  uint32_t end = 0;     ///< of the leaves
+  uint32_t end = 0;     ///< end of the leaves
 };
 
 /// Data about all treelets that is available without their pages. Treelets are in the order of their pages.
@@ -55,9 +55,9 @@ struct FurPageTable {
 /// Cuts fur trees into pages. A page contains consecutive treelets of a tree, which are therefore close
 /// together in space; the levels above all treelets are replaced by a tree over their boxes.
 ///
-/// A subtree that fits the remaining space of a page becomes a treelet. Otherwise its children are tried,
-/// unless the page is nearly full, in which case it is closed. Pages are therefore filled to at least kFull,
-/// except for the last.
+/// A subtree that fits the remaining space of a page becomes a treelet. Otherwise, if the page is nearly
+/// full, the page is closed; if not, the children of the subtree are tried. Pages are therefore filled to at
+/// least kFull, except for the last.
 class FurCutter {
  public:
   using Sink = std::function<void(std::span<const std::byte>)>;

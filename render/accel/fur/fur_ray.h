@@ -11,9 +11,9 @@ namespace pelage {
 
 /// A ray in the form used by the kernels, in grid units.
 ///
-/// Ray space: with k the axis of the direction's largest component, X = d_k P_i - d_i P_k and Y = d_k P_j -
-/// d_j P_k vanish on the whole line through the origin, whatever rounding does to lengths [Woop13]; x and y
-/// are X and Y, orthonormalised; z is the distance along the ray. End points of segments that a ray may hit
+/// Ray space: k is the axis of the direction's largest component. X = d_k P_i - d_i P_k and Y = d_k P_j - d_j
+/// P_k vanish on the whole line through the origin, even if the direction's length is rounded [Woop13]. x and
+/// y are X and Y, orthonormalised; z is the distance along the ray. End points of segments that a ray may hit
 /// are transformed in double precision, so that distance does not reduce accuracy; floats only decide which
 /// segments are candidates, with a margin of `point_error_bound`.
 struct FurRay {
@@ -55,8 +55,8 @@ struct FurRay {
 /// as in all chunks of a coat.
 class FurRays {
  public:
-  /// As FurRay::prepare(); null where that is false. All calls must be for one ray, whose far end may
-  /// decrease.
+  /// As FurRay::prepare(), but returns null instead of false. All calls must be for one ray, whose far end
+  /// may decrease.
   const FurRay* prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
     if (!known_ || step_ != tree.step || anchor_ != tree.anchor || motion_keys_ != tree.motion_keys) {
       known_ = true;
@@ -78,7 +78,7 @@ class FurRays {
   bool known_ = false, finite_ = false;
 };
 
-/// The queries of FurTree for a ray prepared for this view, which must have nodes.
+/// The queries of FurTree for a ray that was prepared for this view. The view must have nodes.
 FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 

@@ -18,7 +18,7 @@ struct CurvePart {
   uint32_t part = 1;
 };
 
-/// The box of a part during the build: grid units; the last lanes of both ends identify the part.
+/// The box of a part during the build, in grid units. The last lanes of `low` and `high` identify the part.
 struct FurPiece {
   Four low, high;
 
@@ -30,8 +30,8 @@ struct FurPiece {
 struct FurBuildOptions {
   /// Cost of visiting a node relative to testing four segments.
   float node_cost = 1.2f;
-  /// Additional pieces that long or diagonal segments may be cut into, relative to the number of segments.
-  /// Each piece has its own box and tests the whole segment.
+  /// Max number of additional pieces from cutting long or diagonal segments, relative to the number of
+  /// segments. Each piece has its own box and tests the whole segment.
   float cuts = 0;
   FurRotation rotation = FurRotation::kNever;
 };
@@ -39,8 +39,8 @@ struct FurBuildOptions {
 /// The structure of a fur tree, independent of the node layout.
 struct FurTopology {
   struct Child {
-    uint32_t node = 0;              ///< when count is 0: index of the node
-    uint32_t first = 0, count = 0;  ///< of a leaf: range of its parts in `order`
+    uint32_t node = 0;              ///< index of the child node, if count is 0
+    uint32_t first = 0, count = 0;  ///< for a leaf: range of its parts in `order`
   };
   struct Node {
     std::array<Child, 4> children;
@@ -65,14 +65,14 @@ SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 /// The pieces of all segments that can be rendered: boxes of their Bezier hulls in a frame, averaged over the
 /// motion keys.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts, const FurFrame& frame);
-/// Upper bound of their number for this number of segments.
+/// Upper bound of the number of pieces for this number of segments.
 inline size_t piece_count_bound(size_t segments, float cuts) {
   return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));
 }
 
 /// Builds with the binned surface area heuristic [Wald07]; n segments cost as much as ceil(n / 4) tests. Sets
-/// of a few dozen are swept exactly and split at multiples of four only, so that nearly every lane is filled.
-/// Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
+/// of up to a few dozen segments are swept exactly and split only at multiples of four, so that nearly every
+/// lane is filled. Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options);
 
 }  // namespace pelage

@@ -29,7 +29,7 @@ struct FurTreeView {
   float step = 1;   ///< of the grid
   V3f anchor{0};    ///< of the grid
   float reach = 0;  ///< max coordinate of the boxes, in grid units
-  FurFrame frame;   ///< frame of the nodes' boxes
+  FurFrame frame;   ///< axes of the nodes' boxes
 };
 
 /// Intersection of rays with the strands of one groom: a 4-wide BVH [Neulander13] over cubic segments in
@@ -53,7 +53,7 @@ class FurTree {
   /// Allocates memory for a tree; `pool` as in FurTreeOptions.
   static PageBlock make_block(PagePool* pool, size_t bytes);
 
-  /// The first hit in (near, far) by precedes(); `filter` may be null.
+  /// The first hit in (near, far), in the order of FurHit::precedes(); `filter` may be null.
   FurHit closest(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;
   /// Whether there is any hit in (near, far) that `filter`, if any, accepts.
   bool occluded(const Ray& ray, const FurStart& start, FurFilter* filter = nullptr) const;

@@ -50,15 +50,15 @@ struct PagedFurOptions {
 };
 
 /// Intersection of rays with fur trees whose pages are read from a file on demand and evicted under the
-/// memory limit. Always resident are the tree over the boxes of all treelets, the table, and the memory of
-/// waiting rays; pages are held by a Residency. The result is a function of the ray and the segments: the
-/// same as with trees in memory, whatever is resident.
+/// memory limit. The tree over the boxes of all treelets, the table and the memory of waiting rays are always
+/// resident. A Residency holds the pages. The result is a function of the ray and the segments. It equals the
+/// result of trees in memory and does not depend on which pages are resident.
 ///
 /// Errors of the file propagate through the queries. Thread safety: const members from any thread, each
 /// `thread` number from one thread at a time and inside a FlushDenormals scope.
 class PagedFur {
  public:
-  /// Throws Error (kMemory) when the limit does not hold the always resident part and one page.
+  /// Throws Error (kMemory) when the limit is too small for the always resident part and one page.
   PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger, const Workers& workers);
   ~PagedFur();
   /// The memory limit that holds `share` of all pages in addition to the always resident part. Ignores the
@@ -71,11 +71,11 @@ class PagedFur {
   /// Whether there is any hit in (near, far). Tests pages that are not resident last.
   bool occluded(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
 
-  /// The same for many rays at once. A ray that needs a page which is not resident waits while others
-  /// continue. When the max number of rays waits, or all do, the page with most waiting rays is read, and all
-  /// of these continue. Every ray visits its treelets front to back or, for occlusion, the resident ones
-  /// first, as for a single ray. `starts` must be empty or as long as `rays`; the answers are as long as
-  /// `rays` and equal to the answers of single queries.
+  /// The same for many rays at once. A ray that needs a page which is not resident waits while other rays
+  /// continue. When the max number of rays or all rays wait, the thread reads the page for which the most
+  /// rays wait, and these rays continue. As in single queries, every ray visits its treelets front to back
+  /// or, for occlusion, the resident treelets first. `starts` must be empty or as long as `rays`; the answers
+  /// are as long as `rays` and equal to the answers of single queries.
   void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
   void occluded(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,

@@ -17,7 +17,7 @@ struct PagedFur::Nearest {
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kFrontToBack;
   static constexpr bool kNearestFirst = true;
 
-  /// Improves `so_far`.
+  /// Replaces `so_far` when it finds a nearer hit.
   Nearest(const Ray& of, const PagedFurStart& from, PagedFurHit& so_far)
       : ray(of), start(from), best(so_far) {}
 

@@ -14,15 +14,15 @@ namespace pelage {
 using SnappedSegment = std::array<std::array<float, 4>, 4>;
 
 /// Strands as stored in the fur tree: every segment, of whatever basis, as a cubic Bezier curve on the grid.
-/// Neighbouring segments share their end point exactly, because both snap the same float; where the strand is
+/// Neighbouring segments share their end point exactly, because both snap the same float. Where the strand is
 /// smooth they also share the tangent, because inner points are stored as snapped differences from the ends.
-/// If inner points were snapped independently, strands would have kinks, and ribbons, which are cut
-/// perpendicular to the tangent at their ends, would have wedge-shaped gaps there. Ends have an error of at
-/// most half a step, inner points of one step.
+/// If inner points were snapped independently, strands would have kinks. Ribbons are cut perpendicular to the
+/// tangent at their ends, so they would have wedge-shaped gaps at the kinks. The error is at most half a step
+/// for end points, and one step for inner points.
 ///
 /// Segments are numbered along the strands, strands in ascending order of their ids (then of their index in
-/// the batch), so that of two segments at equal distance the one with the smaller number comes first. Refers
-/// to the strands. Thread safety: immutable.
+/// the batch). Of two segments at equal distance, the one with the smaller number therefore comes first.
+/// Refers to the strands. Thread safety: immutable.
 class SnappedStrands {
  public:
   SnappedStrands(const Strands& strands, const FurGrid& grid);

@@ -71,15 +71,15 @@ class WaitingRays {
   bool is_empty() const { return waiting_.empty(); }
   Ray& operator[](uint32_t slot) { return rays_[slot]; }
 
-  /// Returns a slot for one more ray; there must be a free one. A ray occupies its slot from here to end(),
-  /// waiting or not.
+  /// Returns a slot for one more ray; there must be a free one. A ray occupies its slot until end(), whether
+  /// it waits or not.
   uint32_t begin();
   void end(uint32_t slot);
 
   /// Appends the ray to a page's queue.
   void wait(uint32_t slot, uint32_t page);
-  /// The page that most rays wait for; in case of a tie the one with the longest wait. There must be a
-  /// waiting ray.
+  /// The page that most rays wait for; in case of a tie, the page whose queue has existed longest. There must
+  /// be a waiting ray.
   uint32_t fullest() const;
   /// Removes the queue of a page and returns its first slot.
   uint32_t release(uint32_t page);

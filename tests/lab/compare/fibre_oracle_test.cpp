@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0
-// Every model against light traced by brute force through the fibre that it stands for: energy, and where the
-// light goes around and along the fibre. What a published model is known to get wrong is expected here, with
-// the reason.
+// SPDX-License-Identifier: Apache-2.0 Compares every model with light traced by brute force through the fibre
+// that the model approximates: energy, and the distributions around and along the fibre. Known errors of
+// published models are expected here, with their reasons.
 #include "lab/compare/fibre_oracle.h"
 
 #include <gtest/gtest.h>
@@ -70,9 +69,10 @@ TEST(FibreOracle, DeonIsWhatIsTraced) {
   }
 }
 
-/// Expected failure: as published a fibre gives back nearly twice what it gets, because a Gaussian of unit
-/// area in theta_h has area 2 in theta_i. Around the fibre it is right; halved it is right along it, too, but
-/// for what it loses at its flanks and in the longer ways that it leaves out.
+/// Expected failure: the published model scatters nearly twice the light that arrives, because a Gaussian of
+/// unit area in theta_h has area 2 in theta_i. The distribution around the fibre is correct. The distribution
+/// of the halved model along the fibre is correct too, except for the light lost at the flanks of the
+/// Gaussian and in the longer paths that the model omits.
 TEST(FibreOracle, MarschnerIsTwiceWhatIsTraced) {
   for (MarschnerVariant variant : {MarschnerVariant::kPublished, MarschnerVariant::kHalved}) {
     MarschnerParams params;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: Apache-2.0
-// How bright tangles of fibres are.
+// SPDX-License-Identifier: Apache-2.0 Brightness of tangles of fibres.
 #include <gtest/gtest.h>
 
 #include "tests/render/fibre/tangle_brightness.h"
@@ -7,8 +6,9 @@
 namespace pelage {
 namespace {
 
-/// Fibres that scatter evenly every way: the diffuse albedo of an endless depth of isotropic scatterers of
-/// albedo a, by the fit of [Hulst80, table 12] with s = sqrt(1 - a): (1 - s) (1 - 0.139 s) / (1 + 1.17 s).
+/// For fibres that scatter evenly in all directions, the reflectance is the diffuse albedo of an infinitely
+/// deep medium of isotropic scatterers of albedo a. With s = sqrt(1 - a), the fit of [Hulst80, table 12] is
+/// (1 - s) (1 - 0.139 s) / (1 + 1.17 s).
 TEST(Tangle, OfIsotropicScatterers) {
   for (float albedo : {0.3f, 0.8f, 0.97f}) {
     const double s = std::sqrt(1 - albedo), expected = (1 - s) * (1 - 0.139 * s) / (1 + 1.17 * s);
@@ -26,7 +26,7 @@ TEST(Tangle, OfIsotropicScatterers) {
   }
 }
 
-/// The constants of the table are what they say; and the fit of [Chiang16] is the colour of a tangle.
+/// The constants of the table are correct, and the fit of [Chiang16] gives the colour of a tangle.
 TEST(CoatColor, BrightnessIsThatOfChiangFibres) {
   const FibreMaterial chiang{ChiangParams{}};
   for (int i = 2; i < CoatColor::kColors; i += 2) {
@@ -37,14 +37,14 @@ TEST(CoatColor, BrightnessIsThatOfChiangFibres) {
   }
 }
 
-/// `color` means the same for every model, within what its surface reflects whatever it absorbs.
+/// `color` means the same for every model, except for the light that a surface reflects at any absorption.
 TEST(CoatColor, EveryModelIsAsBright) {
   const MaterialParams models[] = {LambertCylinderParams{}, KajiyaKayParams{},
                                    ConeShellParams{},       DeonParams{},
                                    MarschnerParams{},       YanFastParams{}};
   for (const MaterialParams& params : models) {
     const FibreMaterial material(params, Workers(2));
-    const bool loses = std::holds_alternative<MarschnerParams>(params);  // even what is white
+    const bool loses = std::holds_alternative<MarschnerParams>(params);  // even white fibres lose light
     for (int i : {3, 6, 8}) {
       if (loses && i < 6) continue;
       const float color = CoatColor::kColor[i];
@@ -54,10 +54,10 @@ TEST(CoatColor, EveryModelIsAsBright) {
   }
 }
 
-/// Expected failure of a published model: a Gaussian in theta_h, halved, gives back a few hundredths less
-/// than a fibre gets, the more the more slanted it lies, and much white fur together, where light is
-/// scattered dozens of times, is far from white. The same lobes with the longitudinal function of [dEon11]
-/// lose little: it is the model that is dark, not what is done with it.
+/// The halved Marschner model fails to keep white fur white. A Gaussian in theta_h, halved, reflects a few
+/// hundredths less light than arrives; the more slanted the fibre, the larger the loss. In a mass of white
+/// fur, light is scattered dozens of times, so the fur is far from white. The same lobes with the
+/// longitudinal function of [dEon11] lose little light. So the model causes the loss, not its implementation.
 TEST(CoatColor, HalvedMarschnerIsTooDarkWhereItIsWhite) {
   EXPECT_LT(brightness(FibreMaterial(MarschnerParams{}), 1, 2000), 0.85);
   EXPECT_GT(brightness(FibreMaterial(DeonParams{}), 1, 2000), 0.9);

@@ -61,8 +61,8 @@ TEST(Tangle, GivesLightBackWhateverTheModel) {
   }
 }
 
-/// The published lobes give back nearly twice what they get, so that even white must absorb: what keeps much
-/// of such fur together from giving back without end.
+/// The published lobes scatter nearly twice the light that arrives. So even white fibres must absorb;
+/// otherwise the light in a mass of fibres would grow without bound.
 TEST(CoatColor, PublishedMarschnerAbsorbsEvenWhereItIsWhite) {
   MarschnerParams params;
   params.variant = MarschnerVariant::kPublished;

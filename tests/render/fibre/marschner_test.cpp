@@ -31,8 +31,9 @@ double far_albedo(const MarschnerParams& params, float theta_o) {
   return mean.mean();
 }
 
-/// A defect of the model, stated: a Gaussian of unit area in theta_h has area 2 in theta_i, so a fibre that
-/// absorbs nothing gives back nearly twice what it gets. Half of the lobes give back what they should.
+/// A known defect of the model: a Gaussian of unit area in theta_h has area 2 in theta_i, so a fibre without
+/// absorption scatters nearly twice the light that arrives. The halved lobes scatter the correct amount of
+/// light.
 TEST(Marschner, PublishedGivesBackNearlyTwiceWhatItGets) {
   for (float theta : {0.0f, 0.5f, 1.0f}) {
     const double published = far_albedo(clear(0, 5, MarschnerVariant::kPublished), theta);

@@ -6,7 +6,8 @@
 
 namespace pelage {
 
-/// Share of the light that a tangle of fibres of a material and a colour gives back.
+/// Fraction of uniform light that a tangle of fibres reflects (tangle_reflectance), for a material and a
+/// colour.
 inline double brightness(const FibreMaterial& material, float color, int walks) {
   return tangle_reflectance(
       [&](const TangleHit& hit, const V3f& u) {
