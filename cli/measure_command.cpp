@@ -25,6 +25,7 @@ const char* experiment_name(Experiment experiment) {
          : experiment == Experiment::kGrowth   ? "growth"
          : experiment == Experiment::kSamplers ? "samplers"
          : experiment == Experiment::kLod      ? "lod"
+         : experiment == Experiment::kShading  ? "shading"
                                                : "residency";
 }
 
@@ -73,6 +74,9 @@ Measured run_experiment(const Options& options, const SceneDescription& scene, c
       return measure_residency(scene, setup, display);
     case Experiment::kSamplers:
       return measure_samplers(scene, setup, display);
+    case Experiment::kShading:
+      return measure_shading(scene, {options.samples, options.reference_samples, options.parts}, setup,
+                             display);
     case Experiment::kLod:
       return measure_lod(scene, options.characters, options.parts, setup, display);
   }
@@ -98,6 +102,12 @@ int run_measure(const Options& options) {
   std::vector<std::string> command{"pelage", "measure", report.experiment, options.input};
   command.insert(command.end(), setup.arguments.begin(), setup.arguments.end());
   command.insert(command.end(), {"--repeat", std::to_string(options.repeat)});
+  if (options.experiment == Experiment::kShading) {
+    command.insert(command.end(), {"--samples", fmt::format("{}", fmt::join(options.samples, ",")),
+                                   "--reference-samples", std::to_string(options.reference_samples)});
+    if (!options.parts.empty())
+      command.insert(command.end(), {"--parts", fmt::format("{}", fmt::join(options.parts, ","))});
+  }
   report.facts = {{"Scene", options.input},
                   {"Scene hash", scene.hash},
                   {"Picture", picture_text(scene)},

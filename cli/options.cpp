@@ -11,6 +11,7 @@
 
 #include "base/nearest_name.h"
 #include "base/version.h"
+#include "cli/experiment_flags.h"
 #include "cli/post_flags.h"
 #include "groom/curve_basis_names.h"
 #include "lab/compare/fibre_oracle.h"
@@ -106,7 +107,9 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
 void add_measure(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* measure = app.add_subcommand(
       "measure", "Run one experiment, one process per variant, and write a report: JSON, CSV, HTML");
-  measure->add_option("EXPERIMENT", texts.experiment, "accel, bounds, growth, lod, residency or samplers")
+  measure
+      ->add_option("EXPERIMENT", texts.experiment,
+                   "accel, bounds, growth, lod, residency, samplers or shading")
       ->required();
   add_scene_flags(*measure, options, texts);
   measure
@@ -121,21 +124,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
   measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
       ->check(CLI::PositiveNumber)
       ->type_name("SECONDS");
-  measure->add_option("--rays", options.rays, "accel: maximum number of rays of each kind (default: 131072)")
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N");
-  measure
-      ->add_option("--characters", options.characters,
-                   "lod: number of full-detail characters in each run; the cost of the whole crowd is "
-                   "extrapolated from these runs (default: 10,20,40)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(1, 1 << 30))
-      ->type_name("N,N");
-  measure->add_option("--parts", options.parts, "lod: run only these parts (of crowd, detail, wedge, dolly)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("PARTS");
+  add_experiment_flags(*measure, options);
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
 }
 
@@ -302,21 +291,6 @@ CurveBasis parse_basis(const std::string& text) {
   return static_cast<CurveBasis>(found - names.begin());
 }
 
-Experiment parse_experiment(const std::string& text) {
-  static const std::map<std::string, Experiment> built{
-      {"accel", Experiment::kAccel},       {"bounds", Experiment::kBounds},
-      {"growth", Experiment::kGrowth},     {"residency", Experiment::kResidency},
-      {"samplers", Experiment::kSamplers}, {"lod", Experiment::kLod}};
-  static const std::vector<std::string> promised{"shading", "scaling"};
-  if (const auto found = built.find(text); found != built.end()) return found->second;
-  std::vector<std::string> names;
-  for (const auto& [name, experiment] : built) names.push_back(name);
-  if (std::find(promised.begin(), promised.end(), text) != promised.end())
-    fail("experiment " + quote(text) +
-         " does not exist yet; choose one of accel, bounds, growth, lod, residency and samplers");
-  fail("unknown experiment " + quote(text) + suggest(text, names));
-}
-
 void check_models(const std::vector<std::string>& models) {
   const std::vector<std::string>& known = fibre_model_names();
   for (const std::string& model : models) {
@@ -325,17 +299,8 @@ void check_models(const std::vector<std::string>& models) {
   }
 }
 
-void check_parts(const std::vector<std::string>& parts) {
-  const std::vector<std::string> known(std::begin(kLodParts), std::end(kLodParts));
-  for (const std::string& part : parts) {
-    if (std::find(known.begin(), known.end(), part) == known.end())
-      fail("--parts: unknown part " + quote(part) + suggest(part, known));
-  }
-}
-
 void interpret(const Texts& texts, Options& options) {
   check_models(options.models);
-  check_parts(options.parts);
   for (const std::string& text : texts.set) options.overrides.push_back(parse_override(text));
   if (!texts.memory.empty()) {
     if (!parse_bytes(texts.memory))
@@ -353,7 +318,7 @@ void interpret(const Texts& texts, Options& options) {
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;
   if (!texts.basis.empty()) options.basis = parse_basis(texts.basis);
-  if (!texts.experiment.empty()) options.experiment = parse_experiment(texts.experiment);
+  interpret_experiment(texts.experiment, options);
   options.progress = parse_progress(texts);
   interpret_post(texts.post, options);
 }

@@ -27,7 +27,7 @@ enum class Command {
   kManual
 };
 
-enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod };
+enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod, kShading };
 
 /// Parts of the report of `measure lod`.
 inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};
@@ -57,7 +57,10 @@ struct Options {
   double time_limit_s = 600;                    ///< measure: a run that takes longer is killed
 
   std::vector<int> characters{10, 20, 40};  ///< measure lod: numbers of characters with all their hair
-  std::vector<std::string> parts;           ///< measure lod: parts of the report; empty: all
+  std::vector<std::string> parts;           ///< measure lod, shading: parts of the report; empty: all
+
+  std::vector<int> samples{4, 16, 64};  ///< measure shading: sample counts of each variant
+  int reference_samples = 256;          ///< measure shading
 
   int rays = 1 << 17;                    ///< measure accel, trace: max number of each kind
   std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()

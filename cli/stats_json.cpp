@@ -75,6 +75,8 @@ std::string statistics_json(const Statistics& s) {
       {"time_limited", s.time_limited},
       {"samples_rejected", s.frames.samples_rejected},
       {"clamped_fraction", s.clamped_fraction},
+      {"knots", s.frames.knots.knots},
+      {"knot_samples", s.frames.knots.samples},
       {"rays", rays_json(s.frames.rays)},
       {"stages_s", stages_json(s)},
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lab/report/report.h"
@@ -32,6 +33,17 @@ Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup
 
 /// Uniform and adaptive sampling: samples at equal error, and bias.
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
+
+/// What `measure shading` runs.
+struct ShadingPlan {
+  std::vector<int> samples{4, 16, 64};  ///< per pixel, ascending: a picture of each curve with each
+  int reference_samples = 256;
+  std::vector<std::string> parts;  ///< names from kShadingParts (lab/measure/shading_curves.h); empty: all
+};
+
+/// `path` and `gather` in several ways: error over time, bias, rays, knots.
+Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
+                         Progress& progress);
 
 /// Reduced detail against full detail. `parts`: names from kLodParts, or empty for all:
 ///   crowd   cost of the whole crowd in full detail, extrapolated from `full_detail` characters

@@ -150,7 +150,8 @@ class LodSweep {
     }
     if (full >= 0) {
       const auto at = [&](int i) { return runner_.picture(outcomes[static_cast<size_t>(i)].variant); };
-      const auto error = picture_error_of_files(at(first), at(first + 1), at(full), at(full + 1));
+      const auto error =
+          picture_error_of_files(at(first), at(first + 1), at(full), at(full + 1), ErrorRegion::kSurfaces);
       for (size_t i = static_cast<size_t>(first); i < outcomes.size(); ++i) {
         rows[i].known = error.has_value();
         rows[i].error = error.value_or(PictureError{});
@@ -219,13 +220,14 @@ Table dolly_table(const LodSweep& sweep) {
 void add_detail(const LodSweep& sweep, Report& report) {
   report.sections.push_back(
       {"Method",
-       {Paragraph{"Every view of the scene is rendered twice with full detail and twice with reduced detail, "
-                  "all four with different seeds: x, y and a, b. relMSE is the mean over pixels with alpha "
-                  "of (x - a)(y - b) / (t^2 + 0.01 m^2), where t is the mean of a and b over 9 x 9 pixels "
-                  "and m its mean over all pixels: the error common to both pictures, without noise. Bias is "
-                  "the error of the mean luminance over these pixels. Fractions are relative to full detail "
-                  "from the same place. Naive thinning removes the same strands and does not widen the "
-                  "others. Other hairs: the same coats with another seed, at full detail."}}});
+       {Paragraph{
+           "Every view of the scene is rendered twice with full detail and twice with reduced detail, "
+           "all four with different seeds: x, y and a, b. relMSE is the mean over pixels with alpha "
+           "of (x - a)(y - b) / (t^2 + 0.01 m^2), where t is the mean of a and b over 9 x 9 pixels "
+           "and m its mean over these pixels: the error common to both pictures, without noise. Bias is "
+           "the error of the mean luminance over these pixels. Fractions are relative to full detail "
+           "from the same place. Naive thinning removes the same strands and does not widen the "
+           "others. Other hairs: the same coats with another seed, at full detail."}}});
   Table details = select(report.data,
                          {"variant", "wall_s", "cpu_s", "cpu_least_s", "cpu_most_s", "hairs", "hairs_share",
                           "working_set_bytes", "set_share", "cpu_share", "rel_mse", "bias"},

@@ -88,7 +88,7 @@ class Sweep {
     if (plain > 0 && outcomes.back().succeeded()) {
       const auto error =
           picture_error_of_files(runner_.picture(variant), runner_.picture(outcomes[0].variant),
-                                 runner_.picture(outcomes[1].variant));
+                                 runner_.picture(outcomes[1].variant), ErrorRegion::kSurfaces);
       row.known = error.has_value();
       row.error = error.value_or(PictureError{});
     }
@@ -129,15 +129,15 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
              [](const Outcome& o) -> Cell { return o.number("noise"); });
   add("samples", "samples", Quantity::kRatio, [](const Row& r) { return r.error.samples; });
   add("surface_samples", "on surfaces", Quantity::kRatio,
-      [](const Row& r) { return r.error.surface_samples; });
+      [](const Row& r) { return r.error.region_samples; });
   add("rel_mse", "relMSE", Quantity::kRatio, [](const Row& r) { return r.error.rel_mse; });
   add("bias", "bias", Quantity::kPercent, [](const Row& r) { return r.error.bias; });
   add("gain", "fewer samples", Quantity::kRatio,
       [&](const Row& r) { return gain(sweep.rows, r, r.error.samples); });
   add("surface_gain", "on surfaces", Quantity::kRatio,
-      [&](const Row& r) { return gain(sweep.rows, r, r.error.surface_samples); });
+      [&](const Row& r) { return gain(sweep.rows, r, r.error.region_samples); });
   add("inverse_surface_share", "1 / share of surfaces", Quantity::kRatio,
-      [](const Row& r) { return 1 / r.error.surface_share; });
+      [](const Row& r) { return 1 / r.error.region_share; });
   add("inverse_coverage", "1 / coverage", Quantity::kRatio,
       [](const Row& r) { return 1 / r.error.coverage; });
 
@@ -148,7 +148,8 @@ Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& set
            "same number of samples in every pixel; their noise is the noise budget of the adaptive pictures, "
            "whose pixels get at most {}. All pictures have different seeds. relMSE is the mean over pixels "
            "with alpha of (x - a)(x - b) / (t^2 + 0.01 m^2), where a and b are the two references, t is "
-           "their mean and m the mean of t. Fewer samples: the samples that plain sampling needs for the "
+           "their mean over 9 x 9 pixels and m the mean of t. Fewer samples: the samples that plain sampling "
+           "needs for the "
            "same relMSE, divided by the samples taken, over all pixels and over pixels with alpha. Bias is "
            "the error of the mean luminance over these pixels. A rule that knew the variance of every pixel "
            "beforehand and took no sample elsewhere would need {:.2f} times fewer samples on pixels with "

@@ -3,15 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "lab/pictures/plane.h"
 
 namespace pelage {
 namespace {
 
 constexpr double kWeights[] = {0.2126, 0.7152, 0.0722};  // luminance
-constexpr int kAround = 4;                               // pixels to each side
+constexpr int kAround = 4, kBlockAround = 1;             // pixels, or blocks, to each side
+constexpr int kSquare = 16;
 
 /// R, G, B, A of a picture; empty when one is missing.
 std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
@@ -24,102 +28,138 @@ std::vector<const std::vector<float>*> channels_of(const ExrImage& image) {
   return channels;
 }
 
-/// Mean of two pictures over the pixels around each, by rows and then by columns.
-std::vector<double> blurred_mean(const std::vector<float>& a, const std::vector<float>& b, int width,
-                                 int height, int around) {
-  const auto along = [around](const std::vector<double>& from, int count, int lines, size_t step,
-                              size_t next) {
-    std::vector<double> to(from.size());
-    for (int line = 0; line < lines; ++line) {
-      const size_t first = static_cast<size_t>(line) * next;
-      const auto at = [&](int i) { return first + static_cast<size_t>(i) * step; };
-      for (int i = 0; i < count; ++i) {
-        const int low = std::max(0, i - around), high = std::min(count - 1, i + around);
-        double sum = 0;
-        for (int j = low; j <= high; ++j) sum += from[at(j)];
-        to[at(i)] = sum / (high - low + 1);
-      }
+/// 1 in the region, 0 elsewhere; empty when a layer is missing.
+std::optional<Plane> region_of(const ExrImage& image, ErrorRegion region) {
+  const bool fur = region == ErrorRegion::kFur;
+  Plane plane(image.width, image.height);
+  for (const char* name : fur ? std::vector<const char*>{"tangent.X", "tangent.Y", "tangent.Z"}
+                              : std::vector<const char*>{"A"}) {
+    const ExrChannel* channel = image.find(name);
+    if (!channel || channel->pixels.size() != plane.pixels.size()) return {};
+    for (size_t p = 0; p < plane.pixels.size(); ++p) {
+      const float value = channel->pixels[p];
+      if (fur ? value != 0 : value > 0) plane.pixels[p] = 1;
     }
-    return to;
-  };
-  std::vector<double> mean(a.size());
-  for (size_t p = 0; p < a.size(); ++p) mean[p] = 0.5 * (double{a[p]} + double{b[p]});
-  const auto row = static_cast<size_t>(width);
-  return along(along(mean, width, height, 1, row), height, width, row, 1);
+  }
+  return plane;
 }
 
-std::optional<PictureError> error_of(const ExrImage& x, const ExrImage& y, const ExrImage& a,
-                                     const ExrImage& b, int t_around) {
-  const auto cx = channels_of(x), cy = channels_of(y), ca = channels_of(a), cb = channels_of(b);
-  const auto fits = [&](const ExrImage& i) { return i.width == a.width && i.height == a.height; };
-  if (cx.empty() || cy.empty() || ca.empty() || cb.empty() || !fits(x) || !fits(y) || !fits(b)) return {};
-  const ExrChannel* counts = x.find("samples");
+/// One channel of the tested pictures x and y and of the references a and b.
+struct Compared {
+  Plane x, y, a, b;
+};
 
-  const size_t pixels = ca[3]->size();
-  const auto truth = [&](size_t c, size_t p) { return 0.5 * (double{(*ca[c])[p]} + double{(*cb[c])[p]}); };
-  PictureError result;
-  result.samples = result.surface_samples = counts ? 0 : NAN;
-  double surface = 0, mean[3] = {}, luminance_x = 0, luminance_t = 0;
-  for (size_t p = 0; p < pixels; ++p) {
-    result.coverage += (*ca[3])[p];
-    if (counts) result.samples += counts->ids[p];
-    if (!((*ca[3])[p] > 0)) continue;
-    ++surface;
-    if (counts) result.surface_samples += counts->ids[p];
-    for (size_t c = 0; c < 3; ++c) {
-      mean[c] += truth(c, p);
-      luminance_x += kWeights[c] * 0.5 * (double{(*cx[c])[p]} + double{(*cy[c])[p]});
-      luminance_t += kWeights[c] * truth(c, p);
+struct RelativeError {
+  double mean = NAN, deviation = NAN;
+};
+
+/// Sums over squares of kSquare x kSquare pixels, for the standard error.
+struct Squares {
+  struct Sum {
+    double error = 0, count = 0;
+  };
+  std::map<std::pair<int, int>, Sum> sums;
+
+  RelativeError result() const {
+    double error = 0, count = 0, squares = 0;
+    for (const auto& [place, sum] : sums) {
+      error += sum.error;
+      count += sum.count;
+    }
+    if (count == 0) return {};
+    const double mean = error / count, n = static_cast<double>(sums.size());
+    for (const auto& [place, sum] : sums) squares += std::pow(sum.error - mean * sum.count, 2);
+    return {mean, n > 1 ? std::sqrt(squares * n / (n - 1)) / count : NAN};
+  }
+};
+
+RelativeError relative_error(const std::vector<Compared>& channels, const Plane& region, int around) {
+  Squares squares;
+  for (const auto& [x, y, a, b] : channels) {
+    const Plane t = blurred(mean_of(a, b), around);
+    const double m = mean_over(t, region);
+    for (int v = 0; v < region.height; ++v) {
+      for (int u = 0; u < region.width; ++u) {
+        if (!(region.at(u, v) > 0.5)) continue;
+        const double error = 0.5 * ((x.at(u, v) - a.at(u, v)) * (y.at(u, v) - b.at(u, v)) +
+                                    (x.at(u, v) - b.at(u, v)) * (y.at(u, v) - a.at(u, v)));
+        Squares::Sum& sum = squares.sums[{u / kSquare, v / kSquare}];
+        if (error != 0) sum.error += error / (t.at(u, v) * t.at(u, v) + 0.01 * m * m);
+        ++sum.count;
+      }
     }
   }
-  for (size_t c = 0; c < 3; ++c) {
-    const std::vector<double> around = blurred_mean(*ca[c], *cb[c], a.width, a.height, t_around);
-    for (size_t p = 0; p < pixels; ++p) {
-      if (!((*ca[3])[p] > 0)) continue;
-      const double t = around[p], m = mean[c] / surface, v = (*cx[c])[p], w = (*cy[c])[p];
-      const double of_a = (*ca[c])[p], of_b = (*cb[c])[p];
-      const double error = 0.5 * ((v - of_a) * (w - of_b) + (v - of_b) * (w - of_a));
-      if (error != 0) result.rel_mse += error / (t * t + 0.01 * m * m) / 3;
-    }
+  return squares.result();
+}
+
+double luminance_over(const std::vector<Compared>& channels, const Plane& region, bool of_references) {
+  double sum = 0;
+  for (size_t c = 0; c < channels.size(); ++c) {
+    const auto& [x, y, a, b] = channels[c];
+    sum += kWeights[c] * mean_over(of_references ? mean_of(a, b) : mean_of(x, y), region);
   }
-  const auto count = static_cast<double>(pixels);
-  surface = std::max(1.0, surface);
-  result.coverage /= count;
-  result.surface_share = surface / count;
-  result.samples /= count;
-  result.surface_samples /= surface;
-  result.rel_mse /= surface;
-  result.bias = luminance_t > 0 ? luminance_x / luminance_t - 1 : 0;
-  return result;
+  return sum;
 }
 
 }  // namespace
 
-std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b) {
-  return error_of(x, x, a, b, 0);
-}
+double PictureError::relative_bias() const { return std::copysign(std::sqrt(std::max(rel_mse, 0.0)), bias); }
 
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
-                                          const ExrImage& b) {
-  return error_of(x, y, a, b, kAround);
+                                          const ExrImage& b, ErrorRegion region) {
+  const ExrImage* images[] = {&x, &y, &a, &b};
+  std::vector<std::vector<const std::vector<float>*>> channels;
+  for (const ExrImage* image : images) {
+    channels.push_back(channels_of(*image));
+    if (channels.back().empty() || image->width != a.width || image->height != a.height) return {};
+  }
+  const std::optional<Plane> inside = region_of(a, region);
+  if (!inside) return {};
+  std::vector<Compared> pixels, blocks;
+  for (size_t c = 0; c < 3; ++c) {
+    const auto plane = [&](size_t image) { return Plane(a.width, a.height, *channels[image][c]); };
+    pixels.push_back({plane(0), plane(1), plane(2), plane(3)});
+    const auto& [px, py, pa, pb] = pixels.back();
+    blocks.push_back({block_means(px), block_means(py), block_means(pa), block_means(pb)});
+  }
+
+  PictureError result;
+  const RelativeError error = relative_error(pixels, *inside, kAround);
+  result.rel_mse = error.mean;
+  result.rel_mse_deviation = error.deviation;
+  result.block_rel_mse = relative_error(blocks, block_means(*inside), kBlockAround).mean;
+  const double truth = luminance_over(pixels, *inside, true);
+  result.bias = truth != 0 ? luminance_over(pixels, *inside, false) / truth - 1 : 0;
+  const Plane everywhere(a.width, a.height, 1);
+  result.coverage = mean_over(Plane(a.width, a.height, *channels[2][3]), everywhere);
+  result.region_share = mean_over(*inside, everywhere);
+  result.samples = result.region_samples = NAN;
+  if (const ExrChannel* counts = x.find("samples")) {
+    Plane samples(x.width, x.height);
+    samples.pixels.assign(counts->ids.begin(), counts->ids.end());
+    result.samples = mean_over(samples, everywhere);
+    result.region_samples = mean_over(samples, *inside);
+  }
+  return result;
+}
+
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b,
+                                          ErrorRegion region) {
+  return picture_error(x, x, a, b, region);
 }
 
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
                                                    const std::filesystem::path& a,
-                                                   const std::filesystem::path& b) {
-  try {
-    return picture_error(read_exr(x), read_exr(a), read_exr(b));
-  } catch (const Error&) {
-    return {};
-  }
+                                                   const std::filesystem::path& b, ErrorRegion region) {
+  return picture_error_of_files(x, x, a, b, region);
 }
 
 std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
                                                    const std::filesystem::path& y,
                                                    const std::filesystem::path& a,
-                                                   const std::filesystem::path& b) {
+                                                   const std::filesystem::path& b, ErrorRegion region) {
   try {
-    return picture_error(read_exr(x), read_exr(y), read_exr(a), read_exr(b));
+    return picture_error(read_exr(x), read_exr(y), read_exr(a), read_exr(b), region);
   } catch (const Error&) {
     return {};
   }

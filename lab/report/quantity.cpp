@@ -52,6 +52,8 @@ DisplayUnit display_unit(Quantity quantity, double largest) {
       return unit(1, "");
     case Quantity::kPercent:
       return {100, "%", 1};
+    case Quantity::kError:
+      return {100, "%", 3};
   }
   return {};
 }

@@ -14,6 +14,7 @@ enum class Quantity {
   kRate,     ///< per second
   kRatio,    ///< without unit
   kPercent,  ///< given as a fraction, shown as a percentage
+  kError,    ///< the same, with three decimals
 };
 
 /// The unit in which numbers of one column or axis are shown.

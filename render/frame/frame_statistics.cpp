@@ -11,6 +11,7 @@ FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
   trace += other.trace;
   rays += other.rays;
   samples_rejected += other.samples_rejected;
+  knots += other.knots;
   for (const auto& [stage, seconds] : other.stages_s) stages_s[stage] += seconds;
   return *this;
 }

@@ -8,6 +8,7 @@
 #include "cache/residency_counts.h"
 #include "procedurals/growth_counts.h"
 #include "render/accel/trace_counts.h"
+#include "render/frame/knot_statistics.h"
 #include "render/frame/ray_statistics.h"
 
 namespace pelage {
@@ -22,6 +23,7 @@ struct FrameStatistics {
   RayStatistics rays;
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; more than zero is a bug
   std::map<std::string, double> stages_s;  ///< wall seconds by stage
+  KnotStatistics knots;
 
   FrameStatistics& operator+=(const FrameStatistics& other);
 };

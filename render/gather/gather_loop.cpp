@@ -124,6 +124,10 @@ void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& s
     for (int x = tile.x0; x < tile.x1; x += FilmSums::kTileSide) result_.film.clear_tile(x, y);
   }
   rejected_ += tile_.add_to(result_.film, scratch);
+  if (!pass.scattered) {
+    scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
+                      .samples = static_cast<int64_t>(scratch.samples.points.size())};
+  }
   job_.progress.advance(static_cast<double>(pass.count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
   double none = 0;
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
@@ -143,6 +147,7 @@ void GatherLoop::report(PassEnd end) {
   }
   result_.mean_samples = sum / (static_cast<double>(result_.film.width()) * result_.film.height());
   result_.statistics.samples_rejected += rejected_;
+  for (const auto& scratch : scratch_) result_.statistics.knots += scratch->knots;
   IndirectClamp clamp;
   for (const auto& scratch : scratch_) {
     result_.statistics.trace += scratch->thread.counts;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/job.h"
+#include "render/frame/knot_statistics.h"
 #include "render/frame/tile_order.h"
 #include "render/gather/indirect_paths.h"
 #include "render/gather/light_sharing.h"
@@ -61,6 +62,7 @@ struct GatherTile::Scratch final : SampleScratch {
   IndirectPaths::Scratch indirect_paths;
   LightSharing lights;
   PathSharing paths;
+  KnotStatistics knots;
 };
 
 }  // namespace pelage

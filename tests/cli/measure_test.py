@@ -117,6 +117,48 @@ class Measure(unittest.TestCase):
             self.assertGreater(plain["rel_mse"], 0)
             self.assertLess(abs(frame["bias"]), 0.05)
 
+    def test_shading(self):
+        self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
+                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse", "--set", "image.width=48",
+                     "--set", "image.height=32")
+        rows = {row["variant"]: row for row in self.read("out")["rows"]}
+        curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false"]
+        names = ["warm-up", "reference-a", "reference-b"]
+        for curve in curves:
+            names += [f"{curve}, 4", f"{curve}, 16"] + ([f"{curve}, 16, other seed"] if "gather" in curve else [])
+        self.assertEqual(list(rows), names)
+        self.assertEqual({row["status"] for row in rows.values()}, {"done"})
+        for curve in curves:
+            few, many = rows[f"{curve}, 4"], rows[f"{curve}, 16"]
+            self.assertGreater(many["cpu_s"], 0)
+            self.assertIsNone(few["gain_at_5"])
+            self.assertLess(abs(many["bias"]), 0.2)
+            for row in few, many:
+                self.assertGreater(row["rel_mse"], 0)
+                self.assertLess(row["block_rel_mse"], row["rel_mse"])
+                self.assertGreater(row["rays_camera"], 0)
+                self.assertEqual(row["curve"], curve)
+            if curve != "path, adaptive":
+                self.assertEqual([few["samples"], many["samples"]], [4, 16])
+                self.assertLess(many["rel_mse"], few["rel_mse"])
+            if "gather" in curve:
+                self.assertGreater(many["knots"], 0)
+                self.assertGreaterEqual(many["reuse_bias_max"], abs(many["reuse_bias"]))
+            else:
+                self.assertEqual(many["knots"], 0)
+                self.assertIsNone(many["reuse_bias"])
+            self.assertIsNone(few["reuse_bias"])
+        self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_knot"], 1)
+        self.assertGreater(rows["gather, 16"]["samples_per_knot"], 1)
+        for row in rows.values():  # where both reach an error, the gain is the ratio of their times
+            if row["gain_at_5"] is not None:
+                self.assertAlmostEqual(row["gain_at_5"] * row["cpu_s_to_5"], rows["path, 16"]["cpu_s_to_5"], 9)
+        differences = sorted(path.name for path in (self.path / "out").glob("difference-*.png"))
+        self.assertEqual(differences, ["difference-gather.png", "difference-path.png", "difference-reuse.png"])
+        for name in differences:
+            check_png((self.path / "out" / name).read_bytes())
+        self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")
+
     def test_lod_of_a_crowd(self):
         crowd = ("crowds.herd={of: [box], count: 8, spacing: 3, area: {type: polygon, points: "
                  "[[-4, -3], [4, -3], [30, -60], [-30, -60]]}}")

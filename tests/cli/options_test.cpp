@@ -125,17 +125,26 @@ TEST(Options, OfMeasure) {
   EXPECT_EQ(parsed({"measure", "growth", "s"}).experiment, Experiment::kGrowth);
   EXPECT_EQ(parsed({"measure", "accel", "s"}).experiment, Experiment::kAccel);
   EXPECT_EQ(problem({"measure", "growht", "s"}), "unknown experiment 'growht'; did you mean 'growth'?");
-  for (const std::string promised : {"shading", "scaling"}) {
-    EXPECT_EQ(problem({"measure", promised, "s"}),
-              "experiment '" + promised +
-                  "' does not exist yet; choose one of accel, bounds, growth, lod, residency and samplers");
-  }
+  EXPECT_EQ(problem({"measure", "scaling", "s"}),
+            "experiment 'scaling' does not exist yet; choose one of accel, bounds, growth, lod, residency, "
+            "samplers and shading");
   const Options lod = parsed({"measure", "lod", "s", "--characters", "3,9", "--parts", "crowd,dolly"});
   EXPECT_EQ(lod.characters, (std::vector<int>{3, 9}));
   EXPECT_EQ(lod.parts, (std::vector<std::string>{"crowd", "dolly"}));
   EXPECT_EQ(problem({"measure", "lod", "s", "--parts", "crowds"}),
             "--parts: unknown part 'crowds'; did you mean 'crowd'?");
   EXPECT_NE(problem({"measure", "lod", "s", "--characters", "0"}), "");
+  const Options shading = parsed({"measure", "shading", "s", "--samples", "64,2,64", "--reference-samples",
+                                  "8", "--parts", "gather,reuse"});
+  EXPECT_EQ(shading.experiment, Experiment::kShading);
+  EXPECT_EQ(shading.samples, (std::vector<int>{2, 64})) << "ascending, each once";
+  EXPECT_EQ(shading.reference_samples, 8);
+  EXPECT_EQ(shading.parts, (std::vector<std::string>{"gather", "reuse"}));
+  EXPECT_EQ(parsed({"measure", "shading", "s"}).samples, (std::vector<int>{4, 16, 64}));
+  EXPECT_NE(problem({"measure", "shading", "s", "--samples", "0"}), "");
+  EXPECT_NE(problem({"measure", "shading", "s", "--reference-samples", "0"}), "");
+  EXPECT_EQ(problem({"measure", "shading", "s", "--parts", "gatehr"}),
+            "--parts: unknown part 'gatehr'; did you mean 'gather'?");
   EXPECT_NE(problem({"measure", "bounds"}), "");
   EXPECT_NE(problem({"measure", "bounds", "s", "--repeat", "0"}), "");
 }

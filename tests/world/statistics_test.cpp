@@ -20,6 +20,7 @@ TEST(Statistics, SumWhatFramesCounted) {
   result.statistics.trace = {.box_tests = 40, .chunk_visits = 20};
   result.statistics.rays = {.camera = 7, .shadow = 8, .indirect = 9};
   result.statistics.samples_rejected = 1;
+  result.statistics.knots = {.knots = 2, .samples = 50};
   result.statistics.stages_s = {{"render", 2.0}};
   Statistics run;
   for (int i = 0; i < 3; ++i) run.add(result, 1, 1.0 / 3);
@@ -39,6 +40,8 @@ TEST(Statistics, SumWhatFramesCounted) {
   EXPECT_EQ(frames.rays.indirect, 27);
   EXPECT_EQ(frames.rays.total(), 72);
   EXPECT_EQ(frames.samples_rejected, 3);
+  EXPECT_EQ(frames.knots.knots, 6);
+  EXPECT_EQ(frames.knots.samples, 150);
   EXPECT_EQ(frames.stages_s.at("render"), 6);
 }
 

@@ -36,6 +36,7 @@ TEST(Quantity, ChoosesUnitsThatReadWell) {
   EXPECT_EQ(number_text(3.0 * (1 << 20), display_unit(Quantity::kBytes, 3.0 * (1 << 20))), "3.000");
   EXPECT_EQ(number_text(0.05, display_unit(Quantity::kSeconds, 0.05)), "50.00");
   EXPECT_EQ(number_text(0.25, display_unit(Quantity::kPercent, 1)), "25.0");
+  EXPECT_EQ(number_text(0.0022, display_unit(Quantity::kError, 0.64)), "0.220");
   EXPECT_EQ(number_text(NAN, {}), "–");
   EXPECT_EQ(number_text(-INFINITY, {}), "−∞");
   EXPECT_EQ(number_text(-0.001, {1, "", 1}), "0.0");

@@ -117,6 +117,21 @@ TEST(GatherIntegrator, TheFirstPassLeavesNoTrace) {
   EXPECT_EQ(scene.statistics.samples_rejected, 0);
 }
 
+TEST(GatherIntegrator, CountsKnotsAndTheirSamples) {
+  GatherScene scene;
+  scene.render.gather.reuse = false;
+  const KnotStatistics alone = scene.run({}, 1).statistics.knots;
+  EXPECT_GT(alone.samples, 0);
+  EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "at most those of the second pass";
+  EXPECT_EQ(alone.knots, alone.samples);
+  scene.render.gather.reuse = true;
+  const KnotStatistics shared = scene.run({}, 1).statistics.knots;
+  EXPECT_EQ(shared.samples, alone.samples);
+  EXPECT_GT(shared.knots, 0);
+  EXPECT_LT(shared.knots, shared.samples / 2);
+  EXPECT_EQ(scene.run({}, 4).statistics.knots.knots, shared.knots);
+}
+
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {
   GatherScene scene;
   scene.image.width = scene.image.height = 20;

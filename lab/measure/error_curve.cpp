@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/measure/error_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pelage {
+
+double cpu_s_to(ErrorCurve curve, double error) {
+  std::erase_if(curve, [](const auto& point) { return !(point.first > 0) || !(point.second > 0); });
+  std::sort(curve.begin(), curve.end());
+  for (size_t i = 0; i + 1 < curve.size(); ++i) {
+    const auto& [from_s, from] = curve[i];
+    const auto& [to_s, to] = curve[i + 1];
+    if (!(from >= error && error >= to)) continue;
+    if (from == to) return from_s;
+    const double t = std::log(from / error) / std::log(from / to);
+    return from_s * std::pow(to_s / from_s, t);
+  }
+  return NAN;
+}
+
+}  // namespace pelage

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/measure_test.py.
+#include "lab/measure/shading_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "base/counted.h"
+#include "base/file.h"
+#include "lab/pictures/picture_difference.h"
+#include "lab/pictures/scaled_difference.h"
+#include "lab/report/png.h"
+#include "lab/runs/outcome_table.h"
+
+namespace pelage {
+namespace {
+
+constexpr double kFactor = 10;
+constexpr int kMaxWidth = 960;
+
+using Wanted = std::function<bool(const ShadingRun&)>;
+
+/// The columns with these keys, of some of the runs.
+Table table_of(const ShadingRuns& all, const Report& report, const Wanted& wanted,
+               const std::vector<std::string>& keys, const std::string& caption) {
+  Table table = select(report.data, keys, caption);
+  std::vector<std::vector<Cell>> rows;
+  for (size_t i = 0; i < all.runs.size(); ++i) {
+    if (wanted(all.runs[i])) rows.push_back(std::move(table.rows[i]));
+  }
+  table.rows = std::move(rows);
+  return table;
+}
+
+LinePlot plot_of(const ShadingRuns& all, double PictureError::*error, const std::string& label,
+                 const std::string& caption) {
+  LinePlot plot;
+  plot.caption = caption;
+  plot.x = {"CPU time", Quantity::kSeconds, true};
+  plot.y = {label, Quantity::kError, true};
+  plot.markers = true;
+  for (size_t i = 0; i < all.curves.size(); ++i) {
+    Series line{all.curves[i].title, {}};
+    for (const ShadingRun& run : all.runs) {
+      if (run.curve == i && run.error && !run.second)
+        line.points.emplace_back(run.cpu_s(), (*run.error).*error);
+    }
+    std::sort(line.points.begin(), line.points.end());
+    plot.lines.push_back(std::move(line));
+  }
+  return plot;
+}
+
+std::string gain_text(const ShadingRuns& all, const Report& report) {
+  const auto gather = std::find_if(all.runs.begin(), all.runs.end(), [&](const ShadingRun& run) {
+    return run.last && all.curves[*run.curve].id == "gather";
+  });
+  std::string text;
+  if (gather == all.runs.end()) return text;
+  for (const int percent : kShadingTargets) {
+    const auto number = [&](const char* key) {
+      return column_values(
+          report.data, fmt::format("{}_{}", key, percent))[static_cast<size_t>(gather - all.runs.begin())];
+    };
+    const double gain = number("gain_at"), seconds = number("cpu_s_to");
+    if (!std::isfinite(gain)) continue;
+    text += fmt::format(
+        "{}`gather` reaches {} % relMSE on fur after {:.2f} CPU seconds, `path` after {:.2f}: gain {:.2f}.",
+        text.empty() ? "" : " ", percent, seconds, gain * seconds, gain);
+  }
+  return text.empty() ? "With these sample counts, `path` and `gather` reach no common relMSE of 5, 2 or 1 %."
+                      : text;
+}
+
+std::string method_text(const ShadingPlan& plan) {
+  return fmt::format(
+      "Two pictures of `path` with {} and other seeds, splatted, are the references a and b. relMSE of a "
+      "picture "
+      "x is the mean over pixels with fur (layer `tangent` not 0) and channels of (x - a)(x - b) / (t^2 + "
+      "0.01 "
+      "m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the mean of t; the noise of the "
+      "references cancels. relMSE of 4 x 4 is the same of means of 4 x 4 pixels. Mean off: error of the mean "
+      "luminance of fur. CPU seconds are those of the whole process, growth included; caches of boxes and "
+      "operators are warm. Every picture has a seed of its own. `path, adaptive` has the noise of `path` as "
+      "its "
+      "budget, and up to 16 times the samples in a pixel.",
+      counted(plan.reference_samples, "sample"));
+}
+
+/// A reference, `gather`, and the differences of all variants of `gather`.
+Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder) {
+  Section section{
+      "Differences, times ten",
+      {Paragraph{"The mean of two pictures of the variant, with most samples and other seeds, minus the "
+                 "mean of both references, times ten: grey where they are equal, brighter where the "
+                 "variant is. Of `path`, one picture: its noise, for comparison."}}};
+  const auto add = [&](std::optional<Picture> picture) {
+    if (!picture) return;
+    picture->half = true;
+    section.blocks.emplace_back(std::move(*picture));
+  };
+  if (all.references.size() < 2) return section;
+  add(screen_picture_of(all.references.front(), kMaxWidth, "A reference."));
+  for (const ShadingRun& run : all.runs) {
+    if (!run.last || !run.outcome.succeeded()) continue;
+    const ShadingCurve& curve = all.curves[*run.curve];
+    if (!curve.gather && curve.id != "path") continue;
+    if (curve.id == "gather") add(screen_picture_of(run.picture, kMaxWidth, run.outcome.variant.title + "."));
+    std::vector<std::filesystem::path> pictures{run.picture};
+    if (run.reuse) pictures.push_back(run.other);
+    auto difference = scaled_difference_of_files(pictures, all.references, kFactor,
+                                                 run.outcome.variant.title + ", times ten.");
+    if (difference) write_file(folder / fmt::format("difference-{}.png", curve.id), png_bytes(*difference));
+    add(std::move(difference));
+  }
+  return section;
+}
+
+}  // namespace
+
+void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
+                          const std::filesystem::path& folder, Report& report) {
+  const auto table = [&](const Wanted& wanted, const std::vector<std::string>& keys, const char* caption) {
+    return table_of(all, report, wanted, keys, caption);
+  };
+  const Wanted is_last = [](const ShadingRun& run) { return run.last; };
+  const Wanted is_gather = [&](const ShadingRun& run) { return run.reuse.has_value(); };
+  const Wanted is_measured = [](const ShadingRun& run) { return run.curve.has_value(); };
+  report.abstract = gain_text(all, report);
+  report.sections.push_back({"Method", {Paragraph{method_text(plan)}}});
+  report.sections.push_back(
+      {"Time to an error",
+       {table(is_last,
+              {"curve", "cpu_s_to_5", "cpu_s_to_2", "cpu_s_to_1", "gain_at_5", "gain_at_2", "gain_at_1"},
+              "CPU seconds to 5, 2 and 1 % relMSE, interpolated between the runs in logarithms of both; "
+              "nothing "
+              "is extrapolated. Gain: the time of `path`, divided by that of the variant."),
+        plot_of(all, &PictureError::rel_mse, "relMSE", "Error of pixels with fur over CPU time."),
+        plot_of(all, &PictureError::block_rel_mse, "relMSE of 4 x 4",
+                "Error of means of 4 x 4 pixels over CPU time.")}});
+  if (std::any_of(all.runs.begin(), all.runs.end(), is_gather)) {
+    report.sections.push_back(
+        {"Bias of reuse",
+         {table(
+             is_gather, {"variant", "reuse_bias", "reuse_bias_max", "reuse_mean"},
+             "Error that two pictures of other seeds share: the root of their mean of (x - a)(y - b) / (t^2 "
+             "+ "
+             "0.01 m^2), with the sign of the mean; 0 where noise makes the mean negative. At most: with two "
+             "standard errors added under the root. `reuse: false` shows the noise of this table. Mean of "
+             "both off: error of the mean luminance of fur.")}});
+  }
+  report.sections.push_back({"Runs",
+                             {table(is_measured,
+                                    {"variant", "samples", "cpu_s", "cpu_least_s", "cpu_most_s", "rel_mse",
+                                     "rel_mse_deviation", "block_rel_mse", "bias"},
+                                    "Error of each picture.")}});
+  std::vector<std::string> work{"variant", "cpu_s", "rays_camera", "rays_shadow", "rays_indirect"};
+  for (const std::string& key : keys_with(report.data, "cpu_")) {
+    if (key.ends_with("_s") && key != "cpu_s" && key != "cpu_least_s" && key != "cpu_most_s")
+      work.push_back(key);
+  }
+  work.insert(work.end(), {"knots", "samples_per_knot", "peak_rss_bytes", "peak_anonymous_bytes"});
+  report.sections.push_back({"Rays, knots and memory", {table(is_measured, work, "Work of each run.")}});
+  report.sections.push_back(pictures_of(all, folder));
+}
+
+}  // namespace pelage

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lab/measure/shading_curves.h"
+
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+namespace pelage {
+namespace {
+
+std::vector<std::string> ids(const std::vector<ShadingCurve>& curves) {
+  std::vector<std::string> ids;
+  for (const ShadingCurve& curve : curves) ids.push_back(curve.id);
+  return ids;
+}
+
+TEST(ShadingCurves, HaveTheNamesOfTheParts) {
+  const SceneDescription scene;
+  EXPECT_EQ(ids(shading_curves(scene, {})),
+            std::vector<std::string>(std::begin(kShadingParts), std::end(kShadingParts)));
+  EXPECT_EQ(ids(shading_curves(scene, {"reuse", "gather"})),
+            (std::vector<std::string>{"path", "gather", "reuse"}));
+}
+
+TEST(ShadingCurves, ChangeOneSettingOfTheScene) {
+  SceneDescription scene;
+  scene.render.gather.spacing = 1.5f;
+  const std::vector<ShadingCurve> curves = shading_curves(scene, {"gather", "spacing"});
+  ASSERT_EQ(curves.size(), 3u);
+  EXPECT_EQ(curves[2].title, "gather, spacing: 3");
+  EXPECT_EQ(curves[2].settings.back(), std::pair(std::string("render.gather.spacing"), std::string("3")));
+  EXPECT_EQ(curves[2].settings.size(), curves[1].settings.size() + 1);
+  EXPECT_TRUE(curves[2].gather);
+  EXPECT_FALSE(curves[0].gather);
+}
+
+}  // namespace
+}  // namespace pelage
