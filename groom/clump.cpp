@@ -66,8 +66,8 @@ const Schema<ClumpParams>& ClumpParams::schema() {
     s.key("root", &ClumpParams::root, {.help = "Factor on `amount` at the root", .min = 0, .max = 1});
     s.key("tip", &ClumpParams::tip, {.help = "Factor on `amount` at the tip", .min = 0, .max = 1});
     s.key("profile", &ClumpParams::profile,
-          {.help = "Exponent of the change from `root` to `tip`: values below 1 close clumps near the root, "
-                   "values above 1 near the tip",
+          {.help = "Exponent of the change from `root` to `tip`. With values below 1, the strands of a clump "
+                   "come together near the root; with values above 1, near the tip",
            .min = 0.1,
            .max = 10});
     s.key(

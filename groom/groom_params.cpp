@@ -116,10 +116,10 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("leaf_strands", &GroomParams::leaf_strands,
           {.help = "Maximum number of strands that grow together, as one chunk; changes no pixel. The "
                    "default is 8000 for coats with a cache. With render.bvh.file, it is 8000 for strands "
-                   "from a file and 500 for other coats. In all other cases, it is the largest of 8000, "
-                   "2000, 500 and 125 (for long strands also 31 and 7) at which N chunks fit into "
-                   "render.memory, at 80 bytes per control point. If N chunks fit at none of these sizes, "
-                   "it is the smallest. N is 8 if all fur fits into render.memory. If not, N is 32 for "
+                   "from a file and 500 for other coats. In all other cases, Pelage chooses among 8000, "
+                   "2000, 500 and 125 (for long strands also 31 and 7). It takes the largest size for which "
+                   "N chunks fit into render.memory, counting 80 bytes per control point, or the smallest "
+                   "size if none fits. N is 8 if all fur fits into render.memory. Otherwise N is 32 for "
                    "strands from a file and 400 for other coats",
            .min = 1,
            .max = 1e6,

@@ -25,9 +25,8 @@ void add_simplification_keys(Schema<P>& s) {
     s.key(name, static_cast<T P::*>(member), std::move(options));
   };
   key("quality", &Base::quality,
-      {.help =
-           "Keeps the strands that a picture of this many times the resolution needs: 2 keeps about twice "
-           "as many strands",
+      {.help = "Keeps as many strands as a picture with a higher resolution would need, by this factor: 2 is "
+               "for twice the resolution and keeps about twice as many strands",
        .min = 0.01,
        .max = 100});
   key("size", &Base::size, {.help = "Thins out strands that are narrower than a pixel"});
@@ -48,7 +47,7 @@ void add_simplification_keys(Schema<P>& s) {
       {.help = "Removes control points of a strand where this moves it by less than a tenth of a pixel"});
   key("guard", &Base::guard,
       {.help = "Factor on the number of strands that grooms of role guard keep. Values below 1 keep fewer "
-               "strands, as long as the widened strands stay narrower than a pixel",
+               "strands, but never so few that the widened strands would be wider than a pixel",
        .min = 0.01,
        .max = 1000});
   key("under", &Base::under, {.help = "The same factor for role under", .min = 0.01, .max = 1000});

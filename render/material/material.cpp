@@ -73,10 +73,9 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = kWidest});
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
-           .help = "Shift of the highlight along the strand; negative values move it toward the tip. "
-                   "Shading takes the tangent not at the shaded point but at this distance from it, toward "
-                   "the tip for positive values, toward the root for negative ones; the highlight moves the "
-                   "opposite way",
+           .help = "Shift of the highlight along the strand: negative values move it toward the tip, "
+                   "positive values toward the root. For this, the tangent is taken at a point that is "
+                   "shifted the other way",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,

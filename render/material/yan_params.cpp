@@ -58,9 +58,9 @@ void add_medulla_keys(Schema<P>& s) {
                  "Colour of a dense coat, converted to the absorption of cortex and medulla. Unused if a "
                  "preset, or sigma_ca and sigma_ma, are given");
   s.key("preset", static_cast<YanPreset P::*>(&P::preset),
-        {.help = "Fibre parameters to start from; the keys below change them. row-a, row-b and row-c come "
-                 "from other implementations of the model, which call them measured and do not name the "
-                 "animals. All others are guesses"});
+        {.help = "Fibre parameters to start from; the keys below change them. row-a, row-b and row-c are "
+                 "parameter sets from other implementations of this model. Those implementations say that "
+                 "the values were measured, but not on which animals. The other presets are guesses"});
   angle("alpha", &MedullaParams::alpha, "Tilt of the cuticle scales; 2 without a preset", -15, 15);
   angle("beta_m", &MedullaParams::beta_m, "Width of the lobes along the fibre; 8 without a preset", 0.1, 45);
   angle("beta_n", &MedullaParams::beta_n, "Width of the lobes around the fibre; 10 without a preset", 0.1,

@@ -19,16 +19,17 @@ const Schema<GatherParams>& GatherParams::schema() {
                    "as `integrator: path`; use it to measure what sharing changes"});
     s.key("spacing", &GatherParams::spacing,
           {.unit = "pixels",
-           .help = "Maximum distance between knots along a strand. The samples near a knot share its light: "
-                   "a larger distance is less noisy, and blurs shadows along strands",
+           .help = "Maximum distance between knots along a strand. Knots are points at which light is "
+                   "gathered, and the samples near a knot share its light. A larger distance gives less "
+                   "noise, but blurs shadows along strands",
            .min = 0.25,
            .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
-               "Mean number of shadow rays per visible sample. Most of them go to lights that would be "
-               "bright compared to the light of the pixel, and of which it is uncertain how much arrives. A "
+               "Mean number of shadow rays per visible sample. Most of them go to lights that would add much "
+               "to the brightness of the pixel if nothing blocked them, and whose visibility is uncertain. A "
                "sample sends at most one ray to each light",
            .min = 0.05,
            .max = 16});

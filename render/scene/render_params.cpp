@@ -47,8 +47,9 @@ const Schema<BvhParams>& BvhParams::schema() {
     s.set_example(R"(render: {bvh: {file: bvh}})");
     s.key("file", &BvhParams::file,
           {.help = "Folder that stores the fur of each frame with its trees. Each file is named by a hash "
-                   "of everything that determines its content. Later runs read chunks from the file when "
-                   "rays need them, within `memory`, instead of growing them. Requires accel: fur, flat "
+                   "of everything that determines its content. When a ray in a later run needs a chunk, "
+                   "Pelage reads it from such a file instead of growing it. The limit `memory` still "
+                   "applies. Requires accel: fur, flat "
                    "strands and opaque coats",
            .default_text = "none"});
     return s;
@@ -114,8 +115,9 @@ const Schema<RenderParams>& RenderParams::schema() {
                    "loss; false stores them as computed"});
     s.key("bounds", &RenderParams::bounds,
           {.help =
-               "How Pelage finds the bounding boxes of chunks, which rays are tested against before strands "
-               "grow. `none`: no boxes, all strands grow before rendering; `user`: conservative boxes scaled "
+               "How Pelage finds the bounding boxes of chunks. Rays are tested against these boxes before "
+               "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
+               "boxes scaled "
                "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
                "`exact`: strands grow once beforehand to be measured; `exact-shutter`: as `exact`, but only "
                "over the open shutter; `linear`: as `exact-shutter`, with boxes that move with the strands"});
