@@ -34,7 +34,7 @@ class Columns {
       return value(all_.runs[static_cast<size_t>(&o - outcomes_.data())]);
     });
   }
-  /// `value` of the run's error, or NaN.
+  /// A number of the run's error, or NaN.
   template <class Value>
   void add_error(const std::string& key, const std::string& title, const Value& value) {
     add(key, title, Quantity::kError,
@@ -64,7 +64,7 @@ void add_errors(const ShadingRuns& all, Columns& columns) {
   columns.add_error("rel_mse", "relMSE", [](const PictureError& e) { return e.rel_mse; });
   columns.add_error("rel_mse_deviation", "standard error",
                     [](const PictureError& e) { return e.rel_mse_deviation; });
-  columns.add_error("block_rel_mse", "relMSE of 4 × 4",
+  columns.add_error("block_rel_mse", "relMSE of 4 x 4",
                     [](const PictureError& e) { return e.block_rel_mse; });
   columns.add_error("bias", "mean off", [](const PictureError& e) { return e.bias; });
   columns.add_reuse("reuse_bias", "bias of reuse", [](const PictureError& e) { return e.relative_bias(); });

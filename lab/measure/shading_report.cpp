@@ -68,35 +68,33 @@ std::string gain_text(const ShadingRuns& all, const Report& report) {
     const double gain = number("gain_at"), seconds = number("cpu_s_to");
     if (!std::isfinite(gain)) continue;
     text += fmt::format(
-        "{}`gather` reaches {} % relMSE on fur after {:.2f} CPU seconds, `path` after {:.2f}: gain {:.2f}.",
+        "{}gather reaches {} % relMSE on fur after {:.2f} CPU seconds, path after {:.2f}: gain {:.2f}.",
         text.empty() ? "" : " ", percent, seconds, gain * seconds, gain);
   }
-  return text.empty() ? "With these sample counts, `path` and `gather` reach no common relMSE of 5, 2 or 1 %."
+  return text.empty() ? "With these sample counts, path and gather reach no common relMSE of 5, 2 or 1 %."
                       : text;
 }
 
 std::string method_text(const ShadingPlan& plan) {
   return fmt::format(
-      "Two pictures of `path` with {} and other seeds, splatted, are the references a and b. relMSE of a "
-      "picture "
-      "x is the mean over pixels with fur (layer `tangent` not 0) and channels of (x - a)(x - b) / (t^2 + "
-      "0.01 "
-      "m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the mean of t; the noise of the "
-      "references cancels. relMSE of 4 x 4 is the same of means of 4 x 4 pixels. Mean off: error of the mean "
-      "luminance of fur. CPU seconds are those of the whole process, growth included; caches of boxes and "
-      "operators are warm. Every picture has a seed of its own. `path, adaptive` has the noise of `path` as "
-      "its "
-      "budget, and up to 16 times the samples in a pixel.",
+      "The references a and b are two splatted pictures of path with {}. Every picture has a seed of its "
+      "own. relMSE of a picture x is the mean over pixels with fur (layer tangent not 0) and channels of "
+      "(x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the "
+      "mean of t; the noise of the references cancels. relMSE of 4 x 4 is the same of means of 4 x 4 "
+      "pixels. Mean off is the error of the mean luminance of fur. CPU seconds are those of the whole "
+      "process, growth included; caches of boxes and operators are warm. Where sampling is adaptive, its "
+      "noise budget is the noise of path with the stated number of samples, and a pixel may get 16 times "
+      "as many.",
       counted(plan.reference_samples, "sample"));
 }
 
-/// A reference, `gather`, and the differences of all variants of `gather`.
+/// A reference, gather, and the differences of all variants of gather.
 Section pictures_of(const ShadingRuns& all, const std::filesystem::path& folder) {
   Section section{
       "Differences, times ten",
       {Paragraph{"The mean of two pictures of the variant, with most samples and other seeds, minus the "
-                 "mean of both references, times ten: grey where they are equal, brighter where the "
-                 "variant is. Of `path`, one picture: its noise, for comparison."}}};
+                 "mean of both references, times ten: grey where they are equal, light where the variant "
+                 "is brighter. Of path, only one picture is shown, as a comparison: its noise."}}};
   const auto add = [&](std::optional<Picture> picture) {
     if (!picture) return;
     picture->half = true;
@@ -136,8 +134,7 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
        {table(is_last,
               {"curve", "cpu_s_to_5", "cpu_s_to_2", "cpu_s_to_1", "gain_at_5", "gain_at_2", "gain_at_1"},
               "CPU seconds to 5, 2 and 1 % relMSE, interpolated between the runs in logarithms of both; "
-              "nothing "
-              "is extrapolated. Gain: the time of `path`, divided by that of the variant."),
+              "nothing is extrapolated. Gain: the time of path, divided by that of the variant."),
         plot_of(all, &PictureError::rel_mse, "relMSE", "Error of pixels with fur over CPU time."),
         plot_of(all, &PictureError::block_rel_mse, "relMSE of 4 x 4",
                 "Error of means of 4 x 4 pixels over CPU time.")}});
@@ -146,11 +143,10 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
         {"Bias of reuse",
          {table(
              is_gather, {"variant", "reuse_bias", "reuse_bias_max", "reuse_mean"},
-             "Error that two pictures of other seeds share: the root of their mean of (x - a)(y - b) / (t^2 "
-             "+ "
-             "0.01 m^2), with the sign of the mean; 0 where noise makes the mean negative. At most: with two "
-             "standard errors added under the root. `reuse: false` shows the noise of this table. Mean of "
-             "both off: error of the mean luminance of fur.")}});
+             "Error that two pictures of other seeds share: the root of their mean of (x - a)(y - b) / "
+             "(t^2 + 0.01 m^2), with the sign of the mean; 0 where noise makes the mean negative. At most: "
+             "with two standard errors added under the root. The row of reuse: false shows the noise of "
+             "this table. Mean of both off: error of the mean luminance of fur.")}});
   }
   report.sections.push_back({"Runs",
                              {table(is_measured,
