@@ -67,10 +67,9 @@ void add_errors(const ShadingRuns& all, Columns& columns) {
   columns.add_error("block_rel_mse", "relMSE of 4 x 4",
                     [](const PictureError& e) { return e.block_rel_mse; });
   columns.add_error("bias", "mean off", [](const PictureError& e) { return e.bias; });
-  columns.add_reuse("reuse_bias", "bias of reuse", [](const PictureError& e) { return e.relative_bias(); });
-  columns.add_reuse("reuse_bias_max", "at most", [](const PictureError& e) {
-    return std::sqrt(std::max(e.rel_mse, 0.0) + 2 * e.rel_mse_deviation);
-  });
+  columns.add_reuse("reuse_bias", "bias of reuse", [](const PictureError& e) { return e.rel_mse; });
+  columns.add_reuse("reuse_bias_deviation", "its standard error",
+                    [](const PictureError& e) { return e.rel_mse_deviation; });
   columns.add_reuse("reuse_mean", "mean of both off", [](const PictureError& e) { return e.bias; });
 }
 

@@ -141,12 +141,11 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
   if (std::any_of(all.runs.begin(), all.runs.end(), is_gather)) {
     report.sections.push_back(
         {"Bias of reuse",
-         {table(
-             is_gather, {"variant", "reuse_bias", "reuse_bias_max", "reuse_mean"},
-             "Error that two pictures of other seeds share: the root of their mean of (x - a)(y - b) / "
-             "(t^2 + 0.01 m^2), with the sign of the mean; 0 where noise makes the mean negative. At most: "
-             "with two standard errors added under the root. The row of reuse: false shows the noise of "
-             "this table. Mean of both off: error of the mean luminance of fur.")}});
+         {table(is_gather, {"variant", "reuse_bias", "reuse_bias_deviation", "reuse_mean"},
+                "The part of relMSE that is no noise: the mean of (x - a)(y - b) / (t^2 + 0.01 m^2), where x "
+                "and y are two pictures with other seeds. Its root is a relative error. The row of reuse: "
+                "false has no bias and shows the noise of this estimate. Mean of both off: error of the mean "
+                "luminance of fur.")}});
   }
   report.sections.push_back({"Runs",
                              {table(is_measured,

@@ -103,8 +103,6 @@ double luminance_over(const std::vector<Compared>& channels, const Plane& region
 
 }  // namespace
 
-double PictureError::relative_bias() const { return std::copysign(std::sqrt(std::max(rel_mse, 0.0)), bias); }
-
 std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
                                           const ExrImage& b, ErrorRegion region) {
   const ExrImage* images[] = {&x, &y, &a, &b};
