@@ -32,30 +32,35 @@ struct PictureError {
   double bias = 0;     ///< mean luminance of x over the region, relative to that of (a + b) / 2, minus 1
   double samples = 0;  ///< mean of the layer `samples` over all pixels; NaN without it
   double region_samples = 0;  ///< over the region
+};
 
-  /// The same with two tested pictures x and y of other seeds, (x - a)(y - b) in place of (x - a)(x - b): the
-  /// noise of x and y is not counted either, only the error that both pictures share.
-  std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
-                                            const ExrImage& b, ErrorRegion region);
+/// Empty when the pictures differ in size or lack R, G, B or A, or `a` lacks the layer of the region.
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& a, const ExrImage& b,
+                                          ErrorRegion region);
 
-  /// The same for files; also empty when one of them cannot be read.
-  std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
-                                                     const std::filesystem::path& a,
-                                                     const std::filesystem::path& b, ErrorRegion region);
-  std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
-                                                     const std::filesystem::path& y,
-                                                     const std::filesystem::path& a,
-                                                     const std::filesystem::path& b, ErrorRegion region);
+/// The same with two tested pictures x and y of other seeds, (x - a)(y - b) in place of (x - a)(x - b): the
+/// noise of x and y is not counted either, only the error that both pictures share.
+std::optional<PictureError> picture_error(const ExrImage& x, const ExrImage& y, const ExrImage& a,
+                                          const ExrImage& b, ErrorRegion region);
 
-  /// Upper bound of the factor by which per-pixel sample counts can reduce the number of samples at equal
-  /// relMSE.
-  struct BestGain {
-    double surface = 0;  ///< on pixels with alpha
-    double all = 0;      ///< over all pixels, if pixels without alpha cost nothing
-  };
-  /// Computed from the variance of every pixel in the layers `samples` and `noise`: mean(v) / mean(sqrt(v))^2
-  /// over pixels with alpha, v the variance of a sample's luminance over t^2 + 0.01 m^2 [Neyman34]. Slightly
-  /// too large, because v is an estimate. NaN without the layers.
-  BestGain best_gain(const ExrImage& picture);
+/// The same for files; also empty when one of them cannot be read.
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b, ErrorRegion region);
+std::optional<PictureError> picture_error_of_files(const std::filesystem::path& x,
+                                                   const std::filesystem::path& y,
+                                                   const std::filesystem::path& a,
+                                                   const std::filesystem::path& b, ErrorRegion region);
+
+/// Upper bound of the factor by which per-pixel sample counts can reduce the number of samples at equal
+/// relMSE.
+struct BestGain {
+  double surface = 0;  ///< on pixels with alpha
+  double all = 0;      ///< over all pixels, if pixels without alpha cost nothing
+};
+/// Computed from the variance of every pixel in the layers `samples` and `noise`: mean(v) / mean(sqrt(v))^2
+/// over pixels with alpha, v the variance of a sample's luminance over t^2 + 0.01 m^2 [Neyman34]. Slightly
+/// too large, because v is an estimate. NaN without the layers.
+BestGain best_gain(const ExrImage& picture);
 
 }  // namespace pelage
