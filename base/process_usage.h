@@ -23,9 +23,11 @@ struct ProcessUsage {
   std::vector<MemorySample> timeline;           ///< memory over time, if requested
 };
 
-/// Current and highest resident set of this process, in bytes; user + system CPU seconds so far.
+/// Current and highest resident set of this process, in bytes; user + system CPU seconds so far, of the
+/// process and of the calling thread.
 int64_t current_rss_bytes();
 int64_t peak_rss_bytes();
 double cpu_seconds();
+double thread_cpu_seconds();
 
 }  // namespace pelage

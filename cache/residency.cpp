@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/parallel.h"
+#include "base/process_usage.h"
 
 namespace pelage {
 namespace {
@@ -157,6 +158,7 @@ Residency::Reservation Residency::reserve(int64_t bytes, Victims& victims) {
 }
 
 Resident& Residency::pin_slowly(uint32_t slot, int thread) {
+  const double began_s = thread_cpu_seconds();
   auto needed = static_cast<int64_t>(grower_.reserve_bytes(slot));
   Slot& s = slots_[slot];
   // While this is raised, threads that release a pin or a reservation wake us.
@@ -170,6 +172,12 @@ Resident& Residency::pin_slowly(uint32_t slot, int thread) {
   } waiting_for_memory{waiting_for_memory_};
 
   std::unique_lock lock(mutex_);
+  // However this ends, the thread holds the mutex then.
+  struct CpuTime {
+    double& sum_s;
+    double began_s;
+    ~CpuTime() { sum_s += thread_cpu_seconds() - began_s; }
+  } const cpu_time{counts_.cpu_s, began_s};
   for (;;) {
     if (const auto failure = failures_.find(slot); failure != failures_.end()) {
       std::rethrow_exception(failure->second);

@@ -17,6 +17,7 @@ struct ResidencyCounts {
   int64_t peak_bytes = 0;         ///< max held at once, including reservations
   int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
   double waited_s = 0;            ///< time asleep waiting for others, summed over threads
+  double cpu_s = 0;               ///< CPU time of growing, evicting and freeing units, of all threads
 
   ResidencyCounts& operator+=(const ResidencyCounts& other) {
     expansions += other.expansions;
@@ -28,6 +29,7 @@ struct ResidencyCounts {
     peak_bytes = std::max(peak_bytes, other.peak_bytes);
     overruns += other.overruns;
     waited_s += other.waited_s;
+    cpu_s += other.cpu_s;
     return *this;
   }
 };

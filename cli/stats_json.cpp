@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stats_json.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
@@ -28,6 +30,19 @@ nlohmann::ordered_json rays_json(const RayStatistics& rays) {
   return {{"camera", rays.camera}, {"indirect", rays.indirect}, {"shadow", rays.shadow}};
 }
 
+// The parts of cpu_s. Nothing where no frame was traced.
+nlohmann::ordered_json cpu_json(const Statistics& s) {
+  if (s.frames.rays.total() == 0) return nlohmann::ordered_json::object();
+  const RenderSeconds& tiles = s.frames.cpu_s;
+  const double growth_s = s.frames.residency.cpu_s;
+  return {{"camera_rays", tiles.camera_rays},
+          {"indirect_rays", tiles.indirect_rays},
+          {"shadow_rays", tiles.shadow_rays},
+          {"shading", tiles.shading},
+          {"growth", growth_s},
+          {"other", std::max(0.0, s.process.cpu_s - tiles.total() - growth_s)}};
+}
+
 std::map<std::string, double> stages_json(const Statistics& s) {
   std::map<std::string, double> stages_s = s.stages_s;
   for (const auto& [stage, seconds] : s.frames.stages_s) stages_s[stage] += seconds;
@@ -42,6 +57,7 @@ std::string statistics_json(const Statistics& s) {
       {"version", version()},
       {"wall_s", s.process.wall_s},
       {"cpu_s", s.process.cpu_s},
+      {"cpu_s_by", cpu_json(s)},
       {"first_pixel_s", s.first_pixel_s},
       {"peak_rss_bytes", s.process.peak_rss_bytes},
       {"baseline_rss_bytes", s.process.baseline_rss_bytes},

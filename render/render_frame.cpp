@@ -26,8 +26,8 @@ FilmLayers film_layers(const RenderScene& scene) {
 }
 
 /// Renders with one path after another.
-void trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
-                 const Job& job, const Stopwatch& clock, FrameResult& result) {
+TileCosts trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
+                      const Job& job, const Stopwatch& clock, FrameResult& result) {
   const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options);
   FrameLoop loop(tracer, job, result.film, clock);
   const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry.fits()).run();
@@ -39,6 +39,15 @@ void trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const 
   result.noise = frame_noise(result.film.moments());
   result.first_tile_s = loop.first_tile_s();
   loop.add_to(result.statistics);
+  return loop.costs();
+}
+
+TileCosts gather(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
+                 const GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock,
+                 FrameResult& result) {
+  GatherLoop loop(scene, geometry.accel(), options, tiles, job, clock, result);
+  loop.run();
+  return loop.costs();
 }
 
 }  // namespace
@@ -57,11 +66,10 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOpt
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
-  if (gathers) {
-    GatherLoop(scene, geometry->accel(), options, tiles, job, clock, result).run();
-  } else {
-    trace_paths(scene, *geometry, options, job, clock, result);
-  }
+  const double prepared_cpu_s = geometry->growth_cpu_s();
+  const TileCosts costs = gathers ? gather(scene, *geometry, options, tiles, job, clock, result)
+                                  : trace_paths(scene, *geometry, options, job, clock, result);
+  result.statistics.cpu_s += render_seconds(costs, geometry->growth_cpu_s() - prepared_cpu_s);
   geometry->add_to(result.statistics);
   result.statistics.stages_s["render"] += clock.seconds() - prepared_s;
   return result;

@@ -85,6 +85,8 @@ Table outcome_table(const std::vector<Outcome>& outcomes) {
   number("cpu_s", "CPU time", Quantity::kSeconds, "cpu_s");
   add("cpu_least_s", "min CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.min("cpu_s"); });
   add("cpu_most_s", "max CPU", Quantity::kSeconds, [](const Outcome& o) -> Cell { return o.max("cpu_s"); });
+  for (const std::string& part : all_keys(outcomes, "cpu_s_by"))
+    number("cpu_" + part + "_s", "CPU: " + words(part), Quantity::kSeconds, "cpu_s_by." + part);
   number("first_pixel_s", "first pixel", Quantity::kSeconds, "first_pixel_s");
   number("peak_rss_bytes", "peak RSS", Quantity::kBytes, "peak_rss_bytes");
   number("peak_anonymous_bytes", "peak anonymous", Quantity::kBytes, "peak_anonymous_bytes");

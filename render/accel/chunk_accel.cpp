@@ -128,6 +128,7 @@ void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThrea
     // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
     const bool tells_more = far() < looked_until || boxes.learned(waiting.chunk);
     if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
+    ++thread.counts.absent_visits;
     if (!visit_one(waiting.chunk)) return;
   }
 }

@@ -59,7 +59,9 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   const double grow_s = options.eager ? growing.seconds() : 0;
   if (options.eager) statistics.stages_s["grow"] += grow_s;
   statistics.stages_s["prepare"] += preparing.seconds() - bound_s - store_s - grow_s;
-  return job.progress.cancelled() ? nullptr : std::move(geometry);
+  if (!job.progress.cancelled()) return geometry;
+  geometry->add_to(statistics);
+  return nullptr;
 } catch (const Error& error) {
   if (error.kind() != ErrorKind::kStopped) throw;
   return nullptr;

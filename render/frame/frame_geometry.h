@@ -24,6 +24,8 @@ class FrameGeometry {
   const ResidentChunks& chunks() const { return accel_.chunks(); }
   /// Whether all chunks together fit the budget, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }
+  /// CPU seconds spent on growing and evicting chunks so far.
+  double growth_cpu_s() const { return chunks().counts().cpu_s; }
   /// Adds the numbers of units grown, evicted and tested.
   void add_to(FrameStatistics& statistics) const;
 

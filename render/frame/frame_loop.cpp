@@ -50,6 +50,7 @@ PassEnd FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
 }
 
 bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch) {
+  const TileTimer timer(scratch.costs);
   const double began = clock_.seconds();
   int64_t traced = 0;
   bool stopped = false;
@@ -94,12 +95,16 @@ double FrameLoop::cost(size_t pixel) const {
   return tile.samples > 0 ? tile.seconds / tile.samples : 0;
 }
 
+TileCosts FrameLoop::costs() const {
+  TileCosts all;
+  for (const auto& scratch : scratch_) all += scratch->costs;
+  return all;
+}
+
 void FrameLoop::add_to(FrameStatistics& statistics) const {
   statistics.samples_rejected += rejected_;
-  for (const auto& scratch : scratch_) {
-    statistics.trace += scratch->thread.counts;
-    statistics.rays += scratch->rays;
-  }
+  for (const auto& scratch : scratch_) statistics.trace += scratch->thread.counts;
+  statistics.rays += costs().rays.counts();
 }
 
 double FrameLoop::clamped_fraction() const {

@@ -46,6 +46,8 @@ class FrameLoop {
   double cost(size_t pixel) const;
   /// Time on the clock when the first tile was finished.
   double first_tile_s() const { return first_tile_s_; }
+  /// Of all threads.
+  TileCosts costs() const;
   void add_to(FrameStatistics& statistics) const;
   /// Fraction of the indirect light that render.clamp_indirect removed.
   double clamped_fraction() const;

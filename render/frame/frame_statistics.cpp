@@ -10,6 +10,7 @@ FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
   reads += other.reads;
   trace += other.trace;
   rays += other.rays;
+  cpu_s += other.cpu_s;
   samples_rejected += other.samples_rejected;
   knots += other.knots;
   for (const auto& [stage, seconds] : other.stages_s) stages_s[stage] += seconds;

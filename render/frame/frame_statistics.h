@@ -10,6 +10,7 @@
 #include "render/accel/trace_counts.h"
 #include "render/frame/knot_statistics.h"
 #include "render/frame/ray_statistics.h"
+#include "render/frame/render_seconds.h"
 
 namespace pelage {
 
@@ -21,6 +22,7 @@ struct FrameStatistics {
   StoredReads reads;  ///< expansions that were read from render.bvh.file
   TraceCounts trace;
   RayStatistics rays;
+  RenderSeconds cpu_s;                     ///< of the tiles; `residency` has those of growth
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; more than zero is a bug
   std::map<std::string, double> stages_s;  ///< wall seconds by stage
   KnotStatistics knots;

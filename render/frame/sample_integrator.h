@@ -8,7 +8,7 @@
 #include "render/accel/accel.h"
 #include "render/film/film.h"
 #include "render/film/indirect_clamp.h"
-#include "render/frame/ray_statistics.h"
+#include "render/frame/render_seconds.h"
 
 namespace pelage {
 
@@ -18,9 +18,18 @@ struct SampleScratch {
 
   FilmSample sample;          ///< the result
   std::vector<Rgb> by_layer;  ///< its radiance divided among the layers of the film
-  RayStatistics rays;
   IndirectClamp clamp;
   TraceThread thread;
+  TileCosts costs;
+
+  /// All rays are traced by these two members, so that each is counted and may be timed.
+  Hit closest(RayKind kind, const Accel& accel, const Ray& ray) {
+    return costs.rays.measure(kind, thread.counts, [&] { return accel.closest(ray, thread); });
+  }
+  float light_through(const Accel& accel, const Ray& shadow) {
+    return costs.rays.measure(RayKind::kShadow, thread.counts,
+                              [&] { return accel.transmittance(shadow, thread); });
+  }
 };
 
 /// Interface driven by FrameLoop: samples of pixels, each a function of (scene, pixel, sample number) only.

@@ -113,6 +113,7 @@ class GatherLoop::Lease {
 /// False when cancelled.
 bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
   Lease lease(*this);
+  const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
   if (!tile_.trace(tile, pass.first, pass.count, job_, lease.scratch())) return false;
   land(pass, tile, lease.scratch());
@@ -133,6 +134,12 @@ void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& s
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
 }
 
+TileCosts GatherLoop::costs() const {
+  TileCosts all;
+  for (const auto& scratch : scratch_) all += scratch->costs;
+  return all;
+}
+
 void GatherLoop::report(PassEnd end) {
   result_.partial = end == PassEnd::kCancelled;
   result_.time_limited = end == PassEnd::kOutOfTime;
@@ -151,9 +158,9 @@ void GatherLoop::report(PassEnd end) {
   IndirectClamp clamp;
   for (const auto& scratch : scratch_) {
     result_.statistics.trace += scratch->thread.counts;
-    result_.statistics.rays += scratch->rays;
     clamp.add_counts(scratch->clamp);
   }
+  result_.statistics.rays += costs().rays.counts();
   result_.clamped_fraction = clamp.lost_fraction();
 }
 

@@ -42,6 +42,8 @@ class GatherLoop {
 
   /// Renders the frame into `result`.
   void run();
+  /// Of all threads.
+  TileCosts costs() const;
 
  private:
   class Lease;

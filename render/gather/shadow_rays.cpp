@@ -83,8 +83,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
     if (++traced % kRaysPerCheck == 0 && job.progress.cancelled()) return false;
     const LightRay& ray = samples.light_rays[scratch.order[i].index];
     const VisiblePoint& point = samples.points[ray.point];
-    ++thread.rays.shadow;
-    const float through = accel_.transmittance(point.ray(ray.ray), thread.thread);
+    const float through = thread.light_through(accel_, point.ray(ray.ray));
     const double stands_for = times * choice.step() / scratch.masses[i] * ray.unoccluded;
     light.add_ray(knot, samples.zone(point), ray.light, static_cast<float>(stands_for), through);
   }

@@ -58,8 +58,7 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, Scratch& scratch, Samp
   const CameraSample from = camera_.draw(x, y, sample, stream);
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  ++thread.rays.camera;
-  const Hit hit = accel_.closest(from.ray, thread.thread);
+  const Hit hit = thread.closest(RayKind::kCamera, accel_, from.ray);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});

@@ -72,8 +72,7 @@ void PathTracer::trace(int x, int y, uint32_t sample, SampleScratch& memory) con
   path.ray = from.ray;
   path.time = from.ray.time;
   path.random = from.ray.random;
-  ++scratch.rays.camera;
-  path.hit = accel_.closest(path.ray, scratch.thread);
+  path.hit = scratch.closest(RayKind::kCamera, accel_, path.ray);
   seen_lights(scene_.lights, path.ray.origin, path.ray.direction, path.hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 scratch.sample.radiance += radiance;

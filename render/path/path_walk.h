@@ -72,8 +72,7 @@ class PathWalk {
               Sink& sink) const {
     path.ray = ray;
     path.ray.random = ++path.random;
-    ++scratch.rays.indirect;
-    path.hit = accel_.closest(path.ray, scratch.thread);
+    path.hit = scratch.closest(RayKind::kIndirect, accel_, path.ray);
     if (path.hit) walk_on(path, lights, scratch, sink);
   }
 
@@ -159,8 +158,7 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   direct_.choose(total, path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
-    ++scratch.rays.shadow;
-    sink.shadow(path, to, factor, accel_.transmittance(ray, scratch.thread));
+    sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
   });
 }
 
@@ -176,8 +174,7 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                         if (shadowed) {
                           Ray shadow = ray;
                           shadow.far = hit.distance * DirectLight::kJustBefore;
-                          ++scratch.rays.shadow;
-                          through = accel_.transmittance(shadow, scratch.thread);
+                          through = scratch.light_through(accel_, shadow);
                         }
                         sink.met(path, light, hit.radiance, weight, through);
                       });
@@ -215,8 +212,7 @@ bool PathWalk<Sink>::sample_lobes(const ScatterPoint& point, PathState& path, Di
     path.weight /= survived;
   }
   ray.random = ++path.random;
-  ++scratch.rays.indirect;
-  const Hit hit = accel_.closest(ray, scratch.thread);
+  const Hit hit = scratch.closest(RayKind::kIndirect, accel_, ray);
   if (options_.direct != DirectTechniques::kLightsOnly) {
     meet_lights(point, ray, hit.distance, value.pdf * survived, false, path, lights, scratch, sink);
   }

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <memory>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,20 @@ TEST(CpuSeconds, AdvanceWithWork) {
   volatile uint64_t x = 1;
   for (int i = 0; i < 100'000'000; ++i) x = x * 6364136223846793005ull + 1;
   EXPECT_GT(cpu_seconds(), before);
+}
+
+TEST(ThreadCpuSeconds, AreThoseOfTheCallingThread) {
+  const double before = thread_cpu_seconds();
+  std::thread other([] {
+    while (thread_cpu_seconds() < 0.05) {
+    }
+  });
+  other.join();
+  const double after = thread_cpu_seconds();
+  EXPECT_LT(after - before, 0.05);
+  while (thread_cpu_seconds() == after) {
+  }
+  EXPECT_GT(cpu_seconds(), 0.05);
 }
 
 }  // namespace

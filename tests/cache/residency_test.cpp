@@ -61,11 +61,13 @@ TEST_F(ResidencyTest, GrowsOnFirstVisitAndOnlyThen) {
   make(10, 1, 1000);
   EXPECT_FALSE(residency_->is_resident(3));
   EXPECT_TRUE(visit(3));
-  EXPECT_TRUE(visit(3));
+  const double cpu_s = residency_->counts().cpu_s;
+  EXPECT_TRUE(visit(3) && residency_->counts().cpu_s == cpu_s);
   EXPECT_TRUE(residency_->is_resident(3));
   EXPECT_TRUE(visit(4));
   const ResidencyCounts counts = residency_->counts();
   EXPECT_EQ(counts.expansions, 2);
+  EXPECT_TRUE(cpu_s > 0 && counts.cpu_s > cpu_s);
   EXPECT_EQ(counts.touched, 2);
   EXPECT_EQ(counts.reexpansions, 0);
   EXPECT_EQ(counts.evictions, 0);

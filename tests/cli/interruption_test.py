@@ -37,7 +37,11 @@ class Interruption(ProgramTest):
             got, err = self.interrupt(process, number)
             self.assertEqual(got, code, err)
             self.assertIn("pelage:partial", self.run_pelage("info", "a.exr")[0])
-            json.loads((self.path / "a.json").read_text())
+            stats = json.loads((self.path / "a.json").read_text())
+            self.assertGreater(stats["rays"]["camera"], 0)
+            self.assertGreater(stats["strands_generated"], 0)
+            self.assertGreater(stats["cpu_s_by"]["camera_rays"], 0)
+            self.assertAlmostEqual(sum(stats["cpu_s_by"].values()), stats["cpu_s"])
 
     def test_a_request_that_comes_twice_at_once_is_one_except_from_the_keyboard(self):
         process = self.start_render("-o", "a.exr", *LONG, stage="render")

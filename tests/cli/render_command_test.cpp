@@ -52,6 +52,9 @@ TEST_F(RenderCommandTest, WritesLayersHeaderAndStatistics) {
   EXPECT_EQ(stats["strands_generated"], 400);
   EXPECT_EQ(stats["characters_in_frame"], 1);
   EXPECT_EQ(stats["rays"]["camera"], 24 * 16 * 4);
+  double cpu_s = 0;
+  for (const auto& [part, seconds] : stats["cpu_s_by"].items()) cpu_s += seconds.get<double>();
+  EXPECT_DOUBLE_EQ(cpu_s, stats["cpu_s"].get<double>());
   EXPECT_GT(stats["memory_bytes"]["chunks"], 0);
   EXPECT_EQ(stats["samples_rejected"], 0);
 }

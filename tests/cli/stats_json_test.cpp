@@ -52,6 +52,20 @@ TEST(StatsJson, HoldsWhatIsPromised) {
   }
 }
 
+TEST(StatsJson, DividesCpuTime) {
+  Statistics statistics;
+  statistics.process.cpu_s = 20;
+  EXPECT_TRUE(nlohmann::json::parse(statistics_json(statistics)).at("cpu_s_by").empty()) << "no rays";
+  statistics.frames.rays.camera = 1;
+  statistics.frames.cpu_s = {.camera_rays = 1, .shadow_rays = 2, .indirect_rays = 3, .shading = 4};
+  statistics.frames.residency.cpu_s = 5;
+  const auto json = nlohmann::json::parse(statistics_json(statistics));
+  const std::map<std::string, double> parts = json.at("cpu_s_by");
+  const std::map<std::string, double> expected{{"camera_rays", 1}, {"shadow_rays", 2}, {"indirect_rays", 3},
+                                               {"shading", 4},     {"growth", 5},      {"other", 5}};
+  EXPECT_EQ(parts, expected);
+}
+
 TEST(StatsJson, HoldsATimelineWhenThereIsOne) {
   EXPECT_FALSE(nlohmann::json::parse(statistics_json({})).contains("timeline"));
   Statistics statistics;

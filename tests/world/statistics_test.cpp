@@ -19,6 +19,8 @@ TEST(Statistics, SumWhatFramesCounted) {
   result.statistics.reads = {.chunks = 1, .bytes = 100};
   result.statistics.trace = {.box_tests = 40, .chunk_visits = 20};
   result.statistics.rays = {.camera = 7, .shadow = 8, .indirect = 9};
+  result.statistics.cpu_s = {.camera_rays = 1, .shadow_rays = 2, .indirect_rays = 3, .shading = 4};
+  result.statistics.residency.cpu_s = 0.25;
   result.statistics.samples_rejected = 1;
   result.statistics.knots = {.knots = 2, .samples = 50};
   result.statistics.stages_s = {{"render", 2.0}};
@@ -39,6 +41,11 @@ TEST(Statistics, SumWhatFramesCounted) {
   EXPECT_EQ(frames.rays.shadow, 24);
   EXPECT_EQ(frames.rays.indirect, 27);
   EXPECT_EQ(frames.rays.total(), 72);
+  EXPECT_EQ(frames.cpu_s.camera_rays, 3);
+  EXPECT_EQ(frames.cpu_s.shadow_rays, 6);
+  EXPECT_EQ(frames.cpu_s.indirect_rays, 9);
+  EXPECT_EQ(frames.cpu_s.shading, 12);
+  EXPECT_EQ(frames.residency.cpu_s, 0.75);
   EXPECT_EQ(frames.samples_rejected, 3);
   EXPECT_EQ(frames.knots.knots, 6);
   EXPECT_EQ(frames.knots.samples, 150);

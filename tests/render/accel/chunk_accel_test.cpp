@@ -203,6 +203,19 @@ TEST_F(ChunkAccelTest, ChunksThatNoRayReachesAreNotGrown) {
   EXPECT_EQ(loose->chunks().counts().false_expansions, loose->chunks().counts().expansions);
 }
 
+TEST_F(ChunkAccelTest, CountsVisitsOfAbsentChunks) {
+  TestChunks chunks;
+  chunks.add_fur(ladder(2), 0);
+  const auto accel = make(chunks, chunks.bounds(4));
+  TraceThread thread;
+  EXPECT_TRUE(accel->closest(along_z(1.5f), thread));
+  EXPECT_EQ(thread.counts.absent_visits, 1);
+  EXPECT_TRUE(accel->closest(along_z(2.5f), thread));
+  EXPECT_EQ(accel->transmittance(along_z(2.5f), thread), 0);
+  EXPECT_EQ(thread.counts.absent_visits, 1);
+  EXPECT_EQ(thread.counts.chunk_visits, 3);
+}
+
 TEST_F(ChunkAccelTest, RaysThatAreNotFiniteMeetNothing) {
   TestChunks chunks;
   chunks.add_fur(ladder(2), 0);

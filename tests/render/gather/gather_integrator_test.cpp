@@ -87,6 +87,8 @@ TEST(GatherIntegrator, AnInterruptedPictureHasEveryPixel) {
   const FrameResult partial = scene.run({}, 1, progress);
   EXPECT_TRUE(partial.partial);
   EXPECT_EQ(partial.samples, 1u);
+  EXPECT_GT(scene.statistics.rays.camera, static_cast<int64_t>(pixels));
+  EXPECT_GT(scene.statistics.cpu_s.total(), 0);
   const FrameResult whole = scene.run();
   EXPECT_EQ(whole.samples, 8u);
   int finished = 0;
@@ -100,6 +102,20 @@ TEST(GatherIntegrator, AnInterruptedPictureHasEveryPixel) {
   EXPECT_GT(finished, 0);
   EXPECT_LT(finished, pixels);
   EXPECT_EQ(partial.film.radiance(2, 2), whole.film.radiance(2, 2)) << "in the first tile";
+}
+
+TEST(GatherIntegrator, DividesItsCpuTime) {
+  GatherScene one, four;
+  one.run({}, 1);
+  four.run({}, 4);
+  for (const GatherScene* scene : {&one, &four}) {
+    const RenderSeconds& cpu_s = scene->statistics.cpu_s;
+    for (const double part : {cpu_s.camera_rays, cpu_s.shadow_rays, cpu_s.indirect_rays}) EXPECT_GT(part, 0);
+  }
+  const RayStatistics &a = one.statistics.rays, &b = four.statistics.rays;
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.shadow, b.shadow);
+  EXPECT_EQ(a.indirect, b.indirect);
 }
 
 TEST(GatherIntegrator, TheFirstPassLeavesNoTrace) {

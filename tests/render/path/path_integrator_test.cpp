@@ -71,6 +71,21 @@ TEST(PathIntegrator, CountsWhatItDid) {
   EXPECT_GT(scene.ledger.peak(MemoryTag::kChunks), 0);
 }
 
+TEST(PathIntegrator, DividesItsCpuTime) {
+  BusyScene one, four;
+  one.run({}, 1);
+  four.run({}, 4);
+  for (const BusyScene* scene : {&one, &four}) {
+    const RenderSeconds& cpu_s = scene->statistics.cpu_s;
+    for (const double part : {cpu_s.camera_rays, cpu_s.shadow_rays, cpu_s.indirect_rays}) EXPECT_GT(part, 0);
+    EXPECT_GT(scene->statistics.residency.cpu_s, 0);
+  }
+  const RayStatistics &a = one.statistics.rays, &b = four.statistics.rays;
+  EXPECT_EQ(a.camera, b.camera);
+  EXPECT_EQ(a.shadow, b.shadow);
+  EXPECT_EQ(a.indirect, b.indirect);
+}
+
 /// Asks to stop after this many checks since rendering began.
 class Restless final : public Progress {
  public:
@@ -102,6 +117,9 @@ TEST(PathIntegrator, AnInterruptedPictureIsAValidOneOfFewerSamples) {
   const FrameResult partial = scene.run({}, 1, progress);
   EXPECT_TRUE(partial.partial);
   EXPECT_EQ(partial.samples, 2u);
+  EXPECT_GE(scene.statistics.rays.camera, 2 * pixels);
+  EXPECT_GT(scene.statistics.cpu_s.total(), 0);
+  EXPECT_EQ(scene.statistics.growth.strands, 300);
   scene.render.samples = 2;
   const FrameResult two = scene.run();
   scene.render.samples = 4;
@@ -122,6 +140,31 @@ TEST(PathIntegrator, AnInterruptedPictureIsAValidOneOfFewerSamples) {
   EXPECT_TRUE(nothing.partial);
   EXPECT_EQ(nothing.samples, 0u);
   EXPECT_EQ(nothing.film.radiance(0, 0), Rgb(0));
+}
+
+/// Asks to stop while all chunks are grown, after the first one.
+class StopsGrowth final : public Progress {
+ public:
+  void begin(std::string_view stage, double) override { growing_ = stage == "grow"; }
+  void advance(double) override {
+    if (growing_) stopped_ = true;
+  }
+  void end() override { growing_ = false; }
+  bool cancelled() const override { return stopped_; }
+
+ private:
+  std::atomic<bool> growing_{false}, stopped_{false};
+};
+
+TEST(PathIntegrator, CountsWhatItGrewBeforeItWasStopped) {
+  BusyScene scene;
+  scene.render.bounds = BoundingStrategy::kNone;
+  StopsGrowth progress;
+  EXPECT_TRUE(scene.run({}, 1, progress).partial);
+  EXPECT_EQ(scene.statistics.residency.expansions, 1);
+  EXPECT_GT(scene.statistics.residency.cpu_s, 0);
+  EXPECT_GT(scene.statistics.growth.strands, 0);
+  EXPECT_LT(scene.statistics.growth.strands, 300);
 }
 
 TEST(PathIntegrator, MistakesOfASceneAreErrors) {
