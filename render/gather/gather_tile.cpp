@@ -85,9 +85,8 @@ void GatherTile::add_scattered(uint32_t point, Scratch& scratch) const {
   const VisiblePoint& at = scratch.samples.points[point];
   const Rgb* unoccluded = &scratch.samples.unoccluded[point * scene_.lights.size() * kLobeGroups];
   for (size_t light = 0; light < scene_.lights.size(); ++light) {
-    const float fraction = scratch.lights.fraction(at.knot, light);
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb direct = *unoccluded++ * fraction;
+      const Rgb direct = *unoccluded++ * scratch.lights.fraction(at.knot, light, g);
       const Rgb part = direct + at.weights[g] * scratch.paths.radiance(at.knot, light, g);
       scratch.sample.radiance += part;
       if (g >= layers_.groups) continue;

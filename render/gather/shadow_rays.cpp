@@ -25,7 +25,8 @@ double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scra
   for (size_t i = first; i < samples.light_rays.size(); ++i) {
     const LightRay& ray = samples.light_rays[i];
     const VisiblePoint& point = samples.points[ray.point];
-    light.add_unoccluded(point.knot, ray.light, ray.unoccluded);
+    const size_t lobes = (ray.point * scene_.lights.size() + ray.light) * kLobeGroups;
+    light.add_unoccluded(point.knot, ray.light, &samples.unoccluded[lobes]);
     const double expected = ray.unoccluded * light.chance(samples.zone(point), ray.light);
     scratch.pixel_light[point.pixel] += expected;
     sum += expected;
@@ -84,8 +85,8 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
     const LightRay& ray = samples.light_rays[scratch.order[i].index];
     const VisiblePoint& point = samples.points[ray.point];
     const float through = thread.light_through(accel_, point.ray(ray.ray));
-    const double stands_for = times * choice.step() / scratch.masses[i] * ray.unoccluded;
-    light.add_ray(knot, samples.zone(point), ray.light, static_cast<float>(stands_for), through);
+    const auto factor = static_cast<float>(times * choice.step() / scratch.masses[i]);
+    light.add_ray(knot, samples.zone(point), ray.light, ray.lobes, factor, through);
   }
   return true;
 }

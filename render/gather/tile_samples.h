@@ -50,6 +50,9 @@ struct VisiblePoint {
 struct LightRay {
   uint32_t point = 0, light = 0;  ///< indices
   float unoccluded = 0;  ///< luminance that all of the light scatters to the camera if nothing blocks it
+  /// Estimate of the light that all of the light source scatters to the camera if nothing blocks it, by lobe
+  /// group, from the chosen light point alone. Its luminance is `unoccluded`.
+  Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
 };
 

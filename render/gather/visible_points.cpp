@@ -96,19 +96,24 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   const float u = stream.next1d();
   scratch.choices.clear();
   for (size_t i = 0; i < lights; ++i) {
-    tile.light_rays.push_back({static_cast<uint32_t>(tile.points.size()), static_cast<uint32_t>(i), 0, {}});
+    LightRay& ray = tile.light_rays.emplace_back();
+    ray.point = static_cast<uint32_t>(tile.points.size());
+    ray.light = static_cast<uint32_t>(i);
     scratch.choices.emplace_back(turned(u, i));
   }
   const auto propose = [&](size_t light, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
                            float distance) {
-    Rgb total(0);
+    Rgb parts[kLobeGroups], total(0);
     for (int g = 0; g < kLobeGroups; ++g) {
-      const Rgb part = lobes[g] * arriving;
-      tile.unoccluded[first + light * kLobeGroups + static_cast<size_t>(g)] += part;
-      total += part;
+      parts[g] = lobes[g] * arriving;
+      tile.unoccluded[first + light * kLobeGroups + static_cast<size_t>(g)] += parts[g];
+      total += parts[g];
     }
-    if (!scratch.choices[light].takes(luminance(total))) return;
-    tile.light_rays[first_ray + light].ray = {V3f(0), direction, distance * DirectLight::kJustBefore};
+    const float mass = luminance(total);
+    if (!scratch.choices[light].takes(mass)) return;
+    LightRay& ray = tile.light_rays[first_ray + light];
+    ray.ray = {V3f(0), direction, distance * DirectLight::kJustBefore};
+    for (int g = 0; g < kLobeGroups; ++g) ray.lobes[g] = parts[g] / mass;
   };
 
   direct_.begin(point, scratch.direct);
@@ -134,6 +139,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
     LightRay ray = tile.light_rays[i];
     ray.unoccluded = scratch.choices[ray.light].sum();
     if (!(ray.unoccluded > 0)) continue;
+    for (Rgb& lobe : ray.lobes) lobe *= ray.unoccluded;
     ray.ray.origin = point.start(ray.ray.direction);
     tile.light_rays[kept++] = ray;
   }
