@@ -11,7 +11,7 @@ namespace pelage {
 
 /// Intersection of a ray with the fine boxes of a chunk.
 struct FineBoxHits {
-  /// Distance at which the ray enters the first box; infinity if it intersects none.
+  /// Distance at which the ray enters the first box; infinity if the ray intersects none.
   float entry = std::numeric_limits<float>::infinity();
   uint32_t boxes = 0;  ///< number of intersected boxes; incomplete unless `all` was set
 };

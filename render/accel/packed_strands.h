@@ -83,8 +83,8 @@ class PackedStrands {
   /// Returns a strand as Bezier curves. Its points are allocated but not written; the caller must write them.
   /// Reuses the allocations of `memory`.
   StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
-  /// Serialise strands whose points are stored in a fur tree, in two parts: stored_head() returns all data
-  /// except the block, and stored_block() returns the block.
+  /// The two parts of the serialised strands: stored_head() returns all data except the block, and
+  /// stored_block() returns the block. The points must be stored in a fur tree.
   std::vector<std::byte> stored_head() const;
   std::span<const std::byte> stored_block() const { return {block_.data(), block_.bytes()}; }
   /// Restores strands from both parts. Returns nothing if the parts are inconsistent.
