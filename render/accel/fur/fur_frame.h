@@ -31,9 +31,10 @@ struct FurFrame {
 /// When a tree uses a rotated frame. Trees over moving strands never do: they use the axes of the grid.
 enum class FurRotation : uint8_t {
   kNever,
-  kWhenUseful,  ///< if rotation reduces the total area of the boxes of single segments to less than 0.7,
-                ///< so that the boxes of four segments shrink noticeably, too
-  kAlways,      ///< for tests
+  /// If rotation reduces the total area of the boxes of single segments to less than 0.7 of its value. The
+  /// boxes of four segments then shrink noticeably, too.
+  kWhenUseful,
+  kAlways,  ///< for tests
 };
 
 /// Returns the frame for a tree over `strands`, estimated from a few hundred segments. One axis of a rotated

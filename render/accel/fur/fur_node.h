@@ -61,8 +61,8 @@ void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild>
 FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
 void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
                          FurReference reference);
-/// Returns the box of child `i` at one key, slightly larger than ray tracing decodes it, so that it contains
-/// the box given to write_node() in spite of rounding errors.
+/// Returns the box of child `i` at one key. Its sides are moved outward by the rounding error of decoding, so
+/// the box contains the box given to write_node().
 FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key);
 
 }  // namespace pelage

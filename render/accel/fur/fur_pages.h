@@ -58,17 +58,18 @@ struct FurPageTable {
 /// therefore close together in space. The nodes above the treelets are not stored: PagedFur replaces them by
 /// a tree over the treelets' boxes.
 ///
-/// A subtree that fits into the remaining space of the page becomes a treelet. A subtree that does not fit is
-/// put into a new page if the page is more than 7/8 full; otherwise, its children are tried one by one.
-/// Therefore all pages except the last are usually more than 7/8 full.
+/// A subtree that fits into the remaining space of the page becomes a treelet. A subtree that does not fit,
+/// but fits into an empty page, begins a new page if the current page is more than 7/8 full. Otherwise, the
+/// children of the subtree are tried one by one. Therefore all pages except the last are usually more than
+/// 7/8 full.
 class FurCutter {
  public:
   using Sink = std::function<void(std::span<const std::byte>)>;
   static constexpr size_t kPageBytes = size_t(128) << 10;
 
   /// Calls `sink` with the bytes of each page in turn. `sink` must copy what it needs, because the memory is
-  /// reused. `page_bytes`: max size of a page, at least 4 KiB; only a page with a single larger treelet
-  /// exceeds it.
+  /// reused. `page_bytes`: max size of a page; less than 4 KiB counts as 4 KiB. Only a treelet that is larger
+  /// by itself makes a larger page.
   explicit FurCutter(Sink sink, size_t page_bytes = kPageBytes);
   ~FurCutter();
 
