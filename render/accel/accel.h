@@ -29,7 +29,7 @@ struct Ray {
   float near = 0;
   V3f direction{0, 0, 1};  ///< unit
   float far = std::numeric_limits<float>::infinity();
-  float time = 0;       ///< in [0, 1] of the shutter
+  float time = 0;       ///< shutter time: 0 at shutter open, 1 at shutter close
   uint32_t random = 0;  ///< determines at which semi-transparent crossings closest() stops; unused when
                         ///< everything is opaque
   StrandStart start = {};

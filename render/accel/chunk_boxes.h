@@ -51,7 +51,7 @@ class ChunkBoxes {
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
   bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
   const FineBoxes& fine(uint32_t chunk) const { return known_[chunk].fine; }
-  /// Distance by which fine boxes must be enlarged on every side.
+  /// Distance by which a query must enlarge the chunk's fine boxes on every side.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
   /// Whether boxes measured on the chunk may be tighter than the given boxes.
@@ -64,7 +64,7 @@ class ChunkBoxes {
   static size_t learned_parts(size_t primitives);
   static constexpr size_t kPrimitivesPerPart = 1024, kMaxParts = 64;
 
-  /// Max memory without the tree, including all boxes that may be learned.
+  /// Upper bound of the memory in bytes, without the tree but with all boxes that may be learned.
   size_t bytes_bound() const { return bytes_bound_; }
 
  private:

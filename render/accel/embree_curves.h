@@ -40,11 +40,11 @@ class EmbreeCurves {
   };
   Place locate(uint32_t primitive) const;
   float opacity(Place place, float u) const;
-  /// Prefetches the data of a strand that shading will read. Called for every hit that may become the
-  /// nearest: the rest of the traversal hides the latency.
+  /// Prefetches the data of a strand that shading will read. Call this for every hit that may become the
+  /// nearest, so that the rest of the traversal hides the latency.
   void fetch_ahead(uint32_t primitive) const;
 
-  /// Heap memory of this object.
+  /// Bytes of heap memory that this object holds.
   size_t bytes() const;
 
  private:

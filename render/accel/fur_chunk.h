@@ -35,10 +35,9 @@ class FurChunk final : public ChunkGeometry {
   size_t strand_count() const override { return strands_.strand_count(); }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
   /// Copies a strand as Bezier curves on the grid of the coat. `index`: rank of the strand in ascending order
-  /// of ids. Rays never hit segments whose points are not finite; the copy replaces them. At the beginning of
-  /// a strand, such segments collapse to the first point of the first other segment. At the end, they
-  /// collapse to the last point of the last other segment. Between other segments, they become a straight
-  /// connection.
+  /// of ids. Rays never hit segments whose points are not finite, and the copy replaces these segments. At
+  /// the beginning of a strand, they collapse to the first point of the first finite segment; at the end, to
+  /// the last point of the last finite segment. Between finite segments, they become a straight connection.
   void strand(uint32_t index, Strands& out) const override;
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_.first_segment(index), strands_.strand_segments(index), place};

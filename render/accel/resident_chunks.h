@@ -35,10 +35,10 @@ struct ResidentChunksOptions {
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
-/// The chunks of a frame. A chunk is grown when it is visited, evicted when other chunks need its memory and
-/// the memory limit leaves no more, and grown again at the next visit. A visit sees the same contents for
-/// every limit, whichever chunks are resident. ChunkAccel traces rays through the chunks; code that needs
-/// strands rather than rays visits one chunk after the other.
+/// The chunks of a frame. A chunk is grown when it is visited, evicted when other chunks would otherwise
+/// exceed the memory limit, and grown again at the next visit. A visit sees the same contents for every
+/// limit, whichever chunks are resident. ChunkAccel traces rays through the chunks; code that needs strands
+/// rather than rays visits one chunk after the other.
 ///
 /// Procedural and DeferredSkin make strands and skins; Residency keeps them. Two classes connect these. A
 /// ChunkGrower, which is FrameChunks for a frame, knows the scene: it numbers the chunks and makes the plain
@@ -67,7 +67,7 @@ class ResidentChunks final : private Grower {
   const ChunkBoxes& boxes() const { return boxes_; }
 
   /// Grows the chunk if it is not resident, calls use(const ChunkGeometry&), and returns the result of `use`
-  /// by value. The chunk stays resident while `use` runs and may be dropped afterwards. A worker may make
+  /// by value. The chunk stays resident while `use` runs and may be evicted afterwards. A worker may make
   /// only one visit at a time: `use` must not visit a chunk or trace a ray. A check enforces this, with and
   /// without a memory limit.
   template <class Use>

@@ -33,7 +33,7 @@ struct CameraParams {
 struct CameraRay {
   V3f origin{0};
   V3f direction{0};  ///< unit
-  float time = 0;    ///< in [0, 1] of the shutter
+  float time = 0;    ///< shutter time: 0 at shutter open, 1 at shutter close
 };
 
 /// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Between

@@ -23,7 +23,7 @@ struct ShellShape {
 /// strategy. Rendering uses kMatched.
 enum class ShellSampler {
   kMatched,  ///< in proportion to the shell's own density
-  kUniform,  ///< uniform in solid angle, as in the slides of [Neulander13]
+  kUniform,  ///< uniform in solid angle inside the shell, as in the slides of [Neulander13]
   kTent,     ///< the older piecewise-linear density, see tent_pdf()
 };
 

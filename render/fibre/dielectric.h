@@ -30,9 +30,9 @@ inline float dielectric_reflectance(float cosine, float eta) {
 
 /// Returns the reflectance of a stack of cuticle scales instead of one interface [Yan15, equation 7]. One
 /// layer has two interfaces. Including all reflections between them, a layer reflects the fraction p = 2 r /
-/// (1 + r) of each polarisation, where r is the reflectance of one interface. l layers reflect l p / (1 + (l
-/// - 1) p). Half a layer reflects as much as one interface: exactly at normal incidence, approximately at
-/// other angles.
+/// (1 + r) of each polarisation, where r is the reflectance of one interface. A stack of n layers reflects
+/// the fraction n p / (1 + (n - 1) p). Half a layer reflects as much as one interface: exactly at normal
+/// incidence, approximately at other angles.
 inline float cuticle_reflectance(float cosine, float eta, float layers) {
   const Reflectances r = fresnel(cosine, eta);
   const float layer = r.perpendicular / (1 + r.perpendicular) + r.parallel / (1 + r.parallel);

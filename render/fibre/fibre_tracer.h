@@ -29,10 +29,10 @@ struct FibrePath {
 
 /// Traces one random light path through a fibre, with a random choice at every interface and in the medulla.
 /// Such paths are the reference for the models. Nothing is absorbed, so every path leaves the fibre with
-/// weight 1, and the distribution of wi is the scattering of a clear fibre at `h`, for wo at inclination
-/// theta_o. For a fibre with the absorption coefficients sigma_ca (cortex) and sigma_ma (medulla), multiply
-/// the weight by exp(-sigma_ca cortex - sigma_ma core). The path is a function of the arguments only;
-/// `number` distinguishes paths with the same seed.
+/// weight 1, and the distribution of wi is the scattering of the fibre without absorption at `h`, for wo at
+/// inclination theta_o. To include absorption with the coefficients sigma_ca (cortex) and sigma_ma (medulla),
+/// multiply the weight by exp(-sigma_ca cortex - sigma_ma core). The path is a function of the arguments
+/// only; `number` distinguishes paths with the same seed.
 FibrePath trace_fibre(const TracedFibre& fibre, float sin_theta_o, float h, uint64_t seed, uint64_t number);
 
 }  // namespace pelage

@@ -40,7 +40,8 @@ class KajiyaKayBsdf {
   KajiyaKayBsdf(const KajiyaKayMaterial& material, const Rgb& color, const FibreFrame& frame);
 
   FibreValue eval(const V3f& wi) const;
-  /// u.x: azimuth; u.y: inclination; u.z: lobe.
+  /// u.x selects the azimuth, u.y the inclination. u.z selects the lobe and, for the highlight, also affects
+  /// the inclination.
   std::optional<FibreSample> sample(const V3f& u) const;
   Rgb albedo() const { return diffuse_ + specular_; }
 

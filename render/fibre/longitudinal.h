@@ -31,7 +31,8 @@ inline float bessel_i0_exp(float x, float exponent) {
   return scaled / std::sqrt(x) * std::exp(exponent + x);
 }
 
-/// The energy-conserving longitudinal function of [dEon11, equation 7], in the measure of solid angle:
+/// The energy-conserving longitudinal function of [dEon11, equation 7], as a density in the measure
+/// cos(theta_i) d theta_i of solid angle:
 ///
 ///   M(v; theta_i, theta_o) = I0(cos ti cos to / v) exp(-sin ti sin to / v) / (2 v sinh(1 / v)),
 ///
@@ -70,7 +71,7 @@ class LongitudinalLobe {
   }
 
  private:
-  static constexpr float kNarrowest = 1e-7f;  // min variance; its deviation is about 1/55 of a degree
+  static constexpr float kNarrowest = 1e-7f;  // min variance, rad^2: a deviation of about 1/55 degree
   float variance_, inverse_, tail_, scale_;
 };
 

@@ -13,7 +13,7 @@ namespace pelage {
 /// `Scattered` is the model of the lobe of scattered light. It must have density(FibreAngles) and draw(u),
 /// which returns DrawnAngles.
 ///
-/// Every lobe is sampled exactly: weights vary by colour only.
+/// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour.
 template <class Scattered>
 class MedullaBsdf {
  public:

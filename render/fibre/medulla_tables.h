@@ -51,7 +51,8 @@ class MedullaTables {
   std::vector<Node> nodes_;
 };
 
-/// The lobe of scattered light at one point: a mixture of the four nodes around it. Refers to the tables.
+/// The lobe of scattered light for one inclination and one h: a mixture of the four nodes of the tables that
+/// surround them. Keeps a reference to the tables.
 class TabulatedScatter {
  public:
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);

@@ -32,7 +32,8 @@ struct LobeWidths {
 /// longitudinal densities M and azimuthal densities N [Marschner03, equation 5]. Keeps a reference to
 /// `widths`.
 ///
-/// Every lobe is sampled exactly: weights vary by colour only. The energy is the sum of the A_p.
+/// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour. The energy
+/// is the sum of the A_p.
 template <class Azimuth>
 class SeparableBsdf {
  public:

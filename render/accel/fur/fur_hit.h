@@ -35,7 +35,7 @@ struct FurHit {
 /// Numbers of tests that queries made.
 struct FurTests {
   int64_t boxes = 0;     ///< tests of rays against boxes: four per visited node
-  int64_t segments = 0;  ///< four per visited block of a leaf, including empty lanes
+  int64_t segments = 0;  ///< tests of rays against segments: four per visited block, including empty lanes
 
   FurTests& operator+=(const FurTests& o) {
     boxes += o.boxes, segments += o.segments;

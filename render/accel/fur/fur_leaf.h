@@ -14,10 +14,10 @@ namespace pelage {
 /// which have the only copy of the points.
 ///
 /// After the header, a block has for each motion key the coordinates, indexed [axis][Bezier point][lane], and
-/// the radii, indexed [Bezier point][lane]. A narrow block stores coordinates as 16-bit differences from its
-/// origin, and a radius k^2 / 256 as the 8-bit number k. A wide block stores coordinates and radii as floats.
-/// It is used only if a segment is too large for a narrow block. Narrow and wide blocks of the same segments
-/// decode to the same bits.
+/// the radii, indexed [Bezier point][lane]. A narrow block stores coordinates as 16-bit differences from the
+/// block's origin, and a radius k^2 / 256 as the 8-bit number k. A wide block stores coordinates and radii as
+/// floats. A wide block is used only if a segment is too large for a narrow block. Narrow and wide blocks of
+/// the same segments decode to the same bits.
 struct FurBlockHeader {
   static constexpr uint32_t kNone = ~0u;  ///< segment number of an empty lane, whose points are all equal
   static constexpr size_t kLanes = 4;

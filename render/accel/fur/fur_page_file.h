@@ -45,7 +45,7 @@ class FurPageFile {
   explicit FurPageFile(StoredSections file);
 
   const FurPageTable& table() const { return table_; }
-  /// Memory of this object.
+  /// Bytes of memory that this object holds.
   size_t bytes() const {
     return file_.bytes() + table_.bytes() + first_treelet_.capacity() * sizeof(uint32_t);
   }

@@ -47,7 +47,7 @@ struct FurPageTable {
 
   uint64_t total_page_bytes() const;
   uint32_t largest_page() const;
-  /// Memory of this object.
+  /// Bytes of memory that this object holds.
   size_t bytes() const;
   /// Whether the table is consistent: all pages, trees and offsets that it refers to exist, boxes are finite,
   /// and axes are orthonormal.

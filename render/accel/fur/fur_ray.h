@@ -52,7 +52,7 @@ struct FurRay {
   bool is_transformed_ = false;  // whether the ray has been transformed to frame_
   FurFrame frame_;
   V3f slab_origin_;
-  float slab_reach_ = 0;  // its largest coordinate
+  float slab_reach_ = 0;  // largest absolute coordinate of slab_origin_
 };
 
 /// Prepares one ray for many trees in turn. The transformation to grid units is computed again only when the

@@ -38,7 +38,7 @@ class WaitingRays {
     void pop() { ++begin_; }
     void clear() { begin_ = end_ = 0; }
     /// Inserts a step in ascending order. Must not be called between pop() and clear(). If there are already
-    /// kMaxSteps steps, drops the last of all steps, which may be the new step.
+    /// kMaxSteps steps, drops the largest step, which may be the new one.
     void add(const Step& step);
     /// Swaps the first step whose treelet satisfies the predicate with the front step. Does nothing if there
     /// is no such step.
