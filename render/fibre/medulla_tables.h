@@ -22,8 +22,8 @@ namespace pelage {
 /// correctly. The tables are a function of the optics and the number of paths only. Thread safety: immutable.
 class MedullaTables {
  public:
-  static constexpr int kInclinations = 12, kOffsets = 12;  ///< nodes of |theta_o| and |h|
-  static constexpr int kAzimuths = 72, kSines = 40;        ///< cells of phi and of sin(theta_i)
+  static constexpr int kInclinations = 12, kOffsets = 12;  ///< numbers of nodes of |theta_o| and |h|
+  static constexpr int kAzimuths = 72, kSines = 40;        ///< numbers of cells of phi and sin(theta_i)
   static constexpr int kPaths = 40000;                     ///< number of paths traced for each node
 
   /// Computes the tables, which takes seconds. Throws Error (kStopped) when the job is stopped.

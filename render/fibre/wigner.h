@@ -53,10 +53,11 @@ class WignerTable {
   std::array<Cell, kLastCell - kFirstCell + 1> cells_;
 };
 
-/// The piecewise-linear density that the Wigner sampler replaced [Neulander10]. It is flatter than the
-/// semicircle. Because its knots were not published, tent_pdf() is a tent plus a constant, fitted to the
-/// semicircle.
+/// Probability of the constant part of tent_pdf().
 inline constexpr float kTentFloor = 0.51f;
+/// The piecewise-linear density that the Wigner sampler replaced [Neulander10]. It is flatter than the
+/// semicircle. Because its knots were not published, this density is a tent plus a constant, fitted to the
+/// semicircle.
 inline float tent_pdf(float u) {
   return std::abs(u) > 1.0f ? 0.0f : (1.0f - kTentFloor) * (1.0f - std::abs(u)) + 0.5f * kTentFloor;
 }
