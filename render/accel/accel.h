@@ -29,7 +29,7 @@ struct Ray {
   float near = 0;
   V3f direction{0, 0, 1};  ///< unit
   float far = std::numeric_limits<float>::infinity();
-  float time = 0;       ///< in [0, 1] of the shutter
+  float time = 0;       ///< shutter time: 0 at shutter open, 1 at shutter close
   uint32_t random = 0;  ///< determines at which semi-transparent crossings closest() stops; unused when
                         ///< everything is opaque
   StrandStart start = {};
@@ -41,7 +41,7 @@ enum class HitKind : uint8_t { kNone, kStrand, kSkin };
 struct Hit {
   HitKind kind = HitKind::kNone;
   float distance = std::numeric_limits<float>::infinity();
-  uint32_t part = 0;       ///< index of the coat of a character, or of the skin
+  uint32_t part = 0;       ///< index of the coat or of the skin in the frame
   uint64_t strand_id = 0;  ///< unique within the part
   uint32_t segment = 0;    ///< index of the segment in the strand
   float u = 0;  ///< curve parameter in the segment, or barycentric weight of the triangle's corner 1
@@ -72,19 +72,21 @@ struct TraceThread {
 
 /// Intersection of rays with all strands and skins of a frame.
 ///
-/// A hit is a function of the ray and the geometry only: ties in distance are broken by strand id (then by
-/// part and segment), so that neither the number of threads nor the shape of the tree affects a pixel (law
-/// 1). h is defined in the fibre frame: with T the tangent and ez = normalize(T x -direction), the hit is at
-/// axis - h * radius * ez. Non-finite rays hit nothing. Thread safety: const members may be called from many
-/// threads at once, each inside a FlushDenormals scope.
+/// A hit is a function of the ray and the geometry only. Of two strands at the same distance, the strand with
+/// the smaller id is hit; ties of the id are broken by part, then by segment. A strand precedes a skin. So
+/// neither the number of threads nor the shape of the tree affects a pixel (law 1). h is defined in the fibre
+/// frame: with the tangent T and ez = normalize(T x -direction), the hit point is axis - h * radius * ez.
+/// Non-finite rays hit nothing. Thread safety: const members may be called from many threads at once, each
+/// inside a FlushDenormals scope.
 class Accel {
  public:
   virtual ~Accel() = default;
-  /// The nearest hit in (near, far). Semi-transparent crossings are skipped with probability 1 - opacity;
-  /// each crossing decides once, using a hash of `ray.random`, the strand and the position on it. Stores the
-  /// geometry in `thread.met`.
+  /// Returns the nearest hit in (near, far), or an empty hit. Skips a semi-transparent crossing with
+  /// probability 1 - opacity. The decision is a hash of `ray.random` and the crossing (see CrossingPlace), so
+  /// it is the same whenever the crossing is tested. Stores the geometry of the hit in `thread.met`.
   virtual Hit closest(const Ray& ray, TraceThread& thread) const = 0;
-  /// Fraction of light transmitted between near and far: the product of 1 - opacity over all crossings.
+  /// Returns the fraction of light transmitted between near and far: the product of 1 - opacity over all
+  /// crossings.
   virtual float transmittance(const Ray& ray, TraceThread& thread) const = 0;
   /// Whether everything is opaque; then transmittance() is 0 or 1.
   virtual bool opaque() const = 0;

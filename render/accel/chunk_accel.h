@@ -19,15 +19,17 @@ namespace pelage {
 /// A ray visits each chunk at most once: first the resident chunks, then the others that it can still hit. A
 /// chunk that is not resident and has fine boxes is grown only for rays that intersect one of these boxes in
 /// front of the nearest hit so far. The geometry that is hit is copied while the chunk is pinned. Results
-/// depend neither on the budget, nor on which chunks are resident, nor on the boxes, provided that the boxes
-/// contain their chunks.
+/// depend neither on the memory limit, nor on which chunks are resident, nor on the boxes, provided that the
+/// boxes contain their chunks.
 ///
-/// Errors of a grower pass through closest() and transmittance(). Thread safety: as Accel; each
-/// TraceThread::worker is used by one thread at a time, for one ray or one visit of chunks() at a time.
+/// closest() and transmittance() pass on the exceptions of the grower. Thread safety: as Accel. A worker
+/// number (TraceThread::worker) may be used by one thread at a time, for one ray or one visit of chunks() at
+/// a time.
 class ChunkAccel final : public Accel {
  public:
-  /// Arguments as for ResidentChunks. Charges the memory of the rays before it makes the chunks. The error
-  /// for a budget that is too small therefore names a sufficient one.
+  /// Takes the arguments of ResidentChunks and throws the same errors. Charges its own memory before it makes
+  /// the ResidentChunks. The error for a memory limit that is too small therefore names a limit that
+  /// suffices.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ResidentChunksOptions& options,
              const Job& job);
   ~ChunkAccel() override;

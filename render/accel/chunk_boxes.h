@@ -19,13 +19,15 @@ class Workers;
 /// The known boxes of the chunks of a frame: the boxes given before any chunk was grown, and the boxes
 /// measured when a chunk was first grown.
 ///
-/// Thread safety: any thread may call const members and learn() at any time, but learn() only for different
-/// chunks. Call all other members before these.
+/// Thread safety: any thread may call const members and learn() at any time, but concurrent calls of learn()
+/// must be for different chunks. build_tree() and build_tree_of_learned() must not run concurrently with any
+/// other member.
 class ChunkBoxes {
  public:
-  /// `given`: one per chunk, over the whole shutter. `fur_trees`: fur chunks are traced by fur trees. The
-  /// boxes of such a chunk are enlarged by the max displacement of snapping to the grid (FurGrid) and merged
-  /// into one: once the chunk is resident, tracing its tree costs less than testing the boxes of its parts.
+  /// `given`: the boxes of each chunk, over the whole shutter. `fur_trees`: whether fur chunks are traced by
+  /// fur trees. If so, the boxes of a fur chunk are enlarged by the max displacement that snapping to the
+  /// grid causes (FurGrid::margin()), and then merged into one box. One box suffices, because tracing the
+  /// tree of a resident chunk costs less than testing the boxes of the chunk's parts.
   ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower, bool fur_trees);
   ~ChunkBoxes();
   ChunkBoxes(const ChunkBoxes&) = delete;
@@ -37,10 +39,11 @@ class ChunkBoxes {
   void build_tree_of_learned(const Workers& workers);
 
   size_t size() const { return known_.size(); }
-  /// Null before the tree is built.
+  /// Returns the tree, or null before it is built.
   const ChunkTree* tree() const { return tree_.get(); }
   /// Box that contains the whole chunk at all times of the shutter, in world space; empty for an empty chunk.
-  /// Requires the tree. (With `bounds: user`, the user chose the box, and it may be too large or too small.)
+  /// The tree must have been built. (With `bounds: user`, the user chose the box, and it may be too large or
+  /// too small.)
   const Box3f& whole(uint32_t chunk) const { return whole_[chunk]; }
   /// Number of the chunk's boxes in the tree.
   size_t parts_in_tree(uint32_t chunk) const { return tree_parts_[chunk]; }
@@ -48,10 +51,10 @@ class ChunkBoxes {
   bool in_fur_tree(uint32_t chunk) const { return known_[chunk].in_fur_tree; }
   bool has_fine(uint32_t chunk) const { return fine(chunk).count() > 0; }
   const FineBoxes& fine(uint32_t chunk) const { return known_[chunk].fine; }
-  /// Distance by which fine boxes must be enlarged on every side.
+  /// Distance by which a query must enlarge the chunk's fine boxes on every side.
   float margin(uint32_t chunk) const { return known_[chunk].margin; }
 
-  /// Whether boxes measured on the chunk may be tighter than the given ones.
+  /// Whether boxes measured on the chunk may be tighter than the given boxes.
   bool may_learn(uint32_t chunk) const { return known_[chunk].learns; }
   /// The measured boxes; null before the chunk is first grown, and always if may_learn() is false.
   const PartBoxes* learned(uint32_t chunk) const { return learned_[chunk].load(std::memory_order_acquire); }
@@ -61,7 +64,7 @@ class ChunkBoxes {
   static size_t learned_parts(size_t primitives);
   static constexpr size_t kPrimitivesPerPart = 1024, kMaxParts = 64;
 
-  /// Max memory without the tree, including all boxes that may be learned.
+  /// Upper bound of the memory in bytes, without the tree but with all boxes that may be learned.
   size_t bytes_bound() const { return bytes_bound_; }
 
  private:
@@ -72,7 +75,7 @@ class ChunkBoxes {
     bool in_fur_tree = false;
   };
 
-  std::vector<ChunkBounds> given_;  // until the tree is built
+  std::vector<ChunkBounds> given_;  // empty once the tree is built
   std::vector<KnownBounds> known_;
   std::vector<std::atomic<const PartBoxes*>> learned_;
   std::vector<Box3f> whole_;

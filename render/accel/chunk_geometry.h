@@ -17,10 +17,11 @@ namespace pelage {
 struct NearestSoFar {
   Hit hit;
   uint32_t face = 0;      ///< ptex face of a hit on a skin
-  uint32_t triangle = 0;  ///< index in the chunk, of a hit on a skin; every chunk stores the triangles of a
-                          ///< face in the same order
+  uint32_t triangle = 0;  ///< index in the chunk of the triangle, for a hit on a skin; every chunk stores the
+                          ///< triangles of a face in the same order
 
-  /// Breaks ties in distance: strands before skins, then strand id, part, segment, or face and triangle.
+  /// Returns the sort key that breaks ties in distance. Strands precede skins. Hits on strands are ordered by
+  /// strand id, then part, then segment. Hits on skins are ordered by part, then face, then triangle.
   auto rank() const {
     return std::tuple(hit.kind, hit.strand_id, hit.part, hit.kind == HitKind::kSkin ? face : hit.segment,
                       triangle);
@@ -36,8 +37,9 @@ struct NearestSoFar {
 /// members from any thread, each inside a FlushDenormals scope.
 class ChunkGeometry : public Resident {
  public:
-  /// Finds the nearest hit on this chunk between near and far. If it precedes `nearest`, stores the hit in
-  /// `nearest` and its geometry in `met`, and returns true. `rays` is reused from chunk to chunk.
+  /// Finds the nearest hit on this chunk between the ray's near and far ends. If that hit precedes `nearest`,
+  /// stores the hit in `nearest` and its geometry in `met`, and returns true. Otherwise changes neither and
+  /// returns false. Pass the same `rays` for all chunks that one ray visits.
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
   /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
   /// the ray.
@@ -50,12 +52,12 @@ class ChunkGeometry : public Resident {
   /// curve that rays hit, at all motion keys, in world space, with its id, root and attributes. Bit-identical
   /// to the strand that closest() stores in `met`.
   virtual void strand(uint32_t index, Strands& out) const = 0;
-  /// Ray::start of a ray that leaves strand `index` at `place` (see StrandStart::place).
+  /// Returns Ray::start for a ray that leaves strand `index` at `place` (see StrandStart::place).
   virtual StrandStart start_on(uint32_t index, float place) const = 0;
 
-  /// Memory in use, including this object.
+  /// Bytes of memory in use, including this object.
   virtual size_t bytes() const = 0;
-  /// Max memory in use while it was made.
+  /// Max bytes of memory in use while this chunk was made.
   virtual size_t build_peak_bytes() const = 0;
 };
 

@@ -16,7 +16,7 @@ namespace pelage {
 /// Strands with their opacity.
 struct FurContents {
   Strands strands;
-  std::vector<float> opacity;  ///< one in [0, 1] per point, or empty: opaque
+  std::vector<float> opacity;  ///< one value in [0, 1] per point; empty if all strands are opaque
 };
 
 /// Contents of a chunk: fur of one part, or one skin.
@@ -43,18 +43,19 @@ struct ChunkCounts {
 class ChunkGrower {
  public:
   virtual ~ChunkGrower() = default;
-  /// Same chunk, same contents. Runs on the calling thread only; may throw.
+  /// Makes the contents of a chunk, which are the same at every call. Runs on the calling thread only; may
+  /// throw.
   virtual ChunkContents grow(uint32_t chunk) const = 0;
   /// Whether the chunk is a skin rather than fur. The counts do not show this: a skin that consists of holes
   /// has no vertices.
   virtual bool is_skin(uint32_t chunk) const = 0;
-  /// ChunkContents::part, without growing.
+  /// Returns ChunkContents::part of a chunk without growing the chunk.
   virtual uint32_t part(uint32_t chunk) const = 0;
-  /// Upper bounds, without growing.
+  /// Returns upper bounds of the size of a chunk's contents without growing the chunk.
   virtual ChunkCounts counts(uint32_t chunk) const = 0;
   /// Name of the coat or skin for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Scale of the strands of a fur chunk, without growing.
+  /// Returns the scale of the strands of a fur chunk without growing the chunk.
   virtual StrandScale scale(uint32_t chunk) const = 0;
 };
 

@@ -14,16 +14,16 @@ namespace pelage {
 
 class Workers;
 
-/// Finds the chunks that single rays may hit, front to back: a 4-wide tree over the boxes of all parts of all
-/// chunks. Boxes that are linear in time are evaluated at the time of the ray.
+/// A 4-wide tree over the boxes of the parts of all chunks (see ChunkBounds). ChunkWalk traverses the tree to
+/// find the chunks that a ray may hit. Boxes that move are interpolated linearly to the time of the ray.
 ///
 /// Thread safety: immutable.
 class ChunkTree {
  public:
-  /// The tree is the same for any number of workers. At most 2^31 - 1 chunks.
+  /// Builds the same tree for any number of workers. There may be at most 2^31 - 1 chunks.
   ChunkTree(std::span<const ChunkBounds> chunks, const Workers& workers);
 
-  /// Contains all boxes at all times; empty if there are no boxes.
+  /// Box that contains all boxes at all times of the shutter; empty if there are no boxes.
   const Box3f& bounds() const { return bounds_; }
   size_t bytes() const { return nodes_.capacity() * sizeof(Node) + motions_.capacity() * sizeof(FourBoxes); }
 
@@ -31,7 +31,7 @@ class ChunkTree {
   friend class ChunkWalk;
   friend class ChunkTreeBuilder;
 
-  static constexpr uint32_t kChunk = 1u << 31;  // a child that is a chunk, not a node
+  static constexpr uint32_t kChunk = 1u << 31;  // set in a child that is a chunk rather than a node
 
   struct Node {
     FourBoxes boxes;  // at shutter open; boxes of missing children are inverted
@@ -39,9 +39,9 @@ class ChunkTree {
   };
 
   std::vector<Node> nodes_;         // the root first
-  std::vector<FourBoxes> motions_;  // motion of each node's boxes until shutter close, or empty
+  std::vector<FourBoxes> motions_;  // by node: displacement until shutter close; empty without motion
   Box3f bounds_;
-  float reach_ = 0;  // largest coordinate
+  float reach_ = 0;  // largest absolute coordinate of a box
 };
 
 /// Traversal of a ChunkTree by one ray.
@@ -49,14 +49,15 @@ class ChunkWalk {
  public:
   enum class Order {
     kFrontToBack,   ///< for rays that need the nearest hit
-    kLongestFirst,  ///< by length of the ray inside a box: for rays that need any hit
+    kLongestFirst,  ///< longest path inside the box first: for rays that need any hit
   };
   ChunkWalk(const ChunkTree& tree, const Ray& ray, Order order);
 
-  /// Finds the next chunk with a box that the ray intersects between its near end and `far`, and a lower
-  /// bound of the distance at which the ray enters that box. The requested order holds among the children of
-  /// each node, not across the whole tree. A chunk is returned once per intersected box. False when no chunk
-  /// is left. `far` may decrease between calls.
+  /// Finds the next box that the ray intersects between its near end and `far`. Stores the number of the
+  /// box's chunk in `chunk`, and a lower bound of the distance at which the ray enters the box in `entry`.
+  /// Returns false when no box is left. A chunk with several intersected boxes is found once per box. The
+  /// requested order holds among the children of each node, not across the whole tree. The caller may
+  /// decrease `far` from call to call, but must not increase it.
   bool next(float far, uint32_t& chunk, float& entry);
 
   const RaySlabs& slabs() const { return slabs_; }
@@ -75,7 +76,7 @@ class ChunkWalk {
   const Order order_;
   int64_t nodes_tested_ = 0;
   size_t count_ = 0;
-  std::array<Entry, 128> stack_;  // the next one last; see kMaxSahDepth of the builder
+  std::array<Entry, 128> stack_;  // the next entry is the last; size: see chunk_tree_builder.cpp
 };
 
 }  // namespace pelage

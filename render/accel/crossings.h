@@ -13,10 +13,10 @@
 
 namespace pelage {
 
-/// Identifies one crossing of a ray and a strand by a joint between segments: the ray crosses one of the two
-/// half segments beside this joint. An accelerator may report one crossing several times: once for each of
-/// two segments that overlap at their joint, and twice for a round strand, where the ray enters and leaves.
-/// Reports with the same place are one crossing.
+/// Identifies a crossing of a ray and a strand by the strand and a joint, which is an end of one or two
+/// segments. The ray crosses one of the half segments beside this joint. An accelerator may report the same
+/// crossing several times: for each of two segments that overlap at their joint, or both where the ray enters
+/// a round strand and where it leaves. All reports with the same CrossingPlace are one crossing.
 struct CrossingPlace {
   uint64_t strand_id = 0;
   uint32_t part = 0;
@@ -25,14 +25,14 @@ struct CrossingPlace {
   friend auto operator<=>(const CrossingPlace&, const CrossingPlace&) = default;
 };
 
-/// Whether a ray with the random number `random` stops at a crossing. All reports of a crossing give the same
-/// answer if their opacity is equal.
+/// Whether a ray with the random number `random` stops at a crossing. The answer is the same for all reports
+/// of a crossing that have the same opacity.
 inline bool stops_at(uint32_t random, const CrossingPlace& place, float opacity) {
   return unit_float(hash64(random, place.strand_id, place.part, place.joint, random_use("opacity"))) <
          opacity;
 }
 
-/// The semi-transparent crossings of one ray, in any order.
+/// Collects the reports of semi-transparent crossings of one ray, in any order.
 class Crossings {
  public:
   void add(const CrossingPlace& place, float opacity) {
@@ -44,8 +44,9 @@ class Crossings {
   }
 
   size_t reports() const { return count_ + many_.size(); }
-  /// Product of 1 - opacity over the crossings, each counted once with its max opacity. Factors are
-  /// multiplied in the order of places, so that the order of reports does not matter.
+  /// Returns the product of 1 - opacity over the crossings. A crossing with several reports counts once, with
+  /// the max opacity of its reports. Factors are multiplied in ascending order of CrossingPlace, so the order
+  /// of add() calls does not matter.
   float transmittance() {
     if (many_.empty()) return product(std::span(few_).first(count_));
     many_.insert(many_.end(), few_.begin(), few_.end());

@@ -16,24 +16,26 @@ namespace pelage {
 class EmbreeScene;
 class Workers;
 
-/// A batch of strands for ray tracing. The caller keeps both alive.
+/// A batch of strands for ray tracing. The caller must keep the strands and their opacities alive.
 struct AccelStrands {
   const Strands* strands = nullptr;
-  uint32_t part = 0;               ///< the part reported by hits: strand ids are unique within a part
-  std::span<const float> opacity;  ///< one in [0, 1] per point, or empty: opaque
+  uint32_t part = 0;               ///< the part that hits report; strand ids must be unique within a part
+  std::span<const float> opacity;  ///< one value in [0, 1] per point; empty if all strands are opaque
 };
 
 struct EmbreeOptions {
   CurveShape shape = CurveShape::kFlat;
-  bool compact = false;  ///< needs a third of the tree's memory and makes incoherent rays 10 to 27 % slower
-  /// Number of pieces a flat segment is tested in: even, 2 to 16. See embree_curves.h for why 8.
+  /// Reduces the tree to a third of its size, and makes incoherent rays 10 to 27 % slower.
+  bool compact = false;
+  /// Number of straight pieces in which a flat segment is tested: even, 2 to 16. embree_curves.h explains the
+  /// default.
   int tessellation_rate = 8;
   uint64_t memory_limit = 0;  ///< max bytes of the whole ledger while the tree is built; 0 = no limit
 };
 
-/// Accel based on Intel Embree [Wald14]. Flat curves are ray-facing ribbons. Ignores hits on all strands
-/// within two radii of the ray's start, because it does not use Ray::start. EmbreeChunk ignores such hits
-/// only on the strand that the ray starts on.
+/// Accel based on Intel Embree [Wald14]. Flat curves are ribbons that face the ray. Embree ignores hits on
+/// flat curves within two radii of the ray's origin. Because this class does not use Ray::start, such hits
+/// are lost on all strands. EmbreeChunk ignores them only on the strand that the ray starts on.
 class EmbreeAccel final : public Accel {
  public:
   /// Reads points, triangles and opacities in place where Embree can, so `strands` and `skins` must outlive

@@ -2,8 +2,8 @@
 // Tested in tests/render/accel/embree_accel_test.cpp.
 #pragma once
 
-// The only file that includes Embree or depends on its version: 3.13 and 4 differ in how a query is
-// described.
+// Only this file includes Embree's headers or depends on Embree's version. Embree 3.13 and Embree 4 describe
+// queries differently; this file hides the difference.
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
@@ -15,12 +15,13 @@ namespace pelage {
 
 #if RTC_VERSION_MAJOR >= 4
 
-/// Base of the query that a filter receives through its arguments. `filter` may be null.
+/// Base class of queries. Embree passes the query to its filter function (see EmbreeReport::query()).
+/// `filter` is null for a query without a filter function.
 struct EmbreeQuery {
   explicit EmbreeQuery(RTCFilterFunctionN filter_function) : filter(filter_function) {
     rtcInitRayQueryContext(&context);
   }
-  RTCRayQueryContext context;  // first member: filters get its address
+  RTCRayQueryContext context;  // must be first: Embree passes its address to the filter
   RTCFilterFunctionN filter;
 };
 inline constexpr RTCSceneFlags kEmbreeFilterFlag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
@@ -44,13 +45,14 @@ inline void embree_occluded(RTCScene scene, EmbreeQuery& query, RTCRay& ray) {
 
 #else
 
-/// Base of the query that a filter receives through its arguments. `filter` may be null.
+/// Base class of queries. Embree passes the query to its filter function (see EmbreeReport::query()).
+/// `filter` is null for a query without a filter function.
 struct EmbreeQuery {
   explicit EmbreeQuery(RTCFilterFunctionN filter) {
     rtcInitIntersectContext(&context);
     context.filter = filter;
   }
-  RTCIntersectContext context;  // first member: filters get its address
+  RTCIntersectContext context;  // must be first: Embree passes its address to the filter
 };
 inline constexpr RTCSceneFlags kEmbreeFilterFlag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 

@@ -12,18 +12,18 @@ namespace pelage {
 
 struct EmbreeChunkOptions {
   CurveShape shape = CurveShape::kFlat;
-  int tessellation_rate = 8;  ///< pieces of a flat segment; see EmbreeCurves
+  int tessellation_rate = 8;  ///< number of straight pieces of a flat segment; see EmbreeCurves
   bool compact_attributes = true;
 };
 
-/// The contents of a resident chunk: packed strands or a skin, and a compact Embree scene over them on a
-/// device that all chunks share. Thread safety: const members from any thread, each inside a FlushDenormals
+/// The contents of a resident chunk: packed strands or a skin, and a compact Embree scene over them. All
+/// chunks share one Embree device. Thread safety: const members from any thread, each inside a FlushDenormals
 /// scope.
 class EmbreeChunk final : public ChunkGeometry {
  public:
   /// `number`: identifies this chunk in Ray::start. `widest`: as StrandScale::widest. The calling thread
   /// alone builds the chunk, so chunks may be made inside a parallel loop of another thread pool. Throws
-  /// Error for errors that Embree reports; the device must outlive the chunk.
+  /// Error for errors that Embree reports. `device` must outlive the chunk.
   EmbreeChunk(ChunkContents contents, uint32_t number, float widest, const EmbreeChunkOptions& options,
               const EmbreeDevice& device, SegmentPatterns& patterns);
   ~EmbreeChunk() override;
@@ -35,8 +35,9 @@ class EmbreeChunk final : public ChunkGeometry {
 
   size_t strand_count() const override { return strands_ ? strands_->strand_count() : 0; }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_->id(index)}; }
-  /// Copies a strand in the basis in which it was grown; its points are not rounded to a grid. `index`: its
-  /// rank in the order in which the strands were grown. bezier_segment() reads every basis.
+  /// Copies a strand in the basis in which it was grown. Its points are not rounded to a grid. `index`: rank
+  /// of the strand, in the order in which they were grown, among the strands with at least one segment.
+  /// bezier_segment() can read the copy in every basis.
   void strand(uint32_t index, Strands& out) const override { strands_->copy_strand(index, out); }
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_->first_segment(index), strands_->strand_segments(index), place};
@@ -44,13 +45,13 @@ class EmbreeChunk final : public ChunkGeometry {
 
   const std::optional<PackedStrands>& strands() const { return strands_; }
   const SkinMesh& skin() const { return skin_; }
-  /// Including Embree's memory.
+  /// Bytes of memory in use, including Embree's memory.
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
   /// Upper bound of the memory that a chunk with these counts holds, both while it is made (including the
   /// given contents) and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts);
-  /// The same bound, computed from the build_peak_bytes() of an equal chunk.
+  /// The same bound, computed from the build_peak_bytes() of a chunk with the same contents.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
@@ -70,8 +71,8 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunkOptions options_;
   const EmbreeDevice& device_;
   uint32_t part_ = 0, number_ = 0;
-  float before_ = 0;                      // how far before their origin Embree's rays start; see embree_ray()
-  std::optional<PackedStrands> strands_;  // or skin_
+  float before_ = 0;                      // distance by which Embree's rays start earlier; see embree_ray()
+  std::optional<PackedStrands> strands_;  // empty if the chunk is a skin
   SkinMesh skin_;
   float longest_ = 0;  // see far_behind()
   RTCScene scene_ = nullptr;

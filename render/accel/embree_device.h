@@ -10,29 +10,31 @@
 
 namespace pelage {
 
-/// An Embree device that stores errors until they are queried: exceptions must not propagate through Embree's
-/// C frames.
+/// An Embree device. It stores the errors that Embree reports until rethrow() or rethrow_of_thread() throws
+/// them, because exceptions must not propagate through the stack frames of Embree's C interface.
 class EmbreeDevice {
  public:
   /// Charges allocations to MemoryTag::kChunks. `memory_limit`: max bytes of the ledger's budgeted tags, 0
   /// for no limit. Throws Error (kFailed) when Embree does not start.
   EmbreeDevice(uint64_t memory_limit, MemoryLedger& ledger);
-  /// For many small scenes, each built by one thread. Allocations are not charged; EmbreeMeter counts them.
-  /// Trees are allocated in blocks of kTreeBlock bytes on their own pages, so that freed trees leave no holes
-  /// in the heap.
+  /// Makes a device for many small scenes, each built by one thread. Allocations are not charged to a ledger;
+  /// an EmbreeMeter can count them. Trees are allocated in blocks of kTreeBlock bytes on their own pages, so
+  /// that freed trees leave no holes in the heap.
   EmbreeDevice();
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
   RTCDevice get() const { return device_; }
-  /// Throws the first error that Embree reported since the device was made.
+  /// Throws the first error that Embree reported since the device was made. Does nothing if there was none.
   void rethrow() const;
-  /// Throws the last error of this thread, for concurrent builds.
+  /// Throws the error that Embree stores for the calling thread, if any, and clears it. For concurrent
+  /// builds.
   void rethrow_of_thread() const;
-  /// Hold this lock while building or releasing a scene at the same time as other threads. There is a lock
-  /// only in the thread-sanitizer build: Embree guards the list of its threads' allocators with a spin lock
-  /// that the sanitizer does not recognise, which would cause false reports.
+  /// Returns a lock to hold while building or releasing a scene, if other threads may do so at the same time.
+  /// It locks only in the thread-sanitizer build; in other builds it is empty. The reason is that Embree
+  /// guards the list of its threads' allocators with a spin lock that the sanitizer does not recognise, which
+  /// would cause false reports.
   std::unique_lock<std::mutex> one_at_a_time() const;
 
   static constexpr size_t kTreeBlock = 6 * 4096;
@@ -47,7 +49,7 @@ class EmbreeDevice {
   RTCDevice device_ = nullptr;
   std::atomic<bool> over_limit_{false};
   mutable std::mutex building_;
-  mutable std::mutex mutex_;  // guards the rest
+  mutable std::mutex mutex_;  // guards the following
   RTCError code_ = RTC_ERROR_NONE;
   std::string text_;
 };
@@ -61,7 +63,7 @@ class EmbreeMeter {
   EmbreeMeter(const EmbreeMeter&) = delete;
   EmbreeMeter& operator=(const EmbreeMeter&) = delete;
 
-  /// Bytes allocated since construction and not freed yet, and the maximum of this number.
+  /// held(): bytes allocated since construction minus bytes freed. peak(): the max of held() so far.
   int64_t held() const { return held_; }
   int64_t peak() const { return peak_; }
 

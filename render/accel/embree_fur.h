@@ -12,12 +12,12 @@ namespace pelage {
 class EmbreeScene;
 class Workers;
 
-/// Embree's flat curves over a single batch of strands: the baseline for the fur tree. Thread safety:
-/// immutable; each query inside a FlushDenormals scope.
+/// Intersects rays with a single batch of strands, as Embree's flat curves: the baseline to which the fur
+/// tree is compared. Thread safety: immutable; each query inside a FlushDenormals scope.
 class EmbreeFur {
  public:
   /// Reads the strands in place: they must outlive this object. Charges Embree's tree and the curve data made
-  /// for Embree to MemoryTag::kChunks. `tessellation_rate`: pieces per segment.
+  /// for Embree to MemoryTag::kChunks. `compact` and `tessellation_rate`: as in EmbreeOptions.
   EmbreeFur(const Strands& strands, bool compact, int tessellation_rate, MemoryLedger& ledger,
             const Workers& workers);
   ~EmbreeFur();

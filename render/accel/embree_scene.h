@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// The Embree scene of an EmbreeAccel, and the meaning of its geometry numbers: strand batches first, then
-/// skins, in the given order.
+/// The Embree scene of an EmbreeAccel. Also maps Embree's geometry ids to strand batches and skins: batches
+/// have the ids from 0, and skins have the ids after the last batch, in the order given to the constructor.
 class EmbreeScene {
  public:
   EmbreeScene(const std::vector<AccelStrands>& strands, const std::vector<const SkinMesh*>& skins,
@@ -22,14 +22,15 @@ class EmbreeScene {
   RTCScene get() const { return scene_; }
   bool opaque() const { return opaque_; }
   bool is_round() const { return options_.shape == CurveShape::kRound; }
-  /// For far_behind().
+  /// Returns the `longest` argument of far_behind() for all strands of the scene; 0 for flat curves.
   float longest_segment() const { return longest_segment_; }
   bool is_skin(uint32_t geometry) const { return geometry >= curves_.size(); }
   uint32_t skin(uint32_t geometry) const { return geometry - static_cast<uint32_t>(curves_.size()); }
   const SkinMesh& skin_mesh(uint32_t geometry) const { return *skins_[skin(geometry)]; }
   const EmbreeCurves& curves(uint32_t geometry) const { return curves_[geometry]; }
 
-  /// The order that breaks ties in distance: strands before skins, then by strand id, part and segment.
+  /// Whether hit a precedes hit b at the same distance. Strands precede skins. Hits on strands are ordered by
+  /// strand id, then part, then segment. Hits on skins are ordered by geometry id, then triangle.
   bool precedes(uint32_t geometry_a, uint32_t primitive_a, uint32_t geometry_b, uint32_t primitive_b) const;
   CrossingPlace crossing(const EmbreeCurves& batch, EmbreeCurves::Place place, float u) const;
 

@@ -11,13 +11,14 @@ namespace pelage {
 
 /// Intersection of a ray with the fine boxes of a chunk.
 struct FineBoxHits {
-  float entry =
-      std::numeric_limits<float>::infinity();  ///< entry distance of the first box; infinity: no intersection
-  uint32_t boxes = 0;                          ///< number of intersected boxes, if requested
+  /// Distance at which the ray enters the first box; infinity if the ray intersects none.
+  float entry = std::numeric_limits<float>::infinity();
+  uint32_t boxes = 0;  ///< number of intersected boxes; incomplete unless `all` was set
 };
 
-/// Finds the first fine box that a ray intersects in front of `far`. With `all`, also counts all such boxes.
-/// Adds the number of tested boxes to `tests`. Boxes are enlarged by `margin` on every side.
+/// Finds the first fine box that a ray intersects in front of `far`. With `all`, counts all fine boxes that
+/// the ray intersects in front of `far`. Adds the number of tested boxes to `tests`. Boxes are enlarged by
+/// `margin` on every side.
 FineBoxHits intersect_fine_boxes(const FineBoxes& boxes, const RaySlabs& ray, float far, bool all,
                                  int64_t& tests, float margin = 0);
 

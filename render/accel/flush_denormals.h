@@ -7,8 +7,9 @@
 
 namespace pelage {
 
-/// Flushes denormal numbers to zero in this thread during its lifetime (FTZ and DAZ), as Embree requires.
-/// Every body of a render loop creates one, so that results do not depend on the thread.
+/// While an object of this class exists, its thread flushes denormal numbers to zero (FTZ and DAZ), as Embree
+/// requires. Every body of a render loop must create one, so that results do not depend on the thread. Does
+/// nothing in builds without SSE2.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

@@ -17,16 +17,16 @@ struct FurChunkOptions {
   bool compact_attributes = true;
 };
 
-/// Fur of one part: a fur tree, which has the only copy of the points, and the strands' data for shading
-/// (ids, roots, attributes). A hit returns its strand as Bezier curves on the grid of the coat: exactly the
-/// curves that rays hit.
+/// A chunk of fur: a fur tree, which has the only copy of the points, and the strands' data for shading (ids,
+/// roots, attributes). closest() stores the strand that was hit as Bezier curves on the grid of the coat.
+/// These are exactly the curves that rays hit.
 class FurChunk final : public ChunkGeometry {
  public:
-  /// `number`: identifies this chunk in Ray::start. `grid`: the same for all chunks of a coat. Built by the
-  /// calling thread only.
+  /// Builds the chunk on the calling thread. `contents` must be fur. `number`: identifies this chunk in
+  /// Ray::start. `grid`: must be the same for all chunks of a coat.
   FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid, const FurChunkOptions& options);
 
-  /// A chunk that was stored in a file.
+  /// Makes a chunk from data that was read from a file.
   FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
 
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
@@ -34,9 +34,10 @@ class FurChunk final : public ChunkGeometry {
 
   size_t strand_count() const override { return strands_.strand_count(); }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
-  /// Bezier curves on the grid of the coat, strands in ascending order of their ids. No ray hits segments
-  /// whose points are not finite. At the beginning of a strand, such segments collapse to the first point of
-  /// the remaining segments. Between other segments, they become a connection from joint to joint.
+  /// Copies a strand as Bezier curves on the grid of the coat. `index`: rank of the strand in ascending order
+  /// of ids. Rays never hit segments whose points are not finite, and the copy replaces these segments. At
+  /// the beginning of a strand, they collapse to the first point of the first finite segment; at the end, to
+  /// the last point of the last finite segment. Between finite segments, they become a straight connection.
   void strand(uint32_t index, Strands& out) const override;
   StrandStart start_on(uint32_t index, float place) const override {
     return {number_, strands_.first_segment(index), strands_.strand_segments(index), place};
@@ -46,14 +47,14 @@ class FurChunk final : public ChunkGeometry {
   const FurTree& tree() const { return tree_; }
   const PackedStrands& strands() const { return strands_; }
   size_t segment_count() const { return strands_.segment_count(); }
-  /// About `parts` boxes that contain every hit.
+  /// Returns about `parts` boxes that together contain every hit, or fewer if the tree has fewer leaves.
   ChunkBounds part_bounds(size_t parts) const;
   size_t bytes() const override { return bytes_; }
   size_t build_peak_bytes() const override { return build_peak_; }
   /// Upper bound of the memory that a chunk with these counts holds, both while it is made (including the
   /// given contents) and afterwards.
   static size_t bytes_bound(const ChunkCounts& counts, const FurChunkOptions& options);
-  /// The same bound, computed from the build_peak_bytes() of an equal chunk.
+  /// The same bound, computed from the build_peak_bytes() of a chunk with the same contents.
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:

@@ -23,19 +23,22 @@ enum class PackedPoints {
 };
 
 /// The strands of a chunk in compact form, in one block of memory. The block has the control points as Embree
-/// reads them, including phantom ends, unless the points are stored elsewhere. All other data has the
-/// smallest form from which it can be restored.
+/// reads them, including phantom points (additional points before the first and after the last point of a
+/// strand), unless the points are stored in a fur tree. All other data is stored in the smallest form from
+/// which it can be restored.
 ///
-/// Points, radii and ids are restored bit by bit. Attributes, opacities, root addresses and texture
-/// coordinates are lossless without `compact`; otherwise they are rounded by packed_value() and stored at the
-/// lowest frequency that suffices (constant, per strand, per point), in 1, 2 or 4 bytes. Strands without a
-/// segment are omitted. Thread safety: immutable.
+/// Points, radii, ids and the faces of roots are restored bit by bit. With `compact`, attributes, opacities,
+/// positions of roots in their faces and texture coordinates are rounded by packed_value(), stored at the
+/// lowest frequency that suffices (constant, per strand or per point), and take 1, 2 or 4 bytes per value.
+/// Without `compact`, they are stored without loss. Strands without a segment are omitted. Thread safety:
+/// immutable.
 class PackedStrands {
  public:
-  /// `opacity`: one in [0, 1] per point, or empty. Points are stored here.
+  /// Packs strands together with their points (PackedPoints::kInPlace). `opacity`: one value in [0, 1] per
+  /// point, or empty if all strands are opaque.
   PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact,
                 SegmentPatterns& patterns);
-  /// The same for strands whose points are stored elsewhere.
+  /// Packs strands without their points, which a fur tree stores (PackedPoints::kInFurTree).
   PackedStrands(const Strands& strands, std::span<const float> opacity, bool compact);
 
   size_t strand_count() const { return strand_count_; }
@@ -44,15 +47,16 @@ class PackedStrands {
   int motion_keys() const { return motion_keys_; }
   bool opaque() const { return opaque_; }
 
-  /// x, y, z, radius of every control point of one motion key, including phantom points. This, segments(),
-  /// copy_strand() and fetch_ahead() may be called only when points are stored here.
+  /// Returns x, y, z and radius of every control point at one motion key, including phantom points.
+  /// vertices(), segments(), copy_strand() and fetch_ahead() may be called only when points are stored in
+  /// place.
   const float* vertices(int key) const {
     return reinterpret_cast<const float*>(block_.data()) + static_cast<size_t>(key) * vertex_count_ * 4;
   }
   size_t vertex_count() const { return vertex_count_; }
-  /// First control point of each segment.
+  /// Index of the first control point of each segment.
   const uint32_t* segments() const { return segments_; }
-  /// Number of control points of one segment: 4, or 2 for linear ones.
+  /// Number of control points of one segment: 2 for linear strands, otherwise 4.
   uint32_t segment_vertices() const { return extra_ + 1; }
 
   struct Place {
@@ -76,24 +80,24 @@ class PackedStrands {
   uint32_t strand_segments(uint32_t strand) const {
     return first_segment(strand + 1) - first_segment(strand);
   }
-  /// A strand as Bezier curves, without the values of its points: memory for the points is allocated but not
-  /// written. Reuses `memory`.
+  /// Returns a strand as Bezier curves. Its points are allocated but not written; the caller must write them.
+  /// Reuses the allocations of `memory`.
   StrandArrays bezier_strand(uint32_t strand, StrandArrays memory) const;
-  /// The two parts of serialised strands whose points are stored elsewhere: all data except the block, and
-  /// the block.
+  /// The two parts of the serialised strands: stored_head() returns all data except the block, and
+  /// stored_block() returns the block. The points must be stored in a fur tree.
   std::vector<std::byte> stored_head() const;
   std::span<const std::byte> stored_block() const { return {block_.data(), block_.bytes()}; }
-  /// Restores the strands from both parts; empty if the parts are inconsistent.
+  /// Restores strands from both parts. Returns nothing if the parts are inconsistent.
   static std::optional<PackedStrands> from_stored(std::span<const std::byte> head, PageBlock block);
 
   /// Prefetches the first data that copy_strand() will read.
   void fetch_ahead(uint32_t primitive) const;
 
-  /// Memory in use, including this object.
+  /// Bytes of memory in use, including this object.
   size_t bytes() const;
   /// Upper bound of bytes() for any batch with these counts.
   static size_t bytes_bound(const ChunkCounts& counts, PackedPoints points = PackedPoints::kInPlace);
-  /// Temporary memory while strands are packed.
+  /// Upper bound of the temporary memory, in bytes, while strands with these counts are packed.
   static size_t scratch_bytes_bound(const ChunkCounts& counts);
 
  private:
@@ -127,7 +131,7 @@ class PackedStrands {
   /// Copies everything of a strand except basis and points. `range`: which per-point values are needed, and
   /// their destination in `out`.
   void copy_rest(uint32_t strand, const PointRange& range, StrandArrays& out) const;
-  /// Original points of a strand: without phantom points, and the index of the first one.
+  /// Count of a strand's original points (without phantom points), and the index of the first of them.
   uint32_t strand_points(uint32_t strand) const;
   size_t first_point(uint32_t strand) const;
   float value(const Values& values, size_t index) const {
@@ -140,9 +144,9 @@ class PackedStrands {
   size_t strand_count_ = 0, segment_count_ = 0, vertex_count_ = 0;
   uint64_t first_id_ = 0;
   size_t ids_ = 0, faces_ = 0, first_segments_ = 0;
-  uint32_t segments_per_strand_ = 0;  // when all strands have the same number; otherwise 0
-  uint32_t extra_ = 3;                // control points of a strand beyond its number of segments
-  uint32_t phantoms_ = 0;             // of these, the phantom points
+  uint32_t segments_per_strand_ = 0;  // if all strands have the same number; otherwise 0
+  uint32_t extra_ = 3;                // control points minus segments, per strand
+  uint32_t phantoms_ = 0;             // phantom points per strand
   uint32_t first_face_ = 0;
   int motion_keys_ = 1;
   CurveBasis basis_ = CurveBasis::kPinnedBSpline;

@@ -7,7 +7,8 @@
 
 namespace pelage {
 
-/// Storage format of numbers. All formats restore the same floats.
+/// Storage format of packed floats. A format is chosen only for floats that it stores without loss, so every
+/// format restores exactly the floats that were packed.
 enum class Precision : uint8_t {
   kFloat,
   kUnorm16,  ///< multiples of 1/65535 in [0, 1]
@@ -17,18 +18,20 @@ inline size_t precision_bytes(Precision precision) {
   return precision == Precision::kFloat ? 4 : precision == Precision::kUnorm16 ? 2 : 1;
 }
 
-/// Rounds a number for packing. Numbers in [0, 1] are rounded to the nearest multiple of 1/65535 (0 and 1 are
-/// exact, the error is at most 2^-17); other numbers are unchanged. The result depends on the number alone,
-/// so the division of strands into chunks never affects a pixel.
+/// Returns `x` rounded for packing. A value in [0, 1] is rounded to the nearest multiple of 1/65535: 0 and 1
+/// stay exact, and the max error is about 2^-17. Any other value is returned unchanged. The result depends on
+/// `x` alone, so the division of strands into chunks never affects a pixel.
 float packed_value(float x);
 
-/// The coarsest precision that restores `values` exactly, whether they were rounded by packed_value() or not.
+/// Returns the coarsest precision that restores all `values` bit by bit. The values need not have been
+/// rounded by packed_value().
 Precision coarsest_precision(std::span<const float> values);
 
-/// Writes `values` in a precision that can hold them; `out` must be aligned for it.
+/// Writes `values` to `out`. The caller must choose a precision that restores them exactly, for example
+/// coarsest_precision(). `out` must be aligned to precision_bytes(precision).
 void pack_values(std::span<const float> values, Precision precision, std::byte* out);
 
-/// Element `index` of packed numbers.
+/// Returns element `index` of the values that pack_values() wrote with the same precision.
 inline float unpacked_value(const std::byte* packed, Precision precision, size_t index) {
   switch (precision) {
     case Precision::kFloat:

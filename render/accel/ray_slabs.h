@@ -12,7 +12,8 @@
 
 namespace pelage {
 
-/// Four boxes side by side: by axis, the low and the high sides. Inverted boxes are never intersected.
+/// Four boxes, one per lane: for each axis, the low sides and then the high sides. Inverted boxes are never
+/// intersected.
 using FourBoxes = std::array<std::array<Four, 2>, 3>;
 
 class GridSlabs;
@@ -23,7 +24,7 @@ class GridSlabs;
 /// the ray's origin, leave the result uncertain. So no hit of an exact intersector inside a box is lost.
 class RaySlabs {
  public:
-  /// `reach`: max coordinate of all boxes.
+  /// `reach`: largest absolute coordinate of all boxes that will be tested.
   RaySlabs(const Ray& ray, float reach) : near_(ray.near), time_(four(ray.time)) {
     const auto size = [](const V3f& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
     const float error_bound = kErrorBound * (size(ray.origin) + reach);
@@ -42,9 +43,10 @@ class RaySlabs {
 
   float near() const { return near_; }
 
-  /// Finds the boxes that the ray intersects between its near end and `far`: their lanes are -1, the others
-  /// 0. Stores bounds of the entry and exit distances in `enter` and `leave`. `motion`, if any: displacement
-  /// of the boxes' sides until shutter close.
+  /// Tests four boxes against the ray between its near end and `far`. Returns -1 in the lanes of intersected
+  /// boxes and 0 in the other lanes. Stores lower bounds of the entry distances in `enter`, and upper bounds
+  /// of the exit distances in `leave`. `motion`: displacement of the boxes' sides from shutter open to
+  /// shutter close; null without motion.
   auto intersect(const FourBoxes& boxes, const FourBoxes* motion, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);
@@ -64,10 +66,12 @@ class RaySlabs {
  private:
   friend class GridSlabs;
 
-  // Max rounding error of a side or a hit, relative to the largest input: 32 units in the last place. The
-  // hits of Embree and of the fur tree (FurRay) and these tests each take less than half.
+  // Max rounding error of a box side or of a hit, relative to the largest input: 32 units in the last place.
+  // Less than half of it is for the tests in this file, and less than half is for the hits of Embree or of
+  // the fur tree (FurRay).
   static constexpr float kErrorBound = 0x1p-19f;
-  static constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
+  // Min magnitude of a direction component, so that its inverse is finite.
+  static constexpr float kSmallest = 1e-18f;
 
   struct Axis {
     Four near_origin, far_origin, inverse;
@@ -78,8 +82,8 @@ class RaySlabs {
   Four time_;
 };
 
-/// The same ray for the slab test of fine boxes: the sides of these boxes are whole numbers of steps from a
-/// corner that may move (FineBoxes).
+/// A ray prepared for the slab test of fine boxes. Their sides are whole numbers of steps from a corner,
+/// which may move (see FineBoxes).
 class GridSlabs {
  public:
   /// `margin`: distance by which boxes are enlarged on every side.
@@ -96,8 +100,8 @@ class GridSlabs {
     }
   }
 
-  /// As RaySlabs::intersect(). Its error bound also covers the rounding of the corner, because the corner
-  /// lies in the scene.
+  /// Tests four fine boxes as RaySlabs::intersect() tests boxes. The error bound of RaySlabs also covers the
+  /// rounding of the corner, because the corner lies in the scene.
   auto intersect(const FineBoxes::Group& boxes, float far, Four& enter, Four& leave) const {
     enter = four(near_);
     leave = four(far);

@@ -26,34 +26,34 @@ struct ResidentChunksOptions {
                                         ///< Embree
   EmbreeChunkOptions chunk;
   FurChunkOptions fur;
-  bool eager = false;         ///< everything is grown before the first visit
+  bool eager = false;         ///< the constructor grows all chunks, and none is ever evicted
   bool opaque = false;        ///< every strand is known to be opaque
   uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
   int threads = 1;            ///< every `worker` passed to visit() is below this number
-  /// Source of fur chunks that are read instead of grown; null: none. Not used with `eager`. Damaged chunks
-  /// are grown.
+  /// File from which fur chunks are read instead of being grown; null: no file. Not used with `eager`. A
+  /// damaged chunk is grown instead.
   std::shared_ptr<const FurChunkFile> file = {};
 };
 
-/// The chunks of a frame. A chunk is grown when it is visited, dropped when other chunks need its memory
-/// under the limit, and grown again at the next visit. A visit sees the same contents for every limit,
-/// whichever chunks are resident. ChunkAccel traces rays through the chunks; code that needs strands rather
-/// than rays visits one chunk after the other.
+/// The chunks of a frame. A chunk is grown when it is visited, evicted when other chunks would otherwise
+/// exceed the memory limit, and grown again at the next visit. A visit sees the same contents for every
+/// limit, whichever chunks are resident. ChunkAccel traces rays through the chunks; code that needs strands
+/// rather than rays visits one chunk after the other.
 ///
 /// Procedural and DeferredSkin make strands and skins; Residency keeps them. Two classes connect these. A
 /// ChunkGrower, which is FrameChunks for a frame, knows the scene: it numbers the chunks and makes the plain
 /// contents of each. ResidentChunks does not know the scene: it turns contents into geometry that rays are
 /// traced against, states how much memory this needs, and stores the boxes of the chunks.
 ///
-/// Thread safety: const members from any thread; each number `worker` is used by one thread at a time. Call
-/// all other members before these. visit() passes on the exceptions of the grower.
+/// Thread safety: const members from any thread, but a `worker` number may be used by only one thread at a
+/// time. visit() passes on the exceptions of the grower.
 class ResidentChunks final : private Grower {
  public:
-  /// `bounds`: one per chunk, over the whole shutter; with `eager` only their number is used, because boxes
-  /// are measured on the grown chunks. `grower` and `job.progress`, which receives warnings of damaged chunks
-  /// in the file, must outlive this object. If `job.progress` is cancelled during construction, no chunk may
-  /// be visited. Throws Error (kMemory) when the limit is too small. With `eager`, passes on exceptions of
-  /// the grower.
+  /// `bounds`: the boxes of each chunk, over the whole shutter. With `eager`, only the length of `bounds` is
+  /// used, because boxes are measured on the grown chunks. `grower` and `job.progress`, which receives
+  /// warnings of damaged chunks in the file, must outlive this object. If `job.progress` is cancelled during
+  /// construction, no chunk may be visited. Throws Error (kMemory) when the limit is too small. With `eager`,
+  /// passes on exceptions of the grower.
   ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
                  const ResidentChunksOptions& options, const Job& job);
 
@@ -62,13 +62,14 @@ class ResidentChunks final : private Grower {
   /// Index of the chunk's coat or skin in the frame.
   uint32_t part(uint32_t chunk) const { return grower_.part(chunk); }
   bool opaque() const { return options_.opaque; }
-  /// Code that sorts chunks into buckets uses ChunkBoxes::whole(), which is known whether the chunk was grown
-  /// or not.
+  /// Boxes of the chunks. ChunkBoxes::whole() is known even for chunks that were never grown; code that sorts
+  /// chunks into buckets uses it.
   const ChunkBoxes& boxes() const { return boxes_; }
 
-  /// Grows the chunk if it is not resident, calls use(const ChunkGeometry&), and returns a copy of its
-  /// result. The chunk stays resident while `use` runs and may be dropped afterwards. A worker may make only
-  /// one visit at a time: `use` must not visit a chunk or trace a ray. This is checked whatever the limit.
+  /// Grows the chunk if it is not resident, calls use(const ChunkGeometry&), and returns the result of `use`
+  /// by value. The chunk stays resident while `use` runs and may be evicted afterwards. A worker may make
+  /// only one visit at a time: `use` must not visit a chunk or trace a ray. A check enforces this, with and
+  /// without a memory limit.
   template <class Use>
   auto visit(uint32_t chunk, int worker, Use&& use) const {
     return residency_->visit(chunk, worker, [&](Resident& unit) {
@@ -84,7 +85,8 @@ class ResidentChunks final : private Grower {
   /// Records that growing the chunk was useful, for ResidencyCounts::false_expansions.
   void mark_hit(uint32_t chunk) const { residency_->mark_hit(chunk); }
 
-  /// Whether the memory limit held all chunks together when this was made.
+  /// Whether all chunks together fitted into the memory limit when this object was constructed. Always true
+  /// with `eager`.
   bool fits() const { return fits_; }
   ResidencyCounts counts() const { return residency_->counts(); }
 
@@ -99,7 +101,7 @@ class ResidentChunks final : private Grower {
   void expect_patterns();
   void find_whether_all_fit(const MemoryLedger& ledger);
 
-  PagePool pool_;  // for all trees
+  PagePool pool_;  // memory of all fur trees
   const ChunkGrower& grower_;
   const ResidentChunksOptions options_;
   FurChunkOptions fur_;
@@ -107,7 +109,7 @@ class ResidentChunks final : private Grower {
   EmbreeDevice device_;
   SegmentPatterns patterns_;
   ChunkBoxes boxes_;
-  std::vector<std::atomic<uint32_t>> build_pages_;  // peak of each build; 0: not built yet
+  std::vector<std::atomic<uint32_t>> build_pages_;  // peak memory of each chunk's last build; 0: not built
   std::vector<MemoryCharge> charges_;
   mutable std::optional<Residency> residency_;
   bool fits_ = true;

@@ -5,11 +5,11 @@
 
 namespace pelage {
 
-/// Cost of tracing.
+/// Counts of the work done by tracing rays.
 struct TraceCounts {
-  int64_t box_tests = 0;      ///< rays against boxes above the chunks
-  int64_t chunk_visits = 0;   ///< rays against the contents of chunks
-  int64_t absent_visits = 0;  ///< of these, of chunks that were not resident shortly before
+  int64_t box_tests = 0;      ///< tests of one ray against one box above the chunks
+  int64_t chunk_visits = 0;   ///< visits of one chunk's contents by one ray
+  int64_t absent_visits = 0;  ///< visits of chunks that were not resident shortly before the visit
 
   TraceCounts& operator+=(const TraceCounts& other) {
     box_tests += other.box_tests;
@@ -19,7 +19,7 @@ struct TraceCounts {
   }
 };
 
-/// Chunks that were read from a file instead of grown.
+/// Number of chunks that were read from a file instead of grown, and number of bytes read.
 struct StoredReads {
   int64_t chunks = 0, bytes = 0;
 

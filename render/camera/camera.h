@@ -33,48 +33,52 @@ struct CameraParams {
 struct CameraRay {
   V3f origin{0};
   V3f direction{0};  ///< unit
-  float time = 0;    ///< in [0, 1] of the shutter
+  float time = 0;    ///< shutter time: 0 at shutter open, 1 at shutter close
 };
 
-/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Position, view axis
-/// and field of view are interpolated linearly between `motion_keys` evenly spaced times of the shutter, like
-/// geometry.
+/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Between
+/// `motion_keys` evenly spaced times of the shutter, the position, the axes and the tangent of half the field
+/// of view are interpolated linearly, like geometry; the axes are then orthonormalised.
 ///
 /// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
  public:
-  /// Throws Error (kInput) when the camera is at its target or looks along its up vector.
+  /// Throws Error (kInput) when, at any motion key, at the time of the frame or at the next frame, the camera
+  /// is at its target or looks along its up vector.
   Camera(const CameraParams& params, double frame, int width, int height);
 
-  /// Ray through raster position (x, y), lens position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
+  /// Returns the ray through raster position (x, y) and lens position `lens` in [0, 1)^2 at shutter time
+  /// `time` in [0, 1].
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
-  /// Projects a world point at a shutter time: returns its raster position, and its depth along the axis.
-  /// Empty if the point is behind the camera.
+  /// Projects a world point at a shutter time. Returns the raster position as x and y, and the depth along
+  /// the view axis as z. Empty if the point is behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
-  /// The same at the time of the frame itself, or of the next one with `frames_ahead` = 1.
+  /// Projects a world point at the time of the frame itself if `frames_ahead` is 0, or at the time of the
+  /// next frame if it is 1.
   std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {
     return project(frames_ahead == 0 ? frame_ : next_frame_, world);
   }
 
   /// Whether any part of a box may be in the picture while the shutter is open, seen through any point of the
-  /// lens. False only when the whole box is behind the camera or beyond one border of the picture.
+  /// lens. False only when the box is empty, is entirely behind the camera or is entirely beyond one border
+  /// of the picture.
   bool may_see(const Box3f& box) const;
 
-  /// View at the time of the frame itself, for tessellation.
+  /// Returns the view at the time of the frame itself, for tessellation.
   View view() const;
-  /// Input of level of detail: the camera over the shutter, and the lens.
+  /// Returns the input of level of detail: the camera at shutter open and close, and the lens.
   LodView lod_view() const;
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
-  float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
-  /// Time of the frame itself relative to the shutter; outside [0, 1] when the frame is not within the
-  /// shutter.
+  float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< duration of the shutter, in frames
+  /// Shutter time (0 open, 1 close) of the frame itself; outside [0, 1] when the time of the frame is not
+  /// within the shutter. 0 if the shutter has no duration.
   float frame_time() const;
 
-  /// Values of the EXR attributes of the same names: camera space is left-handed, +y up, looking along +z;
-  /// NDC has (0, 0) in the upper left and (1, 1) in the lower right corner after division by w. Row vectors:
-  /// p * M.
+  /// Values of the EXR attributes worldToCamera and worldToNDC at the time of the frame itself. Camera space
+  /// is left-handed: +y is up, and the camera looks along +z. After division by w, NDC has (0, 0) in the
+  /// upper left corner and (1, 1) in the lower right corner. The matrices apply to row vectors: p * M.
   M44f world_to_camera() const;
   M44f world_to_ndc() const;
 

@@ -9,7 +9,8 @@
 
 namespace pelage {
 
-/// The logistic distribution cut to [-pi, pi] and normalised there [Chiang16, section 4.1].
+/// The logistic distribution with mean 0 and the given scale (radians), truncated to [-pi, pi] and normalised
+/// there [Chiang16, section 4.1].
 class TrimmedLogistic {
  public:
   TrimmedLogistic() : TrimmedLogistic(1) {}
@@ -21,7 +22,7 @@ class TrimmedLogistic {
     height_ = inverse_ / kept_;
   }
 
-  /// x in [-pi, pi].
+  /// Returns the density per radian at x in [-pi, pi].
   float density(float x) const {
     const float e = std::exp(-std::abs(x) * inverse_);
     return height_ * e / ((1 + e) * (1 + e));
@@ -35,7 +36,8 @@ class TrimmedLogistic {
   float scale_, inverse_, below_, kept_, height_;
 };
 
-/// Inverse of the error function, relative error 4e-7 [Giles11, single precision].
+/// Returns the inverse of the error function at x in (-1, 1), with a relative error of 4e-7 [Giles11, single
+/// precision].
 inline float inverse_erf(float x) {
   float w = -std::log((1 - x) * (1 + x));
   float p;
@@ -64,14 +66,14 @@ inline float inverse_erf(float x) {
   }
   return p * x;
 }
-/// The standard normal distribution at xi in [0, 1).
+/// Returns the xi-quantile of the standard normal distribution, for xi in [0, 1).
 inline float normal_sample(float xi) {
   constexpr float kFarthest = 1 - 0x1p-24f;
   return std::numbers::sqrt2_v<float> * inverse_erf(std::clamp(2 * xi - 1, -kFarthest, kFarthest));
 }
 
-/// The normal distribution wrapped around the circle: the detector of [dEon11] and the azimuthal lobe of
-/// [Yan17]. For deviations up to 2 radians.
+/// The normal distribution with mean 0 and the given standard deviation (radians), wrapped around the circle:
+/// the detector of [dEon11] and the azimuthal lobe of [Yan17]. Accurate for deviations up to 2 radians.
 class WrappedGaussian {
  public:
   WrappedGaussian() : WrappedGaussian(1) {}
@@ -83,7 +85,7 @@ class WrappedGaussian {
                : deviation < 1  ? 1
                                 : 2) {}
 
-  /// x in [-pi, pi].
+  /// Returns the density per radian at x in [-pi, pi].
   float density(float x) const {
     float sum = 0;
     for (int k = -turns_; k <= turns_; ++k) {
@@ -96,7 +98,7 @@ class WrappedGaussian {
 
  private:
   float deviation_, half_inverse_square_, height_;
-  int turns_;  // number of windings to each side that are summed
+  int turns_;  // number of windings that density() sums to each side
 };
 
 }  // namespace pelage

@@ -11,23 +11,25 @@ namespace pelage {
 
 /// Converts the colour of dense fur to the absorption of a single fibre of a model, so that `color` means the
 /// same for every model. The reference is an infinite medium of Chiang fibres whose absorption follows the
-/// fit of [Chiang16]. A medium of the converted fibres has the same brightness as the reference. The fit was
-/// made for another scene but matches the colour of the medium to a few hundredths.
+/// fit of [Chiang16]. A medium of the converted fibres has the same brightness as the reference. [Chiang16]
+/// made the fit for another scene, but the reference medium differs from `color` by only a few hundredths.
 ///
 /// Uses a table over the logarithm of the colour, computed by random walks on construction. The table is
 /// bit-identical for any number of threads.
 class CoatColor {
  public:
-  /// `scatter(t, hit, u)` samples a fibre with absorption `t`, which is per radius for translucent fibres;
-  /// opaque fibres have the albedo exp(-t). The scattered light must decrease as t increases.
+  /// `scatter(t, hit, u)` samples a fibre with absorption `t`. For translucent fibres, t is the absorption
+  /// per radius; opaque fibres have the albedo exp(-t). The scattered light must decrease as t increases.
   using Scatter = std::function<std::optional<FibreSample>(float, const TangleHit&, const V3f&)>;
   CoatColor(const Scatter& scatter, const Workers& workers);
 
-  /// The absorption t of each channel; 0 where even a fibre without absorption is too dark.
+  /// Returns the absorption t of each channel; 0 in channels where even a fibre without absorption is too
+  /// dark.
   Rgb operator()(const Rgb& color) const;
 
   static constexpr int kColors = 11;
-  /// Colours of the table, and the brightness of a medium of Chiang fibres with default roughness.
+  /// The colours of the table, and the brightness that a medium of Chiang fibres with default roughness has
+  /// for each of them.
   static const std::array<float, kColors> kColor, kBrightness;
 
  private:

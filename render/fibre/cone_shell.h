@@ -19,33 +19,36 @@ struct ShellShape {
   float cos_tilt, sin_tilt;
 };
 
-/// Sampling strategies for the directions of a shell. All give the same integrals; rendering uses kMatched.
+/// Sampling strategies for the directions of a shell. Estimates have the same expected value with each
+/// strategy. Rendering uses kMatched.
 enum class ShellSampler {
   kMatched,  ///< in proportion to the shell's own density
-  kUniform,  ///< uniform in solid angle, as in the slides of [Neulander13]
+  kUniform,  ///< uniform in solid angle inside the shell, as in the slides of [Neulander13]
   kTent,     ///< the older piecewise-linear density, see tent_pdf()
 };
 
-/// A sampled polar cosine with its density in z.
+/// A sampled polar cosine z, and the density (with respect to z) with which it was sampled.
 struct ShellPoint {
   float z;
   float pdf;
 };
 
-/// The directions between two cones about a tangent T: the specular lobe of the cone-shell model
-/// [Neulander10, Neulander13], normalised to integrate to one over the sphere.
+/// The specular lobe of the cone-shell model [Neulander10, Neulander13]: a density over the directions
+/// between two cones about a tangent T. Its integral over the sphere is 1.
 ///
 /// A cylinder reflects into the cone that mirrors the inclination of wo: the middle cone has polar angle
 /// Theta_mid = acos(-sin theta_o) + tilt. The shell extends by half_width to either side of the middle cone
-/// and is cut off at the poles. The weight of the literal variant is that of the slides: cos(Theta -
-/// Theta_mid) in the whole shell. The weight of the Wigner variant is sqrt(1 - u^2), where u in [-1, 1] is
-/// the relative position of z = cos Theta between the two outer cones. It is zero at these cones and is the
-/// density of the Wigner sampler. Both variants are uniform in azimuth.
+/// and is cut off at the poles. The density is proportional to a weight, which depends on the variant. The
+/// weight of the literal variant is cos(Theta - Theta_mid) in the whole shell, as in the slides of
+/// [Neulander13]. The weight of the Wigner variant is sqrt(1 - u^2), where u in [-1, 1] is the relative
+/// position of z = cos Theta between the two bounding cones. This weight is zero at the bounding cones and
+/// proportional to the density of the Wigner sampler. Both variants are uniform in azimuth.
 class ConeShell {
  public:
   ConeShell(const ShellShape& shape, ShellVariant variant, float sin_theta_o);
 
-  /// Throughput density of a white lobe per solid angle at z = dot(wi, T); also the density of sample().
+  /// Returns the throughput density of a white lobe at z = dot(wi, T), per solid angle. Directions with z
+  /// from sample() and a uniform azimuth have the same density.
   float density(float z) const {
     const float from_center = (z - center_) * inverse_half_range_;
     const float inside = 1.0f - from_center * from_center;
@@ -55,12 +58,12 @@ class ConeShell {
     return scale_ * std::max(0.0f, weight);
   }
 
-  /// z drawn with density 2 pi density(z).
+  /// Returns z, drawn with the density 2 pi density(z) with respect to z.
   float sample(float xi) const {
     if (variant_ == ShellVariant::kLiteral) return sample_literal(xi);
     return std::clamp(center_ + half_range_ * WignerTable::instance().sample(xi), -1.0f, 1.0f);
   }
-  /// Draws z with the given sampler and returns it with that sampler's density.
+  /// Draws z with the given sampler. Returns z and the density with which this sampler draws it.
   ShellPoint sample(ShellSampler sampler, float xi) const;
 
   /// Range of z: cosines of the outer and the inner cone.

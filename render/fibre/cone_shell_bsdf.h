@@ -14,12 +14,13 @@ namespace pelage {
 struct ConeShellMaterial {
   explicit ConeShellMaterial(const ConeShellParams& params);
 
-  /// Position along the strand (0 root, 1 tip) whose tangent a lobe uses for a point at `v`. It is `v` plus a
-  /// fixed shift and a random shift that is constant per strand, so highlights differ from hair to hair but
-  /// do not flicker. Clamped to [0, 1].
+  /// Returns the position along the strand (0 root, 1 tip) from which a lobe takes its tangent when the point
+  /// at position `v` is shaded. The result is `v` plus a fixed shift of the lobe plus a random shift, clamped
+  /// to [0, 1]. The random shift is constant per strand and lobe, so highlights differ from hair to hair but
+  /// do not flicker.
   float tangent_place(LobeGroup lobe, float v, uint64_t strand_id, uint64_t seed) const;
 
-  float diffuse;  ///< if the user gives none: the energy that the highlights of a white fibre leave
+  float diffuse;  ///< albedo; by default 1 minus the max components of `primary` and `secondary`
   float balance;
   Rgb primary;
   Rgb secondary;
@@ -38,8 +39,8 @@ using LobeTangents = std::array<V3f, kLobeGroups>;
 /// [Neulander10, Neulander13].
 ///
 /// Never gains energy: albedos whose sum exceeds one in a channel are scaled down together. A plain value
-/// that is cheap to construct at every vertex of a path. It does not allocate, and it calls trigonometric
-/// functions only in sample() and where a literal shell is cut at a pole.
+/// that is cheap to construct at every vertex of a path: it does not allocate, and it calls trigonometric
+/// functions only in sample() and for a literal shell that is cut off at a pole.
 class ConeShellBsdf {
  public:
   /// `color` is the material's colour at the point; `wo` points to the viewer or previous vertex.

@@ -13,12 +13,12 @@
 
 namespace pelage {
 
-/// Independent random numbers for one walk, a function of its seed.
+/// Independent random numbers for one walk. They are a function of the seed.
 class WalkRandom {
  public:
   explicit WalkRandom(uint64_t seed) : state_(mix64(seed)) {}
   float unit() { return unit_float(mix64(state_ += 0x9e3779b97f4a7c15ull)); }
-  /// Free path length in a medium with this coefficient.
+  /// Returns a random free path length in a medium with the scattering coefficient `sigma`.
   float free_path(float sigma) { return -std::log(1 - unit()) / sigma; }
 
  private:
@@ -32,22 +32,23 @@ struct CoreWalk {
 
   void advance(float length) { position += length * V2f(direction.y, direction.z); }
 
-  /// Distance to the exit from the cylinder of `radius`, from inside it.
+  /// Returns the distance along `direction` to the exit from the cylinder of `radius`. The position must be
+  /// inside.
   float length_out(float radius) const {
     const Line line = about(radius);
     return std::max(0.0f, (std::sqrt(std::max(0.0f, line.discriminant)) - line.b) / line.a);
   }
-  /// Distance to the entry into the cylinder of `radius`, from outside it; empty when the line misses the
-  /// cylinder.
+  /// Returns the distance along `direction` to the entry into the cylinder of `radius`. The position must be
+  /// outside. Empty when the ray from the position misses the cylinder.
   std::optional<float> length_in(float radius) const {
     const Line line = about(radius);
     if (!(line.discriminant > 0) || line.b >= 0) return std::nullopt;
     return std::max(0.0f, (-line.b - std::sqrt(line.discriminant)) / line.a);
   }
 
-  /// Walks from the surface of a scattering cylinder of `radius` until it leaves, using free paths and the
-  /// phase function of Henyey-Greenstein with mean cosine `g`. Adds the travelled distance to `length`;
-  /// returns whether it scattered.
+  /// Walks from the surface of a scattering cylinder of `radius` until the walk leaves the cylinder, using
+  /// free paths and the phase function of Henyey-Greenstein with mean cosine `g`. Adds the travelled distance
+  /// to `length`. Returns whether the walk was scattered at least once.
   bool cross(float radius, float sigma, float g, WalkRandom& random, float& length) {
     bool scattered = false;
     for (;;) {

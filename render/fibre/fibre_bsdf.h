@@ -35,12 +35,12 @@ class FibreBsdf {
   FibreValue eval(const V3f& wi) const {
     return std::visit([&](const auto& model) { return model.eval(wi); }, model_);
   }
-  /// Draws wi from the mixture of lobes; `u`: three numbers in [0, 1). Empty when the fibre absorbs
-  /// everything.
+  /// Draws wi from the mixture of lobes; `u`: three random numbers in [0, 1). Empty when the drawn direction
+  /// has no density, for example because the fibre absorbs everything.
   std::optional<FibreSample> sample(const V3f& u) const {
     return std::visit([&](const auto& model) { return model.sample(u); }, model_);
   }
-  /// Integral of rho over the sphere of wi.
+  /// Integral of rho over all directions wi; approximate for MarschnerBsdf.
   Rgb albedo() const {
     return std::visit([](const auto& model) { return model.albedo(); }, model_);
   }

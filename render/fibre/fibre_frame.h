@@ -20,8 +20,8 @@ struct FibreAngles {
 /// Wraps an angle of at most a few turns to [-pi, pi].
 inline float wrapped_angle(float x) { return x - 2 * kPi * std::round(x * (0.5f / kPi)); }
 
-/// The frame of a fibre seen from `wo`: x along the tangent, wo in the half plane of x and y, which has
-/// azimuth 0. The surface normal of a fibre hit at h is sqrt(1 - h^2) y - h z.
+/// The frame of a fibre seen from `wo`. x points along the tangent. wo lies in the half plane of x and +y,
+/// which has azimuth 0. The surface normal of a fibre hit at h is sqrt(1 - h^2) y - h z.
 class FibreFrame {
  public:
   FibreFrame(const V3f& tangent, const V3f& wo) : x_(tangent) {

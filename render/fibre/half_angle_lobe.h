@@ -11,16 +11,17 @@
 namespace pelage {
 
 /// Samples theta_h = (theta_i + theta_o) / 2 for a longitudinal lobe. The lobe is a Gaussian of theta_h times
-/// its energy, a slowly varying function that combines attenuation and change of measure. theta_i stays in
-/// [-pi/2, pi/2], which truncates the Gaussian.
+/// the lobe's energy. The energy is a slowly varying function of theta_h that combines attenuation and change
+/// of measure. theta_i stays in [-pi/2, pi/2], which truncates the Gaussian.
 ///
 /// Let s in [0, 1] be the cumulative distribution of the truncated Gaussian. The energy is interpolated
 /// linearly between a few values of s. The product of the Gaussian and the interpolated energy is sampled
-/// exactly, so sample weights vary only with the interpolation error.
+/// exactly, so sample weights vary only because of the interpolation error.
 class HalfAngleLobe {
  public:
   HalfAngleLobe() = default;
-  /// `energy(theta_h)` >= 0.
+  /// `center`, `width`: mean and standard deviation of the Gaussian, in radians. `energy(theta_h)` must be at
+  /// least 0.
   template <class Energy>
   HalfAngleLobe(float center, float width, float theta_o, Energy&& energy) : center_(center), width_(width) {
     const float low = (0.5f * (theta_o - kPi / 2) - center) / width;
@@ -42,7 +43,7 @@ class HalfAngleLobe {
   /// Approximate integral of the Gaussian times the energy. If it is 0, do not sample this lobe.
   float energy() const { return within_ * mean_; }
 
-  /// Density of theta_h.
+  /// Returns the density of theta_h, per radian.
   float density(float theta_h) const {
     if (!(mean_ > 0)) return 0;
     const float x = (theta_h - center_) / width_;
@@ -53,7 +54,7 @@ class HalfAngleLobe {
     const float at = energy_[k] + t * (energy_[k + 1] - energy_[k]);
     return std::exp(-0.5f * x * x) / (std::sqrt(2 * kPi) * width_ * within_) * at / mean_;
   }
-  /// Requires energy() > 0.
+  /// Draws theta_h. Requires energy() > 0.
   float sample(float xi) const {
     float rest = xi * mean_;
     int k = 0;
@@ -68,8 +69,8 @@ class HalfAngleLobe {
  private:
   static constexpr int kPlaces = 5;
   static constexpr std::array<float, kPlaces> kPlace{0, 0.1f, 0.5f, 0.9f, 1};
-  static constexpr float kMinShare = 0.02f;  // of the largest energy
-  static constexpr float kMinMass = 1e-5f;   // below it, float precision in the tail is insufficient
+  static constexpr float kMinShare = 0.02f;  // min energy, relative to the largest
+  static constexpr float kMinMass = 1e-5f;   // with less mass, floats are too inaccurate in the tail
 
   static float normal_below(float x) { return 0.5f * std::erfc(-x * (1 / std::numbers::sqrt2_v<float>)); }
   /// Ratio of the energy at an end to the energy beside the end: 0 at a pole that truncates the Gaussian, 1

@@ -9,8 +9,8 @@
 
 namespace pelage {
 
-/// An opaque diffuse cylinder, hit at h: rho = color / pi * max(0, n . wi). Its average over h is the far
-/// field color cos(theta_i) ((pi - |phi|) cos phi + sin |phi|) / (4 pi).
+/// An opaque diffuse cylinder, hit at h: rho = color / pi * max(0, n . wi), where n is the surface normal.
+/// The average over h is the far field, rho = color cos(theta_i) ((pi - |phi|) cos phi + sin |phi|) / (4 pi).
 class LambertCylinderBsdf {
  public:
   LambertCylinderBsdf(const Rgb& color, const FibreFrame& frame, float h)

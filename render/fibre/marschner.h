@@ -27,19 +27,19 @@ class MarschnerMaterial {
   friend class MarschnerBsdf;
   static constexpr int kLobes = 3;
   float eta_;
-  float scale_;  // of all lobes
+  float scale_;  // factor of all lobes: 1 as published, 1/2 for the halved variant
   std::optional<Rgb> absorption_;
-  std::array<float, kLobes> alpha_, beta_;  // radians, in theta_h
+  std::array<float, kLobes> alpha_, beta_;  // shift and width of each lobe in theta_h; radians
   WrappedGaussian azimuthal_;
 };
 
-/// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h: M
-/// is a Gaussian of unit area in theta_h; N is the attenuation at theta_d times a Gaussian about the exit
-/// azimuth. Averaging N over h replaces the paper's root finding and caustics. The path length in the fibre
+/// S = sum over p of M_p(theta_h) N_p(theta_d, phi) / cos^2(theta_d) [Marschner03, equation 9], at one h. M_p
+/// is a Gaussian of unit area in theta_h. N_p is the attenuation at theta_d times a Gaussian about the exit
+/// azimuth. Averaging N_p over h replaces the paper's root finding and caustics. The path length in the fibre
 /// is 2 cos(gamma_t) / cos(theta_t); the formula printed in the paper is known to be wrong.
 ///
-/// Reflects nearly twice the incoming energy: unit area in theta_h is area 2 in theta_i. Keeps a
-/// reference to `material`.
+/// S reflects nearly twice the incoming energy, because unit area in theta_h is area 2 in theta_i. The
+/// published variant uses S, the halved variant S / 2. Keeps a reference to `material`.
 class MarschnerBsdf {
  public:
   MarschnerBsdf(const MarschnerMaterial& material, const FibreFrame& frame, float h, const Rgb& sigma);
@@ -49,7 +49,8 @@ class MarschnerBsdf {
   /// Attenuations, exit azimuths and the measure depend on theta_d. If lobes were evaluated at theta_o
   /// instead, sampling would miss the brightest light of slanted fibres.
   std::optional<FibreSample> sample(const V3f& u) const;
-  /// Approximate: uses attenuations at theta_o, times 2 for the published variant.
+  /// Returns an approximate albedo: the sum of the attenuations at theta_o, times 2 for the published
+  /// variant.
   Rgb albedo() const;
 
  private:
@@ -61,7 +62,7 @@ class MarschnerBsdf {
   };
   Crossing crossing(float theta_d) const;
   float energy(int lobe, float theta_h) const;
-  /// Fraction of samples drawn uniformly over the sphere: 1 when every lobe is black.
+  /// Fraction of samples drawn uniformly over the sphere: 1 % normally, 1 when every lobe is black.
   float uniform_share() const;
 
   const MarschnerMaterial* material_;

@@ -10,9 +10,10 @@
 namespace pelage {
 
 /// A fibre with a medulla, hit at one h: the lobes of unscattered light, and one lobe of scattered light.
-/// `Scattered` has density(FibreAngles) and draw(u), which returns the sine of theta_i and phi.
+/// `Scattered` is the model of the lobe of scattered light. It must have density(FibreAngles) and draw(u),
+/// which returns DrawnAngles.
 ///
-/// Every lobe is sampled exactly: weights vary by colour only.
+/// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour.
 template <class Scattered>
 class MedullaBsdf {
  public:
@@ -55,7 +56,7 @@ class MedullaBsdf {
   float choice_;
 };
 
-/// A direction relative to a fibre.
+/// A sampled direction relative to a fibre: the sine of its inclination, and its azimuth in radians.
 struct DrawnAngles {
   float sin_theta;
   float phi;

@@ -15,21 +15,21 @@
 
 namespace pelage {
 
-/// Distribution of light scattered by the medulla of a fibre, by inclination and h of the incoming light: the
-/// azimuthal and longitudinal profiles of [Yan15, section 4.3], with separate longitudinal profiles for light
-/// that leaves at the front and at the back. Computed by tracing the whole fibre, so that light kept inside
-/// by total reflection is included correctly. A function of the optics and the number of paths only. Thread
-/// safety: immutable.
+/// Tables of the distribution of light that the medulla of a fibre scatters, by inclination and h of the
+/// incoming light. They have the azimuthal and longitudinal profiles of [Yan15, section 4.3], with separate
+/// longitudinal profiles for light that leaves at the front and light that leaves at the back. They are
+/// computed by tracing paths through the whole fibre, so light that total reflection keeps inside is included
+/// correctly. The tables are a function of the optics and the number of paths only. Thread safety: immutable.
 class MedullaTables {
  public:
-  static constexpr int kInclinations = 12, kOffsets = 12;  ///< nodes of |theta_o| and |h|
-  static constexpr int kAzimuths = 72, kSines = 40;        ///< cells of phi and of sin(theta_i)
-  static constexpr int kPaths = 40000;                     ///< from each node
+  static constexpr int kInclinations = 12, kOffsets = 12;  ///< numbers of nodes of |theta_o| and |h|
+  static constexpr int kAzimuths = 72, kSines = 40;        ///< numbers of cells of phi and sin(theta_i)
+  static constexpr int kPaths = 40000;                     ///< number of paths traced for each node
 
-  /// Takes seconds. Throws Error (kStopped) when the job is stopped.
+  /// Computes the tables, which takes seconds. Throws Error (kStopped) when the job is stopped.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Job& job,
                                                    int paths = kPaths);
-  /// The same without progress reports; it cannot be stopped.
+  /// Computes the tables without progress reports. The computation cannot be stopped.
   static std::shared_ptr<const MedullaTables> make(const YanOptics& optics, const Workers& workers,
                                                    int paths = kPaths);
   /// Loads the tables from `store`, or computes them and stores them there. If the file is damaged, warns the
@@ -37,8 +37,8 @@ class MedullaTables {
   static std::shared_ptr<const MedullaTables> find_or_make(const YanOptics& optics, const ContentStore& store,
                                                            const Job& job, int paths = kPaths);
 
-  /// Cumulative distributions of one node, and path lengths of its light. Light comes from above the normal
-  /// plane (theta_o >= 0) at h >= 0.
+  /// A node of the tables: cumulative distributions of the scattered light, and its path lengths. The light
+  /// comes from theta_o >= 0 and h >= 0; the other signs follow by symmetry.
   struct Node {
     std::array<float, kAzimuths + 1> azimuth;           ///< over phi from -pi to pi
     std::array<std::array<float, kSines + 1>, 2> sine;  ///< over sin(theta_i) from -1 to 1: front, behind
@@ -51,7 +51,8 @@ class MedullaTables {
   std::vector<Node> nodes_;
 };
 
-/// The lobe of scattered light at one point: a mixture of the four nodes around it. Refers to the tables.
+/// The lobe of scattered light for one inclination and one h: a mixture of the four nodes of the tables that
+/// surround them. Keeps a reference to the tables.
 class TabulatedScatter {
  public:
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);

@@ -10,21 +10,22 @@
 namespace pelage {
 
 /// Path lengths of scattered light in the cortex and in the medulla, in radii. Paths are sorted by length and
-/// divided into groups; each group stores its mean. With a single mean, strongly absorbing fibres would be
-/// too dark, because only their short paths contribute.
+/// divided into groups; each group stores its mean lengths. With a single mean over all paths, strongly
+/// absorbing fibres would be too dark, because only their short paths contribute.
 class PathLengths {
  public:
   PathLengths() = default;
-  /// From traced paths. The order of `paths` matters only among paths of equal length.
+  /// Computes the groups of traced paths. The order of `paths` matters only among paths of equal length.
   explicit PathLengths(std::vector<FibrePath> paths);
 
-  /// The mean of exp(-sigma . length).
+  /// Returns the mean over all groups of exp(-sigma_ca cortex - sigma_ma core), weighted by the groups'
+  /// fractions of all paths.
   Rgb transmittance(const Rgb& sigma_ca, const Rgb& sigma_ma) const;
 
   float mean_cortex() const { return mean(cortex_); }
   float mean_core() const { return mean(core_); }
 
-  /// Interpolated lengths: `t` = 0 gives a, 1 gives b.
+  /// Interpolates the lengths of each group linearly: `t` = 0 gives a, `t` = 1 gives b.
   static PathLengths mix(const PathLengths& a, const PathLengths& b, float t);
 
  private:

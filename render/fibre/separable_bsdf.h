@@ -12,13 +12,14 @@
 
 namespace pelage {
 
-/// Widths of the lobes R, TT, TRT and of the rest. Shared by evaluation and sampling, so that these cannot
-/// disagree.
+/// Widths of the lobes R, TT and TRT and of the last lobe, for all longer paths. Evaluation and sampling
+/// share them, so that the two cannot disagree.
 template <class Azimuth>
 struct LobeWidths {
   std::array<LongitudinalLobe, kFibreLobes> longitudinal;
-  std::array<Azimuth, kFibreLobes - 1> azimuthal;  ///< the rest is uniform
-  /// Sines and cosines of the tilt added to theta_o before each lobe mirrors it, for R, TT and TRT.
+  std::array<Azimuth, kFibreLobes - 1> azimuthal;  ///< the last lobe is uniform
+  /// Sines and cosines of the tilts of R, TT and TRT. A lobe adds its tilt to theta_o before it mirrors the
+  /// direction.
   std::array<float, kFibreLobes - 1> sin_tilt{0, 0, 0}, cos_tilt{1, 1, 1};
 
   void set_tilt(int p, float radians) {
@@ -28,9 +29,11 @@ struct LobeWidths {
 };
 
 /// A sum of lobes for light that hits a fibre at one h: sum over p of A_p M_p(theta_i) N_p(phi), with
-/// longitudinal densities M and azimuthal densities N [Marschner03, equation 5]. Refers to `widths`.
+/// longitudinal densities M and azimuthal densities N [Marschner03, equation 5]. Keeps a reference to
+/// `widths`.
 ///
-/// Every lobe is sampled exactly: weights vary by colour only. The energy is the sum of the A_p.
+/// Every lobe is sampled exactly, so sample weights vary only because the lobes differ in colour. The energy
+/// is the sum of the A_p.
 template <class Azimuth>
 class SeparableBsdf {
  public:
@@ -51,7 +54,7 @@ class SeparableBsdf {
 
   const FibreFrame& frame() const { return frame_; }
 
-  /// Density of each lobe at a direction.
+  /// Returns the density of each lobe at a direction, per solid angle.
   std::array<float, kFibreLobes> densities(const FibreAngles& wi) const {
     std::array<float, kFibreLobes> d;
     for (int p = 0; p < kFibreLobes; ++p) {

@@ -8,11 +8,11 @@
 
 namespace pelage {
 
-/// Constants of a material whose lobes are a SeparableBsdf. A model derives from it and sets the widths.
+/// Constants of a material whose lobes are a SeparableBsdf. Models derive from this class and set the widths.
 template <class Azimuth>
 class SeparableMaterial {
  public:
-  /// The result refers to the material.
+  /// Returns the scattering of a fibre hit at `h`. The result refers to the material.
   SeparableBsdf<Azimuth> at(const FibreFrame& frame, float h, const Rgb& color) const {
     const FibreCrossing crossing(eta_, 0, frame.sin_theta_o(), frame.cos_theta_o(), h);
     const Rgb sigma = fibre_absorption(absorption_, by_color_, color);

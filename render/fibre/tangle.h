@@ -12,14 +12,16 @@ namespace pelage {
 struct TangleHit {
   V3f tangent{0};
   V3f wo{0};    ///< unit, back along the walk
-  float h = 0;  ///< across the fibre, as FibrePoint::h
+  float h = 0;  ///< position across the fibre, as FibrePoint::h
 };
-/// Scatters a walk at a fibre, using three numbers in [0, 1); empty when the walk ends at this fibre.
+/// Samples the direction in which a walk leaves a fibre, using three random numbers in [0, 1). Empty when the
+/// walk ends at this fibre.
 using TangleScatter = std::function<std::optional<FibreSample>(const TangleHit&, const V3f&)>;
 
-/// Fraction of uniform light that an infinitely deep medium of randomly oriented fibres reflects: the colour
-/// of dense fur. Uses the green channel only. Estimated with `walks` random walks, the same for every call;
-/// relative error about 1 / sqrt(walks). Returns 2 when fibres gain so much energy that the sum diverges.
+/// Returns the fraction of uniform light that an infinitely deep medium of randomly oriented fibres reflects:
+/// the colour of dense fur. Uses the green channel only. The fraction is estimated with `walks` random walks,
+/// which use the same random numbers in every call. The relative error is about 1 / sqrt(walks). Returns 2
+/// when fibres gain so much energy that the sum diverges.
 double tangle_reflectance(const TangleScatter& scatter, int walks);
 
 }  // namespace pelage

@@ -17,19 +17,19 @@ inline float wigner_pdf(float u) {
   return 2.0f / std::numbers::pi_v<float> * std::sqrt(std::max(0.0f, (1.0f - u) * (1.0f + u)));
 }
 
-/// F(u) = 1/2 + (u sqrt(1 - u^2) + asin u) / pi.
+/// Returns the cumulative distribution F(u) = 1/2 + (u sqrt(1 - u^2) + asin u) / pi.
 double wigner_cdf(double u);
 
-/// Inverts F with a table. F^-1 has no closed form and infinite slope at both ends, where 1 + u grows as
-/// xi^(2/3). The cells are eighths of octaves of min(xi, 1 - xi) and are found from the bits of the float.
-/// With a cubic per cell, the error is 5e-7 of the distance to the nearer end. Its density equals the
-/// analytic one to that accuracy.
+/// Inverts F with a table. F^-1 has no closed form. It has infinite slope at both ends: near xi = 0, 1 + u
+/// grows as xi^(2/3). The table divides each octave of min(xi, 1 - xi) into eight cells, and the bits of this
+/// float select the cell. Each cell has a cubic polynomial. The error of u is 5e-7 of the distance from u to
+/// the nearer end of [-1, 1]. The density of the samples equals wigner_pdf() with the same accuracy.
 class WignerTable {
  public:
-  /// Constructed once. Thread safe.
+  /// Returns the only table, which is constructed at the first call. Thread safety: any thread.
   static const WignerTable& instance();
 
-  /// u with F(u) = xi, for xi in [0, 1).
+  /// Returns u with F(u) = xi, for xi in [0, 1).
   float sample(float xi) const {
     const bool upper = xi >= 0.5f;
     const float tail = std::max(upper ? 1.0f - xi : xi, kSmallest);
@@ -47,15 +47,17 @@ class WignerTable {
   static constexpr int kCellShift = 20;
   static constexpr uint32_t kFractionMask = (1u << kCellShift) - 1;
   static constexpr float kFractionScale = 1.0f / (1u << kCellShift);
-  static constexpr float kSmallest = 0x1p-25f;  ///< half the smallest positive number that streams return
+  static constexpr float kSmallest = 0x1p-25f;  ///< half the smallest positive number of random streams
   static constexpr uint32_t kFirstCell = std::bit_cast<uint32_t>(kSmallest) >> kCellShift;
   static constexpr uint32_t kLastCell = std::bit_cast<uint32_t>(0.5f) >> kCellShift;
   std::array<Cell, kLastCell - kFirstCell + 1> cells_;
 };
 
-/// The flatter piecewise-linear density that the Wigner sampler replaced [Neulander10]. Its knots were not
-/// published; this is a tent plus a constant, fitted to the semicircle.
+/// Probability of the constant part of tent_pdf().
 inline constexpr float kTentFloor = 0.51f;
+/// The piecewise-linear density that the Wigner sampler replaced [Neulander10]. It is flatter than the
+/// semicircle. Because its knots were not published, this density is a tent plus a constant, fitted to the
+/// semicircle.
 inline float tent_pdf(float u) {
   return std::abs(u) > 1.0f ? 0.0f : (1.0f - kTentFloor) * (1.0f - std::abs(u)) + 0.5f * kTentFloor;
 }

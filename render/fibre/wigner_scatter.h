@@ -9,7 +9,8 @@
 
 namespace pelage {
 
-/// The lobe cos(theta) / pi^2 (1 + b cos(phi)): the diffuse shell of the cone-shell model.
+/// The lobe cos(theta) / pi^2 (1 + b cos(phi)), where b in [-1, 1] is the balance: the diffuse shell of the
+/// cone-shell model.
 class WignerScatter {
  public:
   explicit WignerScatter(float balance) : balance_(balance) {}

@@ -16,10 +16,10 @@ using YanFastBsdf = MedullaBsdf<WignerScatter>;
 using YanBsdf = MedullaBsdf<TabulatedScatter>;
 
 /// Splits the light that hits a fibre at one h into light that the medulla scatters and light that it does
-/// not [Yan17, section 4]. T is the fraction of a leg's light that stays unscattered; R equals the
-/// reflectance F. Unscattered light follows the paths of a clear fibre whose legs transmit T. The fraction (1
-/// - F) (1 - T) / (1 - F T) of the light is scattered. The fractions of all unscattered paths and of
-/// scattered light add up to 1.
+/// not [Yan17, section 4]. F is the reflectance of the surface, and also the fraction of the light in the R
+/// lobe. T is the fraction of a leg's light that the medulla does not scatter. Unscattered light follows the
+/// paths of a clear fibre whose legs transmit T. The fraction (1 - F) (1 - T) / (1 - F T) of the light is
+/// scattered. The fractions of all unscattered paths and of scattered light add up to 1.
 struct MedullaCrossing {
   MedullaCrossing(const YanOptics& optics, float sin_theta, float cos_theta, float h);
 
@@ -32,15 +32,16 @@ struct MedullaCrossing {
   }
 };
 
-/// The part that `yan` and `yan-fast` share: everything except the lobe of scattered light.
+/// What the models `yan` and `yan-fast` share: everything except the lobe of scattered light.
 ///
-/// Longitudinal functions have d'Eon's form and the variances of the paper's Gaussians, so that energy is
-/// exact. There is no variant with the Gaussians themselves: at a width of 10 degrees they lose 2 % of the
-/// light across the fibre and 6 % of light from 1.3 radians. The R lobe is a product of a longitudinal and an
-/// azimuthal function. In [Yan17] its cone and its width vary with the azimuth, but light traced through a
-/// smooth cylinder without tilt shows no such variation, and tilts are only two or three degrees. Azimuthal
-/// functions are Gaussians of deviation sqrt(p + 1) beta_n. Tilts have the signs of ChiangMaterial: +2 alpha
-/// for R, -alpha for TT, -3 alpha for TRT.
+/// Longitudinal functions have d'Eon's form and the variances of the Gaussians in [Yan17], so that energy is
+/// exact. There is no variant with the Gaussians themselves: at a width of 10 degrees, they lose 2 % of light
+/// from theta_o = 0 and 6 % of light from theta_o = 1.3 radians. The R lobe is a product of a longitudinal
+/// and an azimuthal function. In [Yan17], the cone and the width of the R lobe vary with the azimuth.
+/// However, light traced through a smooth cylinder without tilt shows no such variation, and tilts are only
+/// two or three degrees. Azimuthal functions are Gaussians with standard deviation sqrt(p + 1) beta_n, where
+/// p is 0 for R, 1 for TT and 2 for TRT. Tilts have the same signs as in ChiangMaterial: +2 alpha for R,
+/// -alpha for TT, -3 alpha for TRT.
 class MedullaFibre {
  public:
   explicit MedullaFibre(const YanOptics& optics);
@@ -55,12 +56,13 @@ class MedullaFibre {
 };
 
 /// Constants of a `yan-fast` material. Scattered light leaves as rho = A cos(theta_i) / pi^2 (1 + b
-/// cos(phi)), which approximates light traced through such fibres. b and the path lengths that determine A
-/// are traced per inclination when the material is made.
+/// cos(phi)), which approximates light traced through such fibres. b, and the path lengths that determine A,
+/// are found for several inclinations by tracing paths when the material is made.
 class YanFastMaterial {
  public:
   explicit YanFastMaterial(const YanFastParams& params);
-  /// `absorption`: of cortex and medulla, used when the material does not define any.
+  /// `absorption`: absorption coefficient per radius, used for the cortex or the medulla if the material does
+  /// not define one.
   YanFastBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:
@@ -75,12 +77,12 @@ class YanFastMaterial {
   std::array<Scattering, kInclinations> scattering_;  // over |sin theta_o|
 };
 
-/// Constants of a `yan` material: scattered light from tables over inclination and h. Refers to the tables,
-/// which it shares.
+/// Constants of a `yan` material, which takes scattered light from tables over inclination and h. Keeps the
+/// tables alive; several materials may share them.
 class YanMaterial {
  public:
   explicit YanMaterial(const YanParams& params);
-  /// As for YanFastMaterial.
+  /// `absorption`: as for YanFastMaterial::at().
   YanBsdf at(const FibreFrame& frame, float h, const Rgb& absorption) const;
 
  private:

@@ -11,33 +11,35 @@ namespace pelage {
 
 struct FurBox;
 
-/// The axes of all boxes of one fur tree: the axes of the grid, or a rotated orthogonal frame. Combed fur has
-/// one main direction, and boxes aligned to it are much smaller; a ray is rotated once for the whole tree.
-/// Curves and hits are not affected.
+/// The axes to which all boxes of one fur tree are aligned: the axes of the grid, or a rotated orthogonal
+/// frame. Combed fur has one main direction, and boxes that are aligned to this direction are much smaller. A
+/// ray is rotated once for the whole tree. The frame does not affect curves or hits.
 struct FurFrame {
   std::array<V3f, 3> axes{V3f(1, 0, 0), V3f(0, 1, 0), V3f(0, 0, 1)};
   bool turned = false;  ///< false: exactly the axes of the grid
 
   V3f operator()(const V3f& p) const { return {axes[0].dot(p), axes[1].dot(p), axes[2].dot(p)}; }
   SnappedSegment operator()(const SnappedSegment& segment) const;
-  /// A box along the axes of the grid that contains a box of this frame.
+  /// Returns a box along the axes of the grid that contains `box`, which is aligned to this frame.
   FurBox unrotated(const FurBox& box) const;
-  /// Whether both have the same axes, rotated or not.
+  /// Whether both frames have the same axes. All frames that are not turned are equal.
   bool operator==(const FurFrame& o) const { return turned == o.turned && (!turned || axes == o.axes); }
-  /// Whether it is well-formed, for data from a file.
+  /// Whether the axes are orthonormal, up to an error of 0.001. For checking data from a file.
   bool is_possible() const;
 };
 
-/// The frames a tree may use. Trees over moving strands always use the grid's axes.
+/// When a tree uses a rotated frame. Trees over moving strands never do: they use the axes of the grid.
 enum class FurRotation : uint8_t {
   kNever,
-  kWhenUseful,  ///< if rotation makes the boxes of single segments so much smaller that boxes of four
-                ///< segments shrink, too
-  kAlways,      ///< for tests
+  /// If rotation reduces the total area of the boxes of single segments to less than 0.7 of its value. The
+  /// boxes of four segments then shrink noticeably, too.
+  kWhenUseful,
+  kAlways,  ///< for tests
 };
 
-/// A frame that suits most segments, estimated from a few hundred segments. One axis is the common direction
-/// of the segments; the other two axes are the best of several pairs. Deterministic.
+/// Returns the frame for a tree over `strands`, estimated from a few hundred segments. One axis of a rotated
+/// frame is the common direction of these segments. The other two axes are the pair, out of several, for
+/// which the boxes are smallest. Deterministic.
 FurFrame choose_frame(const SnappedStrands& strands, FurRotation rotation);
 
 }  // namespace pelage

@@ -22,20 +22,20 @@ struct FurHit {
 
   float distance = std::numeric_limits<float>::infinity();  ///< grid units inside a tree, scene units outside
   uint32_t number = kNone;                                  ///< segment number as in SnappedStrands
-  float u = 0;                                              ///< along the segment, in (0, 1]
-  float h = 0;                                              ///< across it, as Hit::v
+  float u = 0;                                              ///< curve parameter in the segment, in (0, 1]
+  float h = 0;                                              ///< offset across the strand, as Hit::v
 
   explicit operator bool() const { return number != kNone; }
-  /// Whether this hit is nearer, or equally near with a smaller number.
+  /// Whether this hit is nearer than `o`, or equally near with a smaller segment number.
   bool precedes(const FurHit& o) const {
     return distance != o.distance ? distance < o.distance : number < o.number;
   }
 };
 
-/// Cost of rays.
+/// Numbers of tests that queries made.
 struct FurTests {
-  int64_t boxes = 0;     ///< four per node
-  int64_t segments = 0;  ///< four per block of a leaf, including empty lanes
+  int64_t boxes = 0;     ///< tests of rays against boxes: four per visited node
+  int64_t segments = 0;  ///< tests of rays against segments: four per visited block, including empty lanes
 
   FurTests& operator+=(const FurTests& o) {
     boxes += o.boxes, segments += o.segments;
@@ -43,7 +43,8 @@ struct FurTests {
   }
 };
 
-/// Decides which hits count. Hits arrive in any order; the same hit may arrive several times.
+/// Decides which hits a query accepts. A query may call accepts() in any order of hits, and several times for
+/// the same hit. Distances of these hits are in scene units.
 class FurFilter {
  public:
   virtual ~FurFilter() = default;

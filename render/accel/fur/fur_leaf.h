@@ -10,14 +10,16 @@
 
 namespace pelage {
 
-/// Four segments side by side, as stored in leaves: the only copy of the points.
+/// The header of a block. A block stores four segments, one per lane. The leaves of a tree consist of blocks,
+/// which have the only copy of the points.
 ///
-/// A block is a header and then, for each motion key, the coordinates, indexed [axis][Bezier point][lane],
-/// and the radii, indexed [Bezier point][lane]. A narrow block stores coordinates as 16-bit differences from
-/// its origin, and a radius k^2 / 256 as the 8-bit number k. A wide block is used if these ranges do not
-/// suffice; it stores the same values as floats. Both decode to the same bits.
+/// After the header, a block has for each motion key the coordinates, indexed [axis][Bezier point][lane], and
+/// the radii, indexed [Bezier point][lane]. A narrow block stores coordinates as 16-bit differences from the
+/// block's origin, and a radius k^2 / 256 as the 8-bit number k. A wide block stores coordinates and radii as
+/// floats. A wide block is used only if a segment is too large for a narrow block. Narrow and wide blocks of
+/// the same segments decode to the same bits.
 struct FurBlockHeader {
-  static constexpr uint32_t kNone = ~0u;  ///< number of an empty lane, whose points are all equal
+  static constexpr uint32_t kNone = ~0u;  ///< segment number of an empty lane, whose points are all equal
   static constexpr size_t kLanes = 4;
 
   int32_t origin[3];
@@ -26,7 +28,7 @@ struct FurBlockHeader {
 };
 static_assert(sizeof(FurBlockHeader) == 32);
 
-/// Sizes of the parts of a block.
+/// Sizes in bytes: of the coordinates along one axis and of the radii, at one motion key.
 struct FurBlockSizes {
   size_t axis, radii;
   constexpr size_t key() const { return 3 * axis + radii; }
@@ -36,7 +38,7 @@ struct FurBlockSizes {
 };
 inline constexpr FurBlockSizes kNarrowBlock{32, 16}, kWideBlock{64, 64};
 
-/// Input of a block: at most four segments at all motion keys.
+/// Input of write_block(): one to four segments at all motion keys.
 struct FurBlockContents {
   std::array<uint32_t, FurBlockHeader::kLanes> numbers{FurBlockHeader::kNone, FurBlockHeader::kNone,
                                                        FurBlockHeader::kNone, FurBlockHeader::kNone};
@@ -45,9 +47,10 @@ struct FurBlockContents {
 
 /// Whether a narrow block can represent these segments.
 bool fits_narrow_block(const FurBlockContents& contents);
-/// Writes a block; `out` must be large enough.
+/// Writes a block. `out` must have FurBlockSizes::block(motion_keys) bytes. If `wide` is false, the contents
+/// must fit a narrow block.
 void write_block(const FurBlockContents& contents, int motion_keys, bool wide, std::byte* out);
-/// Segment of one lane at one key.
+/// Reads the segment in one lane at one motion key.
 SnappedSegment read_block(const std::byte* block, bool wide, size_t lane, int key);
 
 }  // namespace pelage

@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// How nodes store the boxes of their four children: as floats, 128 bytes in total [Neulander13], or as 8-bit
-/// numbers on a grid per node, 64 bytes.
+/// How nodes store the boxes of their four children. kFloat: as floats [Neulander13]; without motion, a node
+/// has 128 bytes. kQuantised: as 8-bit coordinates on a grid of the node; without motion, a node has 64
+/// bytes.
 enum class FurNodeLayout : uint8_t { kFloat, kQuantised };
 
 /// An axis-aligned box in grid units; inverted when empty.
@@ -21,7 +22,7 @@ struct FurBox {
 
   void extend(const FurBox& o);
   bool is_empty() const { return low[0] > high[0]; }
-  /// Half of the surface area.
+  /// Half of the surface area; 0 if the box is empty.
   double area() const;
 };
 
@@ -30,16 +31,18 @@ struct FurChild {
   std::span<const FurBox> boxes;  ///< one per motion key
 };
 
-/// Float layout: by motion key and axis, the low and then the high sides of four children; then their
-/// references, starting at references().
+/// Byte offsets in a node of float layout. For each motion key and axis, the node has the low sides of the
+/// four children's boxes and then their high sides. The references to the children follow from references()
+/// on.
 struct FurFloatNode {
   static constexpr size_t kKey = 96, kAxis = 32, kSide = 16;
   static constexpr size_t references(int motion_keys) { return kKey * static_cast<size_t>(motion_keys); }
   static constexpr size_t size(int motion_keys) { return (references(motion_keys) + 16 + 63) / 64 * 64; }
 };
 
-/// Quantised layout: origin and scale of the three axes, references, and by motion key and axis the low and
-/// then the high sides of four children, one byte each.
+/// Byte offsets in a node of quantised layout. The node has the origin of its grid (three axes), the scale of
+/// its grid (three axes) and the references to the four children. For each motion key and axis, the low sides
+/// of the children's boxes follow and then their high sides, one byte per side.
 struct FurQuantisedNode {
   static constexpr size_t kOrigin = 0, kScale = 12, kReferences = 24, kPlanes = 40;
   static constexpr size_t kKey = 24, kAxis = 8, kSide = 4;
@@ -49,16 +52,17 @@ struct FurQuantisedNode {
 };
 
 size_t node_size(FurNodeLayout layout, int motion_keys);
-/// Writes a node of 1 to 4 children. The decoded boxes contain the given ones, up to the rounding of one
-/// product and one sum.
+/// Writes a node with 1 to 4 children. The decoded boxes contain the given boxes, up to the rounding errors
+/// of one product and one sum in the decoder.
 void write_node(FurNodeLayout layout, int motion_keys, std::span<const FurChild> children, std::byte* out);
 
-/// Child `i` of a node written by write_node(); FurReference::is_none() if the node has fewer children.
+/// Returns the reference to child `i` of a node written by write_node(). If the node has no such child,
+/// is_none() of the reference is true.
 FurReference child_reference(FurNodeLayout layout, int motion_keys, const std::byte* node, size_t i);
 void set_child_reference(FurNodeLayout layout, int motion_keys, std::byte* node, size_t i,
                          FurReference reference);
-/// The box of child `i` at one key as used by ray tracing; contains the box that was written, including
-/// rounding.
+/// Returns the box of child `i` at one key. Its sides are moved outward by the rounding error of decoding, so
+/// the box contains the box given to write_node().
 FurBox child_box(FurNodeLayout layout, const std::byte* node, size_t i, int key);
 
 }  // namespace pelage

@@ -11,17 +11,20 @@ namespace pelage {
 
 class Workers;
 
-/// Fur trees on disk: an entry of kind "fur" in a content store. Its sections are the pages, each with its
-/// own checksum, followed by the table: counts, trees, treelets, boxes. Pages are read one by one, never
-/// mapped; every page is verified and validated before it is traced.
+/// Fur trees in a file: an entry of kind "fur" in a content store. The sections of the entry are the pages,
+/// each with its own checksum, followed by the table: counts, trees, treelets, boxes. Pages are read one by
+/// one; the file is not memory-mapped. read() verifies and validates each page, so only intact pages are
+/// traced.
 ///
 /// Thread safety: const members may be called from any thread.
 class FurPageFile {
  public:
-  /// Incremented whenever the same strands would give different pages.
+  /// Version of the stored data. Must be incremented by every change that gives different pages for the same
+  /// strands.
   static constexpr uint32_t kVersion = 3;
 
-  /// Writes an entry, tree by tree; it exists after commit(), which reports file system errors to `warn`.
+  /// Writes an entry, tree by tree. The entry exists only after commit() has returned true. commit() reports
+  /// file system errors to `warn`.
   class Writer {
    public:
     Writer(const ContentStore& store, const ContentHash& key, size_t page_bytes = FurCutter::kPageBytes);
@@ -33,27 +36,28 @@ class FurPageFile {
     FurCutter cutter_;
   };
 
-  /// Returns nothing if the entry is missing, or if its table shows that it is damaged or foreign. Calls
-  /// `warn` for a damaged or foreign entry.
+  /// Opens an entry. Returns nothing if the entry is missing. Also returns nothing, and calls `warn`, if the
+  /// file's table shows that the file is damaged or is not such an entry.
   static std::optional<FurPageFile> open(const ContentStore& store, const ContentHash& key,
                                          const WarningSink& warn);
-  /// Opens a file, whatever its name. Throws Error (kInput).
+  /// Reads the table of a file, whatever the file's name. Throws Error (kInput) if the file is damaged or is
+  /// not an entry of kind "fur" with this version.
   explicit FurPageFile(StoredSections file);
 
   const FurPageTable& table() const { return table_; }
-  /// Memory of this object.
+  /// Bytes of memory that this object holds.
   size_t bytes() const {
     return file_.bytes() + table_.bytes() + first_treelet_.capacity() * sizeof(uint32_t);
   }
 
-  /// The treelets of a page: from first_treelet(page) to first_treelet(page + 1).
+  /// Index of the first treelet of a page. The last treelet of the page precedes first_treelet(page + 1).
   uint32_t first_treelet(uint32_t page) const { return first_treelet_[page]; }
   /// Reads one page into `out`, which must be as long as the page and aligned to 64 bytes. Throws Error
-  /// (kInput) when the page cannot be read or its checksum is wrong.
+  /// (kInput) when the page cannot be read, its checksum is wrong or a treelet cannot be traced.
   void read(uint32_t page, std::span<std::byte> out) const;
   /// Announces that a page will be read next, so that the system may load it.
   void prefetch(uint32_t page) const { file_.prefetch(page); }
-  /// Reads and verifies all pages. Returns whether they are intact; calls `warn` otherwise.
+  /// Reads and verifies all pages. Returns whether all pages are intact; if not, calls `warn` once.
   bool check_all(const Workers& workers, const WarningSink& warn) const;
 
  private:

@@ -8,8 +8,9 @@
 
 namespace pelage {
 
-/// Boxes of the largest subtrees of a tree: at least `parts` of them, if there are enough leaves. Scene
-/// space, over the whole shutter; linear in time when there is motion. They contain every hit.
+/// Divides a tree into subtrees by opening the largest subtree repeatedly, until there are at least `parts`
+/// subtrees or only leaves. Returns the boxes of the subtrees in scene space, over the whole shutter. With
+/// motion, the boxes are linear in time. Together, the boxes contain every hit.
 ChunkBounds subtree_bounds(const FurTreeView& tree, size_t parts);
 
 }  // namespace pelage

@@ -11,10 +11,10 @@
 #include "render/accel/fur/fur_hit.h"
 #include "render/accel/fur/fur_ray.h"
 
-// The scalar part of the kernels, for single lanes.
+// The scalar part of the intersection kernels: it processes single lanes of a block.
 namespace pelage {
 
-/// One lane of a block's curves.
+/// The curve in one lane of a block, in ray space.
 struct FurLane : PlaneCurve {
   float z, dz[3];  ///< distance along the ray: the first point, and differences as for x and y
   float r[4];
@@ -28,15 +28,15 @@ struct FurLane : PlaneCurve {
     const float s = 1 - u;
     return (s * s * s * p[0] + 3 * (s * s * u) * p[1]) + (3 * (s * u * u) * p[2] + u * u * u * p[3]);
   }
-  /// Sums the differences of points.
+  /// Returns the derivative at u of a coordinate. `d`: the differences of its consecutive Bezier points.
   static float first(const float (&d)[3], float u) {
     const float s = 1 - u;
     return 3 * (s * s * d[0] + 2 * s * u * d[1] + u * u * d[2]);
   }
 };
 
-/// Whether a hit is a self-intersection with the ray's own strand near the start: within two of its widths
-/// both along the ray and along the strand.
+/// Whether a hit on the strand that the ray starts on is a self-intersection: it is within two strand widths
+/// of the start, both along the ray and along the strand.
 inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, float u, float distance) {
   const float twice = 4 * FurLane::value(lane.r, u);
   if (!(distance < twice)) return false;
@@ -45,6 +45,7 @@ inline bool is_start(const FurRay& ray, uint32_t number, const FurLane& lane, fl
   return std::abs(between) * std::sqrt(x * x + y * y + z * z) < twice;
 }
 
+/// Query for the nearest hit. take() returns false: the ray always continues.
 class NearestFur {
  public:
   NearestFur(const FurRay& ray, FurFilter* filter, float step)
@@ -54,7 +55,7 @@ class NearestFur {
   float far() const { return hit.distance; }
   static constexpr bool kOrdered = true, kCounts = false;
 
-  /// Whether a hit at this distance may precede the current one.
+  /// Whether a hit at this distance on segment `number` precedes the current hit.
   bool wants(float distance, uint32_t number) const {
     return distance > near_ &&
            (distance < hit.distance || (hit && distance == hit.distance && number < hit.number));
@@ -75,6 +76,7 @@ class NearestFur {
   FurFilter* filter_;
 };
 
+/// Query for any hit. take() returns whether the filter accepted the hit, which finishes the ray.
 class AnyFur {
  public:
   AnyFur(const FurRay& ray, FurFilter* filter, float step)
@@ -94,7 +96,7 @@ class AnyFur {
   FurFilter* filter_;
 };
 
-/// A query that counts its cost.
+/// A query that also counts its tests.
 template <class Query>
 class Counting : public Query {
  public:

@@ -11,11 +11,14 @@ namespace pelage {
 
 /// A ray in the form used by the kernels, in grid units.
 ///
-/// Ray space: k is the axis of the direction's largest component. X = d_k P_i - d_i P_k and Y = d_k P_j - d_j
-/// P_k vanish on the whole line through the origin, even if the direction's length is rounded [Woop13]. x and
-/// y are X and Y, orthonormalised; z is the distance along the ray. End points of segments that a ray may hit
-/// are transformed in double precision, so that distance does not reduce accuracy; floats only decide which
-/// segments are candidates, with a margin of `point_error_bound`.
+/// Ray space: let d be the ray's direction, k the axis of its largest component, i and j the other two axes,
+/// and P a point relative to the ray's origin. X = d_k P_i - d_i P_k and Y = d_k P_j - d_j P_k are zero on
+/// the whole line of the ray, even if rounding has changed the length of d [Woop13]. x and y are X and Y,
+/// orthonormalised. z is the distance along the ray.
+///
+/// The end points of segments that a ray may hit are transformed in double precision, so that a large
+/// distance from the ray's origin does not reduce accuracy. Single precision only decides which segments are
+/// candidates, with a margin of `point_error_bound`.
 struct FurRay {
   // Slab test [Kay86], by axis of the tree's frame; the fourth lane is unused.
   alignas(16) float inverse[4];
@@ -25,7 +28,7 @@ struct FurRay {
 
   uint32_t axis[3];  ///< i, j, k
   float along_k, along_i, along_j;
-  double origin_x, origin_y;        ///< of X and Y
+  double origin_x, origin_y;        ///< X and Y of the ray's origin
   float scale_x, scale_y, shear_y;  ///< x = scale_x X, y = scale_y Y - shear_y X
   float depth[3];                   ///< z = depth . P - origin_depth
   double origin_depth;
@@ -33,11 +36,12 @@ struct FurRay {
 
   float near, far;
   V3f origin, direction;
-  int key = 0;  ///< motion: between this key and the next
-  float fraction = 0;
+  int key = 0;         ///< the ray's time is between this motion key and the next
+  float fraction = 0;  ///< position of the ray's time between the two keys, in [0, 1]
   FurStart start;
 
-  /// False for rays that hit nothing because they are not finite.
+  /// Prepares a ray for a tree. Returns false for rays that hit nothing: rays that are not finite, rays whose
+  /// origin is beyond FurGrid::kReach, and rays whose direction does not have a length between 1/2 and 2.
   bool prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from);
 
  private:
@@ -48,15 +52,15 @@ struct FurRay {
   bool is_transformed_ = false;  // whether the ray has been transformed to frame_
   FurFrame frame_;
   V3f slab_origin_;
-  float slab_reach_ = 0;  // its largest coordinate
+  float slab_reach_ = 0;  // largest absolute coordinate of slab_origin_
 };
 
-/// One ray traced through many trees. Its transformation to grid units is reused while the grids are equal,
-/// as in all chunks of a coat.
+/// Prepares one ray for many trees in turn. The transformation to grid units is computed again only when the
+/// grid changes. All chunks of a coat have the same grid.
 class FurRays {
  public:
-  /// As FurRay::prepare(), but returns null instead of false. All calls must be for one ray, whose far end
-  /// may decrease.
+  /// Like FurRay::prepare(), but returns the prepared ray, or null instead of false. All calls must pass the
+  /// same ray, except that its far end may decrease. The result is valid until the next call.
   const FurRay* prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
     if (!known_ || step_ != tree.step || anchor_ != tree.anchor || motion_keys_ != tree.motion_keys) {
       known_ = true;
@@ -78,7 +82,8 @@ class FurRays {
   bool known_ = false, finite_ = false;
 };
 
-/// The queries of FurTree for a ray that was prepared for this view. The view must have nodes.
+/// Like FurTree::closest() and FurTree::occluded(), for a ray that was prepared for this view. The view must
+/// have nodes. They add the numbers of their tests to `tests`, unless `tests` is null.
 FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 

@@ -5,11 +5,13 @@
 
 namespace pelage {
 
-/// Position of a node's child, in 32 bits that stay valid when the tree is moved: offsets are relative to the
-/// start of the nodes or of the leaves, in units of 16 bytes.
+/// Refers to a child of a node, in 32 bits. A reference stays valid when the tree is moved in memory, because
+/// it is an offset: from the start of the nodes for an inner node, and from the start of the leaves for a
+/// leaf. The unit of offsets is 16 bytes.
 ///
-/// Inner: 0 | offset:31. Leaf: 1 | wide:1 | blocks-1:2 | offset:28. The root is never a child, so that 0
-/// means none.
+/// Bits of an inner node, highest first: 0, then 31 bits of offset. Bits of a leaf: 1, then 1 bit of
+/// is_wide(), 2 bits of blocks() - 1, and 28 bits of offset. The root has offset 0 but is never a child, so
+/// the value 0 means that there is no child.
 class FurReference {
  public:
   static constexpr uint32_t kUnit = 16;

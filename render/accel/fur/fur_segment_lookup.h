@@ -9,21 +9,23 @@
 
 namespace pelage {
 
-/// Maps segment numbers of a fur tree to their position in its leaves. Two bytes per segment where the tree
-/// is small and has no wide leaf, otherwise four. Thread safety: immutable.
+/// Maps the segment numbers of a fur tree to positions in the tree's leaves. Takes two bytes per segment if
+/// the tree is small (at most 16383 blocks) and has no wide leaf, otherwise four bytes. Thread safety:
+/// immutable.
 class FurSegmentLookup {
  public:
   FurSegmentLookup() = default;
-  /// Traverses a tree over segments 0 .. segment_count - 1.
+  /// Finds the positions by traversing `tree`, whose segments have the numbers 0 .. segment_count - 1.
   FurSegmentLookup(const FurTreeView& tree, uint32_t segment_count);
 
-  /// A lane of a block.
+  /// The position of a segment: a lane of a block.
   struct Place {
     const std::byte* block = nullptr;  ///< null for a segment that is in no leaf
     size_t lane = 0;
     bool wide = false;
   };
-  /// `tree` must be unchanged, but may have moved in memory.
+  /// Returns the position of segment `number`. `tree` must be the tree passed to the constructor, with the
+  /// same contents; its memory may have moved.
   Place find(const FurTreeView& tree, uint32_t number) const;
 
   size_t bytes() const { return block_.bytes(); }

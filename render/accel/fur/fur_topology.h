@@ -12,13 +12,15 @@
 
 namespace pelage {
 
-/// A segment or a part of it: `part` 1 is the whole; parts 2 p and 2 p + 1 are the halves of part p.
+/// A segment or a part of a segment. `part` 1 is the whole segment. Parts 2 p and 2 p + 1 are the first and
+/// the second half of part p.
 struct CurvePart {
   uint32_t number = 0;
   uint32_t part = 1;
 };
 
-/// The box of a part during the build, in grid units. The last lanes of `low` and `high` identify the part.
+/// The box of a CurvePart during the build, in grid units. The last lanes of `low` and `high` identify the
+/// part.
 struct FurPiece {
   Four low, high;
 
@@ -30,8 +32,9 @@ struct FurPiece {
 struct FurBuildOptions {
   /// Cost of visiting a node relative to testing four segments.
   float node_cost = 1.2f;
-  /// Max number of additional pieces from cutting long or diagonal segments, relative to the number of
-  /// segments. Each piece has its own box and tests the whole segment.
+  /// Max number of additional pieces that are made by cutting long or diagonal segments, relative to the
+  /// number of segments. Each piece has its own box, but a ray that visits the piece is tested against the
+  /// whole segment.
   float cuts = 0;
   FurRotation rotation = FurRotation::kNever;
 };
@@ -47,32 +50,35 @@ struct FurTopology {
     uint32_t child_count = 0;
   };
 
-  std::vector<Node> nodes;       ///< the root is the first; empty without segments
-  std::vector<CurvePart> order;  ///< leaf by leaf
+  std::vector<Node> nodes;       ///< the root first; no nodes if there are no segments
+  std::vector<CurvePart> order;  ///< the parts of all leaves, leaf by leaf
 
   size_t bytes() const { return nodes.capacity() * sizeof(Node) + order.capacity() * sizeof(CurvePart); }
 };
 
-/// Upper bounds for a topology over this number of pieces: nodes, and blocks of four segments in its leaves.
+/// Upper bounds of the size of a topology over a given number of pieces: the number of nodes, and the number
+/// of blocks (of four segments) in all leaves.
 struct FurTopologySize {
   size_t nodes, blocks;
 };
 FurTopologySize topology_bound(size_t pieces);
 
-/// The Bezier curve of a part of a segment.
+/// Returns the Bezier curve of a part of a segment. `part`: as in CurvePart.
 SnappedSegment part_of(const SnappedSegment& segment, uint32_t part);
 
-/// The pieces of all segments that can be rendered: boxes of their Bezier hulls in a frame, averaged over the
-/// motion keys.
+/// Returns the pieces of all segments that can be rendered (see SnappedStrands::is_drawable()). The box of a
+/// piece contains the Bezier points with their radii, along the axes of `frame`. Its sides are averaged over
+/// the motion keys. `cuts`: as in FurBuildOptions.
 std::vector<FurPiece> make_pieces(const SnappedStrands& strands, float cuts, const FurFrame& frame);
 /// Upper bound of the number of pieces for this number of segments.
 inline size_t piece_count_bound(size_t segments, float cuts) {
   return segments + static_cast<size_t>(static_cast<double>(segments) * (cuts > 0 ? cuts : 0.0f));
 }
 
-/// Builds with the binned surface area heuristic [Wald07]; n segments cost as much as ceil(n / 4) tests. Sets
-/// of up to a few dozen segments are swept exactly and split only at multiples of four, so that nearly every
-/// lane is filled. Binary splits are collapsed into 4-wide nodes. Single-threaded and deterministic.
+/// Builds a topology with the binned surface area heuristic [Wald07]. The cost of n segments is ceil(n / 4),
+/// because a block of four is tested at once. For sets of up to a few dozen segments, the cost is computed
+/// exactly for every split at a multiple of four, so that nearly every lane is filled. Binary splits are
+/// collapsed into 4-wide nodes. Single-threaded and deterministic.
 FurTopology build_topology(std::vector<FurPiece> pieces, const FurBuildOptions& options);
 
 }  // namespace pelage

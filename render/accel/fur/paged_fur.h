@@ -20,69 +20,74 @@ struct PagedFurHit {
   uint32_t tree = 0;
 
   explicit operator bool() const { return bool(hit); }
-  /// Nearer; or equally near, with a smaller tree or segment number.
+  /// Whether this hit is nearer than `o`; or equally near, in a tree with a smaller number; or equally near,
+  /// in the same tree, on a segment with a smaller number.
   bool precedes(const PagedFurHit& o) const {
     if (hit.distance == o.hit.distance && tree != o.tree) return tree < o.tree;
     return hit.precedes(o.hit);
   }
 };
 
-/// The start of a ray that leaves a strand: tree, and position in it.
+/// Where a ray leaves a strand: the number of the strand's tree, and the position in that tree.
 struct PagedFurStart {
   FurStart start;
   uint32_t tree = 0;
 };
 
 struct PagedFurCounts {
-  int64_t box_tests = 0;  ///< rays against boxes above the treelets
+  int64_t box_tests = 0;  ///< tests of rays against boxes above the treelets
   int64_t treelet_visits = 0;
-  FurTests tests;  ///< within treelets, with `count_tests`
+  FurTests tests;  ///< within treelets; not counted unless `count_tests` is set
   bool count_tests = false;
 };
 
 struct PagedFurOptions {
-  int threads = 1;            ///< `thread` numbers are less than this
+  int threads = 1;            ///< every `thread` number of a query is less than this
   uint64_t memory_limit = 0;  ///< max bytes of the ledger's budgeted tags; 0 = no limit
-  /// Number of rays per thread that may wait for pages at once. Their memory, 64 bytes each, is allocated and
-  /// charged from the start. 0: rays wait one at a time, for one page after the other.
+  /// Max number of rays per thread that wait for pages at the same time. The constructor allocates and
+  /// charges 64 bytes for each of them. 0: queries of many rays trace one ray after the other, and each ray
+  /// waits for one page after the other.
   size_t waiting_rays = size_t(1) << 14;
   bool poison = false;  ///< overwrites pages when they are evicted, for tests
 };
 
-/// Intersection of rays with fur trees whose pages are read from a file on demand and evicted under the
+/// Intersects rays with fur trees whose pages are read from a file on demand, and evicted to stay within the
 /// memory limit. The tree over the boxes of all treelets, the table and the memory of waiting rays are always
-/// resident. A Residency holds the pages. The result is a function of the ray and the segments. It equals the
-/// result of trees in memory and does not depend on which pages are resident.
+/// resident. A Residency holds the pages. The result of a query is a function of the ray and the segments. It
+/// equals the result for the same trees in memory and does not depend on which pages are resident.
 ///
-/// Errors of the file propagate through the queries. Thread safety: const members from any thread, each
-/// `thread` number from one thread at a time and inside a FlushDenormals scope.
+/// Queries throw the errors of reading the file. Thread safety: const members from any thread, but a `thread`
+/// number may be used by only one thread at a time. Each query must be inside a FlushDenormals scope.
 class PagedFur {
  public:
   /// Throws Error (kMemory) when the limit is too small for the always resident part and one page.
   PagedFur(FurPageFile file, const PagedFurOptions& options, MemoryLedger& ledger, const Workers& workers);
   ~PagedFur();
-  /// The memory limit that holds `share` of all pages in addition to the always resident part. Ignores the
-  /// limit of `options`.
+  /// Returns the memory limit, in bytes, that suffices for the always resident part and the fraction `share`
+  /// of all pages. Ignores `options.memory_limit`.
   static uint64_t bytes_for(const FurPageFile& file, double share, const PagedFurOptions& options,
                             const Workers& workers);
 
-  /// The first hit in (near, far) by precedes().
+  /// Returns the first hit in (near, far), in the order of PagedFurHit::precedes(); an empty hit if there is
+  /// none.
   PagedFurHit closest(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
-  /// Whether there is any hit in (near, far). Tests pages that are not resident last.
+  /// Whether there is any hit in (near, far). Postpones treelets (up to 64) whose pages are not resident
+  /// until all other treelets have been tested.
   bool occluded(const Ray& ray, const PagedFurStart& start, int thread, PagedFurCounts& counts) const;
 
-  /// The same for many rays at once. A ray that needs a page which is not resident waits while other rays
-  /// continue. When the max number of rays or all rays wait, the thread reads the page for which the most
-  /// rays wait, and these rays continue. As in single queries, every ray visits its treelets front to back
-  /// or, for occlusion, the resident treelets first. `starts` must be empty or as long as `rays`; the answers
-  /// are as long as `rays` and equal to the answers of single queries.
+  /// Answer the same queries for many rays at once. A ray that needs a page that is not resident waits while
+  /// other rays continue. When the max number of rays wait, or when all remaining rays wait, the thread reads
+  /// the page for which the most rays wait; these rays then continue. As in single queries, closest() visits
+  /// the treelets of a ray front to back, and occluded() visits the resident treelets first. `starts` must be
+  /// empty or as long as `rays`. `hits` and `answers` must be as long as `rays`. They receive the answers of
+  /// the single queries; an occlusion answer is 0 or 1.
   void closest(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                std::span<PagedFurHit> hits, PagedFurCounts& counts) const;
   void occluded(std::span<const Ray> rays, std::span<const PagedFurStart> starts, int thread,
                 std::span<uint8_t> answers, PagedFurCounts& counts) const;
 
   const FurPageTable& table() const { return file_.table(); }
-  /// Expansions are page reads.
+  /// Counts for pages; an expansion is the reading of a page.
   ResidencyCounts counts() const { return residency_->counts(); }
   uint64_t bytes_read() const;
 
@@ -93,10 +98,11 @@ class PagedFur {
   struct Nearest;
   struct Any;
 
-  /// Traversal of the treelets' boxes by a ray.
+  /// Returns a traversal of the treelets' boxes by a ray.
   ChunkWalk walk(const Ray& ray, ChunkWalk::Order order) const;
 
-  /// Tests one treelet for one ray, with its page pinned. False ends the ray.
+  /// Tests one treelet for one ray while the treelet's page is pinned. Returns false when the ray is
+  /// finished.
   template <class Query>
   bool visit(uint32_t treelet, Query& query, int thread, PagedFurCounts& counts) const;
   bool rays_may_wait() const { return waiting_rays_ > 0; }

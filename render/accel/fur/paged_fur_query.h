@@ -11,22 +11,23 @@
 
 namespace pelage {
 
-/// State of one ray that queries treelets one after the other.
+/// Query for the nearest hit: the state of one ray that visits treelets one after the other.
 struct PagedFur::Nearest {
   using Answer = PagedFurHit;
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kFrontToBack;
   static constexpr bool kNearestFirst = true;
 
-  /// Replaces `so_far` when it finds a nearer hit.
+  /// `so_far` is the nearest hit so far. test() replaces it when it finds a hit that precedes it.
   Nearest(const Ray& of, const PagedFurStart& from, PagedFurHit& so_far)
       : ray(of), start(from), best(so_far) {}
 
-  /// Max distance at which a hit can still precede the current one: inclusive for ties.
+  /// Returns the far end (exclusive) for further tests. It is just behind the current hit, because a hit at
+  /// the same distance may precede the current one.
   float far() const {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     return best ? std::min(ray.far, std::nextafter(best.hit.distance, kInfinity)) : ray.far;
   }
-  /// False when the ray is finished.
+  /// Tests one treelet. Returns false when the ray is finished, which this query never is.
   bool test(const FurTreeView& view, uint32_t tree, FurTests* tests) {
     Ray shorter = ray;
     shorter.far = far();
@@ -43,6 +44,7 @@ struct PagedFur::Nearest {
   FurRays rays;
 };
 
+/// Query for any hit: the state of one ray that visits treelets one after the other.
 struct PagedFur::Any {
   using Answer = uint8_t;
   static constexpr ChunkWalk::Order kOrder = ChunkWalk::Order::kLongestFirst;

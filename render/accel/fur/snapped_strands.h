@@ -13,16 +13,18 @@ namespace pelage {
 /// One segment at one motion key in grid units: Bezier points as x, y, z, radius.
 using SnappedSegment = std::array<std::array<float, 4>, 4>;
 
-/// Strands as stored in the fur tree: every segment, of whatever basis, as a cubic Bezier curve on the grid.
-/// Neighbouring segments share their end point exactly, because both snap the same float. Where the strand is
-/// smooth they also share the tangent, because inner points are stored as snapped differences from the ends.
-/// If inner points were snapped independently, strands would have kinks. Ribbons are cut perpendicular to the
-/// tangent at their ends, so they would have wedge-shaped gaps at the kinks. The error is at most half a step
-/// for end points, and one step for inner points.
+/// Converts strands to the form in which a fur tree stores them: every segment, whatever its basis, becomes a
+/// cubic Bezier curve whose points are on the grid. Consecutive segments share their end point exactly,
+/// because both snap the same float. Where the strand is smooth, they also share the tangent, because inner
+/// points are stored as snapped differences from the end points. If inner points were snapped independently,
+/// strands would have kinks. At each kink there would be a wedge-shaped gap, because ribbons end
+/// perpendicular to their tangent. Along each axis, snapping moves an end point by at most half a step, and
+/// an inner point by at most one step.
 ///
-/// Segments are numbered along the strands, strands in ascending order of their ids (then of their index in
-/// the batch). Of two segments at equal distance, the one with the smaller number therefore comes first.
-/// Refers to the strands. Thread safety: immutable.
+/// Segments are numbered consecutively along each strand. The strands are in ascending order of their ids;
+/// strands with the same id are in the order of their indices in the batch. Of two hits at the same distance,
+/// the hit on the segment with the smaller number comes first, so the numbers break ties by strand id. Keeps
+/// a reference to the strands. Thread safety: immutable.
 class SnappedStrands {
  public:
   SnappedStrands(const Strands& strands, const FurGrid& grid);
@@ -40,10 +42,10 @@ class SnappedStrands {
     const uint32_t rank = number / segments_per_strand_;
     return {order_[rank], number - rank * segments_per_strand_};
   }
-  /// The number of a strand's first segment.
+  /// Returns the number of a strand's first segment.
   uint32_t first_segment(uint32_t strand) const { return first_segment_[rank_[strand]]; }
   SnappedSegment segment(Place place, int key) const;
-  /// Calls use(number, place) for every segment in order.
+  /// Calls use(number, place) for every segment in ascending order of numbers.
   template <class Use>
   void for_each_segment(const Use& use) const {
     for (size_t i = 0; i < order_.size(); ++i) {
@@ -52,10 +54,10 @@ class SnappedStrands {
       }
     }
   }
-  /// Memory in addition to the strands, for this number of them.
+  /// Bytes of memory for `strands` strands, in addition to the strands themselves.
   static size_t bytes(size_t strands) { return 3 * sizeof(uint32_t) * (strands + 1); }
-  /// Whether all numbers of a segment, at all keys, are finite and within FurGrid::kReach. Other segments are
-  /// omitted from trees and never hit.
+  /// Whether all coordinates and radii of a segment at one key are finite and within FurGrid::kReach. A
+  /// segment for which this is false at any key is omitted from trees and never hit.
   static bool is_drawable(const SnappedSegment& segment);
 
  private:
@@ -66,8 +68,8 @@ class SnappedStrands {
   FurGrid grid_;
   std::vector<uint32_t> order_;          // strands by id
   std::vector<uint32_t> rank_;           // index of each strand in that order
-  std::vector<uint32_t> first_segment_;  // by rank; the last entry is the total number
-  uint32_t segments_per_strand_ = 0;     // when all strands have the same number; otherwise 0
+  std::vector<uint32_t> first_segment_;  // by rank; the last entry is the number of segments
+  uint32_t segments_per_strand_ = 0;     // if all strands have the same number; otherwise 0
 };
 
 }  // namespace pelage

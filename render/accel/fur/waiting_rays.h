@@ -9,14 +9,14 @@
 
 namespace pelage {
 
-/// The rays of one thread that wait for pages of fur: the next steps of each ray, and a queue of rays per
-/// page. Allocates its memory once.
+/// The rays of one thread that wait for pages of fur. Stores the next steps of each ray, and a queue of rays
+/// for each page. Only the constructor allocates memory.
 class WaitingRays {
  public:
   static constexpr uint32_t kNone = ~0u;
 
-  /// A treelet intersected by a ray, with the entry distance of its box. The steps of a ray are all
-  /// different.
+  /// A treelet whose box a ray intersects, and the distance at which the ray enters the box. A ray never has
+  /// the same step twice.
   struct Step {
     float entry = 0;
     uint32_t treelet = 0;
@@ -24,22 +24,24 @@ class WaitingRays {
     bool operator<(const Step& o) const { return entry != o.entry ? entry < o.entry : treelet < o.treelet; }
   };
 
-  /// The next few steps of a ray. Later steps are searched again when the ray gets there.
+  /// The next few steps of a ray, in ascending order. Steps that do not fit are found by a new search when
+  /// these steps have been used up.
   class UpcomingSteps {
    public:
     static constexpr size_t kMaxSteps = 6;
 
     bool is_empty() const { return begin_ == end_; }
     bool is_full() const { return end_ - begin_ == kMaxSteps; }
-    /// In order, unless bring_forward() was called.
+    /// The first and the last step. Steps are in ascending order unless bring_forward() was called.
     const Step& front() const { return steps_[begin_]; }
     const Step& back() const { return steps_[size_t(end_) - 1]; }
     void pop() { ++begin_; }
     void clear() { begin_ = end_ = 0; }
-    /// Inserts a step in order, before any is popped. When full, the last step is dropped, which may be the
-    /// new one.
+    /// Inserts a step in ascending order. Must not be called between pop() and clear(). If there are already
+    /// kMaxSteps steps, drops the largest step, which may be the new one.
     void add(const Step& step);
-    /// Moves the first step whose treelet satisfies the predicate, if any, to the front.
+    /// Swaps the first step whose treelet satisfies the predicate with the front step. Does nothing if there
+    /// is no such step.
     template <class Is>
     void bring_forward(const Is& is) {
       for (size_t i = begin_; i < end_; ++i) {
@@ -48,7 +50,7 @@ class WaitingRays {
         return;
       }
     }
-    /// The last of the added steps in order.
+    /// Returns the largest step that was added since clear(), even if it was popped.
     Step last() const;
 
    private:
@@ -58,12 +60,12 @@ class WaitingRays {
 
   struct Ray {
     uint32_t number = 0;       ///< index among the query's rays
-    uint32_t next = kNone;     ///< slot of the next ray waiting for the same page, or next free slot
+    uint32_t next = kNone;     ///< slot of the next ray that waits for the same page, or next free slot
     bool is_complete = false;  ///< there are no steps after the upcoming ones
     UpcomingSteps upcoming;
   };
 
-  /// For at most this number of rays; 0 allocates nothing.
+  /// Allocates memory for at most `rays` rays that wait for `pages` pages; nothing if `rays` is 0.
   WaitingRays(size_t pages, size_t rays);
   static size_t bytes(size_t pages, size_t rays);
 
@@ -76,12 +78,13 @@ class WaitingRays {
   uint32_t begin();
   void end(uint32_t slot);
 
-  /// Appends the ray to a page's queue.
+  /// Appends the ray in `slot` to the queue of `page`.
   void wait(uint32_t slot, uint32_t page);
-  /// The page that most rays wait for; in case of a tie, the page whose queue has existed longest. There must
-  /// be a waiting ray.
+  /// Returns the page that the most rays wait for; of several such pages, the page whose queue has existed
+  /// longest. At least one ray must be waiting.
   uint32_t fullest() const;
-  /// Removes the queue of a page and returns its first slot.
+  /// Removes the queue of a page and returns the slot of its first ray. Ray::next links the rays of the
+  /// queue.
   uint32_t release(uint32_t page);
   /// Frees all slots.
   void clear();
