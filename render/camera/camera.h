@@ -24,7 +24,7 @@ struct CameraParams {
   Keyed<V3f> look_at{V3f(0)};
   Keyed<V3f> up{V3f(0, 1, 0)};
   Keyed<float> fov{40.0f};  ///< vertical, degrees
-  V2f shutter{0, 0};        ///< opening and closing time, in frames relative to the frame
+  V2f shutter{0, 0};        ///< opening and closing time, in frames relative to the frame's time
   int motion_keys = 2;
   std::optional<LensParams> lens;
   static const Schema<CameraParams>& schema();
@@ -33,12 +33,12 @@ struct CameraParams {
 struct CameraRay {
   V3f origin{0};
   V3f direction{0};  ///< unit
-  float time = 0;    ///< in [0, 1] of the shutter
+  float time = 0;    ///< 0 when the shutter opens, 1 when it closes
 };
 
-/// A camera over the shutter of one frame. Right-handed, looks along -z of its own space. Position, view axis
-/// and field of view are interpolated linearly between `motion_keys` evenly spaced times of the shutter, like
-/// geometry.
+/// A camera while the shutter of one frame is open. Its own space is right-handed, and it looks along -z.
+/// Position, axes and field of view are known at `motion_keys` evenly spaced times of the shutter, and
+/// interpolated linearly between them, like geometry.
 ///
 /// Raster space: pixels, x right, y down, (0, 0) at the upper left corner of the image.
 class Camera {
@@ -46,35 +46,37 @@ class Camera {
   /// Throws Error (kInput) when the camera is at its target or looks along its up vector.
   Camera(const CameraParams& params, double frame, int width, int height);
 
-  /// Ray through raster position (x, y), lens position `lens` in [0, 1)^2 and shutter time `time` in [0, 1].
+  /// Returns the ray through raster position (x, y) at shutter time `time` in [0, 1]. `lens`: two random
+  /// numbers in [0, 1), which determine the point of the lens.
   CameraRay ray(float x, float y, const V2f& lens, float time) const;
-  /// Projects a world point at a shutter time: returns its raster position, and its depth along the axis.
-  /// Empty if the point is behind the camera.
+  /// Projects a world point with the camera at a shutter time in [0, 1]. Returns the raster position in x and
+  /// y, and the depth along the view axis in z. Empty if the point is behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
-  /// The same at the time of the frame itself, or of the next one with `frames_ahead` = 1.
+  /// As project(), with the camera at the time of the frame (`frames_ahead` = 0) or of the next frame (1).
   std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {
     return project(frames_ahead == 0 ? frame_ : next_frame_, world);
   }
 
-  /// Whether any part of a box may be in the picture while the shutter is open, seen through any point of the
-  /// lens. False only when the whole box is behind the camera or beyond one border of the picture.
+  /// Returns whether any part of a box may be in the picture while the shutter is open, seen through any
+  /// point of the lens. Returns false only if the whole box is behind the camera or beyond one border of the
+  /// picture.
   bool may_see(const Box3f& box) const;
 
-  /// View at the time of the frame itself, for tessellation.
+  /// Returns the view at the time of the frame itself, for tessellation.
   View view() const;
-  /// Input of level of detail: the camera over the shutter, and the lens.
+  /// Returns the camera at the start and the end of the shutter, and its lens, as input of level of detail.
   LodView lod_view() const;
   V3f position(float time) const { return pose_at(time).position; }
   V3f axis(float time) const { return pose_at(time).forward; }  ///< unit view direction
   bool has_lens() const { return lens_radius_ > 0; }
-  float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< length of the shutter
-  /// Time of the frame itself relative to the shutter; outside [0, 1] when the frame is not within the
-  /// shutter.
+  float shutter_frames() const { return shutter_.y - shutter_.x; }  ///< frames that the shutter is open
+  /// Returns the time of the frame itself as a shutter time: 0 when the shutter opens, 1 when it closes.
+  /// Outside [0, 1] if the shutter is not open at the time of the frame. 0 for a closed shutter.
   float frame_time() const;
 
-  /// Values of the EXR attributes of the same names: camera space is left-handed, +y up, looking along +z;
-  /// NDC has (0, 0) in the upper left and (1, 1) in the lower right corner after division by w. Row vectors:
-  /// p * M.
+  // Values of the EXR attributes worldToCamera and worldToNDC, for row vectors: p * M. EXR's camera space is
+  // left-handed, with +y up and looking along +z. In NDC, after division by w, (0, 0) is the upper left
+  // corner of the picture, (1, 1) the lower right corner.
   M44f world_to_camera() const;
   M44f world_to_ndc() const;
 

@@ -73,9 +73,10 @@ struct EnumNames<HairPreset> {
 /// Absorption of a translucent fibre. If none of these is given, the absorption follows from
 /// FibreParams::color.
 struct AbsorptionParams {
-  HairPreset preset = HairPreset::kNone;  ///< concentrations of pigments that are not given below
-  std::optional<Rgb>
-      absorption;  ///< coefficient per radius, added to that of given pigments; disables the preset
+  HairPreset preset = HairPreset::kNone;  ///< provides the concentrations of pigments that are not given
+  /// Coefficient per radius. The absorption of a given pigment is added to it. If it is given, `preset` is
+  /// not used.
+  std::optional<Rgb> absorption;
   std::optional<float> eumelanin;    ///< concentration of the black and brown pigment
   std::optional<float> pheomelanin;  ///< concentration of the red and yellow pigment
 };

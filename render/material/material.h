@@ -42,11 +42,13 @@ struct EnumNames<ShellVariant> {
 struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
-  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, multiplied by color; empty: derived from it
-  float balance = 0;             ///< of the diffuse lobe: 1 scatters back to the light, 0 evenly, -1 forward
+  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; empty: derived from color
+  float balance = 0;             ///< direction of the diffuse lobe: 1 back to the light, 0 even, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
   float primary_width = 12;      ///< half width of the highlight, degrees
-  float primary_shift = -0.03f;  ///< shift of the highlight, see the help of the key
+  /// Shading takes the tangent not at the shaded point, but at this distance from it, as a fraction of the
+  /// strand; positive: towards the tip. The highlight therefore moves the opposite way.
+  float primary_shift = -0.03f;
   float primary_jitter = 0.05f;  ///< max random change of primary_shift per strand
   float primary_tilt = 0;        ///< added to the inclination of the highlight, degrees
   Rgb secondary{0.12f};          ///< albedo of the secondary highlight, multiplied by color

@@ -37,7 +37,7 @@ struct SkinPart {
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies the colour of the skin
-  std::optional<Simplification> lod = {};  ///< that of the densest coat on the skin; empty: not reduced
+  std::optional<Simplification> lod = {};  ///< of the densest coat on the skin; empty: not reduced
 };
 
 /// Everything that a renderer needs for one frame. Positions are in world space.
