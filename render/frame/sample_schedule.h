@@ -25,8 +25,8 @@ struct ScheduleEnd {
 /// - With the rule `seed`, the passes take up to one, two, four ... batches per pixel in total. A pixel that
 ///   has converged gets no more samples.
 ///
-/// These passes show an early preview of the picture. But when `stays` is false and there is no time limit,
-/// each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
+/// Several passes give an early preview of the whole picture. But when `stays` is false and there is no time
+/// limit, each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
 ///
 /// Unless the time limit reduces the counts, every count depends only on the samples of the frame, not on
 /// threads or the clock. The time limit starts with `clock`. Every pixel gets at least one sample, even if
@@ -37,6 +37,7 @@ class SampleSchedule {
   /// `stays`: whether all chunks together fit `render.memory`, so that none is evicted.
   SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job, const Stopwatch& clock,
                  bool stays);
+  /// Takes all samples of the frame.
   ScheduleEnd run();
 
  private:

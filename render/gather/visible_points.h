@@ -15,8 +15,8 @@
 
 namespace pelage {
 
-/// Finds the points and lights that the camera samples of a tile see. For each point, assigns it to a knot,
-/// and computes the direct light that it would scatter to the camera if nothing blocked the lights. Thread
+/// Finds the points and lights that the camera samples of a tile see. Assigns each point to a knot, and
+/// computes the direct light that the point would scatter to the camera if nothing blocked the lights. Thread
 /// safety: const members may be called from any thread, each with its own scratch.
 class VisiblePoints {
  public:

@@ -11,8 +11,8 @@
 namespace pelage {
 
 /// The lights of a scene, and random selection among them. For MIS, callers must multiply the pdf of a light
-/// by the probability of selecting the light, also when a scattered ray hits it by chance. Thread safety:
-/// const members may be called from any thread.
+/// by the probability of selecting the light, also when a scattered ray hits the light by chance. Thread
+/// safety: const members may be called from any thread.
 class LightSet {
  public:
   explicit LightSet(std::vector<std::unique_ptr<Light>> lights);

@@ -9,7 +9,7 @@ namespace pelage {
 /// sample [Veach97, section 9.2.2]. Returns 0 when `pdf` is 0.
 inline float balance_weight(float pdf, float other) { return pdf > 0 ? pdf / (pdf + other) : 0.0f; }
 
-/// Returns the weight of the same sample by the power heuristic with exponent 2 [Veach97, section 9.2.3].
+/// Returns the weight of such a sample by the power heuristic with exponent 2 [Veach97, section 9.2.3].
 /// Squares cannot overflow.
 inline float power_weight(float pdf, float other) {
   if (!(pdf > 0)) return 0.0f;

@@ -63,8 +63,9 @@ class ScatterPoint {
 
   /// Returns the origin of a ray towards `wi`. For a fibre, the origin is on the circle where light leaves
   /// (see ExitCircle), slightly outside the surface so that the fibre does not shadow itself. Light that
-  /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike that of exit(), this circle
-  /// is centred at the hit's own position along the fibre, so that a bent fibre does not cover the origin.
+  /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike the circle of exit(), this
+  /// circle is centred at the hit's own position along the fibre, so that a bent fibre does not cover the
+  /// origin.
   V3f start(const V3f& wi) const {
     const float radius = exit_.radius;
     if (radius == 0) return surface_;

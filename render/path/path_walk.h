@@ -24,11 +24,11 @@ struct PathState {
   explicit PathState(const SampleStream& numbers) : stream(numbers) {}
 
   SampleStream stream;
-  uint32_t vertex = 0;
-  uint32_t random = 0;  ///< Ray::random of the last ray, for semi-transparent strands; each ray adds 1
-  float time = 0;
-  Ray ray;                 ///< the ray that hit `hit`
-  Hit hit;                 ///< at the current vertex
+  uint32_t vertex = 0;     ///< index of the current vertex; 0 is the first surface
+  uint32_t random = 0;     ///< Ray::random of the last ray, for semi-transparent strands; each ray adds 1
+  float time = 0;          ///< of the shutter, in [0, 1]
+  Ray ray;                 ///< the ray that leads to the current vertex
+  Hit hit;                 ///< hit of `ray` at the current vertex
   Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
   Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included

@@ -58,7 +58,7 @@ std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 /// gets the mean count of the pixels of its own colour whose variance is known, or `max` if there are none.
 ///
 /// Where brightness differs between neighbouring pixels, the mean of the neighbourhood hides dark pixels. The
-/// remaining noise, which frame_noise() returns, is then slightly above the budget.
+/// remaining noise is then slightly above the budget; frame_noise() measures it.
 std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max);
 
 /// Rounds a sample count to the nearest number of the form 4, 5, 6 or 7 times a power of two. Counts up to 4

@@ -70,7 +70,7 @@ struct RenderParams {
   GatherParams gather;
   AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;
-  int samples = 64;  ///< per pixel; with adaptive sampling, the max per pixel
+  int samples = 64;  ///< count per pixel; with adaptive sampling, the max count
   std::optional<AdaptiveParams> adaptive;
   float time_limit = 0;      ///< seconds; 0: no limit
   int light_samples = 1;     ///< shadow rays per vertex of a path
