@@ -59,8 +59,8 @@ struct FilmLayers {
   std::vector<std::string> names;
   int groups = 0;                    ///< count of lobe groups, see make()
   bool events = false;               ///< image.event_layers
-  bool noise = false;                ///< whether the film stores the variance of each pixel's samples
-  bool lod = false;                  ///< whether the film stores VisibleSurface::left_out
+  bool noise = false;                ///< whether the film has the layers `samples` and `noise`
+  bool lod = false;                  ///< whether the film has the layer `lod` (VisibleSurface::left_out)
   std::optional<PixelFilter> splat;  ///< the pixel filter with FilterSamples::kSplatted; empty with kDrawn
 
   bool empty() const { return names.empty(); }
