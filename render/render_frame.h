@@ -8,12 +8,12 @@
 
 namespace pelage {
 
-/// Renders one frame with the integrator of the scene (render.integrator). Bounds all chunks, then takes
-/// samples in passes over the whole image (SampleSchedule). A picture cancelled at any time is therefore
-/// valid; it has fewer samples.
+/// Renders one frame with the integrator of the scene (render.integrator). First bounds all chunks. Then
+/// takes samples in passes over the whole picture (SampleSchedule, or GatherLoop for `gather`). A picture
+/// that is cancelled at any time is therefore valid, but has fewer samples.
 ///
 /// The same scene gives the same film for any number of threads, unless the time limit is reached. Throws
-/// Error; exceptions never leave the render loops directly.
+/// Error. An error in a render thread reaches the caller after all threads have stopped.
 FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOptions& options = {});
 
 }  // namespace pelage

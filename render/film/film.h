@@ -16,51 +16,58 @@
 
 namespace pelage {
 
-/// Result of one path.
+/// Result of one camera sample of a pixel.
 struct FilmSample {
   Rgb radiance{0};
   float alpha = 0;
   VisibleSurface surface;
-  V2f offset{0};  ///< offset of the camera ray from the centre of the pixel, in pixels
+  V2f offset{0};  ///< from the centre of the pixel to the camera ray, in pixels
 
-  /// Whether the camera ray passed within the pixel itself, not only within its filter.
+  /// Returns whether the camera ray passes through the pixel itself. A filter wider than a pixel also has
+  /// samples outside the pixel.
   bool inside_pixel() const { return std::max(std::abs(offset.x), std::abs(offset.y)) <= 0.5f; }
 };
 
-/// Sums over all samples of a picture, per pixel. Data that cannot be averaged comes from FrontSurface.
+/// The picture. For each pixel, it stores weighted sums of the samples. Data that cannot be averaged (depth,
+/// normal, id ...) comes from one sample of the pixel, see FrontSurface.
 ///
-/// Thread safety: different tiles (FilmSums::kTileSide) may be written at once. One thread at a time adds the
-/// samples of a tile, always in the same order, so the sums do not depend on the number of threads.
+/// Thread safety: threads may write different tiles (squares of FilmSums::kTileSide pixels) at the same time.
+/// The callers ensure that only one thread at a time writes a tile, and that the samples of a tile are always
+/// added in the same order. The sums then do not depend on the number of threads.
 class Film {
  public:
+  /// Charges the memory of the film to `ledger`.
   Film(int width, int height, FilmLayers layers, MemoryLedger& ledger);
-  /// Memory that a film of this size needs.
+  /// Returns the memory, in bytes, that a film of this size needs.
   static int64_t bytes_needed(int width, int height, const FilmLayers& layers);
 
-  /// Moments of the luminance of each pixel's samples, row by row; empty unless layers().noise.
+  /// Returns the moments of the luminance of each pixel's own samples, row by row. Empty unless
+  /// layers().noise.
   const std::vector<PixelMoments>& moments() const { return moments_; }
 
   int width() const { return width_; }
   int height() const { return height_; }
   const FilmLayers& layers() const { return layers_; }
 
-  /// `by_layer`: the radiance divided among layers(). Returns false and leaves the pixel unchanged when a
-  /// value is not finite.
+  /// Adds a sample of pixel (x, y). `by_layer`: the sample's radiance divided among layers(), one entry per
+  /// layer. Returns false and leaves the film unchanged when the radiance, alpha or an entry is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
-  /// Removes all samples of the tile that contains the pixel.
+  /// Removes all samples of the tile that contains pixel (x, y).
   void clear_tile(int x, int y);
 
+  /// Returns the count of samples of the pixel.
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }
+  // Weighted means of the samples that count for a pixel; 0 if there are none.
   Rgb radiance(int x, int y) const;
   float alpha(int x, int y) const;
   Rgb layer(int x, int y, size_t layer) const;
-  /// The indirect part of a light layer. Only with layers().events.
+  /// Returns the indirect part of layers().scattered(light, group). Only with layers().events.
   Rgb indirect(int x, int y, size_t light, int group) const;
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].surface; }
 
-  /// All channels of rows y0 .. y1-1: R G B A and light layers as half, Z, N, tangent, forward and root as
-  /// float, id as uint; with layers().noise, `samples` as uint and `noise`, the standard error of the
-  /// luminance, as float; with layers().lod, `lod` as float.
+  /// Returns all channels of rows y0 .. y1-1. As half: R G B A and the light layers. As float: Z, N, tangent,
+  /// forward and root. As uint: id. With layers().noise, there are two more channels: `samples` as uint, and
+  /// `noise`, the standard error of the luminance, as float. With layers().lod, there is `lod` as float.
   std::vector<ExrChannel> exr_rows(int y0, int y1) const;
 
  private:
@@ -68,12 +75,12 @@ class Film {
     return static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x);
   }
   static size_t channel_count(const FilmLayers& layers) { return first_channel(layers.size()); }
-  /// Index in sums_ of the red channel of a layer.
+  /// Returns the index of a layer's red channel among the channels of sums_.
   static size_t first_channel(size_t layer) { return 4 + 3 * layer; }
 
   int width_, height_;
   FilmLayers layers_;
-  FilmSums sums_;  // R G B A, then 3 per layer
+  FilmSums sums_;  // channels: R G B A, then 3 per layer
   std::vector<uint32_t> counts_;
   std::vector<FrontSurface> surfaces_;
   std::vector<PixelMoments> moments_;  // of the luminance; empty unless layers().noise

@@ -30,42 +30,48 @@ struct ImageParams {
   int height = 720;
   PixelFilter filter = PixelFilter::kBlackmanHarris;
   std::optional<FilterSamples> filter_samples;  ///< empty: kSplatted with the gather integrator, else kDrawn
-  bool light_layers = true;                     ///< one layer per light x lobe group
-  bool event_layers = false;                    ///< these again, divided into direct and indirect light
+  bool light_layers = true;                     ///< one layer per light and lobe group
+  bool event_layers = false;                    ///< direct and indirect part of each, as two more layers
   bool noise_layers = false;
   bool lod_layer = false;
   static const Schema<ImageParams>& schema();
 };
 
-/// The light layers of a film. For each light: one per lobe group at the first visible surface (skin counts
-/// as diffuse); then, for lights visible to the camera, their direct emission.
+/// The light layers of a film. Each light has one layer per lobe group: the light that this group of lobes of
+/// the first visible surface scatters to the camera. Skin counts as diffuse, except that a clear coat counts
+/// as the primary highlight. A light that the camera may see has one layer more, for the light that the
+/// camera sees directly (emission).
 ///
-/// With `events`, light that the first visible surface scatters is also divided into direct light, which
-/// arrives there from the light source, and indirect light, which was scattered before. A film stores the
-/// direct part of each layer; the rest of the layer is indirect.
+/// With `events`, the scattered light of each layer is divided further. Direct light came to the first
+/// visible surface straight from the light source. Indirect light was scattered at least once before. A film
+/// stores the direct part of each layer; the rest of the layer is indirect.
 struct FilmLayers {
   struct LightInfo {
     std::string name;
-    bool visible = false;
+    bool visible = false;  ///< whether the camera sees the light
   };
-  /// `groups`: number of lobe groups that the materials of the scene use, counted from the first.
+  /// Returns the layers for these lights. `groups`: count of lobe groups that have layers, from the first of
+  /// LobeGroup on. The materials of the scene use no other groups.
   static FilmLayers make(const std::vector<LightInfo>& lights, int groups, bool events = false);
 
-  /// Of the layers that are stored: "key.diffuse" ..., then, with `events`, "key.diffuse.direct" ...; empty
-  /// when light layers are off.
+  /// Names of the layers that are stored: "key.diffuse" ...; with `events`, "key.diffuse.direct" ... follow.
+  /// Empty when light layers are off.
   std::vector<std::string> names;
-  int groups = 0;
+  int groups = 0;                    ///< count of lobe groups, see make()
   bool events = false;               ///< image.event_layers
-  bool noise = false;                ///< whether the film stores the variance of each pixel's samples
-  bool lod = false;                  ///< whether the film shows how much detail was omitted
-  std::optional<PixelFilter> splat;  ///< filter of FilterSamples::kSplatted; empty: kDrawn
+  bool noise = false;                ///< whether the film has the layers `samples` and `noise`
+  bool lod = false;                  ///< whether the film has the layer `lod` (VisibleSurface::left_out)
+  std::optional<PixelFilter> splat;  ///< the pixel filter with FilterSamples::kSplatted; empty with kDrawn
 
   bool empty() const { return names.empty(); }
   size_t size() const { return names.size(); }
   size_t lights() const { return first_.size(); }
+  // Indices in `names`.
+  /// Returns the layer of the light that a lobe group scatters.
   size_t scattered(size_t light, int group) const { return first_[light] + static_cast<size_t>(group); }
+  /// Returns the layer of the emission of a light that is visible to the camera.
   size_t emitted(size_t light) const { return first_[light] + static_cast<size_t>(groups); }
-  /// The direct part of scattered(light, group). Only with `events`.
+  /// Returns the layer of the direct part of scattered(light, group). Only with `events`.
   size_t direct(size_t light, int group) const {
     return first_direct_ + light * static_cast<size_t>(groups) + static_cast<size_t>(group);
   }

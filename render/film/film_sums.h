@@ -13,40 +13,47 @@
 
 namespace pelage {
 
-/// Weighted sums of the channels of a picture. Without a splat filter, sample positions were drawn from the
-/// pixel filter, and a sample counts for its own pixel alone, with weight 1. With a splat filter, a sample
-/// lies anywhere in its pixel and counts for every pixel whose filter reaches it, weighted by the value of
-/// that filter. Twice as many samples then reach a pixel, but neighbouring pixels share noise.
+/// Weighted sums of the channels of a picture, per pixel.
 ///
-/// Splatted samples are added to a buffer of their tile, which overlaps its neighbours by the reach of the
-/// filter; a pixel is the sum over at most four buffers, always in the same order. So the result does not
-/// depend on which tiles are traced at the same time.
+/// Without a splat filter, sample positions were drawn from the pixel filter. A sample then counts for its
+/// own pixel alone, with weight 1. With a splat filter, a sample lies anywhere in its pixel. It counts for
+/// every pixel whose filter covers it, weighted by the value of that filter. With the Blackman-Harris filter,
+/// this halves the variance for the same number of samples, but the noise of neighbouring pixels is
+/// correlated.
 ///
-/// Thread safety: different tiles may be written at once; without a filter, different pixels.
+/// Each tile has a buffer, which extends beyond the tile by the reach of the splat filter. A sample is added
+/// only to the buffer of its own tile. The value of a pixel is the sum over the buffers that contain it (at
+/// most four), always in the same order. The result therefore does not depend on which tiles are traced at
+/// the same time.
+///
+/// Thread safety: threads may write different tiles at the same time. Without a splat filter, they may also
+/// write different pixels of one tile.
 class FilmSums {
  public:
-  /// Side of a tile in pixels. One thread at a time adds the samples of a tile.
+  /// Side of a tile in pixels.
   static constexpr int kTileSide = 16;
 
   FilmSums(int width, int height, size_t channels, std::optional<PixelFilter> splat);
+  /// Returns the memory of the sums, in bytes.
   static size_t bytes_needed(int width, int height, size_t channels, std::optional<PixelFilter> splat);
 
-  /// The pixels that a sample counts for, and its weight in each.
+  /// The pixels that a sample counts for, and the weight of the sample in each of them.
   class Footprint;
-  /// Footprint of a sample that lies `offset` pixels from the centre of its pixel; with a splat filter, at
-  /// most half a pixel along each axis.
+  /// Returns the footprint of a sample. `offset`: position of the sample relative to the centre of its pixel,
+  /// in pixels. With a splat filter, it must be at most half a pixel along each axis.
   Footprint footprint(const V2f& offset) const;
 
-  /// Adds a sample of pixel (x, y): `values`, one per channel, starting with channel `first`.
+  /// Adds the values of a sample of pixel (x, y), times its weights. `values`: one per channel, starting with
+  /// channel `first`.
   void add(int x, int y, const Footprint& footprint, size_t first, std::span<const float> values);
-  /// Adds a sample's weights to the pixels' total weights, by which the sums are divided. Call once per
-  /// sample.
+  /// Adds the weights of a sample of pixel (x, y) to the total weights, by which mean() divides the sums.
+  /// Call once per sample.
   void add_weight(int x, int y, const Footprint& footprint);
 
   /// Removes all samples of the tile that contains pixel (x, y).
   void clear_tile(int x, int y);
 
-  /// Weighted mean of a channel; 0 where nothing was added.
+  /// Returns the weighted mean of a channel of pixel (x, y); 0 where nothing was added.
   float mean(int x, int y, size_t channel) const;
 
  private:
@@ -55,9 +62,9 @@ class FilmSums {
   size_t tile_offset(int column, int row) const;
 
   int width_, height_, columns_, rows_;
-  int reach_;        // pixels by which buffers overlap
-  int buffer_side_;  // of a tile, with the overlap
-  size_t stride_;    // floats of a pixel: the channels, then the weight
+  int reach_;        // pixels by which a buffer extends beyond its tile on each side
+  int buffer_side_;  // pixels: kTileSide + 2 * reach_
+  size_t stride_;    // floats per pixel: the channels, then the total weight
   std::optional<PixelFilter> splat_;
   std::vector<float> sums_;
 };
@@ -65,7 +72,7 @@ class FilmSums {
 class FilmSums::Footprint {
   friend class FilmSums;
   struct Axis {
-    int first = 0;  // pixel, relative to the sample's pixel
+    int first = 0;  // the first pixel, relative to the sample's pixel
     int count = 1;
     std::array<float, 3> weights{1};
   };

@@ -8,19 +8,19 @@
 
 namespace pelage {
 
-/// Samples the position of a camera ray in and around a pixel in proportion to the pixel filter, so that all
-/// samples of a pixel have the same weight and pixels stay independent [Ernst06].
+/// Draws the position of a camera ray in or around a pixel, with a density proportional to the pixel filter
+/// [Ernst06]. All samples of a pixel then have the same weight, and each sample counts for one pixel only.
 class FilterSampler {
  public:
   explicit FilterSampler(PixelFilter filter);
 
-  /// Offset from the centre of the pixel, in pixels, for `u` in [0, 1)^2.
+  /// Returns the offset from the centre of the pixel, in pixels. `u`: two random numbers in [0, 1).
   V2f offset(const V2f& u) const { return {axis(u.x), axis(u.y)}; }
 
  private:
   float axis(float u) const;
 
-  std::vector<float> inverse_;  // inverse of filter_integral(), at even steps of u; empty for the box
+  std::vector<float> inverse_;  // inverse of filter_integral() at equal steps of u; empty for the box filter
 };
 
 }  // namespace pelage

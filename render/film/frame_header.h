@@ -14,14 +14,14 @@ namespace pelage {
 /// Metadata for the header of a picture.
 struct FrameHeader {
   double frame = 1;
-  V2f shutter{0, 0};  ///< opening and closing time, in frames relative to the frame
+  V2f shutter{0, 0};  ///< opening and closing time, in frames relative to `frame`
   double frames_per_second = 24;
   double meters_per_unit = 0.01;
   int64_t seed = 0;
-  uint32_t samples = 0;       ///< min over all pixels
-  double mean_samples = 0;    ///< over all pixels
+  uint32_t samples = 0;       ///< min count over all pixels
+  double mean_samples = 0;    ///< mean count over all pixels
   std::string adaptive;       ///< rule of adaptive sampling; empty if not adaptive
-  bool partial = false;       ///< interrupted: some pixels have fewer samples
+  bool partial = false;       ///< cancelled: some pixels have fewer samples than requested, or none
   bool time_limited = false;  ///< the time limit determined the number of samples
   double render_seconds = 0;
   int64_t peak_memory_bytes = 0;
@@ -29,8 +29,8 @@ struct FrameHeader {
   std::string scene_hash;  ///< hash of everything that determines the picture
 };
 
-/// The EXR attributes of a frame: standard ones (worldToCamera, worldToNDC, framesPerSecond, and expTime, the
-/// exposure time in seconds), and the others under "pelage:".
+/// Returns the EXR attributes of a frame. Standard attributes are worldToCamera, worldToNDC, framesPerSecond
+/// and expTime (exposure time in seconds). The names of all others start with "pelage:".
 ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera);
 
 }  // namespace pelage

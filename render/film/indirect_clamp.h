@@ -10,16 +10,16 @@
 
 namespace pelage {
 
-/// Limit on the contribution of single paths (render.clamp_indirect), and the amount of light that it
-/// removed.
+/// Limits the indirect light that a single path contributes (render.clamp_indirect), and counts the light
+/// that the limit removes.
 struct IndirectClamp {
-  float limit = 0;  ///< luminance; 0 is none
-  int64_t lost = 0,
-          indirect = 0;  ///< luminance in units of 1/65,536; integers, so that the order of summation does
-                         ///< not matter
+  float limit = 0;  ///< max luminance of one contribution; 0: no limit
+  /// Luminance that was removed, and all luminance before removal, in units of 1/65,536. They are integers so
+  /// that the order of summation does not matter.
+  int64_t lost = 0, indirect = 0;
 
-  /// Returns the factor to apply to light that reaches the camera. This light is the sum of lobes[g] * light
-  /// over lobe groups g.
+  /// Counts a contribution, and returns the factor in [0, 1] that limits it. The contribution is the sum of
+  /// lobes[g] * light over all lobe groups g.
   float keep(const Rgb* lobes, const Rgb& light) {
     if (limit == 0) return 1;
     float all = 0;
@@ -35,15 +35,13 @@ struct IndirectClamp {
     lost += other.lost;
     indirect += other.indirect;
   }
-  /// Fraction of the indirect light that was removed.
+  /// Returns the fraction of the indirect light that was removed; 0 if there was none.
   double lost_fraction() const {
     return indirect > 0 ? static_cast<double>(lost) / static_cast<double>(indirect) : 0;
   }
 
  private:
-  static int64_t in_parts(float value) {
-    return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);  // 0 for NaN
-  }
+  static int64_t in_parts(float value) { return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536); }
 };
 
 }  // namespace pelage

@@ -11,11 +11,13 @@ struct EnumNames<PixelFilter> {
   static constexpr const char* names[] = {"box", "blackman-harris"};
 };
 
-/// A filter is zero farther than this from the centre of the pixel, along either axis, in pixels.
+/// Returns the half width of a filter, in pixels. Beyond this distance from the centre of the pixel, along
+/// either axis, the filter is zero.
 float filter_radius(PixelFilter filter);
-/// Value of the filter at a distance along one axis, relative to its maximum.
+/// Returns the value of the filter at a distance (in pixels) along one axis, divided by its maximum.
 float filter_value(PixelFilter filter, float distance);
-/// Integral of the filter along one axis from -radius to x; 1 at x = radius.
+/// Returns the integral of the filter along one axis, from minus filter_radius() to x, divided by the whole
+/// integral.
 double filter_integral(PixelFilter filter, double x);
 
 }  // namespace pelage

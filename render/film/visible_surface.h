@@ -9,27 +9,29 @@
 
 namespace pelage {
 
+/// VisibleSurface::id of skins and of empty pixels.
 inline constexpr uint32_t kNoStrand = 0xffffffffu;
 
 /// The first surface that a camera ray hit. Default values describe an empty pixel.
 struct VisibleSurface {
-  float depth = std::numeric_limits<float>::infinity();  ///< along the camera axis
+  float depth = std::numeric_limits<float>::infinity();  ///< distance from the camera along the view axis
   V3f normal{0};                                         ///< unit, world space
-  V3f tangent{0};                                        ///< unit, root to tip; zero on skins
-  V2f forward{0};                                        ///< pixels to the next frame, x right, y down
+  V3f tangent{0};                                        ///< unit, from root to tip; zero on skins
+  V2f forward{0};           ///< motion until the next frame, in pixels: x right, y down
   V2f root_uv{0};           ///< texture coordinates of the strand's root or of the skin
-  uint32_t id = kNoStrand;  ///< lower half of the strand's id
+  uint32_t id = kNoStrand;  ///< lower 32 bits of the strand's id
   float left_out = 0;       ///< fraction of the strands that level of detail omitted here
 };
 
-/// The surface of a pixel for data that cannot be averaged (depth, normal, id ...). It is the surface of the
-/// front-most sample within the pixel or, if no sample is within the pixel, of the front-most sample of all.
+/// The surface that provides a pixel's data that cannot be averaged (depth, normal, id ...). It is the
+/// nearest surface that any sample inside the pixel sees. If no sample is inside the pixel, it is the nearest
+/// surface that any sample of the pixel sees.
 struct FrontSurface {
   VisibleSurface surface;
-  bool inside_pixel = false;
+  bool inside_pixel = false;  ///< whether a sample inside the pixel sees the surface
 
-  /// Replaces the surface by the surface of another sample if that sample takes precedence. Returns whether
-  /// it does.
+  /// Replaces the surface by `other` if the sample that sees `other` takes precedence. Returns whether it was
+  /// replaced. `inside`: whether that sample is inside the pixel.
   bool offer(const VisibleSurface& other, bool inside) {
     const bool first_inside = inside && !inside_pixel;
     const bool nearer = inside == inside_pixel && other.depth < surface.depth;

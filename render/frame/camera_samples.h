@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// Number of the SampleStream draw for each use in a sample. The numbers do not depend on the course of the
-/// path. Each vertex of the path has several draws, from kFirstVertex on.
+/// Index of the draw from SampleStream for each use of random numbers in a sample. The indices do not depend
+/// on the course of the path. Each vertex of the path has several draws; those of the first vertex start at
+/// kFirstVertex.
 enum class SampleDraw : uint32_t { kFilm = 0, kLens = 1, kTime = 2, kFirstVertex = 3 };
 
 struct CameraSample {
@@ -19,15 +20,17 @@ struct CameraSample {
   V2f offset{0};  ///< from the centre of the pixel, in pixels
 };
 
-/// The camera samples of a frame. A sample is a function of (seed, pixel, number of the sample).
+/// Generates the camera samples of a frame. A sample depends only on the scene, the pixel and the index of
+/// the sample in its pixel.
 class CameraSamples {
  public:
-  /// `scene` must outlive this object. With `splatted`, samples are spread evenly over their pixel.
+  /// `scene` must outlive this object. With `splatted`, samples are distributed uniformly over their pixel;
+  /// otherwise, their density is proportional to the pixel filter.
   CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted);
 
-  /// The random numbers of a sample.
+  /// Returns the random numbers of a sample.
   SampleStream stream(int x, int y, uint32_t sample) const;
-  /// `stream`: of the same sample.
+  /// Returns the camera ray of a sample. `stream`: the result of stream() for the same sample.
   CameraSample draw(int x, int y, uint32_t sample, SampleStream& stream) const;
 
  private:

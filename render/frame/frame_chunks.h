@@ -12,13 +12,14 @@
 
 namespace pelage {
 
-/// The chunks of a frame: first the leaves of all coats, then the pieces of all skins. Makes each chunk from
-/// the scene, which must outlive this object.
+/// The chunks of a frame, and their contents on demand. A chunk is a leaf of a coat (a procedural that is not
+/// split further) or a piece of a skin. Leaves come first. The scene must outlive this object.
 class FrameChunks final : public ChunkGrower {
  public:
-  /// Splits every coat down to its leaves and divides skins. To divide skins, it poses whole skins, a few at
-  /// a time, and charges their memory to the ledger meanwhile. Throws Error (kInput) for a coat whose
-  /// material is not for fibres, Error (kMemory) when a single skin does not fit `render.memory`.
+  /// Splits every coat into leaves and divides every skin into pieces. To divide skins, the constructor poses
+  /// whole skins, a few at a time. The ledger is charged with their memory until all skins are divided.
+  /// Throws Error (kInput) for a coat whose material is not for fibres, and Error (kMemory) when a single
+  /// skin does not fit `render.memory`.
   FrameChunks(const RenderScene& scene, const Job& job);
 
   ChunkContents grow(uint32_t chunk) const override;
@@ -28,36 +29,39 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
-  /// Name of the chunk's coat or skin, such as "walker.under".
+  /// Returns the name of the chunk's coat or skin, such as "walker.under".
   std::string name(uint32_t chunk) const override;
 
+  /// Returns the count of chunks.
   size_t size() const { return leaves_.size() + pieces_.size(); }
-  /// The leaves: chunks 0, 1, 2 ...
+  /// Returns the leaves of all coats, which are the chunks 0, 1, 2 ...
   const std::vector<const Procedural*>& leaves() const { return leaves_; }
-  /// Computes the boxes of all chunks with the strategy of the scene. The box of a skin is the hull of its
-  /// control points. `counts` receives the counts of the leaves. Passes on errors of growth; throws Error
-  /// (kMemory) before growing anything that does not fit. When cancelled, chunks have no boxes.
+  /// Computes the boxes of all chunks with the strategy of the scene (render.bounds). The box of a piece of a
+  /// skin encloses the control points of that piece. `counts` receives the counts of the leaves. Errors of
+  /// growing leaves reach the caller. Throws Error (kMemory) before growing a leaf that does not fit. When
+  /// cancelled, chunks may have no boxes.
   std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
-  /// Whether strands are stored in fur trees. Chunks with fur trees need no boxes of parts.
+  /// Returns whether strands are stored in fur trees. If so, bounds() computes one box for each leaf;
+  /// otherwise, one for each part of a leaf.
   bool in_fur_trees() const;
-  /// Memory of the descriptions of the chunks, grown or not.
+  /// Returns the memory of this object, in bytes: the descriptions of all chunks, without their contents.
   size_t bytes() const;
-  /// Whether the material of every coat is opaque everywhere.
+  /// Returns whether the material of every coat is opaque everywhere.
   bool opaque() const;
-  /// Number of strands that grow() has made so far.
+  /// Returns the count of strands that grow() has made so far. A strand that is grown again counts again.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
 
  private:
   struct SkinChunk {
-    uint32_t skin = 0;  // of RenderScene::skins
+    uint32_t skin = 0;  // index in RenderScene::skins
     SkinPiece piece;
-    size_t temporary_bytes = 0;
+    size_t temporary_bytes = 0;  // temporary memory of tessellating the piece
   };
 
-  /// Concurrency and memory of measuring leaves within `render.memory`.
+  /// How bounds() grows and measures leaves within `render.memory`.
   struct MeasurePlan {
-    int concurrency = 1;
-    size_t block = 0;  // memory of a block of strands during the operators
+    int concurrency = 1;  // max leaves at once
+    size_t block = 0;     // max temporary bytes of growing one leaf, without its strands
   };
   MeasurePlan measure_plan(const Job& job) const;
 
@@ -67,9 +71,9 @@ class FrameChunks final : public ChunkGrower {
   const RenderScene& scene_;
   std::vector<std::unique_ptr<Procedural>> made_;  // intermediate procedurals of splitting
   std::vector<const Procedural*> leaves_;
-  std::vector<uint32_t> parts_;      // of RenderScene::fur, per leaf
-  std::vector<StrandScale> scales_;  // of coats: of the scene's procedurals, before splitting
-  std::vector<uint32_t> coats_;      // per leaf
+  std::vector<uint32_t> parts_;      // index in RenderScene::fur, by leaf
+  std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
+  std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0};
 };

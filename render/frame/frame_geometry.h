@@ -10,23 +10,24 @@
 
 namespace pelage {
 
-/// The geometry of a frame: chunks, the boxes around them, and the accelerator. Chunks are grown when a ray
-/// needs them, unless the scene requests everything up front.
+/// The geometry of a frame: chunks, the boxes around them, and the accelerator. A chunk is grown when a ray
+/// needs it. With `render.bounds: none`, all chunks are grown up front instead.
 class FrameGeometry {
  public:
-  /// Splits all procedurals and bounds their leaves. Throws Error; kMemory when `render.memory` does not hold
-  /// the largest chunk. Returns null when cancelled.
+  /// Splits all procedurals and bounds their leaves. Throws Error, of kind kMemory if the largest chunk does
+  /// not fit `render.memory`. Returns null when cancelled. `statistics` receives the counts and times of
+  /// these steps.
   static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Job& job,
                                                    FrameStatistics& statistics);
 
   const Accel& accel() const { return accel_; }
-  /// The same chunks, for callers that need strands and boxes.
+  /// Returns the chunks of accel(), for callers that need strands and boxes.
   const ResidentChunks& chunks() const { return accel_.chunks(); }
-  /// Whether all chunks together fit the budget, so that none is ever evicted.
+  /// Returns whether all chunks together fit `render.memory`, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }
-  /// CPU seconds spent on growing and evicting chunks so far.
+  /// Returns the CPU seconds spent on growing and evicting chunks so far.
   double growth_cpu_s() const { return chunks().counts().cpu_s; }
-  /// Adds the numbers of units grown, evicted and tested.
+  /// Adds the counts of strands grown, of chunks grown and evicted, and of reads from `render.bvh.file`.
   void add_to(FrameStatistics& statistics) const;
 
  private:

@@ -9,7 +9,8 @@
 
 namespace pelage {
 
-/// The layers of a frame's film, which are known before anything of the frame is made.
+/// Returns the layers of a frame's film. Needs only parameters, so it can be called before geometry and
+/// lights of the frame are made.
 FilmLayers frame_layers(const ImageParams& image, const RenderParams& render,
                         const std::vector<FilmLayers::LightInfo>& lights,
                         std::span<const MaterialParams> materials);

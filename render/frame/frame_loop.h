@@ -18,45 +18,49 @@
 
 namespace pelage {
 
-/// Traces passes of samples over a film, tile by tile.
+/// Traces samples and adds them to a film, in passes over all tiles.
 class FrameLoop {
  public:
-  /// The number of samples that a pixel with `given` samples should have. The thread that traces the pixel
-  /// calls this repeatedly, until the pixel has that number.
+  /// Returns how many samples a pixel should have. `given`: how many it has now. The thread that traces the
+  /// pixel calls this again when the pixel has as many samples as the last result. The pixel is finished when
+  /// the result is not greater than `given`.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
 
-  /// `clock`: deadlines are times on this clock.
+  /// `clock`: deadlines are in seconds on this clock.
   FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
   size_t pixel_count() const { return sample_counts_.size(); }
   const Film& film() const { return film_; }
-  /// Number of samples traced for a pixel.
+  /// Returns the count of samples traced for a pixel so far.
   uint32_t sample_count(size_t pixel) const { return sample_counts_[pixel]; }
+  // Min and mean of sample_count() over all pixels.
   uint32_t min_samples() const;
   double mean_samples() const;
 
-  /// Traces every pixel to its goal: in the order of a Hilbert curve or, when `scattered`, with consecutive
-  /// tiles far apart, so that threads that start together do not wait for the same fur. Samples of one pixel
-  /// are added in order by one thread. Starts no more tiles once the clock passes `deadline_s`.
+  /// Traces every pixel to its goal. Tiles follow the order of a Hilbert curve. With `scattered`, consecutive
+  /// tiles are far apart instead, so that threads that start together do not wait for the same fur. One
+  /// thread adds all samples of a pixel, in order. Starts no more tiles once the clock passes `deadline_s`.
   PassEnd pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
 
-  /// Mean thread seconds per sample of the pixel's tile so far.
+  /// Returns the mean time per sample, in seconds of one thread, over all samples so far of the tile that
+  /// contains the pixel; 0 if it has none.
   double cost(size_t pixel) const;
-  /// Time on the clock when the first tile was finished.
+  /// Returns the seconds on the clock when the first tile of the first pass was finished.
   double first_tile_s() const { return first_tile_s_; }
-  /// Of all threads.
+  /// Returns the costs of the tiles so far, summed over all threads.
   TileCosts costs() const;
+  /// Adds the counts of rays, of accelerator work and of rejected samples.
   void add_to(FrameStatistics& statistics) const;
-  /// Fraction of the indirect light that render.clamp_indirect removed.
+  /// Returns the fraction of the indirect light that render.clamp_indirect removed.
   double clamped_fraction() const;
 
  private:
   struct TileCost {
     double seconds = 0, samples = 0;
   };
-  /// False when it was cancelled before the end.
+  /// Returns false when cancelled before the end of the tile.
   bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
   bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch);
   size_t tile_of(int x, int y) const;
@@ -66,7 +70,7 @@ class FrameLoop {
   Film& film_;
   const Stopwatch& clock_;
   std::vector<Tile> tiles_;
-  std::vector<TileCost> costs_;                          // of tiles row by row
+  std::vector<TileCost> costs_;                          // by tile, row by row
   std::vector<uint32_t> sample_counts_;                  // by pixel
   std::vector<std::unique_ptr<SampleScratch>> scratch_;  // one per worker
   std::atomic<int64_t> rejected_{0};

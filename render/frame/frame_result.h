@@ -9,13 +9,13 @@ namespace pelage {
 /// A rendered frame.
 struct FrameResult {
   Film film;
-  uint32_t samples = 0;         ///< min number of paths per pixel
-  double mean_samples = 0;      ///< mean number of paths per pixel
+  uint32_t samples = 0;         ///< min sample count of a pixel
+  double mean_samples = 0;      ///< mean sample count over all pixels
   double clamped_fraction = 0;  ///< fraction of the indirect light that render.clamp_indirect removed
-  double noise = 0;             ///< frame_noise(); 0 if the film keeps no moments
+  double noise = 0;             ///< frame_noise(); 0 if the film stores no moments
   bool time_limited = false;    ///< render.time_limit determined the number of samples
   bool partial = false;         ///< cancelled: some pixels have fewer samples than requested, or none
-  double first_tile_s = 0;      ///< seconds until the first tile had its first samples
+  double first_tile_s = 0;      ///< seconds from the start until the first tile had samples
   FrameStatistics statistics = {};
 };
 

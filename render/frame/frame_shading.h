@@ -13,22 +13,24 @@
 
 namespace pelage {
 
-/// Evaluates the materials of a scene at hits. The scene must outlive this object. `met`: the geometry that
-/// the accelerator copied for the hit. Thread safety: const members may be called from any thread.
+/// Evaluates the materials of a scene at hits. The scene must outlive this object. In all members, `met` is
+/// the geometry of the hit, which the accelerator has copied. Thread safety: const members may be called from
+/// any thread.
 class FrameShading {
  public:
   explicit FrameShading(const RenderScene& scene);
 
+  /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
-  /// Film data of the first surface of a path.
+  /// Returns the film data of a hit of a camera ray.
   VisibleSurface visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
 
  private:
   struct Fibre {
     FibreMaterial material;
     Field color;
-    std::optional<Rgb> constant_color;
-    std::vector<std::string> attributes;  // read by the colour
+    std::optional<Rgb> constant_color;    // empty: `color` varies
+    std::vector<std::string> attributes;  // names of the attributes that `color` reads
   };
   struct Skin {
     Field color;
@@ -36,7 +38,7 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // empty: Lambert
   };
 
-  /// The share of the strands that was kept at this strand.
+  /// Returns the fraction of the strands that level of detail keeps at the root of this strand; 1 without it.
   float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;

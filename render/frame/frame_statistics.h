@@ -14,17 +14,16 @@
 
 namespace pelage {
 
-/// Cost of rendering one frame, or several frames one after the other. Each room fills the part that it
-/// counts.
+/// Counts and times of rendering one frame, or of several frames one after the other.
 struct FrameStatistics {
   GrowthCounts growth;
   ResidencyCounts residency;
-  StoredReads reads;  ///< expansions that were read from render.bvh.file
+  StoredReads reads;  ///< chunks that were read from render.bvh.file
   TraceCounts trace;
   RayStatistics rays;
-  RenderSeconds cpu_s;                     ///< of the tiles; `residency` has those of growth
-  int64_t samples_rejected = 0;            ///< camera samples that were not finite; more than zero is a bug
-  std::map<std::string, double> stages_s;  ///< wall seconds by stage
+  RenderSeconds cpu_s;                     ///< CPU seconds of the tiles; `residency` has those of growth
+  int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
+  std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage
   KnotStatistics knots;
 
   FrameStatistics& operator+=(const FrameStatistics& other);

@@ -5,10 +5,12 @@
 
 namespace pelage {
 
-/// Knots of `integrator: gather`, and the camera samples that share them; of one thread, of a frame or of a
-/// run. A knot is counted once for each time that the samples of a tile are traced. The first pass, whose
-/// samples are replaced, does not count.
+/// Counts of `integrator: gather`, for one thread, one frame or several frames. A knot is a position on a
+/// strand or skin near which camera samples share light. It counts once per tile that sees it, and once per
+/// pass over that tile. A first pass whose samples are replaced later does not
+/// count.
 struct KnotStatistics {
+  /// `samples`: camera samples that hit a strand or skin.
   int64_t knots = 0, samples = 0;
 
   KnotStatistics& operator+=(const KnotStatistics& other) {

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// Rays traced, by kind; of one thread, of a frame or of a run.
+/// Counts of traced rays, by kind, for one thread, one frame or several frames.
 struct RayStatistics {
   int64_t camera = 0, shadow = 0, indirect = 0;
 

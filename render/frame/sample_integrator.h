@@ -12,12 +12,12 @@
 
 namespace pelage {
 
-/// Per-thread memory, reused from sample to sample. Integrators derive from it.
+/// Results, counts and memory of one thread, reused for each sample. An integrator derives its own type.
 struct SampleScratch {
   virtual ~SampleScratch() = default;
 
-  FilmSample sample;          ///< the result
-  std::vector<Rgb> by_layer;  ///< its radiance divided among the layers of the film
+  FilmSample sample;          ///< result of the last trace()
+  std::vector<Rgb> by_layer;  ///< radiance of `sample`, divided among the layers of the film
   IndirectClamp clamp;
   TraceThread thread;
   TileCosts costs;
@@ -32,13 +32,15 @@ struct SampleScratch {
   }
 };
 
-/// Interface driven by FrameLoop: samples of pixels, each a function of (scene, pixel, sample number) only.
-/// Thread safety: const members may be called from any thread, each with its own scratch.
+/// Interface for integrators that compute one sample of a pixel at a time; FrameLoop calls them. A sample
+/// depends only on the scene, the pixel and the index of the sample in its pixel. Thread safety: const
+/// members may be called from any thread, each with its own scratch.
 class SampleIntegrator {
  public:
   virtual ~SampleIntegrator() = default;
   virtual std::unique_ptr<SampleScratch> make_scratch() const = 0;
-  /// Stores the result in `scratch`, which must come from make_scratch().
+  /// Computes sample `sample` of pixel (x, y). Stores the result in `scratch`, which must come from
+  /// make_scratch().
   virtual void trace(int x, int y, uint32_t sample, SampleScratch& scratch) const = 0;
 };
 

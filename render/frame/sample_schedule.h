@@ -13,34 +13,42 @@ struct ScheduleEnd {
 };
 
 /// Decides how many samples each pixel gets, and in which order. A frame that is cancelled or runs out of
-/// time is valid; it has fewer samples.
+/// time is valid, but has fewer samples.
 ///
-/// Uniform: passes of 1, 1, 2, 4, 8 ... samples. Adaptive with the two-stage rule: such passes until each
-/// pixel has a quarter of the pilot; the rest of the pilot for pixels where samples vary; then passes until
-/// each pixel has an eighth, a quarter, half and all of the additional samples that two_stage_counts()
-/// requires. Adaptive with the seed's rule: passes of one, two, four ... batches for the pixels that have not
-/// converged. When the memory limit does not hold all chunks (`stays` is false) and there is no time limit,
-/// each stage is a single pass, so that a tile is finished while its chunks are resident.
+/// Passes:
+/// - Without adaptive sampling, each pass takes as many samples of every pixel as all passes before it
+///   together: 1, 1, 2, 4, 8 ...
+/// - With the rule `two-stage`, such passes first take a quarter of the pilot. One pass takes the rest of the
+///   pilot in those pixels that need it (needs_full_pilot()). Then two_stage_counts() determines how
+///   many samples each pixel needs. Four passes take the missing samples: up to an eighth, a quarter, a half,
+///   and all of them.
+/// - With the rule `seed`, the passes take up to one, two, four ... batches per pixel in total. A pixel that
+///   has converged gets no more samples.
 ///
-/// Every count is a function of the samples of the frame, independent of threads and the clock, unless the
-/// time limit is reached. The limit counts from the start of `clock`; every pixel gets at least one sample.
-/// Under the two-stage rule, counts are scaled down to fit the limit; the time per sample is estimated from
-/// the pilot.
+/// Several passes give an early preview of the whole picture. But when `stays` is false and there is no time
+/// limit, each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
+///
+/// Unless the time limit reduces the counts, every count depends only on the samples of the frame, not on
+/// threads or the clock. The time limit starts with `clock`. Every pixel gets at least one sample, even if
+/// that takes longer. The rule `two-stage` estimates the time per sample from the pilot, and scales its
+/// counts down to fit the limit.
 class SampleSchedule {
  public:
+  /// `stays`: whether all chunks together fit `render.memory`, so that none is evicted.
   SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job, const Stopwatch& clock,
                  bool stays);
+  /// Takes all samples of the frame.
   ScheduleEnd run();
 
  private:
   using End = PassEnd;
-  /// Traces all pixels to `samples`.
+  /// Takes samples until every pixel has `samples`.
   End uniform(uint32_t samples);
-  /// A quarter of the pilot for every pixel, and the rest of the pilot where needs_full_pilot() requires it.
+  /// Takes a quarter of the pilot in every pixel, and the rest of the pilot where needs_full_pilot() says so.
   End pilot();
   End two_stage();
   End seed();
-  /// The counts of two_stage_counts(), scaled to fit the time limit.
+  /// Returns the counts of two_stage_counts(), rounded and scaled down to fit the time limit.
   std::vector<uint32_t> second_stage_counts();
   uint32_t max_samples() const { return static_cast<uint32_t>(params_.samples); }
   double deadline() const;
@@ -49,7 +57,7 @@ class SampleSchedule {
   const RenderParams& params_;
   Job job_;
   const Stopwatch& clock_;
-  bool in_passes_;
+  bool in_passes_;    // whether a stage has several passes
   bool cut_ = false;  // counts were scaled down to fit the time limit
 };
 

@@ -11,10 +11,12 @@
 
 namespace pelage {
 
-/// The chunks of fur that `render.bvh.file` stores for a frame: opened, or grown, built and written first.
-/// Returns null after one warning if they cannot be stored: the content of the fur has no hash, a coat is not
-/// opaque everywhere, or the folder cannot be written. Also returns null when cancelled. Passes on errors of
-/// growth.
+/// Opens the file that holds the fur chunks of a frame, in the folder `render.bvh.file`. If there is no such
+/// file yet, grows all fur, builds its trees and writes the file first.
+///
+/// Returns null after one warning if the chunks cannot be stored: a leaf has no content hash
+/// (Procedural::content()), a coat is not opaque everywhere, or the folder cannot be written. Also returns
+/// null when cancelled. Errors of growing fur reach the caller.
 std::shared_ptr<const FurChunkFile> stored_fur(const RenderParams& params, const FrameChunks& chunks,
                                                const ResidentChunksOptions& options, const Job& job);
 

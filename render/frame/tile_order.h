@@ -6,18 +6,19 @@
 
 namespace pelage {
 
-/// A square tile of the picture, in pixels; clipped at the right and lower border.
+/// A square of pixels, cut off at the right and lower border of the picture: columns x0 .. x1-1, rows
+/// y0 .. y1-1.
 struct Tile {
   int x0 = 0, y0 = 0;
   int x1 = 0, y1 = 0;
 };
 
-/// All tiles of a picture, in the order of a Hilbert curve [Hilbert1891]: consecutive tiles are neighbours,
-/// so fur that was grown for one tile is available for the next.
+/// Returns all tiles of a picture, in the order of a Hilbert curve [Hilbert1891]. Consecutive tiles are close
+/// together, so fur that was grown for one tile can be used for the next. `side`: side of a tile in pixels.
 std::vector<Tile> tiles_along_curve(int width, int height, int side);
 
-/// The same tiles, reordered so that consecutive ones are far apart, like van der Corput numbers [Corput35]:
-/// threads that start together do not all wait for the same fur.
+/// Returns the same tiles in the order of the van der Corput sequence [Corput35]. Consecutive tiles are far
+/// apart, so threads that start together do not all wait for the same fur.
 std::vector<Tile> scattered(const std::vector<Tile>& tiles);
 
 }  // namespace pelage

@@ -10,11 +10,13 @@
 
 namespace pelage {
 
+/// How a pass over the tiles ended.
 enum class PassEnd { kDone, kCancelled, kOutOfTime };
 
-/// Calls `trace(tile, worker)` for the tiles in order, on all threads, each inside a FlushDenormals scope.
-/// Ends early when the user asks to stop or `trace` returns false (kCancelled), and starts no more tiles once
-/// `clock` passes `deadline_s` (kOutOfTime).
+/// Calls `trace(tile, worker)` for each tile, on all threads. The threads take the tiles in the given order.
+/// Calls are made inside a FlushDenormals scope. Stops early and returns kCancelled when the job is cancelled
+/// or `trace` returns false. Starts no more tiles once `clock` passes `deadline_s`, and then returns
+/// kOutOfTime. Otherwise returns kDone.
 PassEnd trace_tiles(const std::vector<Tile>& tiles, const Job& job, const Stopwatch& clock, double deadline_s,
                     const std::function<bool(const Tile& tile, int worker)>& trace);
 

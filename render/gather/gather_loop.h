@@ -17,30 +17,32 @@
 
 namespace pelage {
 
-/// Renders a frame with GatherTile.
+/// Renders a frame with GatherTile, in passes over all tiles.
 ///
-/// The first pass gives every pixel one sample, so that a frame that is cancelled or runs out of time is
-/// valid. The second pass replaces this sample, tile by tile, by up to GatherTile::max_samples() samples;
-/// further passes add more. The picture does not depend on the number of threads, and only a frame that ends
-/// early shows the first pass.
+/// A first pass takes one sample of every pixel, so that a frame that is cancelled or runs out of time is
+/// valid. (A frame with very few samples and no time limit has no such pass.) The next pass replaces the
+/// first sample, tile by tile, by up to GatherTile::max_samples() samples per pixel. Further passes add more
+/// samples. The picture does not depend on the number of threads. Only a frame that ends early shows samples
+/// of the first pass.
 class GatherLoop {
  public:
-  /// Memory of the tiles that are traced at once.
+  /// Memory of the tiles that are traced at the same time.
   struct Memory {
-    int tiles = 0;
+    int tiles = 0;  ///< max count of such tiles
     MemoryCharge charge;
   };
-  /// Reserves memory for one tile per thread, before chunks take the rest. If this were more than an eighth
-  /// of `render.memory`, it reserves memory for fewer tiles, and threads wait for each other. Throws Error
-  /// (kMemory) when not even one tile fits.
+  /// Reserves memory for one tile per thread. Call before chunks take the rest of the memory. If the tiles of
+  /// all threads together would need more than an eighth of `render.memory`, reserves memory for fewer tiles,
+  /// but for at least one. Threads then wait for each other. Throws Error (kMemory) when not even one tile
+  /// fits.
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
-  /// Keeps references to its arguments. Adds the samples to `result.film`. `clock`: starts with the time
-  /// limit.
+  /// Keeps references to its arguments, except `options` and `memory`. `clock`: the time limit starts with
+  /// it.
   GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Memory& memory,
              const Job& job, const Stopwatch& clock, FrameResult& result);
 
-  /// Renders the frame into `result`.
+  /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
   /// Of all threads.
   TileCosts costs() const;
@@ -48,12 +50,13 @@ class GatherLoop {
  private:
   class Lease;
   struct Pass {
-    uint32_t first = 0, count = 1;
-    bool replaces = false;  ///< earlier samples
-    bool scattered = false;
+    uint32_t first = 0, count = 1;  ///< samples first .. first + count - 1 of each pixel
+    bool replaces = false;          ///< whether the samples replace all earlier ones
+    bool scattered = false;         ///< whether consecutive tiles are far apart
   };
   PassEnd trace(const Pass& pass, double deadline_s);
-  /// Number of samples of the next pass that fit the time limit.
+  /// Returns how many samples per pixel the next pass can take within the time limit: at most `count`.
+  /// `given`: samples per pixel so far.
   uint32_t fitting(uint32_t count, uint32_t given) const;
   bool trace_tile(const Pass& pass, const Tile& tile, int worker);
   void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);
@@ -66,12 +69,12 @@ class GatherLoop {
   FrameResult& result_;
   std::vector<Tile> tiles_;
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
-  std::counting_semaphore<> free_;  // number of `idle_`
+  std::counting_semaphore<> free_;  // its count is the size of idle_
   std::mutex idle_mutex_;
-  std::vector<GatherTile::Scratch*> idle_;  // of scratch_
+  std::vector<GatherTile::Scratch*> idle_;  // those of scratch_ that no thread uses now
   std::atomic<int64_t> rejected_{0};
   std::atomic<double> first_tile_s_{0};
-  double sample_s_ = 0;  // wall seconds of one sample per pixel in the last pass
+  double sample_s_ = 0;  // wall-clock seconds of the last pass / its samples per pixel
 };
 
 }  // namespace pelage

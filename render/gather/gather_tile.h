@@ -15,30 +15,34 @@
 
 namespace pelage {
 
-/// Renders a tile: finds the points that its camera samples see, traces some of the rays that leave these
-/// points, and shares the light that these rays find among the points of the same knot. The result depends
-/// only on the scene, the tile and the numbers of its samples.
+/// Renders a tile. Finds the points that its camera samples see, and traces some of the rays that leave these
+/// points. The light that these rays find is shared among all points of the same knot (a position on a strand
+/// or skin, see KnotKey). The result depends only on the scene, the tile and the indices of its samples.
 ///
-/// Thread safety: const members from any thread, each with its own scratch.
+/// Thread safety: const members may be called from any thread, each with its own scratch.
 class GatherTile {
  public:
-  /// Side of a tile in pixels. Samples of different tiles share no knot.
+  /// Side of a tile in pixels. Samples of different tiles never share light.
   static constexpr int kSide = FilmSums::kTileSide;
 
-  /// Keeps references to its arguments.
+  /// Keeps references to its arguments, except `options`.
   GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
              const PathOptions& options);
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;
-  /// Max number of samples per pixel in one call of trace(). It limits the memory of a scratch.
+  /// Returns the max count of samples per pixel in one call of trace(), for a scene with this count of
+  /// lights. The max limits the memory of a scratch.
   static uint32_t max_samples(size_t lights);
-  /// Max memory of a scratch for up to `samples` per pixel at once.
+  /// Returns the max memory of a scratch, in bytes, if trace() takes up to `samples` samples per pixel at
+  /// once.
   static size_t scratch_bytes(size_t lights, uint32_t samples);
 
-  /// Traces samples first .. first + count - 1 of each pixel. Returns false when `job` was cancelled.
+  /// Traces samples first .. first + count - 1 of each pixel. Stores the result in `scratch`. Returns false
+  /// when `job` was cancelled.
   bool trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;
-  /// Adds the result of the last trace() to the film. Returns the number of samples that are not finite.
+  /// Adds the result of the last trace() to the film. Returns the count of samples that were not added
+  /// because they are not finite.
   int64_t add_to(Film& film, Scratch& scratch) const;
 
  private:
@@ -54,7 +58,7 @@ class GatherTile {
   IndirectPaths indirect_paths_;
 };
 
-/// Memory and counts of one thread.
+/// Memory, results and counts of one thread.
 struct GatherTile::Scratch final : SampleScratch {
   TileSamples samples;
   VisiblePoints::Scratch look;

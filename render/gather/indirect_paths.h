@@ -11,22 +11,23 @@
 
 namespace pelage {
 
-/// Traces paths from the visible points of a tile. Roulette chooses the points. Thread safety: const members
-/// from any thread, each with its own scratch.
+/// Traces indirect paths from some of the visible points of a tile. Roulette chooses these points. Thread
+/// safety: const members may be called from any thread, each with its own scratch.
 class IndirectPaths {
  public:
-  /// Keeps references to its arguments.
+  /// Keeps references to its arguments, except `options`.
   IndirectPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
                 const CameraSamples& camera, const PathOptions& options)
       : scene_(scene), camera_(camera), options_(options), walk_(scene, accel, shading, options) {}
 
   struct Scratch {
     DirectLightScratch direct;
-    std::vector<KnotItem> order;  // points
-    std::vector<Rgb> arriving;    // radiance that arrives along the first ray of a path, by light
+    std::vector<KnotItem> order;  // visible points, sorted by knot
+    std::vector<Rgb> arriving;    // radiance that arrives at the visible point along a path, by light
   };
 
-  /// Traces paths and adds their light to `light`. Returns false when `job` was cancelled.
+  /// Traces the paths, and adds their light to `light`. Also adds the weights of all visible points to
+  /// `light`. Returns false when `job` was cancelled.
   bool trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
              PathSharing& light) const;
 

@@ -11,30 +11,33 @@
 
 namespace pelage {
 
-/// Identifies a knot: a position on a strand or skin. Samples that see the strand or skin near a knot share
-/// light.
+/// Identifies a knot and its zone. A knot is a position on a strand or skin. Samples that see the
+/// surroundings of the same knot share light. A zone is one of eight depth ranges of a coat, or a whole skin.
 struct KnotKey {
   uint64_t knot = 0;
-  uint64_t zone = 0;  ///< the part of a coat or the skin that the knot lies in: see KnotKeys
+  uint64_t zone = 0;  ///< the zone that contains the knot
 };
 
-/// Knots of the hits of a frame.
+/// Assigns the hits of a frame to knots.
 ///
-/// A strand has 2^level + 1 knots at equal distances of its parameter. The level follows from the length of
-/// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots, whose levels
-/// follow from its size in the picture. A hit between knots belongs to one of them, chosen with a probability
-/// equal to its linear interpolation weight: on average, light is interpolated linearly.
+/// A strand has 2^level + 1 knots, at equal distances of its parameter. The level follows from the length of
+/// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots; the levels
+/// along its two parameters follow from the size of the face in the picture. A hit between knots is assigned
+/// at random to one of the knots around it. The probability of a knot is its linear interpolation weight. On
+/// average, light is therefore interpolated linearly between knots.
 ///
-/// Each coat has eight zones, from the roots to the tips; a skin is one zone. About the same fraction of a
-/// light arrives at all knots of a zone in the same small part of the picture.
+/// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone
+/// within the same tile of the picture, about the same fraction of a light arrives.
 ///
-/// A key is a function of the camera and the hit only. Thread safety: const members from any thread.
+/// A key depends only on the camera, the hit and the random numbers. Thread safety: const members may be
+/// called from any thread.
 class KnotKeys {
  public:
   /// Keeps references to its arguments.
   KnotKeys(const Camera& camera, const GatherParams& params) : camera_(camera), params_(params) {}
 
-  /// `random`: two random numbers in [0, 1), which select among neighbouring knots.
+  /// Returns the knot that a hit is assigned to. `random`: two random numbers in [0, 1), which select one of
+  /// the knots around the hit.
   KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random) const;
 
  private:

@@ -9,16 +9,16 @@
 
 namespace pelage {
 
-/// An item of a list, to be sorted by the knot that it belongs to.
+/// Sort key of an item (a ray or a visible point) that belongs to a knot.
 struct KnotItem {
   uint32_t knot = 0, light = 0;
-  uint32_t index = 0;
+  uint32_t index = 0;  ///< of the item in its own list
 
   friend auto operator<=>(const KnotItem&, const KnotItem&) = default;
 };
 
-/// Stores the items first .. count - 1 in `order`, sorted by knot, then by light, then by index. `item(i)`
-/// returns the KnotItem of item i. Reuses the memory of `order`.
+/// Fills `order` with the keys of items first .. count - 1, sorted by knot, then by light, then by index.
+/// `item(i)` must return the KnotItem of item i. Reuses the memory of `order`.
 template <class Item>
 void sort_by_knot(size_t first, size_t count, const Item& item, std::vector<KnotItem>& order) {
   order.clear();

@@ -10,27 +10,36 @@
 
 namespace pelage {
 
-/// Indirect light that arrives at the points of each knot, estimated from paths of some of the points. For
-/// each light and lobe group, it is a mean radiance; a point's indirect light is its weight (rho / pdf) times
-/// this radiance.
+/// For each knot, light and lobe group, estimates the mean radiance of the indirect light that arrives at the
+/// points of the knot. (A knot is a position on a strand or skin near which visible points share light, see
+/// knot_keys.h.) The indirect light that a point scatters to the camera is this radiance times the weight of
+/// the point, rho / pdf.
 ///
-/// The estimate is the same as in LightSharing, but the weights of all points of a knot replace the
-/// unoccluded light, and radiance replaces the fraction that arrives.
+/// The estimate uses paths from some of the points. Its formula is that of LightSharing, with two
+/// substitutions: the sum of the weights of all points of a knot takes the place of the unoccluded light U,
+/// and radiance takes the place of the fraction that arrives.
 class PathSharing {
  public:
+  /// Starts a tile. `guess`: as in LightSharing::begin().
   void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
 
+  /// Adds the weights of a point, by lobe group, to its knot. Call for every point, with or without a path.
   void add_weights(uint32_t knot, const Rgb* weights);
-  /// Adds a path that represents `factor` points. It brings weights[g] * radiance[light] to the camera.
+  /// Adds a path of a point with these weights. The path brings the light weights[g] * radiance[light] to the
+  /// camera, by lobe group g and light. `factor`: the count of points that the path represents.
   void add_path(uint32_t knot, const Rgb* weights, float factor, std::span<const Rgb> radiance);
+  /// Computes the radiances. Call after all paths were added.
   void finish(const std::vector<uint32_t>& zone_of_knot);
+  /// Returns the memory per knot, in bytes.
   static size_t bytes_per_knot(size_t lights) { return sizeof(Weights) + lights * kLobeGroups * sizeof(Rgb); }
+  /// Returns the result of finish().
   const Rgb& radiance(uint32_t knot, size_t light, int group) const {
     return arrived_[(knot * lights_ + light) * kLobeGroups + static_cast<size_t>(group)];
   }
 
  private:
   struct Weights {
+    // Sums over all points of the knot, and over its paths times their factors.
     Rgb all[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
     Rgb traced[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   };
@@ -38,7 +47,7 @@ class PathSharing {
   size_t lights_ = 0;
   bool guess_ = true;
   std::vector<Weights> weights_;   // by knot
-  std::vector<Rgb> arrived_;       // by knot, light and group
+  std::vector<Rgb> arrived_;       // by knot, light and lobe group; finish() replaces sums by radiances
   std::vector<Rgb> zone_traced_;   // by zone
   std::vector<Rgb> zone_arrived_;  // by zone and light
 };

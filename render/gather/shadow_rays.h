@@ -14,23 +14,24 @@
 
 namespace pelage {
 
-/// Chooses and traces shadow rays of the visible points of a tile: about `gather.light_rays` per point.
-/// Points get more rays if their direct light is bright and uncertain compared to the light of the pixel.
-/// Thread safety: const members from any thread, each with its own scratch.
+/// Chooses and traces shadow rays from the visible points of a tile: on average, about `gather.light_rays`
+/// per point. A point gets more rays if the direct light that it may scatter is bright compared to the light
+/// of its pixel, and if it is uncertain how much of this light arrives. Thread safety: const members may be
+/// called from any thread, each with its own scratch.
 class ShadowRays {
  public:
   /// Keeps references to its arguments.
   ShadowRays(const RenderScene& scene, const Accel& accel) : scene_(scene), accel_(accel) {}
 
   struct Scratch {
-    std::vector<KnotItem> order;      // candidate rays
-    std::vector<float> masses;        // masses of the candidate rays, in the same order
-    std::vector<double> pixel_light;  // luminance expected to reach the camera, by pixel
+    std::vector<KnotItem> order;      // candidate rays, sorted by knot
+    std::vector<float> masses;        // masses for SystematicChoice of the rays in `order`
+    std::vector<double> pixel_light;  // direct luminance that is expected to reach the camera, by pixel
   };
 
-  /// Chooses among the rays of `samples.light_rays` from `first` on, using the fractions that `light` has
-  /// estimated from earlier rays. Traces the chosen rays and adds the results to `light`. Returns false when
-  /// `job` was cancelled.
+  /// Chooses some of the rays of `samples.light_rays` from index `first` on. The choice uses the fractions
+  /// that `light` estimates from the rays added before (LightSharing::chance()). Traces the chosen rays and
+  /// adds the results to `light`. Returns false when `job` was cancelled.
   bool trace(const TileSamples& samples, size_t first, const Job& job, Scratch& scratch,
              SampleScratch& thread, LightSharing& light) const;
 

@@ -17,22 +17,23 @@ namespace pelage {
 struct LeavingRay {
   V3f origin{0};
   V3f direction{0};
-  float far = 0;
+  float far = 0;  ///< length
 };
 
-/// A point of a strand or skin that a camera sample sees, with a ray drawn from its lobes.
+/// A point of a strand or skin that a camera sample sees, with one ray in a direction drawn from its lobes.
 struct VisiblePoint {
-  uint32_t pixel = 0;   ///< within the tile
-  uint32_t sample = 0;  ///< number of the sample in its pixel
-  uint32_t knot = 0;    ///< index in TileSamples::zone_of_knot
-  float time = 0;
-  uint32_t random = 0;     ///< PathState::random
+  uint32_t pixel = 0;      ///< index of the pixel in the tile
+  uint32_t sample = 0;     ///< index of the sample in its pixel
+  uint32_t knot = 0;       ///< index in TileSamples::zone_of_knot
+  float time = 0;          ///< of the shutter, in [0, 1]
+  uint32_t random = 0;     ///< PathState::random at this point
   StrandStart start = {};  ///< Hit::start; empty if a ray may hit the strand that it leaves
 
-  LeavingRay scattered;  ///< a direction drawn from the lobes
-  /// rho / pdf of that direction, by lobe group; all 0: none was drawn
+  LeavingRay scattered;  ///< the ray drawn from the lobes
+  /// rho / pdf of the direction of `scattered`, by lobe group; all 0 if no ray was drawn
   Rgb weights[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
 
+  /// Returns `leaving` as a ray that the accelerator can trace.
   Ray ray(const LeavingRay& leaving) const {
     Ray result;
     result.origin = leaving.origin;
@@ -42,59 +43,66 @@ struct VisiblePoint {
     result.start = start;
     return result;
   }
+  /// Returns the sum of `weights` over the lobe groups.
   Rgb weight() const { return weights[0] + weights[1] + weights[2]; }
 };
 
-/// A shadow ray that may be traced from a visible point to one light. Its target is chosen among several
-/// points on the light, in proportion to the luminance that each point scatters to the camera.
+/// A shadow ray from a visible point to a light; ShadowRays decides whether it is traced. Its target is one
+/// of several candidate points on the light. The probability of a candidate is proportional to the luminance
+/// that its light would bring to the camera if nothing blocked it.
 struct LightRay {
-  uint32_t point = 0, light = 0;  ///< indices
-  float unoccluded = 0;  ///< luminance that all of the light scatters to the camera if nothing blocks it
-  /// Estimate of the light that all of the light source scatters to the camera if nothing blocks it, by lobe
-  /// group, from the chosen light point alone. Its luminance is `unoccluded`.
+  uint32_t point = 0, light = 0;  ///< indices of the visible point and of the light
+  /// Luminance that the point scatters to the camera from all candidates if nothing blocks the light.
+  float unoccluded = 0;
+  /// Estimate of the light that the point scatters to the camera from all candidates if nothing blocks it, by
+  /// lobe group. It uses the colours of the chosen candidate only. Its luminance is `unoccluded`.
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
 };
 
-/// The camera samples of a tile, with the points and lights that they see. One thread fills it.
+/// The camera samples of a tile, with the points and lights that they see. Used by one thread at a time.
 struct TileSamples {
   static constexpr uint32_t kNoPoint = ~0u;
 
   struct Sample {
-    V2f offset{0};              ///< in its pixel
-    uint32_t pixel = 0;         ///< within the tile
-    uint32_t point = kNoPoint;  ///< the visible point; kNoPoint: none
+    V2f offset{0};              ///< from the centre of its pixel, in pixels
+    uint32_t pixel = 0;         ///< index of the pixel in the tile
+    uint32_t point = kNoPoint;  ///< index in `points`; kNoPoint: the sample hits nothing
   };
-  /// Light that a sample sees directly.
+  /// A light that a sample sees directly.
   struct SeenLight {
-    uint32_t sample = 0, light = 0;  ///< indices
+    uint32_t sample = 0, light = 0;  ///< indices of the sample and of the light
     Rgb radiance{0};
   };
+  /// The data of a pixel that cannot be averaged.
   struct Front {
     FrontSurface of_pixel;
-    uint32_t sample = 0;  ///< index of the sample that saw it
+    uint32_t sample = 0;  ///< index in `samples` of the sample that sees of_pixel
   };
 
   Tile tile;
-  uint64_t random_key = 0;      ///< key of the tile's random numbers
+  uint64_t random_key = 0;      ///< key of the random numbers of this trace of the tile
   std::vector<Sample> samples;  ///< in the order in which they were traced
   std::vector<SeenLight> seen_lights;
   std::vector<Front> fronts;  ///< by pixel
   std::vector<VisiblePoint> points;
-  std::vector<LightRay> light_rays;  ///< point by point, at most one per light
-  /// Light that reaches the camera if nothing blocks it, by point, light and lobe group.
+  std::vector<LightRay> light_rays;  ///< in the order of `points`; at most one per point and light
+  /// Direct light that the points scatter to the camera if nothing blocks it, by point, light and lobe group.
   std::vector<Rgb> unoccluded;
-  std::vector<uint32_t> zone_of_knot;  ///< see KnotKey::zone
-  uint32_t zones = 0;                  ///< number of zones
+  std::vector<uint32_t> zone_of_knot;  ///< index of the zone (see KnotKey) of each knot
+  uint32_t zones = 0;                  ///< count of zones
 
   /// Clears everything and reserves the memory of the samples.
   void begin(const Tile& of, uint32_t samples_per_pixel, size_t lights);
+  /// Returns the count of pixels of the tile. Their indices run row by row.
   size_t pixels() const { return static_cast<size_t>(columns()) * static_cast<size_t>(tile.y1 - tile.y0); }
+  // Position of a pixel in the picture.
   int x(uint32_t pixel) const { return tile.x0 + static_cast<int>(pixel) % columns(); }
   int y(uint32_t pixel) const { return tile.y0 + static_cast<int>(pixel) / columns(); }
+  /// Returns the zone of the point's knot.
   uint32_t zone(const VisiblePoint& point) const { return zone_of_knot[point.knot]; }
 
-  /// Max memory of one sample.
+  /// Returns the max memory of one sample, in bytes.
   static size_t bytes_per_sample(size_t lights);
 
  private:

@@ -15,9 +15,9 @@
 
 namespace pelage {
 
-/// Finds the points and lights that the camera samples of a tile see, the light that the points would scatter
-/// if nothing blocked it, and the knots of the points. Thread safety: const members from any thread, each
-/// with its own scratch.
+/// Finds the points and lights that the camera samples of a tile see. Assigns each point to a knot, and
+/// computes the direct light that the point would scatter to the camera if nothing blocked the lights. Thread
+/// safety: const members may be called from any thread, each with its own scratch.
 class VisiblePoints {
  public:
   /// Keeps references to its arguments.
@@ -26,17 +26,18 @@ class VisiblePoints {
 
   struct Scratch {
     DirectLightScratch direct;
-    std::unordered_map<uint64_t, uint32_t> knots, zones;  // indices by key
-    std::vector<Reservoir> choices;                       // of a light point, by light
+    std::unordered_map<uint64_t, uint32_t> knots, zones;  // index of each, by its key
+    std::vector<Reservoir> choices;                       // choice of the target of the shadow ray, by light
 
-    /// Forgets the knots of the last tile.
+    /// Forgets the knots and zones of the last tile.
     void clear() {
       knots.clear();
       zones.clear();
     }
   };
 
-  /// Adds sample number `sample` of a pixel of the tile; `pixel` is its index within the tile.
+  /// Traces the camera ray of sample `sample` of a pixel, and adds the sample to `tile`. `pixel`: index of
+  /// the pixel in the tile.
   void look(uint32_t pixel, uint32_t sample, Scratch& scratch, SampleScratch& thread,
             TileSamples& tile) const;
 

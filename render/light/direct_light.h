@@ -15,82 +15,89 @@
 
 namespace pelage {
 
-/// Techniques that estimate direct light: both, combined by the power heuristic, or one alone. All converge
-/// to the same picture; a single one is for tests and comparisons.
+/// Techniques that estimate direct light: light sampling and lobe sampling, combined by the power heuristic
+/// (kBoth), or one of them alone. Every choice converges to the same picture. One technique alone is for
+/// tests and comparisons.
 enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
-  V3f direction{0};
-  float distance = 0;
-  FibreValue value;     ///< scattering towards the light point
-  Rgb arriving{0};      ///< weighted radiance / density of one point
-  float luminance = 0;  ///< luminance of the light that is scattered
+  V3f direction{0};     ///< unit, from the scatter point
+  float distance = 0;   ///< from the scatter point
+  FibreValue value;     ///< scattering of light from this direction
+  Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
+  float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
 };
 
-/// Per-thread memory, reused from point to point.
+/// Memory of one thread, reused for each scatter point.
 struct DirectLightScratch {
   std::vector<float> probabilities;  ///< probability of selecting each light at the current point
   std::vector<LightPoint> points;
 };
 
-/// Direct light at a scatter point. Several candidate points are drawn on lights, which are selected by
-/// importance. The target of a shadow ray is resampled from the candidates in proportion to their unoccluded
-/// contribution, because evaluating a fibre costs much less than tracing a ray [Talbot05]. The other
-/// technique samples directions from the lobes; both are weighted by the power heuristic [Veach97, section
-/// 9.2]. Lights are transparent to rays and to each other.
+/// Estimates direct light at a scatter point with two techniques, weighted by the power heuristic [Veach97,
+/// section 9.2].
 ///
-/// At each point: begin(); propose() and choose() for shadow rays; find_lights() for a ray sampled from the
-/// lobes. The caller traces the rays. Thread safety: const members may be called from any thread, each with
-/// its own scratch.
+/// Light sampling selects lights by importance, and draws several candidate points on them. The targets of
+/// shadow rays are resampled from the candidates, in proportion to the light that each candidate would
+/// contribute if nothing blocked it. This pays because evaluating a fibre costs much less than tracing a ray
+/// [Talbot05]. Lobe sampling draws a direction from the lobes, and finds the lights that a ray in this
+/// direction hits. Lights do not block rays or each other.
+///
+/// At each point, call begin() first, then propose() and choose() for shadow rays, and find_lights() for a
+/// ray sampled from the lobes. The caller traces the rays. Thread safety: const members may be called from
+/// any thread, each with its own scratch.
 class DirectLight {
  public:
-  /// `lights` must outlive this object. `rays`: number of shadow rays per point.
+  /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point.
   DirectLight(const LightSet& lights, int rays, DirectTechniques techniques)
       : lights_(lights), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
-  /// Shadow rays end slightly before the light, so that a surface touching the light does not block it.
+  /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
+  /// surface touching the light does not block it.
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
-  /// Weight of one candidate point: direct light is the mean over all candidates.
+  /// Returns the weight of one candidate: 1 / count of candidates, because direct light is their mean.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
 
-  /// Computes the probabilities of the lights at a point.
+  /// Computes the probability of selecting each light at a scatter point.
   void begin(const ScatterPoint& point, DirectLightScratch& scratch) const {
     scratch.probabilities.resize(lights_.size());
     lights_.probabilities(
         point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
-  /// Samples points on lights and returns the sum of their luminances, which is 0 where no light arrives.
-  /// `u`: two random numbers. `lobe_pdf(value)`: density with which lobe sampling draws a direction whose
-  /// scattering is `value`.
+  /// Draws the candidate points into scratch.points. Returns the sum of LightPoint::luminance over them,
+  /// which is 0 where no light arrives. `u`: two random numbers in [0, 1). `lobe_pdf(value)` must return the
+  /// density with which lobe sampling draws a direction whose scattering is `value`.
   template <class LobePdf>
   double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                  DirectLightScratch& scratch) const;
 
-  /// Calls `shadow(point, factor)` for the selected points: light arrives there as point.arriving * factor
-  /// unless the shadow ray is blocked. `u`: a random number.
+  /// Selects candidates as targets of shadow rays, and calls `shadow(target, factor)` for each of them. If
+  /// nothing blocks the shadow ray, the light that arrives is target.arriving * factor. `total`: the result
+  /// of propose(). `u`: a random number in [0, 1).
   template <class Shadow>
   void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
 
-  /// Calls `found(light, hit, weight)` for each light that a ray in `direction`, sampled from the lobes with
-  /// density `lobe_pdf`, intersects before `distance`.
+  /// Calls `found(light, hit, weight)` for each light that a ray in `direction` intersects before `distance`.
+  /// The direction was sampled from the lobes with density `lobe_pdf`. `weight`: weight of this technique.
   template <class Found>
   void find_lights(const ScatterPoint& point, const V3f& direction, float distance, float lobe_pdf,
                    const DirectLightScratch& scratch, const Found& found) const;
 
  private:
-  /// Number of points on lights from which one shadow ray is resampled.
+  /// Count of candidate points per shadow ray.
   static constexpr uint32_t kCandidates = 4;
   static constexpr float kGolden = 0.6180339887f;
 
-  /// Density assigned to points on a light in the weights against lobe sampling, given the density of one
-  /// point. For a light at a finite distance, all candidate points count, although only some of them get a
-  /// shadow ray: lobes rarely hit such lights, and small bright lights would otherwise cause noise in long
-  /// paths. For an environment, only shadow rays count, because every ray that leaves the scene hits it.
+  /// Returns the density of light sampling that the power heuristic compares with the density of lobe
+  /// sampling. `pdf`: density of one candidate point. For a light at a finite distance, it is `pdf` times the
+  /// count of candidates, although only some candidates get a shadow ray. Otherwise, small bright lights
+  /// would cause noise in long paths, because lobes rarely hit them. For an environment, it is `pdf` times
+  /// the count of shadow rays, because every ray that leaves the scene hits the environment.
   float competing_pdf(float pdf, float distance) const {
     const float points = std::isfinite(distance) ? static_cast<float>(kCandidates) : 1.0f;
     return pdf * points * static_cast<float>(rays_);

@@ -11,14 +11,17 @@
 
 namespace pelage {
 
-/// Light from infinitely far away in every direction: a lat-long image, looked up without interpolation (for
-/// crisp sun shadows; see EnvironmentMap), or a constant radiance.
+/// Light that arrives from infinitely far away in every direction. Its radiance is constant, or comes from a
+/// lat-long image, which is looked up without interpolation so that the sun casts crisp shadows (see
+/// EnvironmentMap).
 class EnvironmentLight final : public Light {
  public:
+  /// Makes a light of constant radiance.
   EnvironmentLight(std::string name, const Rgb& radiance, bool visible);
-  /// `to_world`: rotation from the space of EnvironmentMap. Throws Error (kInput) for unusable images, Error
-  /// (kMemory) when the distribution does not fit the ledger's limit. `check_stop` is called often and may
-  /// throw.
+  /// Makes a light from an image. Its radiance is the image times `factor`. `to_world`: rotation from the
+  /// space of EnvironmentMap to world space. `check_stop` is called often and may throw. Throws Error
+  /// (kInput) for unusable images, and Error (kMemory) when the sampling tables do not fit the ledger's
+  /// limit.
   EnvironmentLight(std::string name, std::shared_ptr<const Texture> texture, const Rgb& factor,
                    const M33f& to_world, bool visible, MemoryLedger& ledger,
                    const std::function<void()>& check_stop = {});
@@ -32,14 +35,14 @@ class EnvironmentLight final : public Light {
  private:
   V3f to_map(const V3f& world) const;
 
-  Rgb radiance_;                               ///< of the constant environment
-  M33f to_world_;                              ///< for row vectors, as all Imath matrices
-  MemoryCharge charge_;                        ///< of the map
-  std::unique_ptr<const EnvironmentMap> map_;  ///< null when constant
-  float importance_;
+  Rgb radiance_;         ///< of a constant environment; otherwise, the factor of the image
+  M33f to_world_;        ///< for row vectors, like all Imath matrices
+  MemoryCharge charge_;  ///< for the memory of map_
+  std::unique_ptr<const EnvironmentMap> map_;  ///< null for a constant environment
+  float importance_;                           ///< integral of luminance over the sphere
 };
 
-/// Rotation about x, then y, then z, by degrees, for row vectors.
+/// Returns the matrix that rotates row vectors about x, then y, then z. Angles in degrees.
 M33f rotation_xyz(const V3f& degrees);
 
 }  // namespace pelage

@@ -13,20 +13,22 @@ namespace pelage {
 
 /// Samples directions from a lat-long image in proportion to its luminance, at full resolution.
 ///
-/// Space of the image: +y up (row 0), the centre column along -z, +x to its right. Radiance is constant
-/// within each texel, and texels are sampled uniformly over their exact solid angle, so that density and
-/// radiance are proportional everywhere, including the poles: no direction with radiance has density zero.
+/// Space of the image: row 0 is at +y (up), the centre column is along -z, and +x is to the right of the
+/// centre. Radiance is constant within each texel, and each texel is sampled uniformly over its exact solid
+/// angle. Density is therefore proportional to luminance everywhere, including the poles. No direction with
+/// luminance has density zero.
 ///
-/// The distribution has at most kMaxCells cells, whatever the size of the image: for larger images, a cell is
-/// a square of texels, and sampling examines all texels of the selected cell. Stores one float and a
-/// sixteenth of an integer per cell. Immutable; thread safe.
+/// The distribution has at most kMaxCells cells. In images with more texels, a cell is a square of texels,
+/// and sampling examines all texels of the selected cell. The tables need about 4.25 bytes per cell.
+/// Immutable; thread safe.
 class EnvironmentMap {
  public:
+  /// Max count of cells, for images of up to about 8 billion texels.
   static constexpr int64_t kMaxCells = int64_t(1) << 21;
 
-  /// The radiance is the first three channels (or the only one) of `image` times `factor`. Negative values
-  /// count as black. `check_stop` is called often and may throw. Throws Error (kInput) for an empty image and
-  /// for non-finite values.
+  /// The radiance is the first three channels of `image` (or its only channel) times `factor`. Negative
+  /// values of the image count as 0. `check_stop` is called often and may throw. Throws Error (kInput) for an
+  /// empty image and for values that are not finite.
   EnvironmentMap(std::shared_ptr<const Texture> image, const Rgb& factor,
                  const std::function<void()>& check_stop = {}, int64_t max_cells = kMaxCells);
 
@@ -37,24 +39,25 @@ class EnvironmentMap {
     V3f direction;
     Texel texel;
   };
-  /// The map must not be black.
+  /// Samples a direction. `u`: two random numbers in [0, 1). The map must not be black everywhere.
   Draw sample(const V2f& u) const;
+  /// Returns the texel that contains a direction.
   Texel texel_of(const V3f& direction) const;
   Rgb radiance(Texel texel) const { return shown(image_->texel(texel.x, texel.y)); }
-  /// Density of sample() per solid angle anywhere in a texel with this radiance.
+  /// Returns the density of sample(), per solid angle, in a texel with this radiance.
   float pdf(const Rgb& radiance) const { return luminance(radiance) * inverse_power_; }
   float pdf(Texel texel) const { return pdf(radiance(texel)); }
-  /// Integral of luminance over the sphere.
+  /// Returns the integral of luminance over the sphere.
   double power() const { return power_; }
-  /// Solid angle of each texel of a row.
+  /// Returns the solid angle of one texel of a row, in steradians.
   double texel_solid_angle(int row) const;
-  /// Memory without the image.
+  /// Returns the memory of this map in bytes, without the image.
   size_t bytes() const { return bytes(image_->width(), image_->height(), cell_); }
-  /// Memory of the map of an image of this size, without the image.
+  /// Returns the memory in bytes that the map of an image of this size needs, without the image.
   static size_t bytes_for(int width, int height, int64_t max_cells = kMaxCells);
 
  private:
-  /// A texel, and a position within it.
+  /// A texel, and a position in [0, 1)^2 within it.
   struct Place {
     Texel texel;
     V2f rest;
@@ -67,18 +70,18 @@ class EnvironmentMap {
 
   std::shared_ptr<const Texture> image_;
   Rgb factor_;
-  int cell_ = 1;     ///< texels a side, a power of two
-  int columns_ = 0;  ///< of cells
-  int rows_ = 0;
+  int cell_ = 1;     ///< side of a cell in texels, a power of two
+  int columns_ = 0;  ///< count of columns of cells
+  int rows_ = 0;     ///< count of rows of cells
   double power_ = 0;
   float inverse_power_ = 0;
-  std::vector<double> row_cosine_;  ///< of the polar angle at the upper edge of each row of texels, and at
-                                    ///< the lowest edge
-  std::vector<float> row_cdf_;      ///< of cells, inclusive
+  std::vector<double> row_cosine_;  ///< cosine of the polar angle at the edges of the rows of texels,
+                                    ///< from top to bottom
+  std::vector<float> row_cdf_;      ///< inclusive, of the rows of cells
   std::vector<uint32_t> row_guide_;
-  std::vector<float> column_cdf_;  ///< of cells, inclusive, row by row
+  std::vector<float> column_cdf_;  ///< inclusive, of the cells within each row
   std::vector<uint32_t> column_guide_;
-  size_t column_guide_size_ = 0;  ///< per row
+  size_t column_guide_size_ = 0;  ///< entries of column_guide_ per row of cells
 };
 
 }  // namespace pelage

@@ -11,26 +11,28 @@
 
 namespace pelage {
 
-/// The positions at which light leaves a fibre: a circle around `center`, perpendicular to the unit
-/// `tangent`. Light leaves along lines at the distance h * radius from the axis. A smooth cylinder preserves
-/// that distance through any number of internal reflections, and h has the sign of the fibre's frame. The
-/// direction therefore determines the position on the circle: the hit itself for the mirror direction, the
-/// far side for transmitted light.
+/// The positions at which light leaves a fibre: a circle around `center`, perpendicular to the unit vector
+/// `tangent`. Light leaves along straight lines whose distance from the axis is |h| * radius. A smooth
+/// cylinder preserves this distance through any number of internal reflections. The sign of h is that of
+/// FibreFrame. The direction of a line therefore determines the position on the circle where it starts. This
+/// is the hit itself for the mirror direction, and a point on the far side for transmitted light.
 ///
-/// A nearby light is sampled from this position, not from the axis. The directions differ by about radius /
-/// distance.
+/// A nearby light is sampled from the position on the circle, not from the axis. The two directions to the
+/// light differ by about radius / distance.
 struct ExitCircle {
   V3f center{0};
   V3f tangent{0};
-  float radius = 0;  ///< 0: a point
-  float h = 0;
+  float radius = 0;  ///< 0: light leaves at `center`
+  float h = 0;       ///< offset of the lines from the axis, in radii: -1 to 1
 
-  /// Position on the circle relative to its center, in radii, of light that leaves along `out`, a unit vector
-  /// perpendicular to the tangent.
+  /// Returns the position on the circle, relative to its center and in radii, at which light leaves along
+  /// `out`. `out`: a unit vector perpendicular to the tangent.
   V3f outside(const V3f& out) const { return cos_gamma() * out + h * tangent.cross(out); }
+  /// Returns the cosine of the angle between a line, projected onto the plane of the circle, and the surface
+  /// normal where the line starts.
   float cos_gamma() const { return std::sqrt(std::max(0.0f, 1 - h * h)); }
 
-  /// Origin of the line along `wi`.
+  /// Returns the position on the circle at which the line in direction `wi` starts.
   V3f origin(const V3f& wi) const {
     const V3f side = wi - wi.dot(tangent) * tangent;
     const float length2 = side.length2();
@@ -38,9 +40,9 @@ struct ExitCircle {
     return center + radius * outside(side / std::sqrt(length2));
   }
 
-  /// Converts a sample of a light seen from the center to a sample of the line that ends at the same point of
-  /// the light: direction, distance, and density per solid angle of line directions. Empty when no line of
-  /// the fibre reaches that side of the light.
+  /// Converts a sample of a light that was drawn from the center. Returns the line that starts on the circle
+  /// and ends at the same point of the light: its direction, its length, and its density per solid angle of
+  /// line directions. Empty when no such line reaches this side of the light.
   std::optional<LightSample> toward(const LightSample& seen) const {
     if (radius == 0 || std::isinf(seen.distance)) return seen;
     const V3f to = seen.distance * seen.direction;
@@ -62,7 +64,7 @@ struct ExitCircle {
     return sample;
   }
 
-  /// Density of toward() for the line along `wi`, which intersects the light at `hit`.
+  /// Returns the density of toward() for the line in direction `wi`, which intersects the light at `hit`.
   float pdf(const Light& light, const V3f& wi, const LightHit& hit) const {
     if (radius == 0 || std::isinf(hit.distance)) return light.pdf(center, wi);
     LightSample seen;
@@ -75,9 +77,11 @@ struct ExitCircle {
   }
 
  private:
-  /// Density per solid angle of lines for `seen` from the center, and the line along `wi` that ends at the
-  /// same point of the light after `distance`. Because the lines start on the circle, the area between two
-  /// neighbouring lines is from_nearest / way times the area between lines that start at one point.
+  /// Returns the density, per solid angle of line directions, of the line in direction `wi` that ends after
+  /// `distance`. `seen`: the sample from the center with the same point of the light. Lines start on the
+  /// circle, not at one point. The area of the light between neighbouring lines is therefore larger by the
+  /// factor 1 + radius * cos_gamma() / way, where `way` is the length of the line projected onto the plane of
+  /// the circle.
   float line_pdf(const LightSample& seen, const V3f& wi, float distance) const {
     const float way = distance * (wi - wi.dot(tangent) * tangent).length();
     if (!(way > 0)) return seen.pdf;

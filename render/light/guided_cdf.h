@@ -7,22 +7,24 @@
 
 namespace pelage {
 
-// Discrete distributions as inclusive cumulative sums in floats, with a guide table of starting points for
-// the search [Chen74], so that sampling takes a few steps whatever the length.
+// Discrete distributions, stored as inclusive cumulative sums of float. A guide table stores starting points
+// for the search [Chen74], so that sampling takes a few steps, however many entries the distribution has.
 
-/// Size of the guide of a distribution with `count` entries.
+/// Returns the count of entries of the guide table for a distribution with `count` entries.
 inline size_t guide_size(size_t count) { return count / 16 + 1; }
 
-/// Converts weights (non-negative, finite) in place to a cumulative distribution that ends in exactly 1,
-/// uniform when every weight is 0, and fills its guide. Returns the sum of the weights.
+/// Converts weights in place to a cumulative distribution whose last entry is exactly 1, and fills its guide
+/// table. Weights must be finite and not negative. If all weights are 0, the distribution is uniform. Returns
+/// the sum of the weights.
 double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide);
 
-/// A sampled entry and `u` rescaled to [0, 1) within it.
+/// A sampled entry.
 struct GuidedSample {
   size_t index;
-  float rest;
+  float rest;  ///< `u` rescaled to [0, 1) within the entry
 };
-/// Never returns an entry of weight zero, unless all weights are zero.
+/// Samples an entry in proportion to its weight. `u`: a random number in [0, 1). Never returns an entry of
+/// weight 0, unless all weights are 0.
 GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t> guide, float u);
 
 }  // namespace pelage

@@ -10,39 +10,42 @@
 
 namespace pelage {
 
-/// A direction towards a light.
+/// A sampled direction towards a light.
 struct LightSample {
   V3f direction{0};    ///< unit, from the shaded point to the light
   float distance = 0;  ///< infinity for an environment
   Rgb radiance{0};
-  float pdf = 0;  ///< per solid angle, of this light alone (excluding the selection of the light)
-  V3f normal{0};  ///< unit normal of the light at that point, on either side; null for an environment
+  float pdf = 0;  ///< per solid angle, without the probability of selecting the light
+  V3f normal{0};  ///< unit, of the light at the sampled point, on either side; zero for an environment
 };
 
 /// Intersection of a ray with a light.
 struct LightHit {
   float distance = std::numeric_limits<float>::infinity();
   Rgb radiance{0};
-  V3f normal{0};  ///< as in LightSample
+  V3f normal{0};  ///< as LightSample::normal
 };
 
-/// An emitter with an area. World space. Immutable. Thread safety: const members from any thread.
+/// An emitter with an area, or an environment. World space. Immutable. Thread safety: const members may be
+/// called from any thread.
 class Light {
  public:
   virtual ~Light() = default;
   const std::string& name() const { return name_; }
-  /// Whether camera rays see it.
+  /// Returns whether camera rays see the light.
   bool visible() const { return visible_; }
-  /// Samples a direction; empty when no light can reach `from`.
+  /// Samples a direction from `from` to the light; empty when its light cannot reach `from`. `u`: two random
+  /// numbers in [0, 1).
   virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
-  /// Density of sample() for `direction`, using the same strategy.
+  /// Returns the density of sample() for `direction`, per solid angle.
   virtual float pdf(const V3f& from, const V3f& direction) const = 0;
-  /// The light along a ray (unit direction) that leaves the scene or ends beyond the light.
+  /// Intersects the light with an infinite ray. `direction`: unit. Empty when no light of this emitter
+  /// arrives at `from` along the ray.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;
-  /// Solid angle x mean radiance (luminance) as seen from `from`: the weight for selecting among lights
-  /// ["Rendering Fur in Life of Pi", stochastic light selection].
+  /// Returns the weight for selecting among lights: solid angle * mean luminance of the light, as seen from
+  /// `from` ["Rendering Fur in Life of Pi", stochastic light selection].
   virtual float importance(const V3f& from) const = 0;
-  /// Unit direction from `from` to the centre of the light; empty when it surrounds the scene.
+  /// Returns the unit direction from `from` to the centre of the light; empty for an environment.
   virtual std::optional<V3f> middle(const V3f& from) const = 0;
 
  protected:

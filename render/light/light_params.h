@@ -21,9 +21,9 @@ struct RectangleLightParams {
   V3f up{0, 1, 0};
   V2f size{1, 1};  ///< width, height
   Rgb radiance{1};
-  Keyed<float> intensity{1.0f};  ///< factor on radiance
+  Keyed<float> intensity{1.0f};  ///< factor of the radiance
   bool two_sided = false;
-  bool visible = false;  ///< to the camera
+  bool visible = false;  ///< whether the camera sees the light
   static const Schema<RectangleLightParams>& schema();
 };
 struct SphereLightParams {
@@ -39,16 +39,16 @@ struct SphereLightParams {
 struct EnvironmentLightParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "environment";
-  AssetPath file;   ///< lat-long image, +y up, centre column along -z; empty: constant
-  Rgb radiance{1};  ///< factor on the image, or the constant radiance
+  AssetPath file;   ///< lat-long image, see EnvironmentMap; empty: constant radiance
+  Rgb radiance{1};  ///< factor of the image, or the constant radiance
   Keyed<float> intensity{1.0f};
-  V3f rotate{0};  ///< degrees about x, y, z, in this order
+  V3f rotate{0};  ///< rotation about x, then y, then z, in degrees
   bool visible = true;
   static const Schema<EnvironmentLightParams>& schema();
 };
 using LightParams = std::variant<RectangleLightParams, SphereLightParams, EnvironmentLightParams>;
 
-/// Makes the light of a frame. Throws Error (kInput) for missing images.
+/// Makes a light with its parameters at `frame`. Throws Error (kInput) for missing images.
 std::unique_ptr<Light> make_light(const std::string& name, const LightParams& params, double frame,
                                   TextureLibrary& textures, MemoryLedger& ledger);
 

@@ -10,9 +10,9 @@
 
 namespace pelage {
 
-/// The lights of a scene, and random selection among them. Callers multiply the pdf of a light by the
-/// probability of its selection, also when a scattered ray hits the light, so that MIS accounts for the
-/// selection. Thread safety: const members from any thread.
+/// The lights of a scene, and random selection among them. For MIS, callers must multiply the pdf of a light
+/// by the probability of selecting the light, also when a scattered ray hits the light by chance. Thread
+/// safety: const members may be called from any thread.
 class LightSet {
  public:
   explicit LightSet(std::vector<std::unique_ptr<Light>> lights);
@@ -20,26 +20,30 @@ class LightSet {
   size_t size() const { return lights_.size(); }
   const Light& light(size_t i) const { return *lights_[i]; }
 
-  /// A light selected with probability proportional to its importance (mixed with 10 % of uniform selection
-  /// among the lights that can contribute at all). Uses one random number, so that several selections with u
-  /// = (k + offset) / n form a systematic sample.
+  /// A selected light.
   struct Choice {
     size_t light = 0;
     float probability = 0;  ///< 0 when no light can contribute
     float remapped = 0;     ///< `u` rescaled to [0, 1) within the choice
   };
+  /// Selects a light with the given probabilities. `u`: a random number in [0, 1). Several selections with
+  /// u = (k + offset) / n for k = 0 .. n-1 form a systematic sample.
   static Choice choose(std::span<const float> probabilities, float u);
 
-  /// Writes the probabilities of all lights to `out`: size() entries, which sum to 1 or are all 0.
+  /// Writes the probability of selecting each light to `out`: size() entries, which sum to 1, or are all 0 if
+  /// no light can contribute. 90 % of the probability is proportional to Light::importance(). The rest is
+  /// uniform over the lights that can contribute.
   void probabilities(const V3f& from, std::span<float> out) const;
 
-  /// The same for lobes that scatter with density `lobes(direction)` per solid angle: lights in directions of
-  /// strong scattering are selected more often. Otherwise, narrow lobes that point at small bright lights
-  /// with a low probability of selection would cause the brightest noise of paths through fur. Half of each
-  /// importance ignores the density, since the density towards the middle of a large light differs from the
-  /// density towards the rest of the light. Importances have no factor that bounds cos(theta_i). Such a
-  /// factor would lower the importance of lights along the fibre. But when the fibre is seen at a slant, R,
-  /// TT and TRT scatter light from there as brightly as from other directions.
+  /// As probabilities() without `lobes`, but lights in directions of strong scattering are selected more
+  /// often. `lobes(direction)` must return the density of scattering per solid angle. Without this, the
+  /// brightest noise of paths through fur would come from narrow lobes that point at small bright lights with
+  /// a low probability of selection. Half of each importance ignores the density, because the density towards
+  /// the middle of a large light differs from the density towards the rest of it.
+  ///
+  /// The importance has no factor that bounds cos(theta_i). Such a factor would lower the importance of
+  /// lights in the direction of the fibre. But when the fibre is seen at a slant, R, TT and TRT scatter light
+  /// from these directions as brightly as light from others.
   template <class Density>
   void probabilities(const V3f& from, const Density& lobes, std::span<float> out) const {
     importances(from, out);
@@ -53,7 +57,7 @@ class LightSet {
 
  private:
   void importances(const V3f& from, std::span<float> out) const;
-  /// Normalises importances to probabilities.
+  /// Converts importances to probabilities in place.
   static void normalise(std::span<float> out);
 
   std::vector<std::unique_ptr<Light>> lights_;

@@ -4,11 +4,13 @@
 
 namespace pelage {
 
-/// Weight of a sample drawn with density `pdf` that another technique could have drawn with density `other`;
-/// both per solid angle, one sample of each [Veach97, section 9.2.2]. Zero when `pdf` is zero.
+/// Returns the weight, by the balance heuristic, of a sample that was drawn with density `pdf` and that
+/// another technique draws with density `other`. Both densities are per solid angle; each technique draws one
+/// sample [Veach97, section 9.2.2]. Returns 0 when `pdf` is 0.
 inline float balance_weight(float pdf, float other) { return pdf > 0 ? pdf / (pdf + other) : 0.0f; }
 
-/// The power heuristic with exponent 2 [Veach97, section 9.2.3], written so that squares cannot overflow.
+/// Returns the weight of such a sample by the power heuristic with exponent 2 [Veach97, section 9.2.3].
+/// Squares cannot overflow.
 inline float power_weight(float pdf, float other) {
   if (!(pdf > 0)) return 0.0f;
   const float ratio = other / pdf;

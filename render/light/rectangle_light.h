@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// A rectangle in space. `x` and `y` are perpendicular unit vectors; the rectangle emits towards x cross y.
+/// A rectangle in space. `x` and `y` are perpendicular unit vectors. The emitting side faces x cross y.
 struct Rectangle {
   V3f center{0};
   V3f x{1, 0, 0};
@@ -13,8 +13,8 @@ struct Rectangle {
   V2f half_size{0.5f};
 };
 
-/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]. From points where its solid
-/// angle is too small to be computed accurately, it is sampled by area instead.
+/// A rectangle of constant radiance, sampled uniformly in solid angle [Urena13]. Where its solid angle is too
+/// small to be computed accurately, the rectangle is sampled uniformly in area instead.
 class RectangleLight final : public Light {
  public:
   RectangleLight(std::string name, const Rectangle& shape, const Rgb& radiance, bool two_sided, bool visible);
@@ -25,7 +25,7 @@ class RectangleLight final : public Light {
   float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f& from) const override { return (shape_.center - from).normalized(); }
 
-  /// Solid angle from `from`, on either side.
+  /// Returns the solid angle of the rectangle seen from `from`, in steradians, for either side.
   double solid_angle(const V3f& from) const;
 
  private:

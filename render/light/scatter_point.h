@@ -13,39 +13,40 @@
 
 namespace pelage {
 
-/// A vertex of a path: position and scattering, with one interface for fibres and skins. As in FibreBsdf,
-/// values are rho = f cos(theta_i), one per lobe group.
+/// A vertex of a path: position and scattering, with the same interface for fibres and skins. As in
+/// FibreBsdf, there is one value rho = f cos(theta_i) per lobe group.
 class ScatterPoint {
  public:
-  /// A point of a fibre: `axis` on its centre line, `tangent` there, `hit` on its surface. `h`: offset of the
-  /// ray across the fibre, -1 to 1, as passed to the fibre's model. `farther`: distance along the tangent
-  /// from `axis` to where most light leaves.
+  /// Makes a point of a fibre. `axis`: point of the centre line. `tangent`: unit tangent of the centre line
+  /// there. `hit`: point of the surface. `h`: offset of the ray across the fibre, -1 to 1, as passed to the
+  /// fibre's model. `farther`: distance from `axis` along the tangent to where most light leaves.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& hit, float h,
                const FibreBsdf& bsdf, float farther = 0)
       : position_(axis), surface_(hit), exit_{axis + farther * tangent, tangent, radius, h}, bsdf_(bsdf) {}
-  /// The same for a strand that represents many strands with level of detail. Light leaves from one of the
-  /// represented strands, at the offset `away` from `axis`. If `can_hit_own_strand`, the representing strand
-  /// may block that light.
+  /// Makes a point of a strand that represents several strands because of level of detail. Light leaves from
+  /// one of the represented strands, at the offset `away` from `axis`. `can_hit_own_strand`: whether the
+  /// representing strand itself may block that light.
   ScatterPoint(const V3f& axis, const V3f& tangent, float radius, const V3f& away, bool can_hit_own_strand,
                float h, const FibreBsdf& bsdf)
       : ScatterPoint(axis + away, tangent, radius, axis + away, h, bsdf) {
     can_hit_own_strand_ = can_hit_own_strand;
   }
-  /// A point of a skin: rays that leave it start at `start`.
+  /// Makes a point of a skin. Rays that leave the skin start at `start`.
   ScatterPoint(const V3f& position, const V3f& start, const LambertBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
   ScatterPoint(const V3f& position, const V3f& start, const GlossyBsdf& bsdf)
       : position_(position), surface_(start), exit_{position}, bsdf_(bsdf) {}
 
-  /// Point for which lights are sampled. exit() then converts the samples to lines that start where light
-  /// leaves the fibre.
+  /// Returns the point from which lights are sampled. ExitCircle::toward() of exit() then converts the
+  /// samples to lines that start where light leaves the fibre.
   const V3f& position() const { return exit_.center; }
-  /// Unit tangent of a fibre, the null vector for a skin.
+  /// Returns the unit tangent of a fibre, or the zero vector for a skin.
   const V3f& tangent() const { return exit_.tangent; }
-  /// The positions at which light leaves; for a skin, a single point.
+  /// Returns the positions at which light leaves: a circle for a fibre, a single point for a skin.
   const ExitCircle& exit() const { return exit_; }
 
-  /// Whether rays that start here may hit the strand itself again, even near this point.
+  /// Returns whether a ray that starts here may hit its own strand, even near this point. Otherwise, the
+  /// caller sets Ray::start so that it cannot.
   bool can_hit_own_strand() const { return can_hit_own_strand_; }
 
   FibreValue eval(const V3f& wi) const {
@@ -60,10 +61,11 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
-  /// Origin of a ray towards `wi`: on the circle where light leaves a fibre (see ExitCircle), and never below
-  /// the fibre's surface, so that the fibre does not shadow itself. Light that arrives uniformly across the
-  /// width of a fibre leaves uniformly. The circle is centred at the hit's own position along the fibre, so
-  /// that a bent fibre does not cover it.
+  /// Returns the origin of a ray towards `wi`. For a fibre, the origin is on the circle where light leaves
+  /// (see ExitCircle), slightly outside the surface so that the fibre does not shadow itself. Light that
+  /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike the circle of exit(), this
+  /// circle is centred at the hit's own position along the fibre, so that a bent fibre does not cover the
+  /// origin.
   V3f start(const V3f& wi) const {
     const float radius = exit_.radius;
     if (radius == 0) return surface_;
@@ -77,10 +79,11 @@ class ScatterPoint {
   }
 
  private:
+  /// Distance of start() from the axis, in radii.
   static constexpr float kJustOutside = 1.001f;
 
-  /// Maps surfaces to the lobe groups of fibres: scattering by skin is diffuse, its coat the primary
-  /// highlight.
+  /// Converts the scattering of a skin to the lobe groups of fibres: a clear coat is the primary highlight,
+  /// everything else is diffuse.
   static FibreValue as_fibre(const SurfaceValue& value) { return {{value.rho, Rgb(0), Rgb(0)}, value.pdf}; }
   static FibreValue as_fibre(const GlossyValue& value) {
     return {{value.diffuse, Rgb(value.specular), Rgb(0)}, value.pdf};

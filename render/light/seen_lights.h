@@ -8,7 +8,8 @@
 
 namespace pelage {
 
-/// Calls `found(light, radiance)` for each light that a camera ray sees directly, no farther than `distance`.
+/// Calls `found(light, radiance)` for each visible light that a camera ray hits at `distance` or nearer.
+/// `light`: index in `lights`.
 template <class Found>
 void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction, float distance,
                  const Found& found) {

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// A sphere of constant radiance, sampled uniformly in solid angle. From inside it emits from every
-/// direction.
+/// A sphere of constant radiance, sampled uniformly in solid angle. At a point inside the sphere, its light
+/// arrives from every direction.
 class SphereLight final : public Light {
  public:
   SphereLight(std::string name, const V3f& center, float radius, const Rgb& radiance, bool visible);
@@ -17,7 +17,7 @@ class SphereLight final : public Light {
   float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f& from) const override { return (center_ - from).normalized(); }
 
-  /// Solid angle from `from`; 4 pi inside.
+  /// Returns the solid angle of the sphere seen from `from`, in steradians; 4 pi if `from` is inside.
   float solid_angle(const V3f& from) const;
 
  private:

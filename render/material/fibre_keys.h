@@ -3,7 +3,7 @@
 
 #include "render/material/fibre_params.h"
 
-// Keys that fibre models share.
+// Schema keys that several fibre models share.
 
 namespace pelage {
 

@@ -13,24 +13,25 @@ namespace pelage {
 class CoatColor;
 
 /// Parameters that every fibre model has. A user can therefore change the model of a material by changing
-/// only its name.
+/// only the name of the model.
 struct FibreParams {
   Field color{Rgb(0.5f, 0.3f, 0.15f)};
   Field opacity{1.0f};
-  /// Loaded or computed by with_tables() for models that need it. Null: computed with the material.
+  /// Table that converts `color`. with_tables() loads or computes it for models that need it. If it is null,
+  /// FibreMaterial computes it.
   std::shared_ptr<const CoatColor> coat_color = {};
 };
 
-/// Near field: scattering depends on where a ray hits across the fibre. Far field: it is averaged across the
-/// fibre, as if the fibre were too thin to see; each sample draws one position, so that the mean is the far
-/// field.
+/// Near field: scattering depends on where across the fibre a ray hits. Far field: scattering is the mean
+/// over the width of the fibre, as if the fibre were too thin to see. To compute this mean, each sample uses
+/// a random position across the fibre.
 enum class FibreField { kNear, kFar };
 template <>
 struct EnumNames<FibreField> {
   static constexpr const char* names[] = {"near", "far"};
 };
 
-/// The opaque baseline: a diffuse cylinder.
+/// A fibre as an opaque diffuse cylinder: the baseline for comparing the other models.
 struct LambertCylinderParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "lambert-cylinder";
@@ -43,7 +44,7 @@ struct LambertCylinderParams : FibreParams {
 struct KajiyaKayParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "kajiya-kay";
-  std::optional<float> diffuse;  ///< times the colour; empty: derived from the colour
+  std::optional<float> diffuse;  ///< albedo, multiplied by the colour; empty: derived from the colour
   Rgb specular{0.08f};
   float exponent = 40;
   static const Schema<KajiyaKayParams>& schema();
@@ -69,15 +70,18 @@ struct EnumNames<HairPreset> {
                                           "fox",       "mouse",       "panther"};
 };
 
-/// Absorption of a translucent fibre. If none of these is given, it follows from FibreParams::color.
+/// Absorption of a translucent fibre. If none of these is given, the absorption follows from
+/// FibreParams::color.
 struct AbsorptionParams {
-  HairPreset preset = HairPreset::kNone;  ///< used for pigments that are not given
-  std::optional<Rgb> absorption;          ///< per radius
-  std::optional<float> eumelanin;         ///< concentration of the black and brown pigment
-  std::optional<float> pheomelanin;       ///< concentration of the red and yellow pigment
+  HairPreset preset = HairPreset::kNone;  ///< provides the concentrations of pigments that are not given
+  /// Coefficient per radius. The absorption of a given pigment is added to it. If it is given, `preset` is
+  /// not used.
+  std::optional<Rgb> absorption;
+  std::optional<float> eumelanin;    ///< concentration of the black and brown pigment
+  std::optional<float> pheomelanin;  ///< concentration of the red and yellow pigment
 };
 
-/// Height of the lobes: as published, or half of it. Half the height roughly conserves energy.
+/// Height of the lobes: the published height, or half of it, which roughly conserves energy.
 enum class MarschnerVariant { kPublished, kHalved };
 template <>
 struct EnumNames<MarschnerVariant> {
@@ -117,10 +121,12 @@ struct ChiangParams : FibreParams, AbsorptionParams {
   static const Schema<ChiangParams>& schema();
 };
 
-/// Absorption per radius from the coefficient or the pigments; empty when neither is given.
+/// Returns the absorption coefficient per radius that follows from `absorption`, the pigments and the preset;
+/// empty when none of these is given.
 std::optional<Rgb> given_absorption(const AbsorptionParams& params);
-/// given_absorption() or, when that is empty, the absorption for a material colour.
 class ColorToAbsorption;
+/// Returns given_absorption(). When that is empty, returns the absorption that `by_color` computes from
+/// `color`.
 Rgb fibre_absorption(const AbsorptionParams& params, const ColorToAbsorption& by_color, const Rgb& color);
 
 }  // namespace pelage

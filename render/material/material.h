@@ -31,7 +31,7 @@ struct GlossyParams {
   static const Schema<GlossyParams>& schema();
 };
 
-/// Weight of the specular shells, see render/fibre/cone_shell.h.
+/// Profile across the shells of the two highlights, see render/fibre/cone_shell.h.
 enum class ShellVariant { kWigner, kLiteral };
 template <>
 struct EnumNames<ShellVariant> {
@@ -42,14 +42,16 @@ struct EnumNames<ShellVariant> {
 struct ConeShellParams : FibreParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "cone-shell";
-  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; empty: derived from the colour
-  float balance = 0;             ///< direction of the diffuse lobe: 1 scatters back to the viewer, -1 forward
+  std::optional<float> diffuse;  ///< albedo of the diffuse lobe, times color; empty: derived from color
+  float balance = 0;             ///< direction of the diffuse lobe: 1 back to the light, 0 even, -1 forward
   Rgb primary{0.08f};            ///< albedo of the primary highlight, not coloured by the fibre
-  float primary_width = 12;      ///< half width of its shell, degrees
-  float primary_shift = -0.03f;  ///< along-strand shift of the tangent lookup, in v
-  float primary_jitter = 0.05f;  ///< random part of the shift, per strand
-  float primary_tilt = 0;        ///< added to the inclination of the shell, degrees
-  Rgb secondary{0.12f};          ///< albedo of the secondary highlight, times color
+  float primary_width = 12;      ///< half width of the highlight, degrees
+  /// Shading takes the tangent not at the shaded point, but at this distance from it, as a fraction of the
+  /// strand; positive: towards the tip. The highlight therefore moves the opposite way.
+  float primary_shift = -0.03f;
+  float primary_jitter = 0.05f;  ///< max random change of primary_shift per strand
+  float primary_tilt = 0;        ///< added to the inclination of the highlight, degrees
+  Rgb secondary{0.12f};          ///< albedo of the secondary highlight, multiplied by color
   float secondary_width = 20;
   float secondary_shift = 0.08f;
   float secondary_jitter = 0.08f;
@@ -62,13 +64,13 @@ using MaterialParams =
     std::variant<LambertParams, GlossyParams, ConeShellParams, LambertCylinderParams, KajiyaKayParams,
                  MarschnerParams, DeonParams, ChiangParams, YanFastParams, YanParams>;
 
-/// The parameters that all fibre models share; null for a material of skins.
+/// Returns the parameters that all fibre models share; null for a skin material.
 const FibreParams* fibre_params(const MaterialParams& material);
 
 class TextureLibrary;
 
-/// The material with the maps of its fields loaded. Throws Error (kInput) when a map that the scene names is
-/// missing.
+/// Returns the material with the textures of its fields loaded. Throws Error (kInput) when a texture that the
+/// scene names is missing.
 MaterialParams with_textures(MaterialParams material, TextureLibrary& textures);
 
 }  // namespace pelage

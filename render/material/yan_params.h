@@ -8,8 +8,9 @@
 
 namespace pelage {
 
-/// Starting points for fur. No table of measured animals was available: rows A to C are parameters that
-/// implementations of the model describe as measured, from unknown animals; all others are guesses.
+/// Presets of fibre parameters. No table of measured animals was available. Rows A to C come from other
+/// implementations of the model, which call them measured and do not name the animals. All others are
+/// guesses.
 enum class YanPreset {
   kNone,
   kRowA,
@@ -28,28 +29,29 @@ struct EnumNames<YanPreset> {
                                           "tiger-black", "tiger-white", "polar-bear", "mouse", "human"};
 };
 
-/// A fibre in the terms of [Yan15]: a cortex covered by a cuticle, around a scattering medulla. Coefficients
-/// are per radius of the fibre, angles in degrees.
+/// The parameters of a fibre in [Yan15]: a scattering medulla, surrounded by a cortex, which a cuticle
+/// covers. Coefficients are per radius of the fibre, angles in degrees.
 struct YanOptics {
   float alpha = 2;    ///< tilt of the cuticle's scales
   float beta_m = 8;   ///< width of the lobes along the fibre
   float beta_n = 10;  ///< width of the lobes around the fibre
   float eta = 1.55f;
   float kappa = 0.8f;           ///< radius of the medulla / radius of the fibre
-  float sigma_ms = 2.5f;        ///< scattering of the medulla
+  float sigma_ms = 2.5f;        ///< scattering coefficient of the medulla
   float g = 0.5f;               ///< mean cosine of the medulla's scattering
-  float layers = 0.5f;          ///< layers of the cuticle; half a layer is one smooth interface
-  std::optional<Rgb> sigma_ca;  ///< absorption of the cortex; empty: derived from the colour
-  std::optional<Rgb> sigma_ma;  ///< absorption of the medulla
+  float layers = 0.5f;          ///< count of cuticle layers; 0.5 is one smooth interface
+  std::optional<Rgb> sigma_ca;  ///< absorption coefficient of the cortex; empty: derived from the colour
+  std::optional<Rgb> sigma_ma;  ///< absorption coefficient of the medulla; empty: derived from the colour
 };
 
-/// Parameters of both models with a medulla. A number that is not given comes from the preset.
+/// Parameters of the two models with a medulla. A member that is empty takes its value from the preset.
 struct MedullaParams : FibreParams {
   YanPreset preset = YanPreset::kNone;
   std::optional<float> alpha, beta_m, beta_n, eta, kappa, sigma_ms, g, layers;
   std::optional<Rgb> sigma_ca, sigma_ma;
   FibreField field = FibreField::kNear;
 
+  /// Returns the preset, with the members that are given in place of its values.
   YanOptics optics() const;
 };
 
@@ -67,7 +69,7 @@ struct YanParams : MedullaParams {
   static constexpr const char* kTypeKey = "model";
   static constexpr const char* kTypeName = "yan";
   AssetPath tables;  ///< folder that keeps the tables
-  /// Loaded or computed by with_tables(). Null: computed with the material.
+  /// with_tables() loads or computes the tables. If this is null, FibreMaterial computes them.
   std::shared_ptr<const MedullaTables> made;
   static const Schema<YanParams>& schema();
 };

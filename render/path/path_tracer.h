@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Traces one path after another through a frame (PathWalk) and stores the contribution of each to its pixel.
-/// A path is a function of (scene, pixel, number of the sample).
+/// The integrator `path`: computes each sample of a pixel from one path (PathWalk). A path depends only on
+/// the scene, the pixel and the index of the sample in its pixel.
 class PathTracer final : public SampleIntegrator {
  public:
   PathTracer(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,

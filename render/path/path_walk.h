@@ -16,7 +16,7 @@ namespace pelage {
 
 struct PathOptions {
   DirectTechniques direct = DirectTechniques::kBoth;
-  bool roulette = true;
+  bool roulette = true;  ///< whether roulette may end paths early
 };
 
 /// The state of a path at its current vertex.
@@ -24,35 +24,34 @@ struct PathState {
   explicit PathState(const SampleStream& numbers) : stream(numbers) {}
 
   SampleStream stream;
-  uint32_t vertex = 0;
-  uint32_t random = 0;  ///< used at semi-transparent crossings
-  float time = 0;
-  Ray ray;                 ///< the ray that hit `hit`
-  Hit hit;                 ///< at the current vertex
+  uint32_t vertex = 0;     ///< index of the current vertex; 0 is the first surface
+  uint32_t random = 0;     ///< Ray::random of the last ray, for semi-transparent strands; each ray adds 1
+  float time = 0;          ///< of the shutter, in [0, 1]
+  Ray ray;                 ///< the ray that leads to the current vertex
+  Hit hit;                 ///< hit of `ray` at the current vertex
   Rgb first[kLobeGroups];  ///< weight of the first vertex (rho / pdf), by lobe group
   Rgb throughput{1};       ///< product of the weights of the vertices after the first, roulette included
   Rgb weight{1};           ///< product of the weights of all vertices before this one, roulette included
 };
 
-/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex,
-/// `light_samples` shadow rays are traced to lights (DirectLight), and one direction is drawn from the lobes.
-/// The density of that direction includes the probability of surviving roulette. At most `bounces`
-/// scatterings follow the first. Roulette may end a path earlier: the lower the weight of a path, the more
-/// likely it ends (survival()).
+/// Continues paths from any scatter point, and reports the light that they find to a sink. At each vertex, a
+/// path traces up to `render.light_samples` shadow rays to lights (DirectLight), and draws one direction from
+/// the lobes for the ray to the next vertex. At most `render.bounces` scatterings follow the first. Roulette
+/// may end a path earlier; the lower the weight of the path, the more likely (survival()).
 ///
-/// A Sink has
+/// A Sink has two members:
 ///   shadow(path, point, factor, through)
-///                                     one shadow ray: of point.arriving * factor, the fraction `through`
-///                                     reaches the vertex; the rest is blocked
+///       Receives the result of a shadow ray. The light that arrives at the current vertex is
+///       point.arriving * factor * through, where `through` is the fraction that nothing blocks.
 ///   met(path, light, radiance, weight, through)
-///                                     a light that the ray drawn from the lobes hits: of radiance * weight,
-///                                     the fraction `through` reaches the vertex; the rest is blocked
+///       Receives a light that the ray drawn from the lobes hits. The light that arrives at the current
+///       vertex is radiance * weight * through, where `through` is the fraction that nothing blocks.
 ///
-/// Thread safety: const members may be called from any thread, each with a scratch of its own.
+/// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
 class PathWalk {
  public:
-  /// References are kept.
+  /// Keeps references to its arguments, except `options`.
   PathWalk(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
            const PathOptions& options)
       : bounces_(static_cast<uint32_t>(scene.render.bounces)),
@@ -61,13 +60,14 @@ class PathWalk {
         options_(options),
         direct_(scene.lights, scene.render.light_samples, options.direct) {}
 
-  /// Follows a path from its first vertex to its end. `first`: scattering at the first vertex.
+  /// Follows a path from its first vertex to its end. `first`: position and scattering of the first vertex.
   void walk(const ScatterPoint& first, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
             Sink& sink) const {
     if (scatter(first, path, lights, scratch, sink)) walk_on(path, lights, scratch, sink);
   }
-  /// Follows a path along `ray`, whose direction was drawn before at the first vertex. Does not report the
-  /// lights that `ray` itself hits. `path.first` and `path.weight` include the density of that direction.
+  /// Follows a path along `ray` from the first vertex to its end. The caller has drawn the direction of `ray`
+  /// at the first vertex, and has divided `path.first` and `path.weight` by its density. Does not report the
+  /// lights that `ray` itself hits.
   void follow(const Ray& ray, PathState& path, DirectLightScratch& lights, SampleScratch& scratch,
               Sink& sink) const {
     path.ray = ray;
@@ -76,18 +76,19 @@ class PathWalk {
     if (path.hit) walk_on(path, lights, scratch, sink);
   }
 
-  /// Probability that roulette continues a path of this weight: the light that the path may still contribute,
-  /// divided by the brightness of the pixel [Vorba16]. If the probability were the weight itself, roulette
-  /// would also end paths that contribute as much as others: in pale fur, a quarter fewer rays would be
-  /// traced, but the variance would be two thirds higher.
+  /// Returns the probability that roulette continues a path of this weight: the light that the path may still
+  /// contribute, divided by the brightness of the pixel [Vorba16]; at most 1. If the probability were the
+  /// weight itself, roulette would also end paths that contribute as much as others. In pale fur, it would
+  /// save a quarter of the rays, but increase the variance by two thirds.
   static float survival(const Rgb& weight) { return std::min(1.0f, max_component(weight) / kShown); }
 
  private:
   enum Draw : uint32_t { kLight = 0, kLobe = 1, kRoulette = 3, kLightChoice = 4, kVertexDraws = 5 };
-  /// Rough guess of the brightness of a surface as a fraction of the light around it: between the values of
-  /// pale fur and of skin.
+  /// Rough guess of the brightness of a pixel, as a fraction of the light around the surface. It lies between
+  /// the values for pale fur and for skin.
   static constexpr float kShown = 0.5f;
 
+  /// Sets the next draw of the path's random numbers to a draw of the current vertex.
   static void seek(PathState& path, Draw draw) {
     path.stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * path.vertex + draw);
   }
@@ -127,9 +128,9 @@ class PathWalk {
   const DirectLight direct_;
 };
 
-/// The density with which sample_lobes() traces a ray in a direction: the density of the lobes times the
-/// probability of surviving roulette. Without the second factor, MIS would rely on a few rays of high weight
-/// for the light that a dark surface scatters.
+/// Returns the density with which sample_lobes() traces a ray in the direction whose scattering is `value`.
+/// It is the density of the lobes times the probability of surviving roulette. Without the second factor, MIS
+/// would leave the light that a dark surface scatters to a few rays of high weight.
 template <class Sink>
 float PathWalk<Sink>::arriving_pdf(const FibreValue& value, const PathState& path) const {
   if (!options_.roulette || is_last(path) || !(value.pdf > 0)) return value.pdf;
@@ -162,8 +163,9 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   });
 }
 
-/// Lights along a ray drawn from the lobes of the current vertex `point`, in front of `distance`. With
-/// `shadowed`, a shadow ray to each light finds the fraction that arrives.
+/// Reports the lights that a ray drawn from the lobes of the current vertex `point` hits before `distance`.
+/// With `shadowed`, traces a shadow ray to each of these lights to find the fraction that arrives; otherwise,
+/// nothing blocks them.
 template <class Sink>
 void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, float distance, float lobe_pdf,
                                  bool shadowed, const PathState& path, const DirectLightScratch& lights,

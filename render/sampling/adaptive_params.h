@@ -12,7 +12,7 @@ struct EnumNames<AdaptiveRule> {
   static constexpr const char* names[] = {"two-stage", "seed"};
 };
 
-/// Whether the two-stage rule meets its noise budget on average over the frame or in each pixel.
+/// Whether the rule `two-stage` meets its noise budget on average over the frame, or in each pixel.
 enum class NoiseGoal { kFrame, kPixel };
 template <>
 struct EnumNames<NoiseGoal> {
@@ -23,9 +23,10 @@ struct EnumNames<NoiseGoal> {
 struct AdaptiveParams {
   AdaptiveRule rule = AdaptiveRule::kTwoStage;
   NoiseGoal goal = NoiseGoal::kFrame;
-  float noise = 0.05f;  ///< half of the 95 % confidence interval of a pixel's luminance, relative to its mean
-  int pilot = 16;
-  int batch = 32;
+  /// Noise budget: half width of the 95 % confidence interval of a pixel's luminance, divided by the mean.
+  float noise = 0.05f;
+  int pilot = 16;  ///< rule `two-stage`: samples per pixel before the counts are determined
+  int batch = 32;  ///< rule `seed`: samples of a pixel between two checks
   static const Schema<AdaptiveParams>& schema();
 };
 

@@ -10,58 +10,65 @@
 
 namespace pelage {
 
-/// Half of a 95 % confidence interval, in standard errors.
+/// Half width of a 95 % confidence interval, in standard errors.
 inline constexpr double kConfidence = 1.96;
 
-/// Whether `rule: seed` would stop sampling this pixel: 1.96 sigma / sqrt(n) <= noise * mean. Where rare
-/// bright samples dominate the mean, a pixel is likely to stop before it receives a bright sample. Because
-/// the mean and the stopping time depend on the same samples, stopped pixels are too dark on average.
+/// Returns whether `rule: seed` stops sampling this pixel: 1.96 sigma / sqrt(n) <= noise * mean, where sigma
+/// is the standard deviation of n samples. Where rare bright samples dominate the mean, a pixel is likely to
+/// stop before it receives a bright sample. Stopped pixels are therefore too dark on average.
 inline bool looks_converged(const PixelMoments& pixel, double noise) {
   return kConfidence * pixel.error() <= noise * pixel.mean;
 }
 
-/// Pilot estimate of one pixel.
+/// Estimates for one pixel from the pilot, the samples that the two-stage rule takes first.
 struct PilotPixel {
-  float mean = 0, variance = 0;  ///< of the luminance of one sample
-  bool hit = false;              ///< whether any camera ray met a surface
-  uint32_t samples = 0;
+  float mean = 0, variance = 0;  ///< of the luminance of single samples
+  bool hit = false;              ///< whether any camera ray hit a surface
+  uint32_t samples = 0;          ///< count
 };
 
-/// Pilot of a whole frame, row by row.
+/// Pilot of a whole frame; pixels row by row.
 struct Pilot {
   int width = 0, height = 0;
   std::vector<PilotPixel> pixels;
 };
 
-/// Decides which pixels need the whole pilot, given its first part (the same number of samples for every
-/// pixel). Returns 0 for a pixel if all samples of its neighbours hit nothing and are equal, otherwise 1.
-/// Pixels form a chessboard of two colours; neighbours are the 12 other pixels of the same colour in the
-/// surrounding 5 x 5 pixels.
+// In the following, pixels form a chessboard of two colours.
+
+/// Decides which pixels need the whole pilot. `probe`: the first part of the pilot, which takes the same
+/// count of samples in every pixel. Returns 0 for a pixel if no sample of its neighbours hits a surface and
+/// all these samples are equal; otherwise 1. The neighbours are the other pixels of the same colour in the
+/// surrounding 5 x 5 pixels: up to 12.
 std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 
-/// The number of samples, including those of the pilot, that each pixel needs to meet the noise budget: a
-/// real number without limits, except that pixels without information from the pilot get `max`.
+/// Returns the count of samples, including those of the pilot, that each pixel needs to meet the noise
+/// budget. Counts are real numbers; they are neither rounded nor limited to `max`.
 ///
-/// The counts of one colour depend on the pilot of the other colour only. Samples of different pixels are
-/// independent, so a pixel's count does not depend on the pixel's own samples. The plain mean of these
-/// samples, including the pilot, is therefore unbiased: no sample is discarded. (If the count depended on the
-/// pixel's own pilot, the plain mean of both stages would be biased.)
+/// The count of a pixel follows from the luminances that pixels of the other colour have in the pilot.
+/// Samples of different pixels are independent, so the count does not depend on the pixel's own luminances.
+/// The plain mean of all samples of the pixel, including the pilot, is therefore unbiased, and no sample is
+/// discarded. (If the count depended on the pixel's own pilot, this mean would be biased.)
 ///
-/// The relative variance of a pixel is the mean variance over the 12 pixels of the other colour in its 5 x 5
-/// neighbourhood, divided by the square of their mean. With `goal: frame`, counts are proportional to the
-/// square root of this variance [Neyman34]: no smaller sum of counts reaches the required mean of variance /
-/// count. With `goal: pixel`, counts are proportional to the variance itself. Where brightness varies from
-/// pixel to pixel, the neighbourhood's mean hides dark pixels, and the remaining noise is slightly above the
-/// budget: frame_noise() reports it.
+/// The relative variance of a pixel is the mean variance of the 12 pixels of the other colour in its 5 x 5
+/// neighbourhood, divided by the square of their mean luminance. Very dark neighbourhoods are treated as if
+/// they were somewhat brighter. With `goal: frame`, counts are proportional to the square root of the
+/// relative variance [Neyman34]: no smaller sum of counts reaches the required mean of variance / count. With
+/// `goal: pixel`, counts are proportional to the relative variance itself. If the neighbours hit nothing and
+/// do not vary, the count is 0. If they hit a surface but do not vary, their variance is unknown: the pixel
+/// gets the mean count of the pixels of its own colour whose variance is known, or `max` if there are none.
+///
+/// Where brightness differs between neighbouring pixels, the mean of the neighbourhood hides dark pixels. The
+/// remaining noise is then slightly above the budget; frame_noise() measures it.
 std::vector<float> two_stage_counts(const Pilot& pilot, const AdaptiveParams& params, uint32_t max);
 
-/// The nearest number of the form 4, 5, 6, 7 times a power of two. A pixel's samples are a sequence in which
-/// every aligned block of 2^k samples is stratified. Other numbers would leave a block incomplete. Counts up
-/// to 4 are rounded up to an integer.
+/// Rounds a sample count to the nearest number of the form 4, 5, 6 or 7 times a power of two. Counts up to 4
+/// are rounded up to an integer instead. The samples of a pixel are a sequence in which every aligned block
+/// of 2^k samples is stratified; other counts would end with an incomplete large block.
 uint32_t whole_blocks(double count);
 
-/// Half width of the 95 % confidence interval divided by the mean, as root mean square over the pixels that
-/// vary. `goal: frame` limits this number.
+/// Returns the noise of a frame: the root mean square, over all pixels whose samples vary, of half the width
+/// of the 95 % confidence interval divided by the mean. Very dark pixels are treated as if they were somewhat
+/// brighter. `goal: frame` limits this noise. Returns 0 if no pixel varies.
 double frame_noise(std::span<const PixelMoments> pixels);
 
 }  // namespace pelage

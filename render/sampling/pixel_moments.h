@@ -6,7 +6,8 @@
 
 namespace pelage {
 
-/// Running mean and variance [Welford62], in double because sums of squares would cancel.
+/// Running mean and variance of a sequence of numbers. Welford's update [Welford62] in double avoids the
+/// cancellation that sums of squares would suffer.
 struct PixelMoments {
   double mean = 0;
   double squares = 0;  ///< sum of squared deviations from the mean
@@ -18,9 +19,10 @@ struct PixelMoments {
     mean += from_old / count;
     squares += from_old * (x - mean);
   }
-  /// Variance of one number; 0 for fewer than two.
+  /// Returns the unbiased estimate of the variance of the numbers; 0 if there are fewer than two.
   double variance() const { return count > 1 ? squares / (count - 1) : 0; }
-  /// Standard error of the mean for independent numbers; stratified ones have a smaller error.
+  /// Returns the standard error of the mean if the numbers are independent; 0 if there are fewer than two.
+  /// The error of stratified numbers is smaller.
   double error() const { return count > 1 ? std::sqrt(variance() / count) : 0; }
 };
 

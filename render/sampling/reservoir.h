@@ -3,14 +3,14 @@
 
 namespace pelage {
 
-/// Weighted reservoir sampling with one random number: chooses one of a sequence of items in proportion to
-/// their masses [Chao82].
+/// Weighted reservoir sampling: chooses one item of a sequence, with a probability proportional to its mass
+/// [Chao82]. Needs only one random number for the whole sequence.
 class Reservoir {
  public:
   /// `u`: a random number in [0, 1).
   explicit Reservoir(float u) : u_(u) {}
 
-  /// Returns whether the item replaces the one chosen before. `mass`: not negative.
+  /// Offers the next item. Returns whether this item is now the chosen one. `mass`: not negative.
   bool takes(float mass) {
     if (!(mass > 0)) return false;
     sum_ += mass;
@@ -19,7 +19,7 @@ class Reservoir {
     u_ = taken ? u_ / share : (u_ - share) / (1 - share);
     return taken;
   }
-  /// Total mass of all items.
+  /// Returns the total mass of all items so far.
   float sum() const { return sum_; }
 
  private:

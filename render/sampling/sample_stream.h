@@ -10,6 +10,7 @@ namespace pelage {
 
 namespace detail {
 
+/// Returns x with the order of its bits reversed.
 constexpr uint32_t reverse_bits(uint32_t x) {
   x = (x >> 16) | (x << 16);
   x = ((x & 0x00ff00ffu) << 8) | ((x >> 8) & 0x00ff00ffu);
@@ -18,8 +19,9 @@ constexpr uint32_t reverse_bits(uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
-/// Owen scrambling of a number with reversed bits: a bijection in which every bit is flipped by a function of
-/// the bits below it [Burley20, section 2; LaineKarras11], with the constants of [Vegdahl21].
+/// Applies Owen scrambling to a number whose bits are in reversed order. Each bit is flipped or not,
+/// depending only on `seed` and the bits below it, so that the map is a bijection [Burley20, section 2;
+/// LaineKarras11]. The constants are those of [Vegdahl21].
 constexpr uint32_t scramble_reversed(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -29,8 +31,11 @@ constexpr uint32_t scramble_reversed(uint32_t x, uint32_t seed) {
   return x;
 }
 
-/// Second coordinate of the Sobol sequence, bits reversed: its direction numbers are the powers of 1 + X over
-/// GF(2), so that the point of index p(X) is p(X + 1), and shifting a polynomial by one takes log2(32) steps.
+/// Returns the second coordinate of point `index` of the Sobol sequence, with its bits in reversed order.
+///
+/// Take the bits of `index` as the coefficients of a polynomial p(X) over GF(2). The direction numbers of
+/// this coordinate are the powers of 1 + X. The result is therefore the polynomial p(1 + X). The substitution
+/// of 1 + X for X takes log2(32) = 5 steps, one line each.
 constexpr uint32_t sobol_second_reversed(uint32_t index) {
   index ^= index >> 16;
   index ^= (index >> 8) & 0x00ff00ffu;
@@ -39,26 +44,31 @@ constexpr uint32_t sobol_second_reversed(uint32_t index) {
   return index ^ ((index >> 1) & 0x55555555u);
 }
 
-/// The upper 24 of 32 bits as a float in [0, 1).
+/// Returns the upper 24 of 32 bits as a float in [0, 1).
 constexpr float fraction(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
 }  // namespace detail
 
-/// Random numbers of one sample of one pixel, in [0, 1): shuffled and Owen-scrambled Sobol points, padded
-/// [Burley20, section 3]. Each draw uses its own 1-D or 2-D (0, m, 2)-net in its own order, so that the first
-/// 2^k samples of a pixel are stratified in every draw, and any two draws and any two pixels are independent.
-/// A pure function of (seed, x, y, sample, dimension): the same for any order of evaluation (law 1).
+/// Random numbers in [0, 1) for one sample of one pixel: shuffled and Owen-scrambled Sobol points, padded
+/// [Burley20, section 3].
 ///
-/// Draws are numbered; a 2-D draw counts as one. Quantities that must be stratified across samples must use
-/// the same draw in all of them, so integrators seek() to fixed positions instead of counting the draws of a
-/// path.
+/// A draw is one call of next1d() or next2d(). Draws have the indices 0, 1, 2 ... Over the samples of a
+/// pixel, the draws of one index are a scrambled Sobol sequence (in 2-D, a (0, m, 2)-net), shuffled in an
+/// order of their own. The first 2^k samples of a pixel are therefore stratified in every draw. Draws with
+/// different indices, and draws of different pixels, are independent. A draw is a pure function of (seed, x,
+/// y, sample, index), whatever the order of calls (law 1).
+///
+/// To stratify a quantity over the samples of a pixel, every sample must take this quantity from the draw of
+/// the same index. A count of the draws so far would depend on the course of the path. Integrators therefore
+/// call seek() with a fixed index for each use.
 class SampleStream {
  public:
   SampleStream(uint64_t seed, uint32_t x, uint32_t y, uint32_t sample)
       : key_(hash64(seed, random_use("sample"), x, y)), reversed_sample_(detail::reverse_bits(sample)) {}
 
-  /// Sets the number of the next draw.
+  /// Sets the index of the next draw.
   void seek(uint32_t draw) { draw_ = draw; }
+  /// Returns the index of the next draw.
   uint32_t draw() const { return draw_; }
 
   float next1d() {
@@ -76,7 +86,7 @@ class SampleStream {
             scrambled(detail::sobol_second_reversed(index), static_cast<uint32_t>(more_seeds))};
   }
 
-  /// next2d() in x and y, next1d() in z: two draws.
+  /// Returns next2d() in x and y, and next1d() in z. These are two draws.
   V3f next3d() {
     const V2f xy = next2d();
     return {xy.x, xy.y, next1d()};
@@ -85,7 +95,8 @@ class SampleStream {
  private:
   static constexpr uint64_t kStep = 0x9e3779b97f4a7c15ull;
 
-  /// Owen-scrambling the index permutes aligned blocks of 2^k points for every k, and so preserves every net.
+  /// Returns the index of the Sobol point that this sample uses. Owen scrambling of the sample's index
+  /// permutes aligned blocks of 2^k points for every k, and so preserves every net.
   uint32_t shuffled_index(uint32_t seed) const {
     return detail::reverse_bits(detail::scramble_reversed(reversed_sample_, seed));
   }

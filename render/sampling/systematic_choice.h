@@ -5,9 +5,9 @@
 
 namespace pelage {
 
-/// Systematic sampling: passes over items in order and chooses them in proportion to their masses. An item of
-/// mass m is chosen floor(m / step) or ceil(m / step) times, on average m / step. The same holds for every
-/// run of consecutive items and the sum of their masses.
+/// Systematic sampling: passes over items in order, and chooses them in proportion to their masses. An item
+/// of mass m is chosen floor(m / step) or ceil(m / step) times, and m / step times on average. The same holds
+/// for every run of consecutive items, where m is the sum of their masses.
 class SystematicChoice {
  public:
   /// `step`: positive. `u`: a random number in [0, 1).

@@ -14,8 +14,8 @@ inline constexpr float kPi = std::numbers::pi_v<float>;
 /// The largest float below 1.
 inline constexpr float kBelowOne = 0x1.fffffep-1f;
 
-/// Two unit vectors that complete the unit vector `n` to a right-handed orthonormal frame (first, second, n)
-/// [Duff17].
+/// Computes two unit vectors such that (first, second, n) is a right-handed orthonormal frame [Duff17]. `n`
+/// must be a unit vector.
 inline void complete_frame(const V3f& n, V3f& first, V3f& second) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1.0f / (sign + n.z);
@@ -24,19 +24,21 @@ inline void complete_frame(const V3f& n, V3f& first, V3f& second) {
   second = {b, sign + n.y * n.y * a, -n.y};
 }
 
-/// The direction with polar cosine `z` about `axis`, at azimuth 2 pi `turn` from x.
+/// Returns the unit vector at an angle to `axis` with the cosine `z`. Its azimuth is 2 pi `turn`, measured
+/// from `x` towards `y`. The unit vectors x, y and axis must be orthogonal.
 inline V3f polar_direction(const V3f& x, const V3f& y, const V3f& axis, float z, float turn) {
   const float r = std::sqrt(std::max(0.0f, (1.0f - z) * (1.0f + z)));
   const float phi = 2.0f * kPi * turn;
   return z * axis + (r * std::cos(phi)) * x + (r * std::sin(phi)) * y;
 }
 
-/// Uniform on the sphere; density 1 / (4 pi).
+/// Maps `u` in [0, 1)^2 to a uniformly distributed direction, with density 1 / (4 pi) per solid angle.
 inline V3f uniform_direction(const V2f& u) {
   return polar_direction({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1.0f - 2.0f * u.x, u.y);
 }
 
-/// Uniform on the unit disk; preserves neighbourhoods [ShirleyChiu97].
+/// Maps `u` in [0, 1)^2 to a uniformly distributed point of the unit disk. Neighbouring points stay
+/// neighbours [ShirleyChiu97].
 inline V2f concentric_disk(const V2f& u) {
   const float x = 2.0f * u.x - 1.0f;
   const float y = 2.0f * u.y - 1.0f;

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// How the gather integrator finds what the camera sees.
+/// How the gather integrator finds the strands and skins that the camera sees.
 enum class GatherVisibility { kRays };
 template <>
 struct EnumNames<GatherVisibility> {
@@ -16,11 +16,11 @@ struct EnumNames<GatherVisibility> {
 /// `gather:` of `render:`.
 struct GatherParams {
   GatherVisibility visibility = GatherVisibility::kRays;
-  bool reuse = true;
-  float spacing = 4;       ///< max distance of knots along strands, pixels
-  float skin_spacing = 2;  ///< max distance of knots on skins, pixels
-  float light_rays = 3;    ///< max shadow rays per visible sample
-  float paths = 1;         ///< indirect paths per visible sample, before roulette
+  bool reuse = true;       ///< false: samples share no light
+  float spacing = 4;       ///< max distance between knots along a strand, pixels
+  float skin_spacing = 2;  ///< max distance between knots on a skin, pixels
+  float light_rays = 3;    ///< mean count of shadow rays per visible sample
+  float paths = 1;         ///< mean count of indirect paths per visible sample, before roulette
   static const Schema<GatherParams>& schema();
 };
 

@@ -29,15 +29,16 @@ template <>
 struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
-/// Whether strands are stored in our own fur trees. Affects storage only, never the picture.
+/// Returns whether strands are stored in Pelage's own fur trees rather than in Embree. The picture is the
+/// same, except for rounding at the edges of strands.
 inline bool in_fur_trees(AccelKind accel, CurveShape curves) {
   return accel == AccelKind::kFur && curves == CurveShape::kFlat;
 }
 
-/// The camera whose distance, motion and focus determine the level of detail: the camera of the scene, or a
-/// separate one.
+/// The camera that determines the level of detail by its distance, motion and focus. It is either the camera
+/// of the scene or a separate one.
 struct LodCamera {
-  std::optional<CameraParams> own;
+  std::optional<CameraParams> own;  ///< the separate camera; empty: the camera of the scene
 };
 template <>
 struct ValueReader<LodCamera> {
@@ -53,13 +54,13 @@ struct ValueReader<LodCamera> {
 struct LodParams : SimplificationParams {
   bool enabled = true;
   LodCamera camera;
-  int64_t full_detail = 0;  ///< number of characters that keep all their hair
+  int64_t full_detail = 0;  ///< count of characters that keep all their hair
   static const Schema<LodParams>& schema();
 };
 
 /// `bvh:` of `render:`.
 struct BvhParams {
-  AssetPath file;  ///< folder; empty: nothing is stored
+  AssetPath file;  ///< folder for stored trees; empty: none are stored
   static const Schema<BvhParams>& schema();
 };
 
@@ -69,20 +70,20 @@ struct RenderParams {
   GatherParams gather;
   AccelKind accel = AccelKind::kFur;
   CurveShape curves = CurveShape::kFlat;
-  int samples = 64;  ///< with adaptive sampling, the maximum per pixel
+  int samples = 64;  ///< count per pixel; with adaptive sampling, the max count
   std::optional<AdaptiveParams> adaptive;
-  float time_limit = 0;  ///< seconds; 0 is no limit
-  int light_samples = 1;
-  int bounces = 4;           ///< 0 = direct light only
-  float clamp_indirect = 0;  ///< max luminance of a path after its first scattering; 0 is no limit
+  float time_limit = 0;      ///< seconds; 0: no limit
+  int light_samples = 1;     ///< shadow rays per vertex of a path
+  int bounces = 4;           ///< max scatterings after the first; 0: direct light only
+  float clamp_indirect = 0;  ///< max luminance of the indirect light of one path; 0: no limit
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
-  float bounds_factor = 1;  ///< factor of BoundingStrategy::kUser
+  float bounds_factor = 1;  ///< scale of boxes with BoundingStrategy::kUser
   LodParams lod;
-  bool shared_topology = true;  ///< characters with one cage share its refinement and patches
+  bool shared_topology = true;  ///< characters with the same cage share its refinement and patches
   static const Schema<RenderParams>& schema();
 };
 

@@ -22,26 +22,25 @@ struct FurPart {
   std::string name;  ///< "rat.under"
   std::vector<std::unique_ptr<Procedural>> procedurals;
   size_t material = 0;
-  /// The rest pose of the skin that the strands grow on, for material fields that depend on the rest
-  /// position; may be null: the roots are then used as rest positions.
+  /// Rest pose of the skin that the strands grow on. Material fields that depend on the rest position use it.
+  /// If null, they use the roots of the posed strands as rest positions.
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};                             ///< multiplies the colour of the strands
-  std::optional<Simplification> lod = {};  ///< how detail was reduced; empty: it was not reduced
+  std::optional<Simplification> lod = {};  ///< reduction of detail; empty: not reduced
 };
 
-/// A skin. `rest` provides the rest positions of hits, and its topology provides their texture coordinates.
-/// If `rest` is null, both are zero.
+/// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.
+/// If `rest` is null, rest positions and texture coordinates are zero.
 struct SkinPart {
   std::string name;
   std::shared_ptr<const DeferredSkin> skin;
   std::shared_ptr<const LimitSurface> rest;
   size_t material = 0;
   Rgb tint{1};                             ///< multiplies the colour of the skin
-  std::optional<Simplification> lod = {};  ///< level of detail of the densest coat on the skin; empty: not
-                                           ///< reduced
+  std::optional<Simplification> lod = {};  ///< of the densest coat on the skin; empty: not reduced
 };
 
-/// Everything that a renderer needs for one frame. World space.
+/// Everything that a renderer needs for one frame. Positions are in world space.
 struct RenderScene {
   std::vector<FurPart> fur;
   std::vector<SkinPart> skins;

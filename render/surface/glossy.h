@@ -7,7 +7,8 @@
 
 namespace pelage {
 
-/// Scattering of a glossy surface, rho = f cos(theta_i) per solid angle, with the cosine to the normal.
+/// Scattering of a glossy surface for one pair of directions: rho = f cos(theta_i) per solid angle, where
+/// theta_i is the angle to the normal.
 struct GlossyValue {
   Rgb diffuse{0};
   float specular = 0;  ///< reflection by the clear coat, without the base colour
@@ -19,18 +20,21 @@ struct GlossySample {
   GlossyValue value;
 };
 
-/// A diffuse base under a smooth clear coat, for eyes, noses, wet ground. The coat is a GGX microfacet
-/// dielectric [Walter07] with height-correlated shadowing [Heitz14], sampled by visible normals [Heitz18],
-/// with Fresnel by [Schlick94]; the base scatters the light that the coat transmits. Reciprocal; never gains
-/// energy. World space; directions point away from the surface; `normal` and `wo` are on one side. A plain
-/// value, cheap to construct.
+/// A diffuse base under a clear coat, for eyes, noses and wet ground. The coat is a GGX microfacet dielectric
+/// [Walter07] with height-correlated shadowing [Heitz14] and Schlick's Fresnel term [Schlick94]. It is
+/// sampled by visible normals [Heitz18]. The base scatters the light that the coat transmits. The surface is
+/// reciprocal and never gains energy.
+///
+/// Directions are in world space and point away from the surface. `normal` and `wo` must be on the same side
+/// of the surface. A plain value, cheap to construct.
 class GlossyBsdf {
  public:
   /// `roughness` in [0, 1]: its square is the width of the microfacet distribution. `ior` > 1.
   GlossyBsdf(const Rgb& albedo, float roughness, float ior, const V3f& normal, const V3f& wo);
 
   GlossyValue eval(const V3f& wi) const;
-  /// u.x, u.y: direction; u.z: coat or base.
+  /// Samples a direction; empty if it points into the surface. `u`: three random numbers in [0, 1). u.z
+  /// selects the coat or the base, u.x and u.y the direction.
   std::optional<GlossySample> sample(const V3f& u) const;
 
  private:
@@ -43,7 +47,7 @@ class GlossyBsdf {
   float alpha_;
   float facing_reflectance_;
   Frame frame_;
-  V3f wo_;             // local: z along the normal
+  V3f wo_;             // in frame_: z along the normal
   float base_share_;   // fraction of light that the coat transmits on the way to the viewer
   float coat_choice_;  // probability of sampling the coat
 };

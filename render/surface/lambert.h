@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle; theta_i is the angle to
-/// the normal.
+/// Scattering of a surface for one direction: rho = f cos(theta_i) per solid angle, where theta_i is the
+/// angle to the normal.
 struct SurfaceValue {
   Rgb rho{0};
   float pdf = 0;  ///< density of sample(), per solid angle
@@ -20,8 +20,8 @@ struct SurfaceSample {
   SurfaceValue value;
 };
 
-/// Ideal diffuse reflection on the side of `normal` (unit, on the viewer's side). World space; directions
-/// point away from the surface.
+/// Ideal diffuse reflection on one side of a surface. `normal`: unit, on the side of the viewer. Directions
+/// are in world space and point away from the surface.
 class LambertBsdf {
  public:
   LambertBsdf(const Rgb& albedo, const V3f& normal) : albedo_(albedo), normal_(normal) {}
@@ -30,7 +30,7 @@ class LambertBsdf {
     const float pdf = std::max(0.0f, wi.dot(normal_)) / kPi;
     return {albedo_ * pdf, pdf};
   }
-  /// Cosine-weighted: rho / pdf is the albedo for every sample.
+  /// Samples a direction in proportion to its cosine. For every sample, rho / pdf is the albedo.
   std::optional<SurfaceSample> sample(const V2f& u) const {
     const V2f disk = concentric_disk(u);
     const float cosine = std::sqrt(std::max(0.0f, 1.0f - disk.length2()));
