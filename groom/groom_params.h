@@ -24,8 +24,8 @@ struct GroomCacheParams {
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  NameReference skin;                     ///< name of a skin; empty for an imported groom without one
-  AssetPath strands_file;                 ///< curves from a file, instead of follicles
+  NameReference skin;                     ///< name of a skin; empty for strands of a file without a skin
+  AssetPath strands_file;                 ///< file with the strands; empty: strands grow from follicles
   std::optional<CurveBasis> basis;        ///< of strands_file
   std::optional<float> default_width;     ///< of strands_file
   Attachment attach = Attachment::kAuto;  ///< of strands_file
@@ -43,8 +43,8 @@ struct GroomParams {
   static const Schema<GroomParams>& schema();
 };
 
-/// The problem with `cache.freeze`: it names no operator of the groom, or an operator that does not depend on
-/// rest state alone. Empty when there is none.
+/// Checks `cache.freeze`. Returns the problem if it names no operator of the groom, or if this operator or
+/// one before it reads more than rest state. Otherwise returns nothing.
 std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

@@ -14,7 +14,7 @@ class ClosestPointTree;
 
 /// Number of strands that operators process together: small enough for the L2 cache, large enough for SIMD.
 inline constexpr size_t kBlockStrands = 256;
-/// One number per strand of a batch; vectors are three rows.
+/// One number per strand of a batch. Three of these rows store a vector per strand.
 using StrandRow = std::array<float, kBlockStrands>;
 using VectorRow = std::array<StrandRow, 3>;
 
@@ -38,12 +38,12 @@ struct RootRows {
   }
 };
 
-/// A block of strands during the evaluation of the operators, as rows over strands: [point][strand].
+/// A block of strands while operators are applied to it. Data is in rows over the strands: [point][strand].
 ///
-/// Points are offsets from the root along the axes of the batch's space: rest space for frozen operators, the
-/// posed space of one motion key for live operators. All strands of a batch have the same number of points.
-/// Point 0 is the base of the strand. It is zero for grown strands, and the offset from the skin for imported
-/// strands. Operators must not move it.
+/// Points are offsets from the root along the axes of the batch's space. This is rest space for frozen
+/// operators, and the posed space of one motion key for live operators. All strands of a batch have the same
+/// number of points. Point 0 is the first point of the strand. Its offset is zero for grown strands; an
+/// imported strand may start away from the skin. Operators must not move point 0.
 struct StrandBatch {
   struct PointRows {
     VectorRow offset;
