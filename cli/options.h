@@ -35,8 +35,8 @@ inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"}
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
   kBar,    ///< one line that is redrawn continuously, with the time left
-  kPlain,  ///< an occasional line, for logs
-  kJson,   ///< a JSON object per percent
+  kPlain,  ///< a line from time to time, for logs
+  kJson,   ///< a JSON object for each percent of progress
   kQuiet,  ///< nothing
 };
 
@@ -44,8 +44,9 @@ enum class ProgressStyle {
 /// defaults.
 struct Options {
   Command command = Command::kManual;
-  std::string input;   ///< SCENE, FILE or IN
-  std::string output;  ///< -o or OUT; may contain a placeholder for the frame number (world/frames.h)
+  std::string input;  ///< positional argument SCENE, FILE or IN
+  /// -o or argument OUT; may contain a placeholder for the frame number (world/frames.h).
+  std::string output;
   /// Values of --set, followed by those of flags that set scene values, such as --frames and --memory.
   std::vector<Override> overrides;
   std::optional<std::string> stats;       ///< --stats
@@ -53,9 +54,9 @@ struct Options {
   int threads = 0;                        ///< --threads; 0: as many as are available to the process
   ProgressStyle progress = ProgressStyle::kAuto;
 
-  Experiment experiment = Experiment::kBounds;  ///< measure
+  Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant
-  double time_limit_s = 600;                    ///< measure: a run that takes longer is killed
+  double time_limit_s = 600;                    ///< measure: a run that takes longer is stopped
 
   /// Measure lod: numbers of characters with all their hair, one run each.
   std::vector<int> characters{10, 20, 40};
@@ -78,11 +79,11 @@ struct Options {
   bool lod = false;      ///< grow: write only the strands that remain at the picture's level of detail
 
   std::string frames;  ///< motionblur, stereo: frame numbers to insert in file names with a placeholder
-  BlurFileParams motion_blur;  ///< motionblur
-  StereoFileParams stereo;     ///< stereo
+  BlurFileParams motion_blur;  ///< motionblur: its parameters
+  StereoFileParams stereo;     ///< stereo: its parameters
 
-  std::string section;    ///< manual
-  bool markdown = false;  ///< manual
+  std::string section;    ///< manual: the section to print
+  bool markdown = false;  ///< manual: whether to print Markdown
 
   std::optional<CurveBasis> basis;     ///< convert, info: curve basis, for strand files that do not state it
   std::optional<float> default_width;  ///< convert, info: width of strands, for files without widths

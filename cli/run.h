@@ -34,7 +34,7 @@ class Run {
     return work();
   }
 
-  /// Completes the statistics and writes them to the file of `--stats`.
+  /// Completes the statistics and writes them to the file of `--stats`, if this flag is given.
   void finish(const Options& options);
 
  private:

@@ -6,7 +6,7 @@
 
 #include "geom/surface_topology_impl.h"
 
-// Unsubdivided polygons (scheme none), for the sources of geom.
+// Topology of polygons that are not subdivided (scheme none). For the sources of geom.
 
 namespace pelage {
 

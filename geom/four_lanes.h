@@ -10,7 +10,7 @@ namespace pelage {
 using Four = float __attribute__((vector_size(16)));
 
 inline Four four(float x) { return Four{x, x, x, x}; }
-/// Returns the smaller (or larger) value of each lane.
+/// smaller() and larger() return the smaller or larger value of each lane.
 inline Four smaller(Four a, Four b) { return a < b ? a : b; }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }
 

@@ -162,9 +162,9 @@ class LimitSurface {
   SurfacePoint evaluate_flat(uint32_t face, float u, float v) const;
 
   std::shared_ptr<const SurfaceTopology> topology_;
-  std::vector<float> points_;     // control, refined and local points of the patches, xyz from the origin
-  std::vector<float> normals_;    // of control points, on flat triangles
-  std::vector<uint32_t> blocks_;  // of PointBlocks::place; empty for a whole surface
+  std::vector<float> points_;     // control, refined and local points of the patches: xyz relative to origin_
+  std::vector<float> normals_;    // flat triangles: normals of control points
+  std::vector<uint32_t> blocks_;  // PointBlocks::place of the points kept; empty for a whole surface
   V3f origin_{0};                 // middle of the cage, to keep precision far from the origin
   Box3f bounds_;
 };

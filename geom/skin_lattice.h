@@ -26,10 +26,9 @@ struct LatticePoint {
 /// their edges. Neighbouring faces share these vertices, so no cracks can occur. The rate of an edge is the
 /// number of parts into which it is divided. If a face beside the edge consists of several ptex faces, the
 /// rate is even, because two of these ptex faces share the edge.
-/// edge.
+///
 /// Covers a whole skin or some of its faces. A face has the same triangles and vertex positions in both
 /// cases.
-/// both cases.
 class SkinLattice {
   using CheckStop = std::function<void()>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
@@ -130,7 +129,7 @@ class SkinLattice {
 
   const SurfaceTopology::Impl& topology_;
   std::vector<Line> lines_;              // ascending by id
-  std::vector<uint32_t> cage_vertices_;  // end points of lines_, ascending
+  std::vector<uint32_t> cage_vertices_;  // cage vertices at the ends of lines_, ascending
   std::vector<uint32_t> numbers_;        // vertex index of each of the cage_vertices_
   std::vector<Face> faces_;              // covered faces and those that touch them
   std::vector<uint32_t> inside_;         // indices into faces_ of the covered faces

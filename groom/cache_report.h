@@ -17,9 +17,9 @@ struct GroomCacheReport {
     bool fresh = false;
     std::string reason;  ///< reason why the stage is stale: "amount: 0.6 -> 0.5"
   };
-  bool fresh = false;         ///< everything was read from the cache, nothing had to be grown
-  bool stored = false;        ///< the groom is now stored in a file
-  std::vector<Stage> stages;  ///< skin, strands, points, frozen operators
+  bool fresh = false;         ///< whether everything was read from the cache and nothing had to be grown
+  bool stored = false;        ///< whether the groom is now stored in a file
+  std::vector<Stage> stages;  ///< the skin, the strands, the points and each frozen operator
   size_t resumed = 0;         ///< number of frozen operators whose result was still in the cache
   std::filesystem::path file;
   std::vector<std::filesystem::path> files;  ///< all files of the groom in the cache folder

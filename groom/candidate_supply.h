@@ -28,7 +28,8 @@ class CandidateSupply {
  private:
   const FollicleCandidates& source_;
   size_t parts_, part_ = 0, supplied_ = 0;
-  std::vector<FollicleCandidate> all_;  // all candidates if there is only one part, until next() is called
+  // if there is only one part: all candidates, until next() returns them
+  std::vector<FollicleCandidate> all_;
   CandidateSurvey survey_;
 };
 

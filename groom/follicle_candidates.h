@@ -109,12 +109,13 @@ class FollicleCandidates {
   const FollicleDensity& density_;
   const uint64_t seed_;
   const size_t wanted_;
-  const float room_;  // factor on the largest sampled density, for values between the samples
+  // margin: factor on the largest sampled density, because values between samples may be larger
+  const float room_;
   std::vector<FaceStatistics> faces_;
-  std::vector<uint64_t> first_;  // first attempt of each face, then the total number
+  std::vector<uint64_t> first_;  // first attempt of each face, then the total number of attempts
 };
 
-/// A unit vector in 3 x 10 bits, accurate to a thousandth.
+/// Packs a unit vector into 3 x 10 bits, with an error of a thousandth.
 uint32_t pack_normal(const V3f& normal);
 V3f unpack_normal(uint32_t packed);
 

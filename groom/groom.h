@@ -38,8 +38,8 @@ struct PosedSkin {
 struct KeptStrands {
   std::span<const uint32_t> strands;  ///< indices in the leaf, ascending
   std::span<const float> width;       ///< for each strand: factor on its width
-  std::span<const float>
-      contrast;  ///< one per strand: factor on the deviation of its colour from the mean; or empty
+  /// For each strand: factor on the deviation of its colour from the mean colour; or empty.
+  std::span<const float> contrast;
 };
 
 /// A coat on a skin: follicles and the operators that shape their strands.

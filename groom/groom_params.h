@@ -17,8 +17,8 @@ namespace pelage {
 /// `cache:` of a groom.
 struct GroomCacheParams {
   AssetPath directory{"cache", {}};
-  NameReference freeze;  ///< name of the last frozen operator; if several operators have this name, the last
-                         ///< of these
+  /// Name of the last frozen operator; if several operators have this name, the last of them counts.
+  NameReference freeze;
   static const Schema<GroomCacheParams>& schema();
 };
 
@@ -26,12 +26,13 @@ struct GroomCacheParams {
 struct GroomParams {
   NameReference skin;                     ///< name of a skin; empty for strands of a file without a skin
   AssetPath strands_file;                 ///< file with the strands; empty: strands grow from follicles
-  std::optional<CurveBasis> basis;        ///< of strands_file
-  std::optional<float> default_width;     ///< of strands_file
-  Attachment attach = Attachment::kAuto;  ///< of strands_file
+  std::optional<CurveBasis> basis;        ///< for strands_file: curve basis, if the file does not state it
+  std::optional<float> default_width;     ///< for strands_file: width, if the file has no widths
+  Attachment attach = Attachment::kAuto;  ///< for strands_file: whether its strands follow the skin
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
-  std::optional<Field> density;  ///< relative if `strands` is given; else strands per square scene unit
+  /// Relative if `strands` is given; otherwise, number of strands per square scene unit.
+  std::optional<Field> density;
   int points = 8;
   int64_t seed = 0;
   OperatorList operators;

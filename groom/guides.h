@@ -33,7 +33,6 @@ struct GuidesParams {
 /// lengths of these guides. The shape of a guide consists of its offsets from its root, after the smallest
 /// rotation from the guide's root normal to the strand's root normal. A guide at the distance d from the
 /// strand's root has the weight (1 - d / R)^2.
-/// normal to the strand's root normal. A guide at the distance d has the weight (1 - d / R)^2.
 ///
 /// R is the distance of the nearest guide that is not used, but at most the radius. The weight of a guide
 /// therefore becomes 0 before another guide takes its place, so the coat is continuous. A strand without a

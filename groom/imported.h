@@ -63,8 +63,8 @@ class ImportedStrands {
   FollicleTree follicles_;
   // empty if every strand of the file is usable: its id is then its number in reader_
   std::vector<uint32_t> place_;
-  std::vector<V3f> free_roots_;     // of strands without a skin
-  std::vector<StrandReach> reach_;  // per leaf
+  std::vector<V3f> free_roots_;     // first points of strands without a skin
+  std::vector<StrandReach> reach_;  // bounds of the strands of each leaf
 };
 
 }  // namespace pelage

@@ -58,7 +58,7 @@ class StrandCodes {
   void decode(size_t s, const CodeOptions& options);
 };
 
-/// Definition of the codes.
+/// Functions that decode the codes. They define the meaning of the codes.
 namespace codes {
 
 inline constexpr float kLargestStep =

@@ -29,7 +29,7 @@ class TransportedFrame {
  private:
   VectorRow along_;
   VectorRow first_;
-  VectorRow previous_;  // offsets of the previous point
+  VectorRow previous_;  // offset of the previous point of each strand
   int point_ = 0;
 };
 

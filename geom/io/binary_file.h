@@ -27,7 +27,7 @@ class BinaryFile {
   void read(uint64_t offset, std::span<uint16_t> values) const {
     read_bytes(offset, values.data(), values.size_bytes());
   }
-  /// Reads `count` bytes at `offset` to `to`, after the same check.
+  /// Reads `count` bytes at `offset` to `to`. require() must have checked this range.
   void read_bytes(uint64_t offset, void* to, size_t count) const;
 
   /// Throws Error (kInput) with the path of the file as position and `why` as message.

@@ -97,7 +97,7 @@ void write_per_point(AtomicFile& file, const Strands& strands, int components,
 /// components, repeats the last one.
 void attribute_at(const StrandAttribute& attribute, size_t strand, size_t point, int components, float* out);
 
-/// Appends the ids and first points of strands [begin, end) of a file.
+/// Appends the ids and first points of strands [begin, end) of a file to `arrays`.
 void append_places(const RawStrands& raw, size_t begin, size_t end, StrandArrays& arrays);
 
 /// Reads `count` values of an attribute at `offset`, each with all its components, and appends them.

@@ -65,11 +65,12 @@ class StrandReader {
   void note(const Strands& strands);
 
   std::unique_ptr<const RawStrands> raw_;
-  float width_ = 0;  // of strands without one; 0 until it has been read
+  float width_ = 0;  // width of strands that have none; 0 until find_width()
   size_t count_ = 0;
   uint32_t common_points_ = 0, max_points_ = 0;
-  std::vector<uint32_t> points_;  // empty when all strands have the same number
-  std::vector<uint32_t> places_;  // empty when every strand of the file is usable
+  std::vector<uint32_t> points_;  // number of points of each strand; empty when all have common_points_
+  // index in the file of each strand; empty when every strand of the file is usable
+  std::vector<uint32_t> places_;
   StrandRepairs repairs_;
 };
 

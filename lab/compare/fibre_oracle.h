@@ -18,7 +18,8 @@ class FibreHistogram {
  public:
   static constexpr int kSines = 40, kAzimuths = 72;
 
-  /// `wi` in the frame of FibreFrame: x along the fibre, wo in the half plane of x and y.
+  /// Adds the energy `weight` to the cell of the direction `wi`. `wi` is in the frame of FibreFrame: x along
+  /// the fibre, and the fixed direction wo in the half plane of x and positive y.
   void add(const V3f& wi, double weight);
   double cell(int sine, int azimuth) const { return cells_[index(sine, azimuth)]; }
   double total() const;

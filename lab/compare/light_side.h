@@ -11,7 +11,7 @@ namespace pelage {
 struct LightSide {
   const char* name;
   float turn;  ///< degrees about the camera's up axis: 0 at the camera, positive to the left of the camera
-  float rise;  ///< degrees above the line of sight
+  float rise;  ///< degrees of the lamp above the line of sight
 };
 inline constexpr std::array<LightSide, 3> kLightSides = {
     {{"front", 25, 30}, {"side", 80, 30}, {"back", 155, 40}}};

@@ -13,8 +13,8 @@ namespace pelage {
 /// One fibre of a model, and the same fibre traced by brute force. The light arrives at the inclination
 /// kInclination, spread uniformly over the width of the fibre. The fibre is seen from all directions.
 struct SingleFibre {
-  static constexpr float kInclination = 0.4f;  ///< radians
-  static constexpr float kAbsorption = 0.2f;   ///< per radius
+  static constexpr float kInclination = 0.4f;  ///< inclination of the light, radians
+  static constexpr float kAbsorption = 0.2f;   ///< absorption of the fibre, per radius
 
   std::string model;
   bool opaque = false;

@@ -12,7 +12,7 @@ namespace pelage {
 /// An approximation or optimisation that can be switched off. The variant `off` runs without it; the variant
 /// kExactId runs with it.
 struct Switch {
-  std::string title;  ///< "compact attributes"
+  std::string title;  ///< name for readers: "compact attributes"
   Variant off;
 };
 
@@ -25,7 +25,7 @@ constexpr const char* kExactShutterId = "exact-shutter";
 struct BoundsVariants {
   std::vector<Variant> run;
   std::vector<std::string> shown;  ///< ids of the strategies in the order of the report
-  std::vector<Switch> switches;    ///< measured with strategy exact and warm caches
+  std::vector<Switch> switches;    ///< each measured with strategy exact and warm caches
 };
 
 BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup& setup);

@@ -25,7 +25,7 @@ class CacheFolders {
 
  private:
   std::vector<std::string> grooms_;
-  std::filesystem::path folder_;  // absolute
+  std::filesystem::path folder_;  // absolute path
 };
 
 /// Returns `text` as a quoted YAML string.

@@ -47,7 +47,7 @@ struct ShadingPlan {
 };
 
 /// Compares variants of the integrators `path` and `gather`. Reports the error as a function of CPU time, the
-/// bias, and the numbers of rays and knots. Knots are the points at which `gather` stores light.
+/// bias, and the numbers of rays and knots (points on surfaces whose light `gather` shares among samples).
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 

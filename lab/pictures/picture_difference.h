@@ -15,7 +15,7 @@ struct PictureDifference {
   int64_t pixels = 0;     ///< number of pixels of each picture
   int64_t differing = 0;  ///< number of pixels where any bit of any channel differs
   double largest = 0;     ///< max absolute difference over all pixels, in R, G or B
-  Picture mask;           ///< white where the pictures differ
+  Picture mask;           ///< white where the pictures differ, else black
 };
 
 /// Compares two pictures. Empty unless they have the same size and the same channels.

@@ -17,7 +17,7 @@ enum class ErrorRegion {
 /// Error of a picture x relative to two reference pictures a and b. The three pictures have different seeds.
 /// The noise of the references does not count, because (x - a)(x - b) is zero on average where x is right.
 struct PictureError {
-  double coverage = 0;      ///< mean alpha
+  double coverage = 0;      ///< mean alpha of the first reference
   double region_share = 0;  ///< fraction of pixels in the region
   /// relMSE: the mean of (x - a)(x - b) / (t^2 + 0.01 m^2) over R, G and B of the pixels of the region. t is
   /// the mean of (a + b) / 2 over the 9 x 9 pixels around a pixel, and m the mean of t over the region. With

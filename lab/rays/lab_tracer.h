@@ -53,7 +53,7 @@ struct LabResult {
   double resident_bytes = 0;  ///< max of the ledger's tag `chunks` while rays were traced
   double limit_bytes = 0;     ///< memory limit of the variant; 0: none
   double build_cpu_s = 0;
-  std::map<std::string, LabCost> rays;  ///< by kind
+  std::map<std::string, LabCost> rays;  ///< by kind of rays
 };
 
 /// Builds a variant for the prepared fur in `store`, and traces the prepared rays. Throws Error: kMemory when

@@ -9,8 +9,8 @@ namespace pelage {
 /// The quantity that a number in a report measures. It determines the unit and the format of the number.
 enum class Quantity {
   kCount,    ///< an integer without unit
-  kSeconds,  ///< shown in s or ms
-  kBytes,    ///< shown in B, KiB, MiB or GiB
+  kSeconds,  ///< seconds, shown in s or ms
+  kBytes,    ///< bytes, shown in B, KiB, MiB or GiB
   kRate,     ///< number per second
   kRatio,    ///< a ratio without unit
   kPercent,  ///< a fraction, shown as a percentage with one decimal
@@ -21,7 +21,7 @@ enum class Quantity {
 struct DisplayUnit {
   double factor = 1;   ///< the shown number is the raw number times this
   std::string symbol;  ///< such as "MiB"; empty: no unit
-  int decimals = 0;    ///< so that the largest has three or four digits
+  int decimals = 0;    ///< number of decimals with which the largest number has three or four digits
 };
 
 /// Returns the unit in which numbers up to `largest` are easiest to read.

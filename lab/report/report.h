@@ -71,7 +71,7 @@ struct BarPlot {
   bool stacked = false;
   bool half = false;
   std::vector<std::pair<double, double>> spread = {};  ///< min and max per group, drawn as whiskers; or empty
-  std::vector<std::string> notes = {};                 ///< per group: shown where there is no number
+  std::vector<std::string> notes = {};  ///< per group: text shown where a value is not finite; or empty
 };
 
 /// Pixels for screens: 1 byte (grey) or 3 bytes (sRGB) each, in rows from the top.

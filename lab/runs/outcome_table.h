@@ -23,7 +23,7 @@ void add_column(Table& table, const Column& column, const std::vector<Outcome>& 
 /// numbers are zero or unknown.
 std::vector<std::string> keys_with(const Table& table, const std::string& prefix);
 
-/// The numbers of a column; NaN for texts.
+/// Returns the numbers of a column. NaN for texts and for a column that does not exist.
 std::vector<double> column_values(const Table& table, const std::string& key);
 
 /// Returns the columns of `table` about law 5: how much of the resident memory the ledger explains.

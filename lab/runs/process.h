@@ -19,7 +19,7 @@ struct ProcessEnd {
   bool interrupted = false;  ///< whether it was sent SIGTERM because `cancelled` returned true
   bool timed_out = false;    ///< whether it was sent SIGTERM because it exceeded the time limit
   double wall_s = 0;
-  double cpu_s = 0;  ///< user + system
+  double cpu_s = 0;  ///< user and system time
   int64_t peak_rss_bytes = 0;
 
   bool succeeded() const { return exit_code == 0 && signal == 0 && !interrupted && !timed_out; }

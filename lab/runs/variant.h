@@ -52,7 +52,7 @@ struct Outcome {
   bool refused() const;
   bool timed_out() const;    ///< whether a run exceeded the time limit
   bool interrupted() const;  ///< whether it was stopped by the user or never started
-  /// Returns "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted" or "not run".
+  /// "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted" or "not run".
   std::string status() const;
   std::string error() const;  ///< error message of the failed run; empty if there is none
 
