@@ -28,8 +28,8 @@ struct EnumNames<BoundaryRule> {
 };
 
 /// The part of a subdivision surface that does not depend on vertex positions: refinement, patches and
-/// texture coordinates. All poses and all characters with the same cage share one topology. Immutable. Thread
-/// safety: const members may be called from any thread.
+/// texture coordinates. All poses and all characters with the same cage share one topology. Immutable.
+/// Thread safety: const members may be called from any thread.
 class SurfaceTopology {
  public:
   /// Makes the topology of a cage. Throws Error (kInput) with `source` when the cage cannot be subdivided,

@@ -38,9 +38,10 @@ struct ClumpParams {
 /// of centre strands. The coarser levels have already pulled these centre strands as well.
 ///
 /// Points of a strand and of its centre strand are matched by arc length, so that strands of unequal length
-/// lie together. Pulling may lengthen a strand. The strand is then scaled about its root to its length
-/// before, if this length is at least 1.5 times the distance to its centre, otherwise partly. Where a strand
-/// and its centre strand diverge by 30 degrees, an amount of 0.5 shortens the strand by 3 %.
+/// lie together. A strand that pulling has made longer is scaled down about its root. It gets its previous
+/// length again if this length is at least 1.5 times the distance to its centre; otherwise, it stays somewhat
+/// longer. Where a strand and its centre strand diverge by 30 degrees, an amount of 0.5 shortens the strand
+/// by 3 %.
 class Clump final : public OperatorOf<ClumpParams> {
  public:
   static constexpr const char* kName = "clump";

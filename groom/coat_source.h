@@ -29,7 +29,7 @@ struct CoatSource {
   /// Sets the rest roots, ids and texture coordinates of the strands of a batch: batch.count follicles from
   /// `begin` on.
   void place(StrandBatch& batch, size_t begin) const;
-  /// Does the same, and also makes the points that the first operator receives.
+  /// Does the same as place(), and also makes the points that the first operator receives.
   void start(StrandBatch& batch, size_t begin) const;
   /// Returns bounds of the strands of a leaf before the first operator.
   StrandReach reach(size_t leaf) const;

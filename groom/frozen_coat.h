@@ -23,7 +23,8 @@ class FrozenCoat {
   /// Opens the coat in the store. Empty when the file is missing, or when its leaves do not match `source`.
   static std::optional<FrozenCoat> open(const ContentStore& store, const ContentHash& key,
                                         const CoatSource& source, const WarningSink& warn);
-  /// Keeps leaves that were just grown in memory, and charges them to `ledger`.
+  /// Makes a coat from leaves that were just grown. Keeps these leaves in memory, and charges them to
+  /// `ledger`.
   FrozenCoat(std::vector<std::vector<std::byte>> leaves, std::vector<StrandReach> reaches,
              MemoryLedger& ledger);
   /// Stores leaves. Returns whether the file was written.

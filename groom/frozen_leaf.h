@@ -59,7 +59,7 @@ class FrozenLeaf {
   /// batch must be set. Radii and colours that the leaf does not store stay unchanged. If the leaf does not
   /// store clump numbers, sets those of unclumped strands.
   void attributes(const Block& block, StrandBatch& batch) const;
-  /// Sets the offsets of the same strands: along the axes of `frames`, times `scale`.
+  /// Sets the offsets of the first batch.count strands of a block: along the axes of `frames`, times `scale`.
   void shape(const Block& block, const RootRows& frames, float scale, StrandBatch& batch) const;
 
  private:

@@ -11,8 +11,8 @@
 namespace pelage {
 
 /// A spatial hash grid of follicles, for progressive_order(). There is one grid per octave: follicles whose
-/// spacings differ by more than a factor of two are in different grids. A search therefore never visits many
-/// cells that are small relative to its radius.
+/// spacings differ by more than a factor of two are in different grids. The cells of each grid suit the
+/// spacings of its follicles, so a search never visits many small cells.
 class OctaveGrid {
  public:
   /// `max`: approximate max number of follicles.

@@ -91,7 +91,7 @@ class Operator {
   virtual Brightness brightness(uint64_t /*seed*/, uint64_t /*strand_id*/) const { return {}; }
   /// Whether apply() ignores the colours that strands had before.
   virtual bool replaces_colors() const { return false; }
-  /// Whether all strands get the same width profile from apply(), each times its own factor.
+  /// Whether apply() gives all strands the same width profile, times one factor per strand.
   virtual bool has_one_width_profile() const { return true; }
   /// Whether apply() reads and writes no other data of a batch than ids, texture coordinates, rest positions,
   /// clump numbers, radii and colours. If so, it can run on strands whose shape is not known yet.

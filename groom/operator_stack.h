@@ -76,10 +76,10 @@ class OperatorStack {
 
 /// Sets the rest roots, ids and texture coordinates of a batch: follicles [begin, begin + batch.count).
 void place_on_rest(StrandBatch& batch, const LimitSurface& rest, const FollicleTree& follicles, size_t begin);
-/// Sets only the ids and texture coordinates of the same follicles.
+/// Sets only the ids and texture coordinates of follicles [begin, begin + batch.count).
 void place_ids(StrandBatch& batch, const SurfaceTopology& topology, const FollicleTree& follicles,
                size_t begin);
-/// Sets batch.current to the roots of the same follicles in a pose.
+/// Sets batch.current to the roots of follicles [begin, begin + batch.count) in a pose.
 void place_in_pose(StrandBatch& batch, const LimitSurface& pose, const FollicleTree& follicles, size_t begin);
 
 }  // namespace pelage

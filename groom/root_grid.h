@@ -9,8 +9,8 @@
 namespace pelage {
 
 /// Finds the nearest of a fixed set of points on a skin. Ignores points whose normals differ by more than 60
-/// degrees from the normal of the query. This separates the two sides of a thin ear. Immutable. Thread
-/// safety: const members may be called from any thread.
+/// degrees from the normal of the query. This separates the two sides of a thin ear. Immutable.
+/// Thread safety: const members may be called from any thread.
 class RootGrid {
  public:
   struct Neighbour {

@@ -16,7 +16,7 @@ std::filesystem::path follicle_file(const ContentStore& store, const ContentHash
 bool store_follicles(const ContentStore& store, const ContentHash& key, const FollicleTree& follicles,
                      const WarningSink& warn);
 /// Reads follicles from the store. Empty when the entry is missing or its follicles do not belong to this
-/// skin. `topology`: of the skin; null for strands without a skin.
+/// skin. `topology` is the topology of the skin; null for strands without a skin.
 std::optional<FollicleTree> stored_follicles(const ContentStore& store, const ContentHash& key,
                                              const SurfaceTopology* topology, const WarningSink& warn);
 

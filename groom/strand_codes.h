@@ -50,7 +50,7 @@ class StrandCodes {
   float* radius_row(size_t p) { return shape_row(points * 3 + p); }
   float* color_row(size_t r) { return shape_row(points * 4 + r); }
   void take_floats(const StrandBatch& batch);
-  // Each codes strand `s` and returns whether the codes can represent it.
+  // The following functions code strand `s`. They return whether the codes can represent it.
   bool code_shape(size_t s);
   bool code_widths(size_t s, const CodeOptions& options);
   bool code_colors(size_t s);
@@ -61,8 +61,9 @@ class StrandCodes {
 /// Functions that decode the codes. They define the meaning of the codes.
 namespace codes {
 
+/// Max component of the offset between two successive points, in steps.
 inline constexpr float kLargestStep =
-    32766.0f;  // less than the max of 16 bits by one, because the previous point is rounded
+    32766.0f;  // one less than the max of int16_t, because the previous point is rounded
 
 /// Random number of the strand's clump.
 inline float clump(uint16_t code) { return (code + 0.5f) * 0x1p-16f; }

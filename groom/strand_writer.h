@@ -37,7 +37,8 @@ class StrandWriter {
   /// Writes motion key `key` of a batch whose first strand has the index `first`. Scales the offsets of
   /// points from their roots by `length`, but not the widths. Writes colours together with key 0.
   void write(const StrandBatch& batch, size_t first, size_t key, float length);
-  /// Writes the ids and roots of the same strands; the first of them is follicle `begin`.
+  /// Writes the ids and roots of the strands of a batch. The first strand has the index `first` and is
+  /// follicle `begin`.
   void write_roots(const StrandBatch& batch, size_t first, const FollicleTree& follicles, size_t begin);
   /// Returns the arrays, and leaves this object empty.
   StrandArrays take();

@@ -28,8 +28,8 @@ void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const
 
 /// Returns an upper bound of the distance by which any point of a strand moves when each segment is rotated
 /// by at most `angle` times the profile. A rotation by an angle a moves the end of a segment by 2 sin(a / 2)
-/// times the length of the segment. As a function of a, this is concave. By Jensen's inequality, the sum over
-/// the segments is therefore at most the value for the mean angle.
+/// times the length of the segment. This distance is a concave function of a. By Jensen's inequality, the sum
+/// over all segments is therefore at most the value for the mean angle.
 float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle);
 
 }  // namespace pelage

@@ -14,12 +14,12 @@ namespace pelage {
 struct ComparedFrame {
   std::string model, light;
   double wall_s = 0, cpu_s = 0;
-  /// Difference between the CPU times of the two halves of the samples, divided by the longer of them.
+  /// Difference between the CPU times of the two halves of the samples, divided by the longer of these times.
   double cpu_spread = 0;
   double rays = 0;       ///< number of rays, of all kinds together
   double fur_share = 0;  ///< fraction of the pixels that show fur
   double luminance = 0;  ///< mean luminance of the pixels whose front-most surface is a strand
-  /// RelMSE of these pixels, estimated from the difference between two halves of the samples.
+  /// The relMSE of these pixels, estimated from the difference between two halves of the samples.
   double noise = 0;
   Picture picture;
 };

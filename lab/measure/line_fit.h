@@ -22,8 +22,8 @@ struct LineFit {
   double error_at(double x) const;
 };
 
-/// Fits a line. All its members except `count` are NaN when the points have fewer than two different x. Its
-/// value is NaN when a y is NaN.
+/// Returns the line. All members except `count` are NaN if the points have fewer than two different x. at()
+/// is NaN if a y is NaN.
 LineFit fit_line(std::span<const std::pair<double, double>> points);
 
 }  // namespace pelage

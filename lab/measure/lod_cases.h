@@ -24,9 +24,9 @@ struct LodSetting {
   bool reduced = true;  ///< false: full detail
 };
 
-/// Returns the unchanged scene, then the scene from two distances farther away. If the shutter is open for
-/// some time, also without blur and with a shutter that is open twice as long. If the camera has a lens, also
-/// with a lens a quarter as wide and twice as wide.
+/// Returns views of the scene: the unchanged view, then views from twice and four times the distance. If the
+/// shutter is open for some time, adds a view without motion blur and one with twice the shutter time. If the
+/// camera has a lens, adds views with a lens a quarter as wide and twice as wide.
 std::vector<LodPlace> lod_places(const SceneDescription& scene);
 /// Returns a setting with all criteria and one with size alone. The following settings add one more criterion
 /// each. The last setting has all criteria, but does not widen the remaining strands.

@@ -14,9 +14,9 @@ namespace pelage {
 
 /// Estimates the cost of full detail for a whole crowd without rendering the crowd in full detail. In each
 /// run, some characters keep all their strands. The other characters have reduced detail; they surround and
-/// occlude the former. A line is fitted to the cost as a function of the number of characters in full detail,
-/// and extrapolated to all characters. A crowd of at most 128 characters is also rendered in full detail, to
-/// show the error of the extrapolation.
+/// occlude the characters in full detail. A line is fitted to the cost as a function of the number of
+/// characters in full detail, and extrapolated to all characters. A crowd of at most 128 characters is also
+/// rendered in full detail, to show the error of the extrapolation.
 class LodCrowd {
  public:
   /// `characters`: numbers of characters in full detail, one run for each number.

@@ -19,7 +19,7 @@ struct ShadingCurve {
   std::string id, title;
   std::vector<std::pair<std::string, std::string>> settings;  ///< keys and values of --set
   bool gather = false;  ///< whether the integrator is `gather`; otherwise, it is `path`
-  /// Whether sampling is adaptive, with the noise of `path` at the same sample count as its noise limit.
+  /// Whether sampling is adaptive. Its noise limit is the noise of `path` with the same sample count.
   bool adaptive = false;
 };
 

@@ -27,8 +27,8 @@ struct PictureError {
   /// Standard error of rel_mse, computed from sums over squares of 16 x 16 pixels. NaN for fewer than two
   /// squares.
   double rel_mse_deviation = 0;
-  /// relMSE of pictures that consist of means of 4 x 4 pixels. Counts the blocks that have more than half of
-  /// their pixels in the region. t is the mean over 3 x 3 blocks.
+  /// relMSE of pictures that consist of means of blocks of 4 x 4 pixels. Counts the blocks that have more
+  /// than half of their pixels in the region. Here, t is the mean of (a + b) / 2 over 3 x 3 blocks.
   double block_rel_mse = 0;
   double bias = 0;     ///< mean luminance of x over the region, divided by that of (a + b) / 2, minus 1
   double samples = 0;  ///< mean of the layer `samples` over all pixels; NaN without this layer

@@ -13,7 +13,7 @@ namespace pelage {
 /// Rays of one kind, in the order of tracing.
 struct LabRays {
   std::string name;     ///< kind: "camera", "gather", "sorted", "shadow" or "deep"
-  bool shadow = false;  ///< whether to ask only if there is any hit, instead of for the nearest hit
+  bool shadow = false;  ///< whether to find any hit instead of the nearest hit
   std::vector<Ray> rays;
   std::vector<FurStart> starts;  ///< for each ray: the point on a strand where it starts, or none
   /// For each ray: distance from the origin at which it starts for accelerators that cannot use `starts`. It
