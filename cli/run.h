@@ -24,7 +24,7 @@ class Run {
   Statistics& statistics() { return statistics_; }
   ProgressDisplay& display() { return display_; }
   Job job() { return {workers_, ledger_, display_}; }
-  /// Wall time since the start of the run.
+  /// Wall time in seconds since the start of the run.
   double seconds() const;
 
   /// Runs `work` as a stage without intermediate progress. Adds its wall time to the statistic stages_s.

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// While this object exists, std::cout writes to `descriptor` through it, and it records failed writes. Only
-/// one instance may exist at a time. On a terminal, it writes after every line; otherwise, whenever its
+/// While this object exists, std::cout writes through it to `descriptor`. It records failed writes. Only one
+/// instance may exist at a time. On a terminal, it writes after every line; otherwise, it writes whenever its
 /// buffer is full.
 class StandardOutput final : private std::streambuf {
  public:

@@ -114,10 +114,10 @@ struct SurfacePoint {
 /// error of up to 1e-4 of the size of the faces (1e-3 for a valence above five). The normal at the vertex
 /// itself has an error of up to 4e-3 rad.
 ///
-/// In a cage of more than 6,000 faces, the approximated region is the last quarter of a face, and exact
-/// points are multiples of 1/4. In a cage of more than kDenseFaces faces, both are half a face. In these
-/// cages, positions have an error of up to 1e-5 of the size of the cage, and normals of up to 1e-2 rad.
-/// Creases are resolved up to sharpness 6 for all cages.
+/// In a cage of more than 6,000 faces, the surface is approximated in the last quarter of such a face and
+/// exact at multiples of 1/4. In a cage of more than kDenseFaces faces, it is approximated in the last half
+/// and exact at multiples of 1/2. In these cages, positions have an error of up to 1e-5 of the size of the
+/// cage, and normals of up to 1e-2 rad. In all cages, creases are resolved up to sharpness 6.
 ///
 /// Scheme none evaluates flat triangles and ignores sharpness. Its frames are smooth, because they
 /// interpolate angle-weighted vertex normals.

@@ -23,7 +23,7 @@ struct PlotScale {
 
 /// Returns a scale up to the largest of `numbers`, or up to axis.end if that is larger. A linear scale starts
 /// at 0, or at the smallest number if this is negative. A logarithmic scale starts at the smallest positive
-/// number. Numbers do not touch the ends of the scale, except 0. `from` and `to` are the pixels at the ends.
+/// number. There is a small margin at both ends, but not at 0. `from` and `to` are the pixels at the ends.
 PlotScale make_scale(const Axis& axis, const std::vector<double>& numbers, double from, double to);
 
 /// draw_x_axis() and draw_y_axis() draw ticks, labels, grid lines and the title of the axis. Vertical grid

@@ -44,7 +44,7 @@ struct Axis {
 
 struct Series {
   std::string name;
-  /// X ascending; the line is interrupted where y is not finite.
+  /// Points (x, y) with ascending x. The line is interrupted where y is not finite.
   std::vector<std::pair<double, double>> points;
 };
 

@@ -42,8 +42,8 @@ class Svg {
 /// Returns the approximate width in pixels of a text in browsers, for layout. `size` is the size of the font.
 double text_width(std::string_view text, double size = 11.5);
 
-/// Return the style class and the dash pattern of a series. The colours are distinguishable for colour-blind
-/// readers. The dash patterns distinguish lines without colours.
+/// series_color() returns the style class of a series, series_dash() its dash pattern. The colours are
+/// distinguishable for colour-blind readers. The dash patterns distinguish lines without colours.
 std::string series_color(size_t index);
 std::string_view series_dash(size_t index);
 /// Style class of everything that has the colour of text.
