@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-// One function per command, each in its own file. Returns the exit code of the process, and throws Error for
-// mistakes of the user and failures of the system.
+// One function per command, each in its own source file. Each function returns the exit code of the process.
+// It throws Error for mistakes of the user and failures of the system.
 
 int run_render(const Options& options);
 int run_grow(const Options& options);

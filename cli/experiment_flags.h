@@ -11,10 +11,11 @@ class App;
 
 namespace pelage {
 
-/// Flags of `measure` that concern one experiment.
+/// Adds the flags of `measure` that concern a single experiment.
 void add_experiment_flags(CLI::App& measure, Options& options);
 
-/// Sets the experiment of this name, unless it is empty, and checks its flags. Throws Error (kArguments).
+/// Sets the experiment named `name`; an empty name keeps the default experiment. Checks the flags of the
+/// experiment, and sorts sample counts. Throws Error (kArguments).
 void interpret_experiment(const std::string& name, Options& options);
 
 }  // namespace pelage

@@ -11,7 +11,7 @@
 
 namespace pelage {
 
-// Output of `pelage info` for each kind of file: complete lines of text.
+// Texts that `pelage info` prints for each kind of file, as complete lines.
 
 std::string describe_scene(const SceneDescription& scene);
 std::string describe_strands(const StrandFile& file);

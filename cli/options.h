@@ -35,58 +35,63 @@ inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"}
 enum class ProgressStyle {
   kAuto,   ///< a bar on a terminal, lines elsewhere
   kBar,    ///< one line that is redrawn continuously, with the time left
-  kPlain,  ///< an occasional line, for logs
-  kJson,   ///< a JSON object per percent
+  kPlain,  ///< a line from time to time, for logs
+  kJson,   ///< a JSON object for each percent of progress
   kQuiet,  ///< nothing
 };
 
-/// The whole command line as one value. Commands read the members that concern them; the others keep their
+/// The whole command line. Each command reads only the members that concern it; the other members keep their
 /// defaults.
 struct Options {
   Command command = Command::kManual;
-  std::string input;   ///< SCENE, FILE or IN
-  std::string output;  ///< -o or OUT; may contain a placeholder for the frame number (world/frames.h)
-  std::vector<Override> overrides;   ///< --set, then the flags that set scene values (--frames, --memory)
-  std::optional<std::string> stats;  ///< --stats
+  std::string input;  ///< positional argument SCENE, FILE or IN
+  /// -o or argument OUT; may contain a placeholder for the frame number (world/frames.h).
+  std::string output;
+  /// Values of --set, followed by those of flags that set scene values, such as --frames and --memory.
+  std::vector<Override> overrides;
+  std::optional<std::string> stats;       ///< --stats
   std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between samples
-  int threads = 0;                        ///< --threads; 0: as many as the process may use
+  int threads = 0;                        ///< --threads; 0: as many as are available to the process
   ProgressStyle progress = ProgressStyle::kAuto;
 
-  Experiment experiment = Experiment::kBounds;  ///< measure
+  Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant
-  double time_limit_s = 600;                    ///< measure: a run that takes longer is killed
+  double time_limit_s = 600;                    ///< measure: a run that takes longer is stopped
 
-  std::vector<int> characters{10, 20, 40};  ///< measure lod: numbers of characters with all their hair
-  std::vector<std::string> parts;           ///< measure lod, shading: parts of the report; empty: all
+  /// For `measure lod`: numbers of characters with all their hair, one run each.
+  std::vector<int> characters{10, 20, 40};
+  std::vector<std::string> parts;  ///< measure lod, shading: parts of the report; empty: all parts
 
-  std::vector<int> samples{4, 16, 64};  ///< measure shading: sample counts of each variant
-  int reference_samples = 256;          ///< measure shading
+  /// For `measure shading`: samples per pixel, one run of each variant per count.
+  std::vector<int> samples{4, 16, 64};
+  int reference_samples = 256;  ///< measure shading: samples per pixel of the two reference pictures
 
-  int rays = 1 << 17;                    ///< measure accel, trace: max number of each kind
-  std::string trace_variant = "fur-64";  ///< trace: LabVariant::names()
-  double trace_share = 1;                ///< trace: memory of `paged` relative to the size of its tree
-  std::vector<std::string> trace_kinds;  ///< trace: kinds of rays; empty: all
+  int rays = 1 << 17;                    ///< measure accel, trace: max number of rays of each kind
+  std::string trace_variant = "fur-64";  ///< trace: accelerator, one of LabVariant::names()
+  double trace_share = 1;  ///< trace: memory of the variant `paged`, as a fraction of the size of its tree
+  std::vector<std::string> trace_kinds;  ///< trace: kinds of rays; empty: all kinds
 
-  std::vector<std::string> models;  ///< compare: --models; empty: all
+  std::vector<std::string> models;  ///< compare: --models; empty: all models
 
-  std::string groom;     ///< grow: only this groom; empty: all
-  bool prune = false;    ///< grow: remove files that the scene does not need from its cache folders
-  bool explain = false;  ///< grow: report for each operator whether its cache was fresh
-  bool lod = false;      ///< grow: write only the strands that the picture needs at its level of detail
+  std::string groom;     ///< grow: the only groom to grow; empty: all grooms
+  bool prune = false;    ///< grow: delete the files in its cache folders that the scene does not need
+  bool explain = false;  ///< grow: report for each operator in a cache whether it was stale, and why
+  bool lod = false;      ///< grow: write only the strands that remain at the picture's level of detail
 
-  std::string frames;          ///< motionblur, stereo: --frames, for names with a placeholder for the number
-  BlurFileParams motion_blur;  ///< motionblur
-  StereoFileParams stereo;     ///< stereo
+  std::string frames;  ///< motionblur, stereo: frame numbers to insert in file names with a placeholder
+  BlurFileParams motion_blur;  ///< motionblur: its parameters
+  StereoFileParams stereo;     ///< stereo: its parameters
 
-  std::string section;    ///< manual
-  bool markdown = false;  ///< manual
+  std::string section;    ///< manual: the section to print
+  bool markdown = false;  ///< manual: whether to print Markdown
 
-  std::optional<CurveBasis> basis;     ///< convert, info: for strand files that do not state it
-  std::optional<float> default_width;  ///< convert, info: for strand files without widths
+  std::optional<CurveBasis> basis;     ///< convert, info: curve basis, for strand files that do not state it
+  std::optional<float> default_width;  ///< convert, info: width of strands, for files without widths
 };
 
-/// Parses a command line. Empty when help or the version was requested, which is then written to `out`.
-/// Throws Error (kArguments) with the nearest known name for unknown commands and flags.
+/// Parses a command line. Returns nothing when help or the version was requested, after writing that text to
+/// `out`. Throws Error (kArguments) for mistakes. For an unknown command or flag, the message suggests the
+/// nearest known name.
 std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out);
 
 }  // namespace pelage

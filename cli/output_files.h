@@ -9,16 +9,16 @@
 
 namespace pelage {
 
-/// Throws Error (kArguments) when writing `output` would replace one of the files in `kept`, even if the
-/// paths differ. `flag`: the flag that names `output`.
+/// Throws Error (kArguments) when writing to `output` would replace one of the files in `kept`. Also detects
+/// files that are reached by different paths. `flag` is the flag that gave `output`, for the message.
 void check_replaces_none(const std::string& flag, const std::filesystem::path& output,
                          const std::vector<std::filesystem::path>& kept);
 
-/// The same for `--stats`, if given.
+/// Makes the same check for the file of `--stats`, if this flag is given.
 void check_stats(const Options& options, const std::vector<std::filesystem::path>& kept);
 
-/// Call before long work: throws Error (kFailed) when `path` cannot be written, and removes incomplete files
-/// of killed runs beside it.
+/// Checks that `path` can be written; call it before long work. Throws Error (kFailed) when it cannot. Also
+/// removes temporary files that killed runs left in the same folder.
 void prepare_output(const std::filesystem::path& path);
 
 }  // namespace pelage

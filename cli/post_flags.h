@@ -12,20 +12,20 @@ class App;
 
 namespace pelage {
 
-/// Flags of motionblur and stereo that stay text until they are validated, so that all error messages come
-/// from Pelage.
+/// Values of flags of motionblur and stereo, as text. interpret_post() validates them instead of the
+/// command-line library, so that all error messages have the style of Pelage.
 struct PostTexts {
   std::string units, up, filter, eye, convergence;
   std::string motion_layer, depth_layer;
   std::vector<std::string> data, colors;
   float vector_scale = 1;
-  int scale = 0;  // 0: the tool's default
+  int scale = 0;  // 0: the default of the tool
 };
 
 void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts);
 void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts);
 
-/// Throws Error (kArguments).
+/// Validates the texts and sets the members of `options`. Throws Error (kArguments).
 void interpret_post(const PostTexts& texts, Options& options);
 
 }  // namespace pelage

@@ -14,30 +14,32 @@
 
 namespace pelage {
 
-/// Destination and appearance of progress.
+/// Where and how progress is shown.
 struct ProgressTarget {
-  std::function<void(std::string_view)> write;  ///< called under a lock, with complete lines or redraws
-  std::function<double()> seconds;              ///< a monotonic clock
-  int columns = 80;                             ///< of the terminal, for the bar
+  std::function<void(std::string_view)> write;  ///< writes complete lines or redraws; called under a lock
+  std::function<double()> seconds;              ///< reads a monotonic clock
+  int columns = 80;                             ///< width of the terminal, for the bar
   bool color = false;
 };
 
-/// Shows progress as a bar, as lines or as JSON lines. The first thread that passes the next step draws the
-/// progress; other threads never wait for this thread. A nested stage is shown instead of the outer one until
-/// it ends.
+/// Shows progress as a bar, as lines or as JSON lines. The display is due for an update at every thousandth
+/// of a stage. The thread that first reaches this progress draws; other threads do not wait for it. While a
+/// nested stage runs, it is shown instead of the outer stage.
 ///
-/// Lines are for logs. A stage gets a line after ten seconds, one every half minute afterwards, and one at
-/// its end if it took a second or more.
+/// Lines are meant for logs. A stage gets its first line after ten seconds, and another one every half
+/// minute. It also gets a line at its end if it took a second or more.
 class ProgressDisplay final : public Progress {
  public:
-  /// Writes to standard error. kAuto becomes a bar on a terminal and lines elsewhere; colour follows NO_COLOR
-  /// and TERM. cancelled() calls `cancelled`, which must be cheap and thread safe.
+  /// Writes to standard error. kAuto becomes a bar on a terminal, and lines elsewhere. Colours follow the
+  /// environment variables NO_COLOR and TERM. `cancelled` implements cancelled(); it must be cheap and
+  /// thread-safe.
   ProgressDisplay(ProgressStyle style, std::function<bool()> cancelled);
-  /// For tests and other targets; `style` is not kAuto.
+  /// Writes to another target, for example in tests. `style` must not be kAuto.
   ProgressDisplay(ProgressStyle style, ProgressTarget target, std::function<bool()> cancelled);
   ~ProgressDisplay() override;
 
-  /// Announces the current frame, number `place` of `count`, counted from 1. Not shown for a single frame.
+  /// Announces the current frame: the frame number is `number`, and it is frame `place` of `count`, counted
+  /// from 1. Shows nothing if `count` is 1.
   void frame(int number, size_t place, size_t count);
 
   void begin(std::string_view stage, double total) override;
@@ -46,16 +48,16 @@ class ProgressDisplay final : public Progress {
   void end() override;
   bool cancelled() const override { return cancelled_(); }
 
-  /// Does not interrupt the bar. Not shown when quiet.
+  /// Shows a line of text without damaging the bar. Shows nothing with kQuiet.
   void note(std::string_view line) override;
-  /// The same for problems that do not stop the run; also shown when quiet.
+  /// Shows a line about a problem that does not stop the run, in the same way. Shows it even with kQuiet.
   void warn(std::string_view line) override;
 
  private:
   struct Stage {
     std::string name;
     double began_s = 0, done = 0, total = 1;
-    double due_s = 0;  ///< when the next line is due
+    double due_s = 0;  ///< time of the next line
     int shown_percent = -1;
     TimeLeft left;
   };
@@ -71,10 +73,10 @@ class ProgressDisplay final : public Progress {
   ProgressTarget target_;
   std::function<bool()> cancelled_;
 
-  std::atomic<double> done_{0};  // of the innermost stage
+  std::atomic<double> done_{0};  // progress of the innermost stage
   std::atomic<double> next_step_{0};
 
-  std::mutex mutex_;  // guards the following
+  std::mutex mutex_;  // guards the members below
   std::vector<Stage> stages_;
   struct Frame {
     int number = 0;
@@ -82,10 +84,10 @@ class ProgressDisplay final : public Progress {
   };
   std::optional<Frame> frame_;
   double drawn_s_ = 0;
-  bool line_open_ = false;  // the cursor is at the end of a bar
+  bool line_open_ = false;  // the cursor is at the end of a bar, not at the start of a line
 };
 
-/// "0:07", "12:40", "1:02:03".
+/// Returns a duration as text: "0:07", "12:40", "1:02:03".
 std::string duration_text(double seconds);
 
 }  // namespace pelage

@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// Reads the scene of a command and shows its warnings. Throws like load_scene().
+/// Reads the scene that a command names, and shows the warnings. Throws the errors of load_scene().
 SceneDescription read_scene(const Options& options, Progress& progress);
 
 }  // namespace pelage

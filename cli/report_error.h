@@ -7,11 +7,12 @@
 
 namespace pelage {
 
-/// Exit code of the process for a kind of error; docs/RUNNING.md lists the codes.
+/// Returns the exit code of the process for a kind of error. docs/RUNNING.md lists these codes.
 int exit_code(ErrorKind kind);
 
-/// The text shown to the user: a line "file:line:column: message" per problem, "pelage: error: message"
-/// without a position, and a last line with the number of problems omitted when there are very many.
+/// Returns the text that the user sees. It has one line per problem: "file:line:column: message", or "pelage:
+/// error: message" for a problem without a position. It shows at most 50 problems; a last line then states
+/// how many more there are.
 std::string error_text(const Error& error);
 
 }  // namespace pelage

@@ -14,7 +14,7 @@
 
 namespace pelage {
 
-/// Context of a long-running command: threads, ledger, progress, and a clock.
+/// Context of a long-running command: threads, memory ledger, statistics, progress display and clock.
 class Run {
  public:
   explicit Run(const Options& options);
@@ -24,16 +24,17 @@ class Run {
   Statistics& statistics() { return statistics_; }
   ProgressDisplay& display() { return display_; }
   Job job() { return {workers_, ledger_, display_}; }
+  /// Wall time in seconds since the start of the run.
   double seconds() const;
 
-  /// Runs `work` as a stage of unknown length and adds its wall time to stages_s.
+  /// Runs `work` as a stage without intermediate progress. Adds its wall time to the statistic stages_s.
   template <class Work>
   auto stage(std::string_view name, Work&& work) {
     const StageTimer timer(*this, name);
     return work();
   }
 
-  /// Completes the statistics and writes them to the file of `--stats`.
+  /// Completes the statistics and writes them to the file of `--stats`, if this flag is given.
   void finish(const Options& options);
 
  private:

@@ -8,9 +8,10 @@
 
 namespace pelage {
 
-/// During its lifetime, the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that a render can write a
-/// partial result. The second signal ends the process at once. Signals that were ignored when the process was
-/// started (nohup) stay ignored. Only one at a time.
+/// While this object exists, the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that a render can write
+/// a partial result. A second signal ends the process at once, unless it repeats a SIGTERM or SIGHUP within a
+/// second. A signal that was already ignored when the process started (nohup) stays ignored. Only one guard
+/// may exist at a time.
 class SignalGuard {
  public:
   SignalGuard();
@@ -18,10 +19,10 @@ class SignalGuard {
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
 
-  /// Thread safety: may be called from any thread, and is cheap.
+  /// Whether a signal was received. Cheap. Thread safety: may be called from any thread.
   static bool interrupted();
-  /// Exit code of an interrupted run: 128 plus the number of the first signal that the last guard received
-  /// (130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP); 130 if it received none.
+  /// Exit code of an interrupted run: 128 + the number of the signal that the last guard received first. This
+  /// is 130 for SIGINT, 143 for SIGTERM and 129 for SIGHUP. 130 if the guard received no signal.
   static int exit_code();
 
   static constexpr std::array kHandled{SIGINT, SIGTERM, SIGHUP};
@@ -30,9 +31,10 @@ class SignalGuard {
   std::array<struct sigaction, kHandled.size()> old_;
 };
 
-/// Call once per process, before starting threads. Makes writing beyond a file size limit (SIGXFSZ) and to a
-/// closed pipe (SIGPIPE) an error of that write. Opens closed standard streams on /dev/null, so that no other
-/// file gets their descriptors. Writing to a closed output then fails.
+/// Prepares the process for safe output. Call it once per process, before starting threads. A write beyond a
+/// file size limit (SIGXFSZ) or to a closed pipe (SIGPIPE) then fails instead of ending the process. Standard
+/// streams that are closed are opened on /dev/null, so that no other file gets their descriptors. Writing to
+/// a standard output that was closed fails; messages to a standard error that was closed are discarded.
 void prepare_process();
 
 }  // namespace pelage

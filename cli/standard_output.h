@@ -7,8 +7,9 @@
 
 namespace pelage {
 
-/// During its lifetime, std::cout writes to a descriptor through this object, which records failures. Only
-/// one instance may exist at a time. Line-buffered on a terminal, otherwise in blocks.
+/// While this object exists, std::cout writes through it to `descriptor`. It records failed writes. Only one
+/// instance may exist at a time. On a terminal, it writes after every line; otherwise, it writes whenever its
+/// buffer is full.
 class StandardOutput final : private std::streambuf {
  public:
   explicit StandardOutput(int descriptor);
@@ -16,7 +17,7 @@ class StandardOutput final : private std::streambuf {
   StandardOutput(const StandardOutput&) = delete;
   StandardOutput& operator=(const StandardOutput&) = delete;
 
-  /// Flushes; returns errno of the first failed write, or 0.
+  /// Writes the rest of the buffer. Returns errno of the first failed write, or 0 if no write failed.
   int finish();
 
  private:

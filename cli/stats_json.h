@@ -8,13 +8,14 @@
 
 namespace pelage {
 
-/// Version of the object that --stats writes: incremented when a name changes its meaning or is removed.
+/// Version of the JSON object that --stats writes. It is incremented when a name in this object is removed or
+/// changes its meaning.
 constexpr int kStatisticsSchema = 1;
 
-/// The numbers of a run as one JSON object, with units in the names.
+/// Returns the statistics of a run as one JSON object. The names in it contain the units.
 std::string statistics_json(const Statistics& statistics);
 
-/// Writes that object, completely or not at all. Throws Error (kFailed).
+/// Writes this object to a file, completely or not at all. Throws Error (kFailed).
 void write_statistics(const std::filesystem::path& path, const Statistics& statistics);
 
 }  // namespace pelage

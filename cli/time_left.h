@@ -6,26 +6,33 @@
 
 namespace pelage {
 
-/// Estimates the remaining time of a job from its progress. The first seconds of a render grow fur and read
-/// files, so their rate is not representative: the estimate uses the rate of the last quarter of the time, if
-/// it does not differ much from the rate of the last half.
+/// Estimates the remaining time of a job from its progress.
+///
+/// The first seconds of a render grow fur and read files, so the progress in this time is not representative.
+/// The estimate therefore uses only the rate of progress in the last quarter of the elapsed time. It compares
+/// this rate with the rate in the last half of the elapsed time. There is no estimate if one of these rates
+/// is more than 1.5 times the other, or if the first rate is not positive. There is also no estimate in the
+/// first 3 seconds and before 1 % of the job is done.
 class TimeLeft {
  public:
-  /// `fraction` of the job was done after `elapsed_s`, which must not decrease. The fraction decreases when
-  /// the job turns out to be longer.
+  /// Records that `fraction` of the job (0 to 1) was done `elapsed_s` seconds after its start. `elapsed_s`
+  /// must not decrease from call to call. `fraction` may decrease, when the job turns out to be longer than
+  /// expected.
   void add(double elapsed_s, double fraction);
 
-  /// Seconds from the last add(), or empty while there is no reliable estimate.
+  /// Estimated seconds that remain, counted from the time of the last add(). Empty while there is no reliable
+  /// estimate.
   std::optional<double> estimate() const;
 
  private:
   struct Sample {
     double elapsed_s = 0, fraction = 0;
   };
-  /// Progress per second since this fraction of the time; 0 when unknown.
+  /// Returns the mean progress per second from the time `share` * elapsed time until the last add(): with a
+  /// `share` of 0.75, over the last quarter of the elapsed time. Returns 0 when no sample is that old.
   double rate_since(double share) const;
 
-  std::vector<Sample> samples_;  // at increasing intervals: a few dozen in a week
+  std::vector<Sample> samples_;  // at increasing intervals: at most about 260 samples in a week
   Sample last_;
 };
 

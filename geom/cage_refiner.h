@@ -8,16 +8,17 @@
 
 #include "geom/limit_surface.h"
 
-// Only for sources of geom and its tests: exposes OpenSubdiv's types.
+// For the sources of geom and their tests only, because it exposes types of OpenSubdiv.
 
 namespace pelage {
 
-/// Throws Error (kInput) with `source` and every reason why a cage has no limit surface
-/// (SurfaceTopology::create).
+/// Checks that a cage has a limit surface (SurfaceTopology::create). If it has none, throws Error (kInput)
+/// with every reason. `source` names the cage in messages.
 void check_cage(const ControlMesh& mesh, SubdivisionScheme scheme, const std::string& source);
 
-/// The unrefined topology of a validated cage. Throws Error (kInput) with `source` when OpenSubdiv rejects
-/// it. Holes are not passed on, because they do not interrupt the surface around them.
+/// Returns the unrefined topology of a cage that check_cage() has accepted. Throws Error (kInput) when
+/// OpenSubdiv rejects the cage. Does not pass holes to OpenSubdiv, because holes do not interrupt the surface
+/// around them.
 std::unique_ptr<OpenSubdiv::Far::TopologyRefiner> make_refiner(const ControlMesh& mesh,
                                                                SubdivisionScheme scheme,
                                                                BoundaryRule boundary,

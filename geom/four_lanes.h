@@ -5,15 +5,16 @@
 
 namespace pelage {
 
-/// Four floats side by side, in the compilers' own vector type: + - * / and comparisons work per lane, and
-/// lanes never depend on each other (law 1).
+/// Four floats in one vector register (vector type of GCC and Clang). The operators + - * / and comparisons
+/// work on each lane separately: no lane depends on another lane (law 1).
 using Four = float __attribute__((vector_size(16)));
 
 inline Four four(float x) { return Four{x, x, x, x}; }
+/// smaller() and larger() return the smaller or larger value of each lane.
 inline Four smaller(Four a, Four b) { return a < b ? a : b; }
 inline Four larger(Four a, Four b) { return a > b ? a : b; }
 
-/// Vectors, one per lane.
+/// Four 3D vectors, one per lane.
 struct FourVectors {
   Four x, y, z;
 

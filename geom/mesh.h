@@ -10,10 +10,10 @@
 
 namespace pelage {
 
-/// A control cage as read from an OBJ file. Faces may have any number of corners from 3.
+/// A control cage as read from an OBJ file. A face has three or more corners.
 struct ControlMesh {
   struct Crease {
-    uint32_t a = 0, b = 0;  ///< vertices of an edge
+    uint32_t a = 0, b = 0;  ///< vertices at the ends of the edge
     float sharpness = 0;
   };
   struct Corner {
@@ -22,26 +22,28 @@ struct ControlMesh {
   };
 
   std::vector<V3f> positions;
-  std::vector<uint32_t> face_sizes;
-  std::vector<uint32_t> face_vertices;  ///< all corners, face by face
+  std::vector<uint32_t> face_sizes;     ///< number of corners of each face
+  std::vector<uint32_t> face_vertices;  ///< vertex of each corner, face by face
   std::vector<V2f> uv;
-  std::vector<uint32_t> face_uv;  ///< as face_vertices, into uv; empty when the file has none
+  /// Index into `uv` of each corner, face by face; empty when the file has no texture coordinates.
+  std::vector<uint32_t> face_uv;
   std::vector<Crease> creases;
   std::vector<Corner> corners;
   std::vector<uint32_t> holes;        ///< faces without a surface
-  std::vector<uint16_t> face_groups;  ///< index into groups, one per face
-  std::vector<std::string> groups;
-  bool chaikin_creases = false;   ///< crease sharpness decays by Chaikin's rule ("t creasemethod chaikin")
-  bool smooth_triangles = false;  ///< smoother Catmull-Clark rule for triangles ("t smoothtriangles smooth")
-  /// "t interpolateboundary": 0 none, 1 edge and corner, 2 edge only; -1 when the file does not state it. The
-  /// skin's parameters take precedence; this is for tools that follow the file.
+  std::vector<uint16_t> face_groups;  ///< index into `groups` of each face
+  std::vector<std::string> groups;    ///< names
+  bool chaikin_creases = false;  ///< crease sharpness decays by Chaikin's rule ("t creasemethod chaikin")
+  /// Smoother weights for triangles in Catmull-Clark subdivision ("t smoothtriangles smooth").
+  bool smooth_triangles = false;
+  /// Value of "t interpolateboundary": 0 none, 1 edge and corner, 2 edge only; -1 when the file does not
+  /// state it. The parameters of a skin override this value; only tools that follow the file use it.
   int boundary_tag = -1;
 
   size_t face_count() const { return face_sizes.size(); }
   size_t bytes() const;
 };
 
-/// The number of distinct vertices of a face, counted up to 3; fewer than 3 make no area.
+/// Returns the number of distinct vertices of a face, but at most 3. A face with fewer than 3 has no area.
 int distinct_corners(std::span<const uint32_t> face);
 
 }  // namespace pelage

@@ -7,9 +7,9 @@
 
 namespace pelage {
 
-/// A line through the origin as two multiples of 1/255 in [0, 1], with an error of up to a degree. The
-/// direction is flipped so that z >= 0, projected to the octahedron |x| + |y| + |z| = 1, and then projected
-/// along z. Opposite directions give equal values.
+/// Packs a line through the origin into two multiples of 1/255 in [0, 1], with an error of at most about a
+/// degree. Flips the direction so that z >= 0, projects it to the octahedron |x| + |y| + |z| = 1, and then
+/// projects the result along z to a square. Opposite directions give equal values.
 inline V2f packed_line(const V3f& direction) {
   const float sum = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
   if (!(sum > 0)) return V2f(1);
@@ -18,6 +18,7 @@ inline V2f packed_line(const V3f& direction) {
   return {rounded(p.x + p.y), rounded(p.x - p.y)};  // the diamond fills the square
 }
 
+/// Returns the unit direction with z >= 0 of a packed line.
 inline V3f unpacked_line(const V2f& packed) {
   const float a = 2 * packed.x - 1, b = 2 * packed.y - 1;
   const float x = 0.5f * (a + b), y = 0.5f * (a - b);

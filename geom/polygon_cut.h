@@ -10,12 +10,15 @@
 
 namespace pelage {
 
-/// Triangulates a polygon, which need not be convex or exactly planar: appends corner indices starting at 0,
-/// three per triangle, in the polygon's orientation. Repeatedly clips the ear with the shortest cut. An ear
-/// is a convex corner whose triangle contains no other corner [Meisters75]. A remainder without ears becomes
-/// a fan. Triangles with a repeated vertex are omitted.
+/// Cuts a polygon into triangles. The polygon need be neither convex nor exactly planar. Appends three corner
+/// indices per triangle to `triangles`, in the polygon's orientation; the first corner of the polygon has
+/// index 0.
 ///
-/// `vertices`: vertex numbers, `corners`: positions of the polygon's corners.
+/// Clips ears until none is left, each time the ear with the shortest cut. An ear is a convex corner whose
+/// triangle contains no other corner [Meisters75]. If corners remain but none of them is an ear, cuts the
+/// remainder into a fan of triangles. Omits triangles with a repeated vertex.
+///
+/// `vertices` holds the vertex number of each corner, `corners` its position.
 void cut_polygon(std::span<const uint32_t> vertices, std::span<const V3f> corners,
                  std::vector<uint32_t>& triangles);
 

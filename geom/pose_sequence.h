@@ -10,26 +10,29 @@
 
 namespace pelage {
 
-/// Poses of a cage, one OBJ file each, numbered from `first`. Frame `first` shows pose `first`. Positions are
-/// interpolated linearly between poses. A cycle repeats in both directions. Without a cycle, the first pose
-/// also holds before the sequence, and the last pose after it.
+/// Poses of a cage, one OBJ file per pose. The first file is shown at frame `first`, and each following file
+/// `frames_per_pose` frames after the one before it. Positions between two poses are interpolated linearly.
+/// With `cycle`, the sequence repeats endlessly, before its first frame as well as after its last. Without
+/// `cycle`, the first pose is shown before the sequence and the last pose after it.
 ///
-/// A file is read when first needed. Up to `kMaxBytes` of positions are kept, so that a crowd reads each pose
-/// once. Thread safety: const members may be called from any thread.
+/// A file is read when a frame first needs it. The last poses read are kept in memory, up to `kMaxBytes`, so
+/// that a crowd in nearby frames reads each file once. Thread safety: const members may be called from any
+/// thread.
 class PoseSequence {
  public:
-  /// Positions kept in memory per sequence, charged to the skins.
+  /// Max memory for the positions that a sequence keeps; two poses are kept even if they are larger. Charged
+  /// to the ledger as memory of skins.
   static constexpr size_t kMaxBytes = size_t(64) << 20;
 
-  /// `cage_points`: number of points that every file must have. `frames_per_pose`: frames from one pose to
-  /// the next.
+  /// `cage_points`: number of points that every file must have. `frames_per_pose`: number of frames from one
+  /// pose to the next.
   PoseSequence(std::vector<std::filesystem::path> files, int first, bool cycle, size_t cage_points,
                MemoryLedger& ledger, double frames_per_pose = 1);
   PoseSequence(PoseSequence&&) noexcept;
   ~PoseSequence();
 
-  /// Positions of all control points at a frame, object space. Throws Error (kInput) naming a file that
-  /// is missing, damaged or has another number of points.
+  /// Returns the positions of all control points at a frame, in object space. Throws Error (kInput) with the
+  /// name of a file that is missing, damaged, or has another number of points than `cage_points`.
   std::vector<V3f> positions(double frame) const;
 
  private:

@@ -11,8 +11,9 @@ namespace pelage {
 
 class Workers;
 
-/// Sets the rate of every line of a lattice according to the max length of this line on screen over the rated
-/// keys. `check_stop` is called every few hundred lines, by any thread.
+/// Sets the rate of every line of a lattice from the max length of the line on screen over the rated keys
+/// (TessellationOptions). Flat triangles are not divided. `check_stop` is called every few hundred lines, by
+/// any thread.
 void set_rates(
     SkinLattice& lattice, std::span<const LimitSurface> keys, const View& view,
     const TessellationOptions& options, const Workers& workers,

@@ -6,14 +6,14 @@
 
 namespace pelage {
 
-/// Size of a batch of strands, known before it is grown.
+/// Number of elements of a batch of strands, known before the batch is grown.
 struct StrandCounts {
   size_t strands = 0;
-  size_t points = 0;    ///< of one motion key
-  size_t longest = 0;   ///< points of the longest strand
-  size_t segments = 0;  ///< of all strands
+  size_t points = 0;    ///< number of points of all strands, for one motion key
+  size_t longest = 0;   ///< number of points of the longest strand
+  size_t segments = 0;  ///< number of segments of all strands
   size_t motion_keys = 1;
-  size_t attribute_floats = 0;  ///< of all attributes
+  size_t attribute_floats = 0;  ///< number of floats of all attributes
   StrandCounts& operator+=(const StrandCounts& other) {
     strands += other.strands;
     points += other.points;

@@ -7,9 +7,12 @@
 
 namespace pelage {
 
-/// Merges batches into one, ordered by id (ties: in order of the batches). The batches must have the same
-/// basis and number of motion keys. Keeps attributes that every batch has, at the highest frequency of any
-/// batch; keeps roots and root uvs when every non-empty batch has them.
+/// Merges batches into one, ordered by id. Strands with equal ids are in the order of their batches. Empty
+/// batches are ignored. The other batches must have the same basis and number of motion keys.
+///
+/// Keeps an attribute if every batch has it with the same number of components. Its frequency becomes the
+/// highest of all batches, or per strand if its constant values differ. Keeps roots if every batch has roots,
+/// and root uvs if every batch has root uvs.
 Strands merge(std::span<const Strands> batches);
 
 }  // namespace pelage

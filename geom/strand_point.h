@@ -13,11 +13,13 @@ struct StrandPoint {
   V3f tangent{0};  ///< unit, root to tip
 };
 
-/// Evaluates parameter t of a segment at shutter time [0, 1]. Gives the same curve as bezier_segment_at(),
-/// but computes it directly from the strand's points, for renderers, which need one point at a time.
+/// Returns the point at parameter t of a segment, at shutter time `time` in [0, 1]. The curve is the same as
+/// that of bezier_segment_at(), but is evaluated directly from the strand's points. This is faster for
+/// renderers, which need one point at a time.
 StrandPoint strand_point(const Strands& strands, size_t strand, uint32_t segment, float t, float time);
 
-/// Unit tangent at v in [0, 1] over the whole strand, where all segments have equal parameter length.
+/// Returns the unit tangent at position v of the strand, where v goes from 0 at the root to 1 at the tip with
+/// the same range for every segment.
 V3f strand_tangent(const Strands& strands, size_t strand, float v, float time);
 
 }  // namespace pelage

@@ -5,10 +5,11 @@
 
 namespace pelage {
 
-/// Required precision and approximate position of the strands of one coat; they determine how coordinates are
-/// rounded. All strands of a coat in a frame have the same scale, however the coat is divided into chunks.
+/// Determines how the coordinates of a coat's strands are rounded: from the widths of the strands, which give
+/// the required precision, and from their approximate position. All strands of a coat have the same scale in
+/// a frame, however the coat is divided into chunks.
 struct StrandScale {
-  float width = 0;   ///< approximate width of strands at their roots
+  float width = 0;   ///< approximate width of the strands at their roots
   V3f anchor{0};     ///< a point near the strands
   float widest = 0;  ///< approximate width of the widest strands; 0 when unknown
 };

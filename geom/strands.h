@@ -11,26 +11,34 @@
 
 namespace pelage {
 
-/// How the points of a strand define a curve. Grown strands are uniform cubic B-splines that interpolate
-/// their first and last points: the phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are
-/// computed only where needed, so n points give n - 1 segments. `kBSpline` (files) has no phantom points: n
-/// points give n - 3 segments. `kCatmullRom` uses the same phantom points and interpolates all its points.
-/// `kBezier` is used while rendering only, never in files or grooms: 3 n + 1 points give n segments, and
-/// per-point attributes are read only at the ends of segments.
+/// How the points of a strand define a curve.
+///
+/// kPinnedBSpline: a uniform cubic B-spline that interpolates its first and last points, the basis of grown
+/// strands. The phantom points P[-1] = 2 P[0] - P[1] and P[n] = 2 P[n-1] - P[n-2] are computed only where
+/// needed, so n points give n - 1 segments.
+///
+/// kBSpline: a uniform cubic B-spline without phantom points, for strands from files; n points give n - 3
+/// segments.
+///
+/// kCatmullRom: interpolates all its points, with the same phantom points as kPinnedBSpline; n points give
+/// n - 1 segments.
+///
+/// kBezier: cubic Bezier segments; 3 n + 1 points give n segments. Used only while rendering, never in files
+/// or grooms. Only the values of per-point attributes at the ends of segments are used.
 enum class CurveBasis { kLinear, kPinnedBSpline, kBSpline, kCatmullRom, kBezier };
 
-/// Root of a strand on a skin: ptex face and parameters in [0, 1]^2.
+/// Root of a strand on a skin: a ptex face and parameters in [0, 1]^2.
 struct RootAddress {
   uint32_t face = 0;
   float u = 0;
   float v = 0;
 };
 
-/// How often the value of an attribute changes.
+/// How many values an attribute has.
 enum class AttributeClass {
   kConstant,   ///< one value for all strands
   kPerStrand,  ///< one per strand
-  kPerPoint,   ///< one per point; linear in the curve parameter between the points of a segment
+  kPerPoint,   ///< one per point; between two points of a segment, linear in the curve parameter
 };
 
 struct StrandAttribute {
@@ -42,27 +50,30 @@ struct StrandAttribute {
 
 /// The arrays of a batch of strands under construction.
 ///
-/// points: motion_keys x point_count x (x, y, z, radius), all of key 0 first; key k is at time k /
-/// (motion_keys - 1) of the shutter. World space or file space, in scene units; the radius is half the width.
+/// `points` holds motion_keys x point_count x (x, y, z, radius): first all points of key 0, then all of key
+/// 1, and so on. Key k is at the fraction k / (motion_keys - 1) of the shutter time. Positions are in world
+/// space or in the space of a file, in scene units. The radius is half the width.
 struct StrandArrays {
   CurveBasis basis = CurveBasis::kPinnedBSpline;
   int motion_keys = 1;
   std::vector<float> points;
-  std::vector<uint32_t>
-      first_point;                 ///< strand_count + 1 entries: strand i has points first[i] .. first[i+1]-1
-  std::vector<uint64_t> ids;       ///< one per strand, never changes (law 2)
+  /// Strand i has the points first_point[i] .. first_point[i + 1] - 1; strand_count + 1 entries.
+  std::vector<uint32_t> first_point;
+  std::vector<uint64_t> ids;       ///< one per strand; an id never changes (law 2)
   std::vector<RootAddress> roots;  ///< one per strand, or empty when the strands do not grow on a skin
   std::vector<V2f> root_uv;        ///< texture coordinates of the roots, or empty
   std::vector<StrandAttribute> attributes;
 };
 
-/// An immutable batch of strands: what grooms produce and renderers consume. Curves are ray-facing ribbons of
-/// circular fibres: h across, v along (0 at the root, 1 at the tip).
+/// An immutable batch of strands: the result of grooms and the input of renderers. A strand is rendered as a
+/// ribbon that faces the ray and represents a fibre of circular cross-section. Its parameters are h across
+/// the ribbon and v along it (0 at the root, 1 at the tip).
 class Strands {
  public:
   Strands() = default;
-  /// Takes ownership of the arrays. Their sizes must be consistent (checked; a mismatch is a bug of the
-  /// caller). geom/io repairs the contents of files before it calls this.
+  /// Takes ownership of the arrays. Checks that their sizes are consistent; a mismatch is a bug of the
+  /// caller. Does not check their contents: geom/io repairs the contents of files before it calls this
+  /// constructor.
   explicit Strands(StrandArrays arrays);
 
   size_t strand_count() const { return a_.first_point.empty() ? 0 : a_.first_point.size() - 1; }
@@ -73,7 +84,7 @@ class Strands {
   uint32_t first_point(size_t strand) const { return a_.first_point[strand]; }
   uint32_t strand_points(size_t strand) const { return a_.first_point[strand + 1] - a_.first_point[strand]; }
   uint64_t id(size_t strand) const { return a_.ids[strand]; }
-  /// All points of one motion key, 4 floats each.
+  /// All points of one motion key as (x, y, z, radius).
   std::span<const float> points(int key = 0) const {
     return std::span(a_.points).subspan(static_cast<size_t>(key) * point_count() * 4, point_count() * 4);
   }
@@ -86,16 +97,18 @@ class Strands {
   }
   bool has_roots() const { return !a_.roots.empty(); }
   const RootAddress& root(size_t strand) const { return a_.roots[strand]; }
+  /// Texture coordinates of a root; (0, 0) when the strands have none.
   V2f root_uv(size_t strand) const { return a_.root_uv.empty() ? V2f(0) : a_.root_uv[strand]; }
   const std::vector<StrandAttribute>& attributes() const { return a_.attributes; }
+  /// Returns the attribute of this name; null when there is none.
   const StrandAttribute* find_attribute(std::string_view name) const;
 
-  /// Becomes a copy of strand `strand` of `source`, with all its motion keys and attributes. Reuses its
-  /// memory: does not allocate once it is large enough.
+  /// Turns this batch into a copy of a single strand of `source`, with all its motion keys and attributes.
+  /// Reuses the memory of this batch: allocates only if this memory is too small.
   void assign_strand(const Strands& source, size_t strand);
 
   const StrandArrays& arrays() const { return a_; }
-  /// Moves the arrays out, so that the next batch can reuse their memory.
+  /// Moves the arrays out of this batch, so that the caller can reuse their memory.
   StrandArrays release() && { return std::move(a_); }
   /// Heap bytes of all arrays.
   size_t bytes() const;
@@ -104,14 +117,14 @@ class Strands {
   StrandArrays a_;
 };
 
-/// Segments of a strand of `points` points in `basis`; 0 when there are too few.
+/// Returns the number of segments of a strand of `points` points in `basis`; 0 when there are too few points.
 uint32_t segment_count(CurveBasis basis, uint32_t points);
-/// Linear interpolation. If a and b are equal, returns exactly a. So a constant value stays bit-identical for
-/// any number of points.
+/// Interpolates linearly. Returns exactly a if a and b are equal, so that a constant value stays
+/// bit-identical for any number of points.
 inline float interpolate(float a, float b, float t) { return a == b ? a : a * (1.0f - t) + b * t; }
-/// Writes the `components` values of an attribute at parameter `t` of segment `segment` of a strand to `out`.
-/// Per-point values are interpolated linearly between the two points of the segment; constant and per-strand
-/// values are copied.
+/// Evaluates an attribute at parameter `t` of segment `segment` of a strand. Writes its `components` values
+/// to `out`. Interpolates per-point values linearly between the two points of the segment. Copies constant
+/// and per-strand values.
 void interpolate_attribute(const Strands& strands, const StrandAttribute& attribute, size_t strand,
                            uint32_t segment, float t, float* out);
 

@@ -10,7 +10,7 @@
 
 #include "geom/limit_surface.h"
 
-// Members of SurfaceTopology, for the sources of geom that evaluate and tessellate. Not for other rooms.
+// Members of SurfaceTopology. Only for the sources of geom that evaluate and tessellate surfaces.
 
 namespace pelage {
 
@@ -18,14 +18,15 @@ namespace Far = OpenSubdiv::Far;
 
 /// Vertices, edges and faces of a cage, for traversal. Edge i of a face joins its corners i and i + 1.
 struct CageConnectivity {
-  std::vector<uint32_t> first_corner;  ///< face_count + 1 entries
-  std::vector<uint32_t> corner_vertex;
-  std::vector<uint32_t> corner_edge;
-  std::vector<uint32_t> edge_vertices;  ///< 2 per edge
-  std::vector<uint8_t> edge_split;  ///< the normals of its faces differ: an infinitely sharp edge, an edge of
-                                    ///< three faces, or scheme bilinear
-  std::vector<uint8_t> vertex_split;  ///< the same, for the faces around a vertex
-  std::vector<uint32_t> first_ptex;   ///< face_count + 1 entries: ptex faces of a cage face
+  std::vector<uint32_t> first_corner;   ///< index of the first corner of each face; face_count + 1 entries
+  std::vector<uint32_t> corner_vertex;  ///< vertex of each corner
+  std::vector<uint32_t> corner_edge;    ///< edge of each corner: from this corner to the next one of the face
+  std::vector<uint32_t> edge_vertices;  ///< 2 vertices per edge
+  /// 1 if the normals of the adjacent faces differ: at an infinitely sharp edge, at an edge of three faces,
+  /// and at every edge between faces with scheme bilinear.
+  std::vector<uint8_t> edge_split;
+  std::vector<uint8_t> vertex_split;  ///< 1 if the normals of the faces around the vertex differ
+  std::vector<uint32_t> first_ptex;   ///< first ptex face of each face; face_count + 1 entries
 
   uint32_t face_count() const { return static_cast<uint32_t>(first_ptex.size()) - 1; }
   uint32_t edge_count() const { return static_cast<uint32_t>(edge_split.size()); }
@@ -33,86 +34,95 @@ struct CageConnectivity {
   size_t bytes() const;
 };
 
-/// A subset of points, in blocks of neighbours, so that a short table locates them.
+/// Tells which points of a large array are kept in a smaller array. Points are kept in blocks of kSize
+/// neighbours, so that a short table suffices to find them.
 struct PointBlocks {
   static constexpr uint32_t kSize = 16;
   static constexpr uint32_t kAbsent = UINT32_MAX;
 
-  std::vector<uint32_t> place;  ///< for each block of all points: its index among the kept blocks, or kAbsent
-  std::vector<uint16_t> wanted;  ///< for each block of all points: mask of its needed points
+  /// For each block of the large array: index among the kept blocks, or kAbsent.
+  std::vector<uint32_t> place;
+  std::vector<uint16_t> wanted;  ///< for each block of the large array: mask of the points that are needed
   uint32_t count = 0;            ///< number of kept blocks
 
-  /// Index of point `p` among the kept points, if its block is kept.
+  /// Returns the index of point `p` in the smaller array. The block of `p` must be kept.
   size_t operator[](uint32_t p) const { return size_t(place[p / kSize]) * kSize + p % kSize; }
+  /// Number of points in the smaller array.
   size_t point_count() const { return size_t(count) * kSize; }
 };
 
-/// Rules that compute the points of patches from control points: each is a weighted sum of previous points,
-/// so that one sweep computes them all. Keeping the rules of each level, instead of composing them down to
-/// control points, needs a fraction of the memory and does not grow with the square of a pole's valence.
+/// Rules that compute the points of patches from control points. Each point is a weighted sum of points
+/// before it, so one pass computes all points. The rules of all subdivision levels are kept. Rules that
+/// express each point by control points alone would need several times the memory, which would grow with the
+/// square of the valence of a pole.
 struct PointRules {
   uint32_t control_count = 0;
-  /// One of the weighted sums.
+  /// The weighted sum that makes one point.
   struct Terms {
-    const uint32_t* source;  ///< of each term: point number, control points first
-    const float* weight;
-    uint32_t count;
+    const uint32_t* source;  ///< index of the point of each term; control points come first
+    const float* weight;     ///< weight of each term
+    uint32_t count;          ///< number of terms
   };
 
-  std::vector<uint32_t> first_term;   ///< made_count() + 1 entries
-  std::vector<uint32_t> source;       ///< of the terms of refined points, which come first
-  std::vector<float> weight;          ///< the same
-  const int* local_source = nullptr;  ///< of the following terms, in the patches
-  const float* local_weight = nullptr;
+  std::vector<uint32_t> first_term;  ///< index of the first term of each made point; made_count() + 1 entries
+  /// Points of the terms that make refined points, which come before local points.
+  std::vector<uint32_t> source;
+  std::vector<float> weight;  ///< weights of the same terms
+  /// Points of the terms that make the local points of patches; owned by the patch table.
+  const int* local_source = nullptr;
+  const float* local_weight = nullptr;  ///< weights of the same terms
 
   Terms terms(size_t made) const;
 
   size_t made_count() const { return first_term.size() - 1; }
   size_t point_count() const { return control_count + made_count(); }
-  /// Computes all points (xyz) after the control points.
+  /// Computes all points after the control points. `points` holds the coordinates xyz of all points.
   void apply(float* points) const;
-  /// The same for the needed points of `blocks`, which must include all points that they depend on. `points`
-  /// holds the kept blocks.
+  /// Computes the needed points of `blocks`, which must include all points that they depend on. `points`
+  /// holds the kept blocks only.
   void apply(float* points, const PointBlocks& blocks) const;
-  /// Temporary memory of apply() for this number of points.
+  /// Returns the temporary memory of apply() for this number of points.
   static size_t temporary_bytes(size_t points);
   size_t bytes() const;
 };
 
 struct SurfaceTopology::Impl {
   bool triangular = false;  // Loop and none: ptex faces are triangles
-  bool flat = false;        // none: the triangles themselves, without patches; each is a face of `cage`
+  bool flat = false;        // scheme none: ptex faces are triangles without patches, each a face of `cage`
   uint32_t control_count = 0;
   ContentHash hash;
   CageConnectivity cage;
 
-  // One entry per ptex face; neighbours and uv have one per corner as well.
+  // One entry per ptex face; `neighbours` and `uv` have one entry per corner of each ptex face.
   std::vector<uint32_t> cage_face;
   std::vector<uint8_t> hole;
-  std::vector<uint8_t> part;  // one of the n ptex faces of an n-gon
+  std::vector<uint8_t> part;  // 0 for a whole cage face, 1 for one of the n ptex faces of an n-gon
   std::vector<int32_t> neighbours;
   std::vector<V2f> uv;  // empty when the cage has none
 
-  std::vector<uint32_t> first_use;  // per vertex of the cage, plus one: start of its entries in `uses`
-  /// Ascending for each vertex: corner numbers of flat triangles, otherwise faces of the cage.
+  // per vertex of the cage: index of its first entry in `uses`; one more entry at the end
+  std::vector<uint32_t> first_use;
+  /// The faces that use each vertex, ascending: corner numbers of triangles if `flat`, otherwise faces of the
+  /// cage.
   std::vector<uint32_t> uses;
 
   // Only in a flat topology.
-  std::vector<uint32_t> polygon;  // mesh face that each triangle was cut from; empty when all are triangles
+  std::vector<uint32_t> polygon;  // mesh face of each triangle; empty when all mesh faces are triangles
 
   // Only in a subdivided topology.
   std::unique_ptr<const Far::PatchTable> patches;
   std::optional<Far::PatchMap> patch_map;
-  std::vector<uint32_t> first_patch;  ///< face_count + 1 entries: patches of a ptex face
+  /// First patch of each ptex face, in face_patches; face_count + 1 entries.
+  std::vector<uint32_t> first_patch;
   std::vector<Far::PatchTable::PatchHandle> face_patches;
   PointRules rules;
 
   uint32_t corners_per_face() const { return triangular ? 3 : 4; }
   /// Fills first_use and uses from `cage`.
   void list_uses(uint32_t vertices);
-  /// The cage face of an entry of `uses`.
+  /// Returns the cage face of an entry of `uses`.
   uint32_t face_of_use(uint32_t use) const { return flat ? use / 3 : use; }
-  /// The points of the patches of some faces, and all points that they depend on.
+  /// Returns the points that the patches of some faces need, including all points on which those depend.
   PointBlocks points_of(std::span<const uint32_t> faces) const;
 };
 

@@ -14,13 +14,14 @@ namespace pelage {
 
 class Workers;
 
-/// The triangles of a skin, shared by all consumers of a frame: rays, push_out, occlusion. Watertight where
-/// the surface is closed. Vertices lie on the limit surface.
+/// The triangles of a skin. All consumers of a frame share them: rays, push_out and occlusion. Vertices lie
+/// on the limit surface. Watertight where the surface is closed.
 struct SkinMesh {
   int motion_keys = 1;
-  std::vector<float> positions;     ///< motion_keys x vertex_count x 3, the whole of key 0 first
-  std::vector<float> normals;       ///< as positions: unit limit normals, averaged over faces at sharp edges
-  std::vector<uint32_t> triangles;  ///< 3 vertices each
+  std::vector<float> positions;  ///< motion_keys x vertex_count x (x, y, z): all of key 0 first
+  /// Unit limit normals in the layout of `positions`, averaged over the adjacent faces at sharp edges.
+  std::vector<float> normals;
+  std::vector<uint32_t> triangles;  ///< 3 vertex indices each
   std::vector<uint32_t> faces;      ///< ptex face of each triangle
   std::vector<V2f> vertex_uv;       ///< parameters of each triangle's 3 corners in its ptex face
 
@@ -34,35 +35,38 @@ struct SkinMesh {
     const float* p = &normals[(static_cast<size_t>(key) * vertex_count() + vertex) * 3];
     return {p[0], p[1], p[2]};
   }
-  /// Becomes the single triangle `triangle` of `source`, with all motion keys and corners 0, 1, 2. Reuses its
-  /// memory.
+  /// Turns this mesh into the single triangle `triangle` of `source`, with all motion keys and with the
+  /// vertex indices 0, 1, 2. Reuses the memory of this mesh.
   void assign_triangle(const SkinMesh& source, size_t triangle);
   size_t bytes() const;
 };
 
 struct TessellationOptions {
-  float edge_pixels = 4;  ///< target length of the longest edge on screen
-  int max_rate = 32;      ///< max number of quads along an edge of a ptex face
-  /// Range of keys whose edges determine the rates: poses added before and after these change no triangle.
+  float edge_pixels = 4;  ///< target length in pixels of the parts of an edge on screen
+  /// Max number of parts into which an edge of the cage is divided; at least 2 beside an n-gon.
+  int max_rate = 32;
+  /// Range of the keys that determine the rates (numbers of parts of edges). Poses before and after this
+  /// range have no influence on the triangles.
   size_t first_rated_key = 0, end_rated_key = SIZE_MAX;
 };
 
-/// Tessellates poses of one topology (one per motion key, at evenly spaced times over the shutter) for
-/// `view`. Every edge of the cage is divided according to its length on screen, so the cost of a skin depends
-/// on its visible size. Adjacent faces share the vertices of their common edge. Holes are omitted. The result
-/// is the same for any number of threads. Throws Error (kMemory) for more than 2^31 vertices or triangles.
+/// Tessellates poses of one topology for `view`. The poses are motion keys at evenly spaced times over the
+/// shutter. Divides every edge of the cage according to its length on screen, so that the cost of a skin
+/// depends on its visible size. Adjacent faces share the vertices of their common edge. Omits holes. The
+/// result is the same for any number of threads. Throws Error (kMemory) for more than 2^31 - 1 vertices or
+/// triangles.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Workers& workers);
-/// The same, but throws Error (kStopped) when the job is stopped.
+/// Tessellates in the same way, but throws Error (kStopped) when the job is stopped.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Job& job);
-/// The triangles of `faces` only: all ptex faces of some cage faces, ascending. Bit-identical to the
-/// triangles of the whole skin and in the same order, with vertices renumbered. The surfaces need to exist
-/// only on faces_around(faces). Runs on the calling thread.
+/// Tessellates only `faces`, which must be all ptex faces of some cage faces, ascending. The triangles are
+/// bit-identical to those of the whole skin and in the same order; their vertices are renumbered. The
+/// surfaces are needed only on faces_around(faces). Runs on the calling thread.
 SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
                           const View& view, const TessellationOptions& options);
-/// Max temporary memory of either function, without its result, for this number of ptex faces (including
-/// those around them) and vertices.
+/// Returns the max temporary memory, without the result, of tessellate() and tessellate_faces(). `faces`:
+/// number of ptex faces, including those around the tessellated ones. `vertices`: number of vertices.
 size_t tessellating_bytes(const SurfaceTopology& topology, size_t faces, size_t vertices);
 
 }  // namespace pelage

@@ -5,15 +5,16 @@
 
 namespace pelage {
 
-/// Camera data for level of detail, tessellation and bounds: its position, and the apparent size of a length
-/// at a distance.
+/// Camera data for level of detail, tessellation and bounds: the position of the camera, and the data to
+/// compute the size on screen of a length at a distance.
 struct View {
   V3f position{0};
-  float focal_pixels = 1;  ///< pixels per unit of tangent: image height / (2 tan(fov / 2))
-  float near_distance = 1e-3f;
+  /// Pixels per unit of the tangent of the viewing angle: image height / (2 tan(fov / 2)).
+  float focal_pixels = 1;
+  float near_distance = 1e-3f;  ///< smallest distance that pixels_per_unit() uses, scene units
 
-  /// Pixels per scene unit at `point`. Uses distance rather than depth, because objects behind the camera
-  /// cast shadows too.
+  /// Returns the number of pixels per scene unit at `point`. Uses the distance rather than the depth, because
+  /// objects behind the camera cast shadows too.
   float pixels_per_unit(const V3f& point) const;
 };
 

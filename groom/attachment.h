@@ -13,36 +13,39 @@ class LimitSurface;
 struct Job;
 struct RootAddress;
 
-/// Whether the strands of a file follow the skin of their groom.
+/// Whether the strands of a file follow the skin of their groom. kAuto: they follow it unless they start too
+/// far from it (SkinGaps::far).
 enum class Attachment { kAuto, kSkin, kNone };
 template <>
 struct EnumNames<Attachment> {
   static constexpr const char* names[] = {"auto", "skin", "none"};
 };
 
-/// Distances from the roots of a file's strands to a skin.
+/// Distances from the roots of a file's strands to a skin, in scene units.
 struct SkinGaps {
   float min = 0, median = 0, max = 0;
-  float skin_size = 0;  ///< diagonal of the skin's box
+  float skin_size = 0;  ///< length of the diagonal of the skin's box
 
-  /// `gaps`: one per strand, reordered.
+  /// Returns the statistics of `gaps`, which holds the distance of each strand. Reorders `gaps`. `skin` is
+  /// the box of the skin.
   static SkinGaps of(std::vector<float>& gaps, const Box3f& skin);
 
-  /// Fraction of the skin's size. Hair made for a skin starts on it or slightly above or below; a file in
-  /// another unit, or for another character, starts farther away than this.
+  /// Distance from the skin that counts as far, as a fraction of skin_size. Strands made for a skin start on
+  /// it or slightly above or below it. Strands in another unit or for another character start farther away.
   static constexpr float kNear = 0.1f;
-  /// Whether at least half of the strands start farther away than kNear.
+  /// Whether at least half of the strands start farther away than kNear * skin_size.
   bool far() const { return median > kNear * skin_size; }
-  /// "begin 97 to 103 units from skin 'rat', which is 5.2 units across"
+  /// Returns a text such as "begin 97 to 103 units from skin 'rat', which is 5.2 units across".
   std::string describe(const std::string& skin) const;
 };
 
 struct GroomParams;
 
-/// For every strand of `params.strands_file`, finds the point of the skin nearest to its root and moves the
-/// root in `positions` to this point. Returns false, with nothing changed, when the strands are not to follow
-/// the skin; warns `job` of strands that are too far from it. Throws Error (kInput) when they must follow a
-/// skin without faces.
+/// Binds every strand of `params.strands_file` to the skin. `positions` holds the position of each root. Sets
+/// `roots` to the nearest points of the skin, and `positions` to the positions of these points. Returns
+/// false, with unchanged positions, when the strands shall not follow the skin: with kNone, or with kAuto
+/// when they are too far from it or all faces are holes. With kAuto, also warns the user through `job`.
+/// Throws Error (kInput) with kSkin when all faces of the skin are holes.
 bool follow_skin(const GroomParams& params, const LimitSurface& rest, const Job& job,
                  std::vector<V3f>& positions, std::vector<RootAddress>& roots);
 

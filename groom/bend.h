@@ -17,7 +17,8 @@ struct BendParams {
   static const Schema<BendParams>& schema();
 };
 
-/// Bends strands towards a direction, increasingly from root to tip. Preserves the length of every segment.
+/// Bends strands towards a direction. The bend increases from root to tip. Preserves the length of every
+/// segment.
 class Bend final : public OperatorOf<BendParams> {
  public:
   static constexpr const char* kName = "bend";

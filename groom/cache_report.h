@@ -10,53 +10,53 @@
 
 namespace pelage {
 
-/// State of a groom's cache when the groom was made, with reasons.
+/// State of a groom's cache at the moment when the groom was made, with the reasons for that state.
 struct GroomCacheReport {
   struct Stage {
     std::string name;
     bool fresh = false;
-    std::string reason;  ///< why it is stale: "amount: 0.6 -> 0.5"
+    std::string reason;  ///< reason why the stage is stale: "amount: 0.6 -> 0.5"
   };
-  bool fresh = false;         ///< everything was read, nothing had to be grown
-  bool stored = false;        ///< the groom is now stored in a file
-  std::vector<Stage> stages;  ///< skin, strands, points, frozen operators
-  size_t resumed = 0;         ///< frozen operators whose result was still available
+  bool fresh = false;         ///< whether everything was read from the cache and nothing had to be grown
+  bool stored = false;        ///< whether the groom is now stored in a file
+  std::vector<Stage> stages;  ///< the skin, the strands, the points and each frozen operator
+  size_t resumed = 0;         ///< number of frozen operators whose result was still in the cache
   std::filesystem::path file;
-  std::vector<std::filesystem::path> files;  ///< all files of the groom in the folder
+  std::vector<std::filesystem::path> files;  ///< all files of the groom in the cache folder
   size_t strands = 0;
-  size_t offset_bytes = 0, follicle_bytes = 0;  ///< of the files read for rendering
+  size_t offset_bytes = 0, follicle_bytes = 0;  ///< sizes of the files that were read for rendering
   double seconds = 0;
 
-  /// "fresh", or the first stale stage with the reason, in one line.
+  /// Returns "fresh", or one line with the first stale stage and the reason.
   std::string summary() const;
 };
 
-/// The inputs from which a groom was made the last time. Stored beside its cache, to report changes and to
-/// find files that are no longer needed. No strand depends on it.
+/// The inputs from which a groom was last made. Stored beside the groom's cache, to tell the user what
+/// changed and to find files that are no longer needed. It has no influence on the strands.
 class GroomManifest {
  public:
-  /// The first `count` stages of a groom.
+  /// Records the first `count` stages of a groom.
   GroomManifest(const GroomIdentity& identity, size_t count);
-  /// Empty when missing or damaged.
+  /// Reads the manifest of a groom. Empty when it is missing or damaged.
   static std::optional<GroomManifest> read(const ContentStore& store, const std::string& groom);
-  /// Ignores failures.
+  /// Stores the manifest. Ignores failures to write it.
   void write(const ContentStore& store, const std::string& groom) const;
 
   const std::vector<GroomStage>& stages() const { return stages_; }
 
-  /// The files that growing the groom in one state would write.
+  /// Names of the files that the cache holds for one state of the groom's inputs.
   struct State {
-    std::string offsets, follicles;  ///< names in the folder
+    std::string offsets, follicles;  ///< file names without folder
     bool operator==(const State&) const = default;
   };
-  /// Recent states, the latest first.
+  /// Recent states, the most recent first.
   const std::vector<State>& states() const { return states_; }
-  /// Inserts the current state before the states of `before`, which is the manifest that this manifest
-  /// replaces. Drops states that are followed by eight later ones and have not been used for a day, and
-  /// removes their files.
+  /// Sets the states to `now`, followed by the states of `before`, the manifest that this one replaces. Drops
+  /// a state, and removes its files, if eight more recent states exist and its files have not been used for a
+  /// day.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);
-  /// The text that `pelage info` shows.
+  /// Returns the text that `pelage info` shows.
   std::string text() const;
 
  private:
@@ -65,8 +65,8 @@ class GroomManifest {
   std::vector<State> states_;
 };
 
-/// Compares stages with the previous ones: a stage is fresh when neither it nor a stage before it has
-/// changed.
+/// Compares the stages of a groom with those of `before`. A stage is fresh if neither this stage nor any
+/// stage before it has changed. All stages are stale without `before`.
 std::vector<GroomCacheReport::Stage> explain(const GroomManifest& now,
                                              const std::optional<GroomManifest>& before);
 

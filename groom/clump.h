@@ -13,7 +13,7 @@ namespace pelage {
 
 class ClumpCentres;
 
-/// Keys of a finer level of clumps, inside the clumps of `clump`.
+/// Keys of an additional, finer level of clumps within the clumps of the operator `clump`.
 struct ClumpLevelParams {
   float spacing = 0.1f;
   Field amount{0.5f};
@@ -33,14 +33,15 @@ struct ClumpParams {
   static const Schema<ClumpParams>& schema();
 };
 
-/// Pulls strands towards the nearest of a set of centre strands, which are distributed as blue noise on the
-/// rest skin and grown by the operators before this one. Finer levels pull towards denser sets, whose strands
-/// the coarser levels have already pulled.
+/// Pulls each strand towards the nearest of a set of centre strands. The roots of centre strands are blue
+/// noise on the rest skin; the operators before this one grow them. Each finer level has its own, denser set
+/// of centre strands. The coarser levels have already pulled these centre strands as well.
 ///
-/// A strand and its centre are matched by arc length, so that strands of unequal length lie together. A
-/// strand that clumping would lengthen is scaled back about its root: completely if its length is at least
-/// 1.5 times the distance to its centre, otherwise partly. Where a strand and its centre diverge by 30
-/// degrees, an amount of 0.5 shortens the strand by 3 %.
+/// Points of a strand and of its centre strand are matched by arc length, so that strands of unequal length
+/// lie together. A strand that pulling has made longer is scaled down about its root. It gets its previous
+/// length again if this length is at least 1.5 times the distance to its centre; otherwise, it stays somewhat
+/// longer. Where a strand and its centre strand diverge by 30 degrees, an amount of 0.5 shortens the strand
+/// by 3 %.
 class Clump final : public OperatorOf<ClumpParams> {
  public:
   static constexpr const char* kName = "clump";
@@ -59,15 +60,15 @@ class Clump final : public OperatorOf<ClumpParams> {
     Field amount;
     std::shared_ptr<const ClumpCentres> centres;
   };
-  /// How far strands have been pulled, for scaling them back.
+  /// How far each strand of a batch has been pulled so far; needed to scale the strands back.
   struct PullTotals {
-    StrandRow stays;  // product over levels of 1 - largest amount along the strand
-    StrandRow roots;  // sum of the distances to their centres' roots
+    StrandRow stays;  // product over the levels of 1 - max amount along the strand
+    StrandRow roots;  // sum over the levels of the distance from the strand's root to its centre's root
   };
-  /// All levels combined: K with 1 - K = product of (1 - k), and the distances of the centres.
+  /// Max pull of all levels together.
   struct Pull {
-    float amount = 0;
-    float roots = 0;
+    float amount = 0;  ///< 1 - product over the levels of (1 - the level's max amount)
+    float roots = 0;   ///< sum over the levels of the max distance from a root to its centre's root
   };
   void draw(StrandBatch& batch, size_t level_count) const;
   void draw_level(const Level& level, uint64_t level_seed, const std::vector<StrandRow>& arcs,

@@ -12,25 +12,26 @@
 
 namespace pelage {
 
-/// Roots of the strands of a groom, and their shape before the first operator: straight strands on follicles,
-/// or the strands of a file. Immutable once made. Thread safety: const members may be called from any thread.
+/// The strands of a groom before the first operator: straight strands on follicles, or the strands of a file.
+/// Immutable once made. Thread safety: const members may be called from any thread.
 struct CoatSource {
-  std::shared_ptr<const LimitSurface> rest;  ///< null: strands without a skin
+  std::shared_ptr<const LimitSurface> rest;  ///< rest skin; null for strands without a skin
   int points = 8;                            ///< number of points of a strand that is not imported
   FollicleTree grown;                        ///< follicles of strands that are not imported
-  std::optional<ImportedStrands> imported;
+  std::optional<ImportedStrands> imported;   ///< strands of a file; empty when all strands are grown
 
   const FollicleTree& follicles() const { return imported ? imported->follicles() : grown; }
   int strand_points(size_t follicle) const { return imported ? imported->strand_points(follicle) : points; }
-  /// Number of follicles from `begin`, up to `end` at most, that make one batch.
+  /// Returns the number of follicles from `begin` on, at most up to `end`, that form one batch.
   size_t run_length(size_t begin, size_t end) const {
     return imported ? imported->run_length(begin, end) : std::min(kBlockStrands, end - begin);
   }
-  /// Fills rest roots, ids and texture coordinates of batch.count strands.
+  /// Sets the rest roots, ids and texture coordinates of the strands of a batch: batch.count follicles from
+  /// `begin` on.
   void place(StrandBatch& batch, size_t begin) const;
-  /// The same, and also creates the points that the first operator sees.
+  /// Does the same as place(), and also makes the points that the first operator receives.
   void start(StrandBatch& batch, size_t begin) const;
-  /// Properties of the strands of a leaf before the first operator.
+  /// Returns bounds of the strands of a leaf before the first operator.
   StrandReach reach(size_t leaf) const;
   size_t bytes() const { return imported ? imported->bytes() : grown.bytes(); }
 };

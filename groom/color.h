@@ -14,7 +14,7 @@ struct ColorParams {
   static const Schema<ColorParams>& schema();
 };
 
-/// Colours strands: sets the attribute "color" that materials may read.
+/// Colours strands by setting the attribute "color", which materials may read.
 class Color final : public OperatorOf<ColorParams> {
  public:
   static constexpr const char* kName = "color";

@@ -16,7 +16,7 @@ struct CombParams {
   static const Schema<CombParams>& schema();
 };
 
-/// Tilts strands in a direction along the skin. Preserves the length of every segment.
+/// Tilts strands towards a direction along the skin. Preserves the length of every segment.
 class Comb final : public OperatorOf<CombParams> {
  public:
   static constexpr const char* kName = "comb";

@@ -16,7 +16,7 @@ struct CurlParams {
   static const Schema<CurlParams>& schema();
 };
 
-/// Winds each strand into a helix around itself.
+/// Winds each strand into a helix around its previous shape.
 class Curl final : public OperatorOf<CurlParams> {
  public:
   static constexpr const char* kName = "curl";

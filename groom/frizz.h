@@ -14,7 +14,7 @@ struct FrizzParams {
   static const Schema<FrizzParams>& schema();
 };
 
-/// Makes each strand wander sideways independently.
+/// Displaces the points of each strand sideways by noise, independently of other strands.
 class Frizz final : public OperatorOf<FrizzParams> {
  public:
   static constexpr const char* kName = "frizz";

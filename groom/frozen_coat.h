@@ -14,25 +14,28 @@
 
 namespace pelage {
 
-/// All leaves of a coat after its frozen operators: in a file, or in memory when no file could be written.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// All leaves of a coat in their state after the frozen operators. The data is in a file, or in memory when
+/// no file could be written. Immutable. Thread safety: const members may be called from any thread.
 class FrozenCoat {
  public:
+  /// Returns the path of the file in the store.
   static std::filesystem::path file(const ContentStore& store, const ContentHash& key);
-  /// The coat in the store. Empty when it is missing, or when its leaves do not match `source`.
+  /// Opens the coat in the store. Empty when the file is missing, or when its leaves do not match `source`.
   static std::optional<FrozenCoat> open(const ContentStore& store, const ContentHash& key,
                                         const CoatSource& source, const WarningSink& warn);
-  /// Leaves that were just grown, kept in memory and charged to `ledger`.
+  /// Makes a coat from leaves that were just grown. Keeps these leaves in memory, and charges them to
+  /// `ledger`.
   FrozenCoat(std::vector<std::vector<std::byte>> leaves, std::vector<StrandReach> reaches,
              MemoryLedger& ledger);
+  /// Stores leaves. Returns whether the file was written.
   static bool store(const ContentStore& store, const ContentHash& key,
                     const std::vector<std::vector<std::byte>>& leaves,
                     const std::vector<StrandReach>& reaches, const WarningSink& warn);
 
   const FrozenLeaf& leaf(size_t i) const { return leaves_[i]; }
-  /// Properties of a leaf's strands, including quantisation.
+  /// Bounds of the strands of a leaf, including the error of quantisation.
   const StrandReach& reach(size_t leaf) const { return reaches_[leaf]; }
-  /// Size of all leaves, without the rest of the file.
+  /// Size of all leaves, without the header of the file.
   size_t bytes() const;
 
  private:
@@ -45,13 +48,13 @@ class FrozenCoat {
   std::vector<StrandReach> reaches_;
 };
 
-/// Runs a coat through the frozen operators.
+/// Grows a coat up to and including its frozen operators.
 struct FrozenGrowth {
   const std::string& owner;  ///< for messages: "groom 'coat'"
   const CoatSource& source;
   OperatorStack& stack;
   const GroomIdentity& identity;
-  size_t frozen = 0;  ///< number of frozen operators: [0, frozen)
+  size_t frozen = 0;  ///< the operators [0, frozen) are frozen
   const ContentStore& store;
   const WarningSink& warn;          ///< called for damaged files
   const WarningSink& cannot_store;  ///< called for files that cannot be written
@@ -60,25 +63,25 @@ struct FrozenGrowth {
   struct Result {
     std::vector<std::vector<std::byte>> leaves;
     std::vector<StrandReach> reaches;
-    size_t resumed = 0;   ///< operators whose result was in the store
-    MemoryCharge charge;  ///< of the leaves
+    size_t resumed = 0;   ///< number of operators whose result was in the store
+    MemoryCharge charge;  ///< memory of the leaves
   };
-  /// Grows all leaves, starting after the last operator whose result is in the store, and stores the state
-  /// after each operator that runs, except after the last. Prepares the operators that it needs. Passes on
-  /// the exceptions of operators. Throws Error: kMemory as soon as the first leaves show that all leaves
-  /// together will not fit, kStopped when the job is stopped. After an exception, nothing is stored.
+  /// Grows all leaves. Starts with the result of the last operator that has one in the store. Stores the
+  /// state after each operator that runs, except the last one. Prepares the operators that it needs. Passes
+  /// on exceptions of operators. Throws Error: kMemory as soon as the size of the first leaves shows that all
+  /// leaves together will not fit, kStopped when the job is stopped. After an exception, nothing is stored.
   Result run(const PrepareContext& context, int leaf_strands) const;
   void charge_grown(size_t done, Result& result) const;
-  /// Whether growth can continue from a layer; if so, sets `reaches` to the reaches after the layer's
-  /// operator.
+  /// Whether growth can start from the state in `layer`. If so, sets `reaches` to the bounds of the strands
+  /// in that state.
   bool resumes(const StoredFile& layer, std::vector<StrandReach>& reaches) const;
 };
 
-/// The file with the state after the operator whose stage has this hash.
+/// Returns the path of the file with the state after the operator whose stage has the hash `stage`.
 std::filesystem::path layer_file(const ContentStore& store, const ContentHash& stage, int leaf_strands);
 
-/// Key of the file of a layer or of the offsets. The same strands in another layout of leaves use another
-/// file.
+/// Returns the key of a file of strands: a hash of `hash` and of the layout of leaves. The same strands in
+/// another layout need another file.
 ContentHash in_leaves(const ContentHash& hash, int leaf_strands);
 
 }  // namespace pelage

@@ -6,8 +6,8 @@
 
 namespace pelage {
 
-/// First bytes of a leaf, followed by the tables of the columns, each aligned to 4 bytes, a BlockEntry for
-/// each block, and the blocks, aligned to 16 bytes.
+/// The first bytes of a leaf. The tables of the columns follow, each aligned to 4 bytes, then a BlockEntry
+/// for each block, then the blocks, each aligned to 16 bytes.
 struct FrozenLeaf::Header {
   struct Column {
     uint8_t form = 0;
@@ -22,16 +22,16 @@ struct FrozenLeaf::Header {
   };
   uint32_t strands = 0;
   uint32_t blocks = 0;
-  uint8_t has_base = 0;  // point 0 is stored: strands whose first point is not their root
+  uint8_t has_base = 0;  // 1 if point 0 is stored, because the first point of some strand is not its root
   uint8_t color_rows = 0;
   uint8_t unused[6] = {};
   Column columns[StrandCodes::kColumns];
 };
 
-/// Offsets of the rows of a block from its first byte.
+/// Offset of each row of a block from the first byte of the block.
 struct FrozenLeaf::Layout {
-  size_t row = 0;                                     // strands per row: the count, rounded up to 8
-  size_t shapes = 0, radii = 0, colors = 0, end = 0;  // radii, colors: of plain blocks only
+  size_t row = 0;  // number of strands per row: the count, rounded up to a multiple of 8
+  size_t shapes = 0, radii = 0, colors = 0, end = 0;  // radii and colors only in plain blocks
   std::array<size_t, StrandCodes::kColumns> columns{};
 
   Layout(const FrozenLeaf& leaf, size_t count, size_t points, bool plain) {
@@ -41,7 +41,7 @@ struct FrozenLeaf::Layout {
       columns[kind] = end;
       end += leaf.columns_[kind].block_bytes(row, elements);
     };
-    if (!plain) end += row * 2;  // steps
+    if (!plain) end += row * 2;  // row of steps
     shapes = end;
     end += shape_rows * row * (plain ? 4 : 2);
     radii = end;

@@ -9,18 +9,18 @@
 
 namespace pelage {
 
-/// Collects the batches of a leaf, in rest space after the frozen operators, and writes their codes in the
-/// smallest form.
+/// Collects the batches of a leaf, which are in rest space after the frozen operators. Writes their codes in
+/// the smallest form.
 class FrozenLeafWriter {
  public:
   explicit FrozenLeafWriter(const CodeOptions& options = {}) : options_(options) {}
   void add(const StrandBatch& batch) { blocks_.emplace_back(batch, options_); }
-  /// The bytes that FrozenLeaf reads. The same strands give the same bytes on all machines with the same byte
-  /// order.
+  /// Returns the bytes that FrozenLeaf reads. The bytes depend only on the strands and on the byte order of
+  /// the machine.
   std::vector<std::byte> finish() const;
 
  private:
-  /// The column in which `kind` is written; `choice` owns its table.
+  /// Returns the column in which the codes `kind` are written. Sets `choice`, which owns the column's table.
   CodeColumn column(StrandCodes::Column kind, CodeColumn::Choice& choice) const;
 
   CodeOptions options_;

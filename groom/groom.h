@@ -21,44 +21,49 @@ class TextureLibrary;
 struct GroomCacheReport;
 struct Job;
 
-/// A skin in the pose of a frame: one limit surface, and one tree over the frame's tessellation, per motion
-/// key.
+/// A skin in the pose of a frame. It has one limit surface per motion key, and one tree over the tessellation
+/// of each.
 struct PosedSkin {
-  std::span<const LimitSurface> keys;       ///< empty for a groom without a skin
-  std::span<const ClosestPointTree> trees;  ///< empty when no operator needs the skin's inside
+  std::span<const LimitSurface> keys;  ///< empty for a groom without a skin
+  /// Empty when no operator needs to find closest points on the skin.
+  std::span<const ClosestPointTree> trees;
   float scale = 1;  ///< uniform scale of the character, applied to strands about their roots
-  /// Transforms of strands without a skin, one per motion key. Empty: the strands keep the positions of their
-  /// file.
+  /// For strands without a skin: one transform per motion key. If empty, the strands keep the positions in
+  /// their file.
   std::span<const M44f> free_transforms;
   float length = 1;  ///< scale of the finished strands about their roots, excluding their widths
 };
 
-/// The strands of a leaf to grow, and their modifications for level of detail.
+/// The strands of a leaf to grow, and how level of detail modifies each of them.
 struct KeptStrands {
   std::span<const uint32_t> strands;  ///< indices in the leaf, ascending
-  std::span<const float> width;       ///< one per strand: factor on its width
-  std::span<const float>
-      contrast;  ///< one per strand: factor on the deviation of its colour from the mean; or empty
+  std::span<const float> width;       ///< for each strand: factor on its width
+  /// For each strand: factor on the deviation of its colour from the mean colour; or empty.
+  std::span<const float> contrast;
 };
 
 /// A coat on a skin: follicles and the operators that shape their strands.
 ///
-/// Operators that only read rest state run on the rest surface; the follicle frames carry the result to each
-/// pose (root + frame * offset * scale). The first operator that reads live state, and all operators after
-/// it, run on the posed strands of every motion key. With `cache:`, the result of the operators up to the
-/// operator named by `freeze` is quantised (groom/frozen_leaf.h) and stored in files. Strands are then always
-/// grown from the quantised data, whether this data was just computed or read. Every strand is a pure
-/// function of the groom, its id and the pose (law 1). Strands of a file grow the same way: their points are
-/// the state before the first operator, their ids the order of the file, their roots the nearest points of
-/// the rest skin.
+/// Operators that only read rest state run on the rest surface. The follicle frames carry the result to each
+/// pose: a point becomes root + frame * offset * scale. The first operator that reads live state, and all
+/// operators after it, run on the posed strands of every motion key.
+///
+/// With `cache:`, the result of all operators up to the one named by `freeze` is quantised
+/// (groom/frozen_leaf.h) and stored in files. Strands are then always grown from the quantised data, whether
+/// it was just computed or read from a file. Every strand is a pure function of the groom, the strand's id
+/// and the pose (law 1).
+///
+/// Strands of a file grow in the same way. Their points are the state before the first operator, their ids
+/// are their order in the file, and their roots are the nearest points of the rest skin.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class Groom {
  public:
-  /// Places follicles and prepares the operators (clump centres, guides). `name` is for messages; `rest` is
-  /// null for a groom without a skin. Throws Error: kInput for missing maps, missing guide files and invalid
-  /// combinations; kMemory before making anything for which the ledger has no room; kStopped when the job is
-  /// stopped. Problems with a cache are warnings to the job's progress and do not stop growing.
+  /// Places follicles and prepares the operators, for example clump centres and guides. `name` is for
+  /// messages. `rest` is null for a groom without a skin. Throws Error: kInput for missing maps, missing
+  /// guide files and invalid combinations; kMemory before making anything for which the ledger has no room;
+  /// kStopped when the job is stopped. A problem with the cache does not stop growing; it is reported as a
+  /// warning to the job's progress.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
                                              TextureLibrary& textures, const Job& job);
@@ -67,42 +72,43 @@ class Groom {
   const FollicleTree& follicles() const;
   StrandRole role() const;
   bool needs_closest_point() const;
-  /// Hash of everything that shapes the strands, including live operators and this build of the program:
-  /// grooms with equal hashes grow equal strands in equal leaves.
+  /// Hash of everything that shapes the strands, including live operators and the version of the program.
+  /// Grooms with equal hashes grow equal strands in equal leaves.
   const ContentHash& content_hash() const;
-  /// Store for data derived from the groom; null without a cache.
+  /// Store for data that is derived from the groom. Null for a groom without a cache.
   const ContentStore* store() const;
-  /// State of the cache; null without one (groom/cache_report.h).
+  /// State of the cache when the groom was made (groom/cache_report.h). Null for a groom without a cache.
   const GroomCacheReport* cache_report() const;
-  /// Repairs made to the strands file.
+  /// Counts of the repairs made to the strands of the file; zeros for a groom without a file.
   StrandRepairs repairs() const;
 
-  /// All strands of a leaf in a pose, ids ascending. They have the attribute "color" (3 components) when an
-  /// operator colours them: constant, per strand or per point, the smallest of these that can hold the
-  /// colours. With `kept`, grows only some of the strands. This costs as much as growing every strand up to
-  /// the last kept strand.
+  /// Grows all strands of a leaf in a pose, in ascending order of ids. If an operator colours strands, they
+  /// have the attribute "color" with 3 components. Its frequency is the lowest that can represent the
+  /// colours: constant, per strand or per point. With `kept`, grows only the strands in `kept`, but costs as
+  /// much as growing every strand up to the last of these.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
 
-  /// Exact counts of grow() for the whole leaf or its first `count` strands. The number of motion keys is not
-  /// included, because it depends on the pose.
+  /// Returns the exact size of the result of grow(), for the whole leaf or for its first `count` strands.
+  /// Does not set the number of motion keys, because it depends on the pose.
   StrandCounts counts(size_t leaf, size_t count = SIZE_MAX) const;
 
   bool grows_on_skin() const;
-  /// Root of a strand at a motion key. Without a skin, the result has no derivatives.
+  /// Returns the root of a strand at a motion key. Without a skin, the result has no derivatives.
   SurfacePoint root(size_t follicle, const PosedSkin& pose, size_t key) const;
-  /// Uniformly distributed over [0, 1), a function of the strand's id only. Strands of smaller value are kept
-  /// longer when detail is reduced. Ascends within a leaf where has_priority_order().
+  /// Returns a number that is uniformly distributed over [0, 1) and depends only on the strand's id. When
+  /// detail is reduced, strands with smaller numbers are kept longer. If has_priority_order(), the numbers
+  /// ascend within each leaf.
   float priority(size_t follicle) const;
   bool has_priority_order() const;
-  /// Upper bound of the distance from any point of a strand, radius included, to its root, for a character of
-  /// scale 1.
+  /// Upper bound of the distance from the root of a strand to any point of it, plus the radius at that point.
+  /// For a character of scale 1.
   float reach() const;
-  /// Approximate width of the widest strands, for a character of scale 1. Independent of how the coat is
-  /// divided.
+  /// Approximate width of the widest strands, for a character of scale 1. Does not depend on how the coat is
+  /// divided into leaves.
   float width() const;
-  /// A box that contains every point +- radius that grow() can return. It is computed from the roots in the
-  /// pose, the longest strand and the reach of each operator; no strands are grown. `count`: bound only the
-  /// first `count` strands.
+  /// Returns a box that contains all points of the strands that grow() can return, plus their radii. Computes
+  /// the box from the roots in the pose, the longest strand and the bounds of each operator, without growing
+  /// strands. With `count`, the box is for the first `count` strands of the leaf.
   Box3f conservative_bound(size_t leaf, const PosedSkin& pose, size_t count = SIZE_MAX) const;
 
  private:

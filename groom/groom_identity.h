@@ -11,29 +11,28 @@
 
 namespace pelage {
 
-/// One step in the making of a coat, with all its inputs as readable text, so that a change can be shown to
-/// the user.
+/// One step of making a coat. Lists all its inputs as readable text, so that a change can be shown to the
+/// user.
 struct GroomStage {
   std::string name;  ///< "skin", "strands", "points", or the name of an operator
-  std::vector<std::pair<std::string, std::string>> inputs;  ///< "amount", "0.6"
-  ContentHash hash;                                         ///< hash of this stage and of all stages before
-                                                            ///< it
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< name and value of each: "amount", "0.6"
+  ContentHash hash;  ///< hash of this stage and of all stages before it
 };
 
-/// The inputs of a groom's strands, step by step: skin, strands, points, then each operator. Equal hashes
-/// mean equal strands. Files are identified by their contents, whatever their folder.
+/// The inputs of a groom's strands, stage by stage: skin, strands, points, then each operator. Equal hashes
+/// mean equal strands. Files are identified by their contents, not by their paths.
 class GroomIdentity {
  public:
   static constexpr size_t kSkin = 0, kStrands = 1, kPoints = 2, kFirstOperator = 3;
 
-  /// `seed`: the groom's seed with its name mixed in. Unreadable files are recorded as unreadable; the code
-  /// that needs them reports the error.
+  /// `seed`: hash of the groom's seed and name. A file that cannot be read is recorded as such without an
+  /// error; the code that needs the file reports the error.
   GroomIdentity(const GroomParams& params, uint64_t seed, const OperatorStack& stack,
                 const LimitSurface* rest);
 
   const std::vector<GroomStage>& stages() const { return stages_; }
   const GroomStage& of_operator(size_t i) const { return stages_[kFirstOperator + i]; }
-  /// Hash of all operators.
+  /// Hash of the whole groom: the hash of its last stage.
   const ContentHash& whole() const { return stages_.back().hash; }
 
  private:

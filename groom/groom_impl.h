@@ -13,23 +13,24 @@
 
 namespace pelage {
 
-/// Members of a groom, for the source files that make and grow it.
+/// Members of Groom, for the source files that make and grow it.
 struct Groom::Impl {
   StrandRole role = StrandRole::kUnder;
-  uint64_t operator_seed = 0;  // of their context
+  uint64_t operator_seed = 0;  // seed of the context in which operators are prepared
   CoatSource source;
   std::optional<OperatorStack> stack;
   ContentHash hash;
-  std::optional<ContentStore> store;  // of a groom with a cache
-  std::optional<FrozenCoat> frozen;   // of a groom with a cache
-  size_t frozen_end = 0;              // the operators [0, frozen_end) are in it
-  bool needs_rest_frames = true;      // growing from the cache needs the frames of the rest skin
-  std::vector<V3f> rest_positions;    // of all roots, when these alone are needed
+  std::optional<ContentStore> store;  // only with a cache
+  std::optional<FrozenCoat> frozen;   // only with a cache
+  size_t frozen_end = 0;              // `frozen` is the state after the operators [0, frozen_end)
+  bool needs_rest_frames = true;      // whether growing from the cache needs the frames of the rest skin
+  // of all roots, if growing from the cache needs positions of the rest skin but no frames
+  std::vector<V3f> rest_positions;
   std::optional<GroomCacheReport> report;
   MemoryCharge charge;
 
-  /// Reads follicles and frozen leaves from the store, or makes and stores them; prepares the operators that
-  /// are needed.
+  /// Reads follicles and frozen leaves from the store. If they are missing, makes and stores them. Prepares
+  /// the operators that are needed.
   void open_cache(const std::string& name, const GroomParams& params, const GroomIdentity& identity,
                   const PrepareContext& context, uint64_t seed);
   FollicleTree place_follicles(const GroomParams& params, const PrepareContext& context, uint64_t seed) const;
@@ -38,7 +39,7 @@ struct Groom::Impl {
   /// Computes the data of the rest skin that growing from the cache needs.
   void prepare_rest(const std::string& name, const Job& job);
   void grow_cached(size_t leaf, const PosedSkin& pose, size_t begin, size_t end, StrandWriter& writer) const;
-  /// Sets the roots of batch.count strands at a motion key.
+  /// Sets the roots of the strands of a batch at a motion key: batch.count follicles from `begin` on.
   void stand(StrandBatch& batch, size_t begin, const PosedSkin& skin, size_t key) const;
   StrandWriter::Chosen chosen(const KeptStrands& kept, size_t begin) const;
   StrandReach reach(size_t leaf) const;

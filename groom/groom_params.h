@@ -17,21 +17,22 @@ namespace pelage {
 /// `cache:` of a groom.
 struct GroomCacheParams {
   AssetPath directory{"cache", {}};
-  NameReference freeze;  ///< name of the last frozen operator; if several operators have this name, the last
-                         ///< of these
+  /// Name of the last frozen operator; if several operators have this name, the last of them counts.
+  NameReference freeze;
   static const Schema<GroomCacheParams>& schema();
 };
 
 /// One entry of `grooms:`.
 struct GroomParams {
-  NameReference skin;                     ///< name of a skin; empty for an imported groom without one
-  AssetPath strands_file;                 ///< curves from a file, instead of follicles
-  std::optional<CurveBasis> basis;        ///< of strands_file
-  std::optional<float> default_width;     ///< of strands_file
-  Attachment attach = Attachment::kAuto;  ///< of strands_file
+  NameReference skin;                     ///< name of a skin; empty for strands of a file without a skin
+  AssetPath strands_file;                 ///< file with the strands; empty: strands grow from follicles
+  std::optional<CurveBasis> basis;        ///< for strands_file: curve basis, if the file does not state it
+  std::optional<float> default_width;     ///< for strands_file: width, if the file has no widths
+  Attachment attach = Attachment::kAuto;  ///< for strands_file: whether its strands follow the skin
   StrandRole role = StrandRole::kUnder;
   std::optional<int64_t> strands;
-  std::optional<Field> density;  ///< relative if `strands` is given; else strands per square scene unit
+  /// Relative if `strands` is given; otherwise, number of strands per square scene unit.
+  std::optional<Field> density;
   int points = 8;
   int64_t seed = 0;
   OperatorList operators;
@@ -43,8 +44,8 @@ struct GroomParams {
   static const Schema<GroomParams>& schema();
 };
 
-/// The problem with `cache.freeze`: it names no operator of the groom, or an operator that does not depend on
-/// rest state alone. Empty when there is none.
+/// Checks `cache.freeze`. Returns the problem if it names no operator of the groom, or if this operator or
+/// one before it reads more than rest state. Otherwise returns nothing.
 std::optional<Problem> check_freeze(const GroomParams& params);
 
 }  // namespace pelage

@@ -6,13 +6,15 @@
 
 namespace pelage {
 
-/// Hash of the sources of every room that affects growth (base, image, geom, groom; a groom may include no
-/// other), the compiler and its settings. Computed by the build, so nobody has to remember to change it.
+/// Returns a hash of the compiler, its settings, and the sources of every room that affects growth: base,
+/// image, geom and groom. A groom may include no other rooms. The build computes this hash, so no developer
+/// has to update it.
 std::string_view growth_sources();
 
-/// Distinguishes programs and machines that may grow different strands, even in the last digit:
-/// growth_sources(), the system libraries used for computation, and the instruction sets that these may
-/// select. Programs that differ elsewhere, such as in rendering, have the same identity.
+/// Returns a text that differs between programs and machines that may grow different strands, even in the
+/// last digit. It consists of growth_sources(), the system libraries used for computation, and the
+/// instruction sets among which these libraries may choose. Programs that differ only in other rooms, such as
+/// rendering, return the same text.
 std::string growth_identity();
 
 }  // namespace pelage

@@ -18,24 +18,27 @@ struct GuideFile {
   V3f translate{0};
 };
 
-/// Guide strands in rest space, bound to the rest skin and resampled to a common number of points. Immutable.
-/// Thread safety: const members may be called from any thread.
+/// Guide strands in rest space. They are bound to the rest skin and resampled to a common number of points.
+/// Immutable. Thread safety: const members may be called from any thread.
 class GuideSet {
  public:
-  /// Throws Error (kInput) when the file cannot be read or contains no strands.
+  /// Reads the guides. Throws Error (kInput) when the file cannot be read or contains no usable strand, or
+  /// when all faces of the skin are holes.
   GuideSet(const GuideFile& source, const PrepareContext& context);
 
   size_t size() const { return normals_.size(); }
   int points() const { return points_; }
-  const std::vector<V3f>& roots() const { return roots_; }      ///< on the skin
-  const std::vector<V3f>& normals() const { return normals_; }  ///< of the skin at the roots
-  /// Control point `p` of guide `g` as an offset from its base, along the axes of rest space.
+  const std::vector<V3f>& roots() const { return roots_; }      ///< nearest points of the skin
+  const std::vector<V3f>& normals() const { return normals_; }  ///< normals of the skin at the roots
+  /// Returns control point `p` of guide `g` as an offset from control point 0, along the axes of rest space.
   const V3f& offset(size_t g, int p) const {
     return offsets_[g * static_cast<size_t>(points_) + static_cast<size_t>(p)];
   }
-  float length(size_t g) const { return lengths_[g]; }  ///< of the control polygon
+  float length(size_t g) const { return lengths_[g]; }  ///< length of the control polygon of guide g
+  /// Max of length() over all guides.
   float longest() const { return longest_; }
-  /// Median distance from a guide's root to its nearest neighbour.
+  /// Median over the guides of the distance from a guide's root to the nearest other root. Of many guides,
+  /// samples about a thousand.
   float spacing() const { return spacing_; }
   size_t bytes() const;
 

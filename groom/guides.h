@@ -29,13 +29,14 @@ struct GuidesParams {
   static const Schema<GuidesParams>& schema();
 };
 
-/// Gives a strand the weighted mean of the shapes of nearby guides, and the weighted mean of their lengths.
-/// The shape of a guide is its offsets from its root, after the smallest rotation from the guide's root
-/// normal to the strand's root normal. A guide at the distance d has the weight (1 - d / R)^2.
+/// Shapes a strand like nearby guides: its shape and its length become weighted means of the shapes and
+/// lengths of these guides. The shape of a guide consists of its offsets from its root, after the smallest
+/// rotation from the guide's root normal to the strand's root normal. A guide at the distance d from the
+/// strand's root has the weight (1 - d / R)^2.
 ///
-/// R is the distance of the nearest guide that is not used, or the radius if the radius is smaller. The coat
-/// is therefore continuous where the set of nearest guides changes. A strand without a guide within the
-/// radius stays unchanged.
+/// R is the distance of the nearest guide that is not used, but at most the radius. The weight of a guide
+/// therefore becomes 0 before another guide takes its place, so the coat is continuous. A strand without a
+/// guide within the radius stays unchanged.
 class Guides final : public OperatorOf<GuidesParams> {
  public:
   static constexpr const char* kName = "guides";
@@ -53,9 +54,9 @@ class Guides final : public OperatorOf<GuidesParams> {
   bool all_strands_have_guides() const;
 
   std::shared_ptr<const GuideSet> guides_;
-  RootGrid near_;                               // for interpolation
-  RootGrid covered_;                            // for coverage
-  std::shared_ptr<const MemoryCharge> charge_;  // of all three
+  RootGrid near_;     // finds the guides that shape a strand
+  RootGrid covered_;  // finds whether a guide is near enough for a strand to grow (`spread`)
+  std::shared_ptr<const MemoryCharge> charge_;  // memory of guides_, near_ and covered_
 };
 
 }  // namespace pelage

@@ -17,7 +17,7 @@ struct LengthParams {
   static const Schema<LengthParams>& schema();
 };
 
-/// Scales each strand about its root to the requested length.
+/// Scales each strand about its root to a given length.
 class Length final : public OperatorOf<LengthParams> {
  public:
   static constexpr const char* kName = "length";

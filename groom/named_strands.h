@@ -7,11 +7,12 @@
 
 namespace pelage {
 
-/// Rethrows an error about the contents of a file that a scene names. The new position is where the scene
-/// names the file; each message starts with the position in the file.
+/// Rethrows an error about the contents of a file that a scene names. The position of the new error is the
+/// line of the scene that names the file. Each message starts with the position in the file.
 [[noreturn]] void rethrow_at_asset(const Error& error, const AssetPath& file);
 
-/// Returns the result of `work`. Errors of kind kInput are passed to rethrow_at_asset().
+/// Returns the result of `work`. If `work` throws an Error of kind kInput, calls rethrow_at_asset(); other
+/// errors pass through.
 template <class Work>
 auto with_errors_at_asset(const AssetPath& file, const Work& work) {
   try {
@@ -22,7 +23,8 @@ auto with_errors_at_asset(const AssetPath& file, const Work& work) {
   }
 }
 
-/// read_strands() of a file that a scene names.
+/// Reads the strands of a file that a scene names, like read_strands(), with errors as in
+/// with_errors_at_asset().
 StrandFile read_named_strands(const AssetPath& file, const StrandReadOptions& options);
 
 }  // namespace pelage

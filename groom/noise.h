@@ -16,7 +16,8 @@ struct NoiseParams {
   static const Schema<NoiseParams>& schema();
 };
 
-/// Displaces neighbouring strands coherently, by noise over the rest skin.
+/// Displaces strands by noise that is continuous over the rest skin, so that neighbouring strands move
+/// together.
 class Noise final : public OperatorOf<NoiseParams> {
  public:
   static constexpr const char* kName = "noise";

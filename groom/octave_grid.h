@@ -10,25 +10,27 @@
 
 namespace pelage {
 
-/// Follicles in a spatial hash grid, for progressive_order(). Follicles whose spacings differ by more than a
-/// factor of two are kept in separate grids (octaves), so that a search never visits many small cells.
+/// A spatial hash grid of follicles, for progressive_order(). There is one grid per octave: follicles whose
+/// spacings differ by more than a factor of two are in different grids. The cells of each grid suit the
+/// spacings of its follicles, so a search never visits many small cells.
 class OctaveGrid {
  public:
-  /// For at most about `max` follicles.
+  /// `max`: approximate max number of follicles.
   OctaveGrid(float smallest_spacing, size_t max) : smallest_(smallest_spacing) { items_.reserve(max); }
-  /// Memory of a grid of at most `max` follicles after rebuild() has made room for `expected`.
+  /// Returns the memory of a grid of at most `max` follicles after rebuild(expected, ...).
   static size_t bytes(size_t max, size_t expected) {
     return max * sizeof(Item) + head_count(expected) * sizeof(uint32_t);
   }
 
-  /// Reinserts everything for searches at radii up to `radius`, with room for about `expected` follicles.
+  /// Removes and inserts all follicles again, so that nearest() is fast for radii up to `radius` and for
+  /// about `expected` follicles.
   void rebuild(size_t expected, float radius);
   void insert(const FollicleCandidate& follicle);
 
-  /// Distance from a candidate to the nearest follicle, in units of the smaller of the two spacings; at most
-  /// `radius`. Ignores follicles whose normals differ by more than 60 degrees from the candidate's normal.
-  /// The search stops at a follicle that is much nearer than `radius`, even if another follicle is nearer
-  /// still.
+  /// Returns the distance from a candidate to the nearest follicle, divided by the smaller of their spacings.
+  /// Returns `radius` if there is none within `radius`. Ignores follicles whose normals differ by more than
+  /// 60 degrees from the candidate's normal. Stops at the first follicle that is much nearer than `radius`,
+  /// even if another follicle may be nearer still.
   float nearest(const FollicleCandidate& candidate, float radius) const;
 
  private:
@@ -49,8 +51,8 @@ class OctaveGrid {
 
   float smallest_;
   float cell_ = 1;
-  unsigned octaves_ = 0;         // bit k: octave k holds follicles
-  std::vector<uint32_t> heads_;  // of lists; the cells of a row of 16 along x are adjacent
+  unsigned octaves_ = 0;         // bit k is set if octave k holds follicles
+  std::vector<uint32_t> heads_;  // first items of lists; 16 cells of a row along x are adjacent
   std::vector<Item> items_;
 };
 

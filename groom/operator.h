@@ -24,17 +24,19 @@ class TextureLibrary;
 struct Job;
 struct StrandBatch;
 
-/// Properties of all strands before or after an operator, for bounds. Scene units, before the scale of a
-/// character. They apply to control points: curves stay within their hull.
+/// Bounds that hold for all strands before or after an operator. In scene units, before the scale of a
+/// character. They hold for control points, and therefore also for curves, which stay within the convex hull
+/// of their control points.
 struct StrandReach {
-  float length = 1;                        ///< max arc length (of the control polygon)
-  float distance = 1;                      ///< max distance of a point from its root
-  float radius = 0;                        ///< max radius
-  float lean = std::numbers::pi_v<float>;  ///< max angle of a segment to the normal of its root
-  int segments = 7;                        ///< max number of segments of a control polygon
+  float length = 1;    ///< max arc length of a strand's control polygon
+  float distance = 1;  ///< max distance of a point from its root
+  float radius = 0;    ///< max radius
+  /// Max angle between a segment and the normal at its strand's root, radians.
+  float lean = std::numbers::pi_v<float>;
+  int segments = 7;  ///< max number of segments of a control polygon
 
-  /// Properties after points were moved independently by up to `displacement` with fixed roots: neighbours
-  /// may move apart, and segments may point anywhere.
+  /// Returns bounds after every point except the root has moved by up to `displacement`, each in its own
+  /// direction. Two neighbouring points may move apart, and segments may get any direction.
   StrandReach displaced(float displacement) const {
     StrandReach after = *this;
     after.distance += displacement;
@@ -44,71 +46,73 @@ struct StrandReach {
   }
 };
 
-/// Which data of the roots on the rest skin an operator reads.
+/// Data of the roots on the rest skin that an operator reads.
 enum class RestUse { kNone, kPositions, kFrames };
 
-/// Inputs of prepare(), before strands are grown. Rest state only.
+/// Inputs of prepare(), which runs before strands are grown. Rest state only.
 struct PrepareContext {
   const LimitSurface* rest = nullptr;  ///< null for imported strands without a skin
   TextureLibrary& textures;
   const Job& job;
   std::span<const std::unique_ptr<Operator>> preceding;  ///< the operators before this one, already prepared
-  uint64_t seed = 0;  ///< seed of this operator: depends on the groom's seed, differs between equal operators
-  int points = 8;     ///< number of points of a grown strand
-  SourcePosition position = {};  ///< position of the operator in the scene file, for errors
-  std::string owner = {};        ///< name for messages: "groom 'coat'"
+  /// Seed of this operator; depends on the groom's seed and differs between operators of the same name.
+  uint64_t seed = 0;
+  int points = 8;                ///< number of points of a strand that is not imported
+  SourcePosition position = {};  ///< position of the operator in the scene file, for error messages
+  std::string owner = {};        ///< owner of the operator, for messages: "groom 'coat'"
 };
 
 /// One step of a groom: moves the points of strands, or sets their attributes.
 ///
-/// Contract: pure and deterministic per strand. The result for a strand depends on the points, the id and the
-/// root of this strand, on the operator's parameters, and on the data that prepare() computed from rest
-/// state. It never depends on the other strands of the batch. Roots never move. Thread safety: apply() may
-/// run on many batches at once.
+/// Contract: pure and deterministic per strand. The result for a strand depends only on the points, the id
+/// and the root of this strand, on the operator's parameters, and on data that prepare() computed from rest
+/// state. It never depends on other strands of the batch. Roots never move. Thread safety: apply() may run on
+/// several batches at once.
 class Operator {
  public:
   virtual ~Operator() = default;
   /// Name in the scene file: "clump".
   virtual std::string_view name() const = 0;
-  /// Every parameter that prepare() and apply() depend on.
+  /// Name and value of every parameter that influences prepare() or apply().
   virtual std::vector<ParameterText> parameters() const = 0;
-  /// Whether the operator uses rest state only. Its result is then valid in every pose and may be frozen.
-  /// Otherwise the operator receives posed strands.
+  /// Whether the operator uses rest state only. If so, its result is valid in every pose and may be frozen.
+  /// If not, the operator receives posed strands.
   virtual bool reads_rest_only() const { return true; }
   /// Whether apply() uses the posed skin (StrandBatch::skin).
   virtual bool needs_closest_point() const { return false; }
-  /// Frequency of the colours that apply() writes; empty if apply() writes no colours.
+  /// Frequency of the colours that apply() writes. Empty if apply() writes no colours.
   virtual std::optional<AttributeClass> colors() const { return {}; }
-  /// Random factor that apply() applies to the colour of a strand, for the seed passed to prepare(), and its
-  /// mean over all strands.
+  /// A random factor on the colour of a strand: its value for this strand, and its mean over all strands.
   struct Brightness {
     float value = 1, mean = 1;
   };
+  /// Returns the factor by which apply() multiplies the colour of a strand. `seed`: the seed that prepare()
+  /// received.
   virtual Brightness brightness(uint64_t /*seed*/, uint64_t /*strand_id*/) const { return {}; }
   /// Whether apply() ignores the colours that strands had before.
   virtual bool replaces_colors() const { return false; }
-  /// Whether the widths written by apply() are one profile along the strands, times a number per strand.
+  /// Whether apply() gives all strands the same width profile, times one factor per strand.
   virtual bool has_one_width_profile() const { return true; }
-  /// Whether apply() accesses only ids, texture coordinates, rest positions, clump numbers, radii and colours
-  /// of a batch: then it can run on strands whose shape is not known yet.
+  /// Whether apply() reads and writes no other data of a batch than ids, texture coordinates, rest positions,
+  /// clump numbers, radii and colours. If so, it can run on strands whose shape is not known yet.
   virtual bool attributes_only() const { return false; }
-  /// Members of StrandBatch::rest that apply() reads.
+  /// The members of StrandBatch::rest that apply() reads.
   virtual RestUse rest_use() const { return RestUse::kFrames; }
-  /// Whether prepare() runs the operators before this one.
+  /// Whether prepare() runs the operators before this one. These must then be prepared first.
   virtual bool runs_preceding() const { return false; }
-  /// Reads maps and files, and gathers data about the whole coat (clump centres, guides). Called once.
-  /// Charges retained memory to the ledger. Throws Error: kInput, kMemory before allocating memory that does
-  /// not fit, kStopped when the job is stopped.
+  /// Reads maps and files, and gathers data about the whole coat, such as clump centres and guides. Called
+  /// once. Charges memory that it keeps to the ledger. Throws Error: kInput for unusable files, kMemory
+  /// before allocating memory that does not fit, kStopped when the job is stopped.
   virtual void prepare(const PrepareContext&) {}
-  /// Number of strands to grow at a point of the rest skin, relative to the density of the groom.
+  /// Returns the factor on the density of the groom at a point of the rest skin.
   virtual float coverage(const V3f& /*rest_position*/, const V3f& /*normal*/) const { return 1; }
   /// Whether coverage() differs from 1 anywhere.
   virtual bool restricts_coverage() const { return false; }
   virtual void apply(StrandBatch& batch) const = 0;
-  /// Upper bound of the distance by which apply() moves any point of a strand with the properties `before`.
-  /// The bound is at most 1.5 times the actual displacement of the worst strand.
+  /// Returns an upper bound of the distance by which apply() moves any point of a strand within the bounds
+  /// `before`. The bound is at most 1.5 times the distance that the worst strand actually moves.
   virtual float displacement_bound(const StrandReach& before) const = 0;
-  /// Properties after apply().
+  /// Returns the bounds of strands after apply(). `before`: their bounds before it.
   virtual StrandReach reach_after(const StrandReach& before) const = 0;
 };
 

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-/// `operators:` of a groom: a list of maps with one key each, the operator's name. Holds the operators as
-/// described by the scene, before prepare(); grooms copy what they need.
+/// `operators:` of a groom: a list of maps with one key each, the name of the operator. Holds the operators
+/// as the scene describes them, before prepare(). A groom makes its own copies.
 struct OperatorList {
   struct Item {
     std::string name;
@@ -22,7 +22,7 @@ struct OperatorList {
   std::vector<Item> items;
 };
 
-/// An operator with default parameters; `name` must exist.
+/// Returns an operator with default parameters. An operator of this name must exist.
 OperatorList::Item default_operator(std::string_view name);
 
 template <>

@@ -8,7 +8,7 @@
 
 namespace pelage {
 
-/// An operator that takes its keys in the scene file from `P`, a struct with a Schema.
+/// An operator whose keys in the scene file are described by `P`, a struct with a Schema.
 template <class P>
 class OperatorOf : public Operator {
  public:

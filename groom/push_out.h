@@ -14,12 +14,12 @@ struct PushOutParams {
   static const Schema<PushOutParams>& schema();
 };
 
-/// Moves strands out of the posed skin. Live: runs in every pose, using the same tessellation as all other
-/// consumers.
+/// Moves strands out of the posed skin. Reads live state: runs in every pose, on the same tessellation that
+/// is rendered.
 ///
-/// Afterwards, no point of a strand's curve lies inside a closed skin. Control points keep a distance from
-/// the skin that grows from 0 at the root to `offset`. Segments keep their lengths as far as possible; a
-/// strand that cannot be moved out is retracted along its curve to its last point outside the skin.
+/// Afterwards, no point of a strand's curve lies inside a closed skin. Control points keep a min distance
+/// from the skin, which grows from 0 at the root to `offset`. Segments keep their lengths as far as possible.
+/// If a strand cannot be moved out, it is shortened: it ends at the last point of its curve outside the skin.
 class PushOut final : public OperatorOf<PushOutParams> {
  public:
   static constexpr const char* kName = "push_out";

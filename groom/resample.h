@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Control points of a pinned uniform cubic B-spline with `count` points. The knots of the spline lie on
-/// strand `strand`, at even arc length.
+/// Returns the control points of a pinned uniform cubic B-spline with `count` points. The knots of this
+/// spline lie on strand `strand`, at equal distances of arc length.
 std::vector<V3f> resample_strand(const Strands& strands, size_t strand, int count);
 
 }  // namespace pelage

@@ -8,18 +8,18 @@
 
 namespace pelage {
 
-/// Finds the nearest of a fixed set of places on a skin. Ignores places whose normals differ by more than 60
-/// degrees from the query's, which separates the two sides of a thin ear. Immutable. Thread safety: const
-/// members may be called from any thread.
+/// Finds the nearest of a fixed set of points on a skin. Ignores points whose normals differ by more than 60
+/// degrees from the normal of the query. This separates the two sides of a thin ear. Immutable.
+/// Thread safety: const members may be called from any thread.
 class RootGrid {
  public:
   struct Neighbour {
-    uint32_t index = 0;
+    uint32_t index = 0;  ///< index in the set of points
     float distance = 0;
   };
 
   RootGrid() = default;
-  /// `radius`: max search distance.
+  /// `positions` and `normals` describe the points. `radius` is the max distance of searches.
   RootGrid(std::vector<V3f> positions, std::vector<V3f> normals, float radius);
 
   size_t size() const { return positions_.size(); }
@@ -27,15 +27,17 @@ class RootGrid {
   const V3f& normal(size_t i) const { return normals_[i]; }
   float radius() const { return radius_; }
 
-  /// Nearest place within the radius, the lower index in case of a tie; false when there is none.
+  /// Finds the nearest point within the radius; of several nearest points, the one with the lowest index.
+  /// Returns false when there is none.
   bool nearest(const V3f& position, const V3f& normal, Neighbour& result) const;
-  /// Writes the `wanted` nearest places within the radius to `result`, nearest first; returns their number.
+  /// Writes the nearest points within the radius to `result`, at most `wanted`, nearest first. Returns their
+  /// count.
   int nearest(const V3f& position, const V3f& normal, int wanted, Neighbour* result) const;
   size_t bytes() const;
-  /// Upper bound of bytes() per place.
+  /// Upper bound of bytes() divided by the number of points.
   static constexpr size_t kMaxBytesPerPlace = 2 * sizeof(V3f) + 5 * sizeof(uint32_t);
 
-  /// Calls visit(index, squared distance) for every place within the radius, in a fixed but arbitrary order.
+  /// Calls visit(index, squared distance) for every point within the radius, in a fixed but arbitrary order.
   template <class Visit>
   void for_each_near(const V3f& position, const V3f& normal, const Visit& visit) const;
 
@@ -47,7 +49,7 @@ class RootGrid {
   float inverse_cell_ = 0;
   std::vector<V3f> positions_;
   std::vector<V3f> normals_;
-  std::vector<uint32_t> first_;  // of each bucket, into items_
+  std::vector<uint32_t> first_;  // first item of each bucket; one more entry at the end
   std::vector<uint32_t> items_;
 };
 

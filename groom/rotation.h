@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// Sine and cosine of `turns` full turns, with an error of 4e-6. Plain arithmetic, so that loops over strands
-/// vectorise.
+/// Computes the sine and cosine of `turns` full turns, with an error of at most 4e-6. Uses plain arithmetic,
+/// so that loops over strands vectorise.
 inline void sincos_turns(float turns, float& sine, float& cosine) {
   const auto sine_of_quarter = [](float y) {  // |y| <= 1/4 turn: Taylor series to the 9th power
     const float a = 6.28318531f * y;
@@ -23,13 +23,13 @@ inline void sincos_turns(float turns, float& sine, float& cosine) {
   sine = std::copysign(sine_of_quarter(folded), x);
 }
 
-/// Unit vector along `v`, or `fallback` where `v` is too short to have a direction.
+/// Returns the unit vector along `v`, or `fallback` if `v` is too short to have a direction.
 inline V3f normalised_or(const V3f& v, const V3f& fallback) {
   const float length2 = v.dot(v);
   return length2 > 1e-24f ? v * (1.0f / std::sqrt(length2)) : fallback;
 }
 
-/// Some unit vector perpendicular to the unit vector `n`.
+/// Returns an arbitrary unit vector perpendicular to the unit vector `n`.
 inline V3f any_perpendicular(const V3f& n) {
   const V3f axis = std::fabs(n.x) < 0.6f ? V3f(1, 0, 0) : V3f(0, 1, 0);
   return normalised_or(axis - n * n.dot(axis), V3f(0, 0, 1));
@@ -47,8 +47,8 @@ struct Rotation {
   }
 };
 
-/// The smallest rotation from the unit vector `from` to the unit vector `to`; about `if_opposite` (unit,
-/// perpendicular to `from`) when they are opposite.
+/// Returns the smallest rotation from the unit vector `from` to the unit vector `to`. If they are opposite,
+/// its axis is `if_opposite`, a unit vector perpendicular to `from`.
 inline Rotation rotation_between(const V3f& from, const V3f& to, const V3f& if_opposite) {
   const V3f cross = from.cross(to);
   const float sine = cross.length();

@@ -11,19 +11,19 @@ namespace pelage {
 
 struct Job;
 
-/// Finds the point of the rest skin nearest to a given point, for guides and imported strands. Uses a uniform
-/// tessellation, so addresses are accurate to its triangles. Immutable. Thread safety: const members may be
-/// called from any thread.
+/// Finds the point of the rest skin that is nearest to a given point, for guides and imported strands.
+/// Searches a uniform tessellation, so the found addresses are only as accurate as its triangles. Immutable.
+/// Thread safety: const members may be called from any thread.
 class SkinBinding {
  public:
-  /// Charges its memory to the ledger for its lifetime. Throws Error: kMemory, naming the file whose strands
-  /// are to be bound; kStopped when the job is stopped.
+  /// Charges its memory to the ledger for its lifetime. Throws Error: kMemory, with the path `strands` of the
+  /// file whose strands will be bound; kStopped when the job is stopped.
   SkinBinding(const LimitSurface& rest, const std::filesystem::path& strands, const Job& job);
   ~SkinBinding();
 
-  /// Whether the skin has no surface: every face is a hole.
+  /// Whether the skin has no surface, because every face is a hole.
   bool empty() const;
-  /// Ptex address of the nearest point. The skin must not be empty.
+  /// Returns the root address of the nearest point. The skin must not be empty.
   RootAddress nearest(const V3f& point) const;
 
  private:

@@ -7,20 +7,22 @@
 #include <cstdint>
 #include <optional>
 
-// Numbers from 0 to a million in 16 bits: zero, or 6 bits of exponent and 10 bits of mantissa. Rounding to
-// nearest has a relative error of at most 2^-11; powers of two are exact.
+// 16-bit floats for numbers from 0 to a million: zero, or 6 bits of exponent and 10 bits of mantissa.
+// nearest() has a relative error of at most 2^-11. Powers of two are exact.
 namespace pelage::small_float {
 
-inline constexpr uint32_t kBias = 83u << 10;   // the smallest positive number is slightly above 2^-44
-inline constexpr uint32_t kMantissaBits = 13;  // mantissa bits that are dropped
+// chosen such that the smallest positive number is slightly above 2^-44
+inline constexpr uint32_t kBias = 83u << 10;
+inline constexpr uint32_t kMantissaBits = 13;  // number of mantissa bits of a float that are dropped
 
 inline float decode(uint16_t code) {
   const uint32_t bits = (code + kBias) << kMantissaBits;
   return code == 0 ? 0.0f : std::bit_cast<float>(bits);
 }
 
-/// With `round_up` 0: the largest number not above `value`; with all dropped mantissa bits set: the smallest
-/// number not below `value`. Empty for negative, too large and NaN values.
+/// Returns the code of `value`. Adds `round_up` to the bits of `value` before it drops mantissa bits: 0 gives
+/// the largest number not above `value`, all dropped bits set gives the smallest number not below it. Empty
+/// for negative values, NaN and too large values.
 inline std::optional<uint16_t> encode(float value, uint32_t round_up) {
   if (value == 0) return uint16_t{0};
   if (!(value > 0) || !std::isfinite(value)) return {};

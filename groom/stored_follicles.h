@@ -10,12 +10,13 @@ namespace pelage {
 
 class SurfaceTopology;
 
+/// Returns the path of the file of follicles in the store.
 std::filesystem::path follicle_file(const ContentStore& store, const ContentHash& key);
-/// Returns whether the follicles are now in the store.
+/// Stores follicles. Returns whether they are now in the store.
 bool store_follicles(const ContentStore& store, const ContentHash& key, const FollicleTree& follicles,
                      const WarningSink& warn);
-/// Empty when the entry is missing or does not hold follicles of this skin. `topology`: null for strands
-/// without a skin.
+/// Reads follicles from the store. Empty when the entry is missing or its follicles do not belong to this
+/// skin. `topology` is the topology of the skin; null for strands without a skin.
 std::optional<FollicleTree> stored_follicles(const ContentStore& store, const ContentHash& key,
                                              const SurfaceTopology* topology, const WarningSink& warn);
 

@@ -14,7 +14,7 @@ class ClosestPointTree;
 
 /// Number of strands that operators process together: small enough for the L2 cache, large enough for SIMD.
 inline constexpr size_t kBlockStrands = 256;
-/// One number per strand of a batch; vectors are three rows.
+/// One number per strand of a batch. Three of these rows store a vector per strand.
 using StrandRow = std::array<float, kBlockStrands>;
 using VectorRow = std::array<StrandRow, 3>;
 
@@ -27,7 +27,7 @@ inline void set_vector(VectorRow& row, size_t strand, const V3f& value) {
   row[2][strand] = value.z;
 }
 
-/// Roots of strands on a skin.
+/// Roots of the strands of a batch.
 struct RootRows {
   VectorRow position;
   VectorRow tangent, bitangent, normal;  ///< orthonormal follicle frames
@@ -38,12 +38,12 @@ struct RootRows {
   }
 };
 
-/// A block of strands during the evaluation of the operators, as rows over strands: [point][strand].
+/// A block of strands while operators are applied to it. Data is in rows over the strands: [point][strand].
 ///
-/// Points are offsets from the root along the axes of the batch's space: rest space for frozen operators, the
-/// posed space of one motion key for live operators. All strands of a batch have the same number of points.
-/// Point 0 is the base of the strand. It is zero for grown strands, and the offset from the skin for imported
-/// strands. Operators must not move it.
+/// Points are offsets from the root along the axes of the batch's space. This is rest space for frozen
+/// operators, and the posed space of one motion key for live operators. All strands of a batch have the same
+/// number of points. Point 0 is the first point of the strand. Its offset is zero for grown strands; an
+/// imported strand may start away from the skin. Operators must not move point 0.
 struct StrandBatch {
   struct PointRows {
     VectorRow offset;
@@ -52,17 +52,19 @@ struct StrandBatch {
 
   size_t count = 0;
   std::vector<PointRows> points;
-  std::vector<VectorRow> colors;  ///< one per point, one for whole strands, or none when nothing needs colour
+  /// One element per point, or one for whole strands, or none if no colours are needed.
+  std::vector<VectorRow> colors;
   std::array<uint64_t, kBlockStrands> ids;
-  RootRows rest;                           ///< in rest space
-  RootRows current;                        ///< in the batch's space
+  RootRows rest;                           ///< roots in rest space
+  RootRows current;                        ///< roots in the batch's space
   StrandRow u, v;                          ///< texture coordinates of the roots
   StrandRow clump;                         ///< random number of the strand's clump, or of the strand itself
   const ClosestPointTree* skin = nullptr;  ///< the posed skin, for operators that need it
-  float scale = 1;     ///< scale of the character: length of an operator's scene unit in the batch's space
+  /// Scale of the character: length in the batch's space of a scene unit in operator parameters.
+  float scale = 1;
   bool posed = false;  ///< whether the batch's space is a posed space
 
-  /// Memory of a batch of strands with this number of points.
+  /// Returns the memory of a batch of strands with this number of points.
   static int64_t bytes(int points, bool colored) {
     return static_cast<int64_t>(sizeof(StrandBatch)) +
            static_cast<int64_t>(sizeof(PointRows) + (colored ? sizeof(VectorRow) : 0)) * points;
@@ -75,7 +77,8 @@ struct StrandBatch {
   void set_offset(int point, size_t strand, const V3f& value) {
     set_vector(points[static_cast<size_t>(point)].offset, strand, value);
   }
-  /// Position along a strand by point index: 0 at the root, 1 at the tip.
+  /// Returns the position of a point along its strand: 0 at the root, 1 at the tip, in equal steps from point
+  /// to point.
   float along(int point) const { return static_cast<float>(point) / static_cast<float>(segment_count()); }
   /// Transforms a direction from rest space to the batch's space, using the follicle frames.
   V3f from_rest(size_t strand, const V3f& direction) const {
@@ -83,18 +86,19 @@ struct StrandBatch {
   }
 };
 
-/// Makes straight strands of unit length along the root normals of `batch.rest`, with zero width; copies the
+/// Makes straight strands of unit length and zero width along the root normals of `batch.rest`. Copies the
 /// rest frames to `current`.
 void start_strands(StrandBatch& batch, int points);
 
-/// Resets widths and sets colours to white, as before the first operator.
+/// Sets widths to 0 and colours to white, as before the first operator.
 void clear_attributes(StrandBatch& batch);
 void scale_radii(StrandBatch& batch, float scale);
 
-/// Transforms rest offsets to a pose with the roots batch.current, and scales offsets and radii.
+/// Transforms offsets from rest space to the pose whose roots are in batch.current. Multiplies offsets and
+/// radii by `scale`.
 void carry_to_pose(StrandBatch& batch, float scale);
 
-/// Arc length of each strand's control polygon.
+/// Sets `lengths` to the arc length of each strand's control polygon.
 void arc_lengths(const StrandBatch& batch, StrandRow& lengths);
 
 }  // namespace pelage

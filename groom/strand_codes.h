@@ -10,67 +10,74 @@
 
 namespace pelage {
 
-/// Coding options for widths and colours of a coat, determined by its operators.
+/// Options for coding the widths and colours of a coat. Its operators determine them.
 struct CodeOptions {
-  /// Whether all strands share one width profile. If so, the profile may use 16 bits per point, otherwise 8.
+  /// Whether all strands share one width profile. If so, the profile has 16 bits per point, otherwise 8.
   bool one_width_profile = false;
 };
 
-/// The integers that a cache stores for the strands of a batch; namespace codes below defines their meaning.
+/// The integers that a cache stores for the strands of a batch. Namespace codes, below, defines their
+/// meaning.
 ///
-/// Every number is a function of its strand alone, independent of the batch, the leaf, and the other strands
-/// in it. A strand is therefore restored identically however a coat is divided into leaves.
+/// Every integer depends on its strand alone, not on the batch, the leaf, or other strands in it. A strand is
+/// therefore decoded to the same values however a coat is divided into leaves.
 class StrandCodes {
  public:
   enum Column : size_t { kClump, kWidthScale, kWidthProfile, kColorScale, kColorHue, kColorProfile };
   static constexpr size_t kColumns = 6;
 
-  /// From a batch in rest space after the frozen operators.
+  /// Codes the strands of a batch, which must be in rest space after the frozen operators.
   StrandCodes(const StrandBatch& batch, const CodeOptions& options);
 
   size_t count = 0, points = 0;
-  size_t color_rows = 0;  ///< 0, 1 or the number of points
-  bool has_base = false;  ///< some strand does not start at its root
-  bool clumped = false;   ///< some strand belongs to a clump
-  /// Some strand cannot be represented by the codes. The batch is then stored as floats. For the other
-  /// strands, these are the decoded codes.
+  size_t color_rows = 0;  ///< number of colours per strand: 0, 1, or the number of points
+  bool has_base = false;  ///< whether some strand does not start at its root
+  bool clumped = false;   ///< whether some strand belongs to a clump
+  /// Whether some strand cannot be represented by the codes. The whole batch is then stored as floats. For
+  /// strands that can be represented, these floats are the decoded codes.
   bool plain = false;
 
-  std::vector<uint16_t> steps;  ///< small floats, [strand]
-  std::vector<int16_t> shape;   ///< in steps relative to the previous decoded point, [point][axis][strand]
-  /// Codes, strand by strand; plain batches store only the codes of clumps.
+  std::vector<uint16_t> steps;  ///< size of the step of each strand, as small floats (groom/small_float.h)
+  std::vector<int16_t> shape;   ///< [point][axis][strand]: offset from the previous decoded point, in steps
+  /// Codes of each column, strand by strand. Plain batches have only the column kClump.
   std::array<std::vector<std::byte>, kColumns> columns;
-  std::vector<float> floats;  ///< plain batches: rows [point][axis], [point] of radii, [row][channel]
+  /// Plain batches: rows over strands, first [point][axis] of shapes, then [point] of radii, then
+  /// [row][channel] of colours.
+  std::vector<float> floats;
 
  private:
   float* shape_row(size_t r) { return &floats[r * count]; }
   float* radius_row(size_t p) { return shape_row(points * 3 + p); }
   float* color_row(size_t r) { return shape_row(points * 4 + r); }
   void take_floats(const StrandBatch& batch);
-  // Each returns whether the strand can be represented.
+  // The following functions code strand `s`. They return whether the codes can represent it.
   bool code_shape(size_t s);
   bool code_widths(size_t s, const CodeOptions& options);
   bool code_colors(size_t s);
-  /// Replaces a strand's floats by its decoded codes.
+  /// Replaces the floats of a strand by its decoded codes.
   void decode(size_t s, const CodeOptions& options);
 };
 
-/// Definition of the codes.
+/// Functions that decode the codes. They define the meaning of the codes.
 namespace codes {
 
+/// Max component of the offset between two successive points, in steps.
 inline constexpr float kLargestStep =
-    32766.0f;  // one less than 16 bits hold, because the previous point is rounded
+    32766.0f;  // one less than the max of int16_t, because the previous point is rounded
 
+/// Random number of the strand's clump.
 inline float clump(uint16_t code) { return (code + 0.5f) * 0x1p-16f; }
 inline uint16_t clump_code(float clump) { return static_cast<uint16_t>(clump * 65536.0f); }
+/// Width at a point relative to the max width of the strand.
 inline float width_ratio(uint8_t code) { return code / 255.0f; }
 inline float width_ratio(uint16_t code) { return code / 65535.0f; }
-/// Max of each channel relative to the strand's max. The code has ten bits per channel, for the square root
-/// of this ratio.
+/// Max of a channel over a strand, relative to the max over all channels. The code holds the square root of
+/// this ratio, in ten bits per channel.
 inline float hue(uint32_t code, int channel) {
   const float root = static_cast<float>(code >> (10 * channel) & 1023u) / 1023.0f;
   return root * root;
 }
+/// Channel of a colour relative to the max of this channel over the strand.
 inline float color_ratio(int16_t code) { return code / 32767.0f; }
 
 }  // namespace codes

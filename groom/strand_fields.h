@@ -8,23 +8,25 @@
 
 namespace pelage {
 
-// Evaluation of operator fields over a batch. Fields may read the attributes
-//   random  a number in [0, 1) per strand,
-//   clump   the same for all strands of a clump (set by the operator clump),
-//   color   the strand's colour so far (1 before any operator has set it).
+// Evaluation of operator fields over a batch. Fields may read these attributes:
+//   random  a number in [0, 1) per strand
+//   clump   a number in [0, 1) per clump, or per strand without a clump (set by the operator clump)
+//   color   the colour of the strand as set by the operators so far, initially 1
 
-/// First channel of a field for each strand, at `along` (0 root, 1 tip).
+/// Evaluates the first channel of a field for each strand, at position `along` (0 root, 1 tip). The attribute
+/// "color" is the colour at point 0.
 void evaluate(const Field& field, const StrandBatch& batch, float along, StrandRow& out);
-/// All three channels; `point`: the point whose colour the attribute "color" returns.
+/// Evaluates all three channels of a field for each strand at point `point`. The attribute "color" is the
+/// colour at this point.
 void evaluate_color(const Field& field, const StrandBatch& batch, int point, VectorRow& out);
 
-/// Evaluates a field over a batch at successive positions along the strands. A factor of a product (and any
-/// other field) that does not change along strands is evaluated once per strand; a factor that changes only
-/// along strands is evaluated once per position.
+/// Evaluates a field over a batch at successive positions along the strands. A field may be a product; each
+/// factor is evaluated separately. A factor that does not change along strands is evaluated once per strand.
+/// A factor that changes only along strands is evaluated once per position.
 class StrandField {
  public:
   StrandField(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}
-  /// Values at a position along the strands. The row is overwritten by the next call.
+  /// Returns the values at position `along` of the strands. The next call overwrites the returned row.
   const StrandRow& at(float along);
 
  private:
@@ -33,7 +35,7 @@ class StrandField {
   struct Factor {
     const Field& field;
     bool changes_along, changes_by_strand;
-    Row fixed;  // of those that do not change along strands
+    Row fixed;  // values of a factor that does not change along strands
   };
   template <class Row>
   struct Factors {
@@ -45,7 +47,7 @@ class StrandField {
   StrandRow row_;
 };
 
-/// The same for all three channels, by point.
+/// Evaluates all three channels of a field over a batch, at successive points. Otherwise like StrandField.
 class StrandColor {
  public:
   StrandColor(const Field& field, const StrandBatch& batch) : factors_(field, batch), batch_(batch) {}

@@ -9,15 +9,15 @@
 
 namespace pelage {
 
-// Lossless state of strands between two frozen operators, in rest space. With it, a coat can be grown again
-// from the middle of its list of operators. Widths that are not set and colours that are still white take no
-// space.
+// Lossless storage of the state of strands between two frozen operators, in rest space. A coat can be grown
+// again from this state, without the operators before it. Widths take no space before an operator sets them,
+// and colours none while all are white.
 
-/// Appends a batch.
+/// Appends the state of a batch to `bytes`.
 void append_layer(const StrandBatch& batch, std::vector<std::byte>& bytes);
-/// Reads the stored batch at `at` into `batch`, which has been started with the same strands, and advances
-/// `at` past the stored batch. Returns false, with the batch in an unspecified state, when the bytes there
-/// are not this batch.
+/// Reads the state of a batch from `bytes` at `at`, and advances `at` past it. `batch` must have been started
+/// with the same strands. Returns false when the bytes at `at` do not hold this batch; `batch` is then in an
+/// unspecified state.
 bool read_layer(std::span<const std::byte> bytes, size_t& at, StrandBatch& batch);
 
 }  // namespace pelage

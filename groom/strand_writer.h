@@ -9,35 +9,38 @@
 
 namespace pelage {
 
-/// Collects the strands of finished batches in the arrays of a Strands, whose memory is reserved exactly.
-/// Writes all strands, or some strands with modified widths and colours.
+/// Collects the strands of finished batches in arrays for Strands. Reserves exactly the memory that the
+/// arrays need. Writes either all strands, or chosen strands with modified widths and colours.
 class StrandWriter {
  public:
-  /// The strands to write, as ascending indices. Each has a factor on its width and a factor on its colours.
+  /// Strands to write, with the modifications of each.
   struct Chosen {
-    std::span<const uint32_t> strands;
-    std::span<const float> width;
-    std::vector<float> color;  ///< may be empty
+    std::span<const uint32_t> strands;  ///< indices, ascending
+    std::span<const float> width;       ///< factor on the width of each strand
+    std::vector<float> color;           ///< factor on the colours of each strand; may be empty
   };
 
   StrandWriter(size_t strands, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
   StrandWriter(Chosen chosen, size_t motion_keys, std::optional<AttributeClass> colors, bool has_roots);
 
-  /// Number of the `count` strands from `first` on that must be made: all up to the last strand that is
-  /// written, or 0 if none is written.
+  /// Returns how many of the `count` strands from index `first` on must be grown: all up to the last one that
+  /// is written, or 0 if none of them is written.
   size_t needed(size_t first, size_t count) const;
 
-  /// Sets the point count of the next strand / of all strands; call before writing.
+  /// expect() sets the number of points of the next strand to write, expect_all() that of all strands. Call
+  /// before write().
   void expect(int points);
   void expect_all(int points);
-  /// Number of colour rows that batches of strands with `points` points must have.
+  /// Returns the number of colour rows that a batch of strands with `points` points must have.
   size_t color_rows(int points) const;
 
-  /// Writes a batch whose strands start at number `first`. Scales them by `length` about their roots, except
-  /// for widths. Colours are written with key 0.
+  /// Writes motion key `key` of a batch whose first strand has the index `first`. Scales the offsets of
+  /// points from their roots by `length`, but not the widths. Writes colours together with key 0.
   void write(const StrandBatch& batch, size_t first, size_t key, float length);
-  /// Writes ids and roots of the same strands, which are follicles [begin, ...).
+  /// Writes the ids and roots of the strands of a batch. The first strand has the index `first` and is
+  /// follicle `begin`.
   void write_roots(const StrandBatch& batch, size_t first, const FollicleTree& follicles, size_t begin);
+  /// Returns the arrays, and leaves this object empty.
   StrandArrays take();
 
  private:

@@ -7,28 +7,29 @@
 
 namespace pelage {
 
-// Rotating the segments of strands by angles that increase along the strand preserves the length of every
-// segment.
+// Rotation of the segments of a strand by angles that increase along the strand. It preserves the length of
+// every segment.
 
-/// Fraction of the rotation reached along the arc: 0 until `start`, then up to 1 at `end`, following a power
-/// function with exponent `profile`. 0 <= start <= end <= 1; start = end rotates all at once.
+/// Fraction of the full angle by which a segment is rotated, as a function of its position along the arc (0
+/// root, 1 tip). It is 0 up to `start` and 1 from `end` on. In between, it rises as a power function with the
+/// exponent `profile`. 0 <= start <= end <= 1. If start = end, it jumps from 0 to 1 there.
 struct TurnProfile {
   float start = 0;
   float end = 1;
   float profile = 1;
 
-  /// Mean over the range [from, to] of the arc.
+  /// Returns the mean of the fraction over the range [from, to] of the arc.
   float mean(float from, float to) const;
 };
 
-/// Rotates every segment of strand `s` by `rotation` times the mean of the profile over that segment, then
-/// reassembles the strand.
+/// Rotates every segment of strand `s` by `rotation` times the mean of the profile over this segment. Joins
+/// the rotated segments from the root on.
 void turn_strand(StrandBatch& batch, size_t s, const TurnProfile& profile, const Rotation& rotation);
 
-/// Upper bound of the distance by which any point of a strand moves when the segments are rotated by at most
-/// `angle` times the profile. A rotation by a moves the end of a segment by 2 sin(a / 2) times the length of
-/// the segment. This function is concave in a, so by Jensen's inequality the sum over any partition is at
-/// most the value for the mean angle.
+/// Returns an upper bound of the distance by which any point of a strand moves when each segment is rotated
+/// by at most `angle` times the profile. A rotation by an angle a moves the end of a segment by 2 sin(a / 2)
+/// times the length of the segment. This distance is a concave function of a. By Jensen's inequality, the sum
+/// over all segments is therefore at most the value for the mean angle.
 float turn_bound(const StrandReach& before, const TurnProfile& profile, float angle);
 
 }  // namespace pelage

@@ -8,10 +8,11 @@
 
 namespace pelage {
 
-/// Candidates, each of which waits for one level of progressive_order(). Holds at most `max` candidates. When
-/// full, drops the candidates that wait for the highest levels. Levels are 0 .. `levels` - 1.
+/// Candidates that wait for a level of progressive_order(), each for one level. Levels are numbered 0 ..
+/// `levels` - 1. Holds at most `max` candidates. When add() finds it full, drops those that wait for the
+/// highest levels.
 ///
-/// Add candidates one by one with add(), or all at once with hold_all(), which takes less memory per
+/// Add candidates either one by one with add(), or all at once with hold_all(), which takes less memory per
 /// candidate.
 class WaitingCandidates {
  public:
@@ -20,29 +21,36 @@ class WaitingCandidates {
 
   WaitingCandidates(int levels, size_t max);
 
-  /// Returns the candidate's place, valid until it is removed; kNone if there is no room and nothing to drop.
+  /// Adds a candidate. Returns its index, which is valid until the candidate is removed or dropped. Returns
+  /// kNone if there is no room and no waiting candidate can be dropped.
   uint32_t add(const FollicleCandidate& candidate);
-  /// Instead of add(): takes all candidates, at most `max`, in order of rank. The place of each is its rank.
+  /// Takes all candidates, at most `max`, in order of rank. For use instead of add(). The index of each
+  /// candidate is its rank.
   void hold_all(std::vector<FollicleCandidate> candidates);
+  /// Removes a candidate that waits for no level.
   void remove(uint32_t place);
-  /// FollicleCandidate::number is undefined, see rank().
+  /// Returns a candidate. Its member `number` is undefined; use rank().
   const FollicleCandidate& operator[](uint32_t place) const {
     return all_.empty() ? items_[place].candidate : all_[place];
   }
-  /// Rank of the candidate among all candidates.
+  /// Returns the rank of the candidate among all candidates of the supply.
   uint32_t rank(uint32_t place) const { return all_.empty() ? items_[place].candidate.number : place; }
 
-  /// Makes a candidate that waits for no level wait for `level`. The candidate may be dropped from now on.
+  /// Makes a candidate wait for `level`. The candidate must not wait for a level yet. From now on, it may be
+  /// dropped.
   void wait_for(int level, uint32_t place);
+  /// Number of candidates that wait for a level.
   size_t size(int level) const { return sizes_[static_cast<size_t>(level)]; }
-  /// Calls visit(place) for each candidate that waits for the level. These wait for no level afterwards.
+  /// Calls visit(index) for each candidate that waits for the level. Afterwards, these candidates wait for no
+  /// level.
   template <class Visit>
   void take(int level, const Visit& visit);
 
-  /// Drops all candidates that wait for this level or a higher one.
+  /// Drops all candidates that wait for `level` or a higher level.
   void drop_from(int level);
-  /// The lowest level whose candidates were dropped, or the number of levels.
+  /// The lowest level from which candidates were dropped; the number of levels if none were dropped.
   int dropped() const { return dropped_; }
+  /// Number of candidates in memory.
   size_t held() const { return held_; }
 
  private:
@@ -53,14 +61,14 @@ class WaitingCandidates {
   static_assert(sizeof(Item) == kItemBytes);
 
   void drop();
-  /// The next place of the list that the place is in.
+  /// The index that follows `place` in the linked list that contains `place`.
   uint32_t& next(uint32_t place) { return all_.empty() ? items_[place].next : all_[place].number; }
 
   size_t max_, held_ = 0;
   int dropped_;
-  int highest_ = -1;                    // no candidate waits for a higher level
-  std::vector<Item> items_;             // those of add()
-  std::vector<FollicleCandidate> all_;  // those of hold_all(); their numbers are the links of lists
+  int highest_ = -1;                    // no candidate waits for a level above this one
+  std::vector<Item> items_;             // candidates from add()
+  std::vector<FollicleCandidate> all_;  // candidates from hold_all(); their member `number` links the lists
   uint32_t unused_ = kNone;
   std::vector<uint32_t> heads_;
   std::vector<size_t> sizes_;

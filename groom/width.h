@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// Keys of the operator `width`. Diameters.
+/// Keys of the operator `width`. Widths are diameters in scene units.
 struct WidthParams {
   Field root{0.01f};
   Field tip{0.001f};
@@ -16,7 +16,7 @@ struct WidthParams {
   static const Schema<WidthParams>& schema();
 };
 
-/// Sets the width of strands from root to tip.
+/// Sets the widths of strands, from root to tip.
 class Width final : public OperatorOf<WidthParams> {
  public:
   static constexpr const char* kName = "width";

@@ -10,19 +10,23 @@ namespace pelage {
 
 struct Job;
 
-/// Reads a cage from an OBJ file: v, vt, f (3 corners and more, negative indices), g, o, and the `t` lines of
-/// OpenSubdiv's shapes (crease, corner, hole, interpolateboundary, creasemethod, smoothtriangles), whose
-/// indices refer to the whole file and start at 0. A face belongs to the last g or o line above it. Faces
-/// without texture coordinates get (0, 0) if other faces have some. Ignores everything else.
+/// Reads a cage from an OBJ file. Reads v, vt, f (3 or more corners, also negative indices), g and o. Also
+/// reads the `t` lines of OpenSubdiv's shapes: crease, corner, hole, interpolateboundary, creasemethod and
+/// smoothtriangles. Indices in `t` lines refer to the whole file and start at 0. Ignores all other
+/// statements.
 ///
-/// Throws Error (kInput) with all problems, the first 20 with file and line: malformed or non-finite numbers,
-/// indices out of range, faces with fewer than 3 different vertices, hierarchical edits, no faces.
+/// A face belongs to the group of the last g or o line above it. If only some faces have texture coordinates,
+/// the other faces get (0, 0).
+///
+/// Throws Error (kInput) with all problems: malformed or non-finite numbers, indices out of range, faces with
+/// fewer than 3 different vertices, hierarchical edits, no faces. The first 20 problems are listed with file
+/// and line, the others are only counted.
 ControlMesh read_obj(const std::filesystem::path& path);
-/// The same, but throws Error (kStopped) when the job is stopped.
+/// Reads a cage like read_obj(path), but throws Error (kStopped) when the job is stopped.
 ControlMesh read_obj(const std::filesystem::path& path, const Job& job);
 
 /// Reads only the vertex positions, for a pose of a cage with `expected` vertices. Throws Error (kInput) when
-/// the count differs or a number is malformed.
+/// the file has another number of vertices, or when a number is malformed or not finite.
 std::vector<V3f> read_obj_positions(const std::filesystem::path& path, size_t expected);
 
 }  // namespace pelage

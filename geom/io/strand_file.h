@@ -11,8 +11,10 @@ namespace pelage {
 
 /// Repairs made while a strand file was read.
 struct StrandRepairs {
-  int64_t dropped = 0;   ///< strands without extent, with too few points, or with non-finite points
-  int64_t repaired = 0;  ///< strands with repeated points removed or an unusable width replaced
+  /// Number of strands that were dropped: without extent, with too few points, or with non-finite points.
+  int64_t dropped = 0;
+  /// Number of strands in which repeated points were removed or an unusable width was replaced.
+  int64_t repaired = 0;
 
   StrandRepairs& operator+=(const StrandRepairs& other) {
     dropped += other.dropped;
@@ -24,30 +26,33 @@ struct StrandRepairs {
 struct StrandFile {
   Strands strands;
   StrandRepairs repairs;
-  std::string format;       ///< "hair" or "tfx"
-  float assumed_width = 0;  ///< width given to strands because neither file nor options state one; else 0
+  std::string format;  ///< "hair" or "tfx"
+  /// Width in scene units that was chosen because neither the file nor the options state one; else 0.
+  float assumed_width = 0;
 };
 
 struct StrandReadOptions {
-  std::optional<CurveBasis>
-      basis;  ///< basis of the file's points; default for formats that do not state one: pinned B-spline
-  std::optional<float> default_width;  ///< diameter for files without widths, scene units
+  /// Basis of the points, for file formats that do not state one; empty: pinned B-spline.
+  std::optional<CurveBasis> basis;
+  std::optional<float> default_width;  ///< diameter in scene units, for files without widths
 };
 
-/// Whether the file name has the extension of a supported strand format (.hair or .tfx).
+/// Returns whether the file name has the extension of a supported strand format (.hair or .tfx).
 bool is_strand_file(const std::filesystem::path& path);
 
-/// Reads strands. The file name's extension selects the format: Cem Yuksel's .hair, TressFX 4's .tfx. Ids are
-/// the strands' indices in the file. Degenerate strands are repaired or dropped, and counted. Throws Error
-/// (kInput) with a reason for files that are damaged, of another format, or too short for the sizes that they
-/// claim; memory stays below 1.5 times the memory of the strands. Attributes: "color", "transparency"
-/// (.hair), "opacity" and "uv" (.tfx).
+/// Reads strands. The extension of the file name selects the format: .hair (Cem Yuksel) or .tfx (TressFX 4).
+/// The id of a strand is its index in the file. Repairs or drops degenerate strands, and counts them. Reads
+/// the attributes "color" and "transparency" of .hair files, "opacity" and "uv" of .tfx files.
+///
+/// Throws Error (kInput) with the reason when the file is damaged, is not of this format, or is shorter than
+/// the sizes in its header require. Uses less memory than 1.5 times the memory of the strands.
 StrandFile read_strands(const std::filesystem::path& path, const StrandReadOptions& options = {});
 
-/// Writes strands in the format of the file name's extension, completely or not at all: motion key 0 and the
-/// attributes that read_strands returns, without basis and ids. A .tfx file has one width per strand: the max
-/// along it. Throws Error (kFailed), also for strands that the format cannot represent: different numbers of
-/// points in .tfx.
+/// Writes strands in the format that the extension of the file name selects. Writes the whole file or
+/// nothing. Writes motion key 0 and the attributes that read_strands() reads, but neither basis nor ids. A
+/// .tfx file has one width per strand: the max width of the strand. Throws Error (kFailed) when the file
+/// cannot be written, or when the format cannot represent the strands, such as strands with different numbers
+/// of points in .tfx.
 void write_strands(const std::filesystem::path& path, const Strands& strands);
 
 }  // namespace pelage

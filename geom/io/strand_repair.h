@@ -7,20 +7,22 @@
 
 namespace pelage {
 
-/// Repairs raw arrays of a file (one motion key, no roots) in place, so that they are valid Strands:
-/// - strands with a point that is not finite or farther than 1e18 from the origin, with fewer points than
-/// their basis needs, or without extent are dropped; the ids of the others stay;
-/// - points equal to the previous one are removed, except where the basis gives them a meaning (kBSpline);
-/// - negative and NaN radii become 0; strands without any width get the radius `default_width` / 2. In a file
-///   without widths, these are all strands.
-/// Non-finite attribute values become 0.
+/// Repairs the arrays of a file (one motion key, no roots) in place, so that they are valid Strands. Returns
+/// counts of the repairs.
+/// - Drops a strand if one of its points is not finite or has a coordinate beyond 1e18, if it has fewer
+///   points than its basis needs, or if it has no extent. The other strands keep their ids.
+/// - Removes a point that is equal to the previous one, except with kBSpline, where repeated points have a
+///   meaning.
+/// - Replaces radii that are negative, NaN or beyond 1e18 by 0. A strand whose radii are then all 0 gets the
+///   radius `default_width` / 2. In a file without widths, this applies to all strands.
+/// - Replaces attribute values that are not finite by 0.
 StrandRepairs repair_strands(StrandArrays& arrays, float default_width);
 
-/// Assumed width when neither the file nor the reader states one: a thousandth of the largest side of the box
-/// of all points.
+/// Returns the width to assume when neither the file nor the options state one: a thousandth of the longest
+/// side of the box of all usable points.
 float assumed_width(const StrandArrays& arrays);
 float assumed_width(const Box3f& box);
-/// Box of all points that are finite and not absurdly far away, for assumed_width().
+/// Returns the box, for assumed_width(), of all points that are finite and have no coordinate beyond 1e18.
 Box3f usable_box(const StrandArrays& arrays);
 
 }  // namespace pelage

@@ -11,9 +11,10 @@
 
 namespace pelage {
 
-/// Renders the scene once per model and light, and traces a single fibre of each model. `models`: names from
-/// fibre_model_names(). Tables that models need are kept in `folder`/tables. Replaces the materials of
-/// `assets`. When the user stops the job, the result holds the finished part. Throws Error.
+/// Renders the scene once per model and light, and traces a single fibre of each model. `models` holds names
+/// from fibre_model_names(). Tables that some models need are stored in `folder`/tables. Replaces the
+/// materials of `assets`. When the user stops the job, returns the results up to that moment. Throws Error
+/// for other failures.
 Comparison compare_models(const SceneDescription& scene, Assets& assets,
                           const std::vector<std::string>& models, const std::filesystem::path& folder,
                           const Job& job);

@@ -10,28 +10,31 @@
 
 namespace pelage {
 
-/// Cost and result of one model in one light.
+/// Cost and result of rendering with one model in one light.
 struct ComparedFrame {
   std::string model, light;
   double wall_s = 0, cpu_s = 0;
-  double cpu_spread = 0;  ///< difference of the CPU times of the two halves / the longer time
-  double rays = 0;        ///< number of rays of all kinds
-  double fur_share = 0;   ///< fraction of the pixels that show fur
-  double luminance = 0;   ///< mean over the pixels whose front-most surface is a strand
-  double noise = 0;       ///< relMSE of these pixels, from the difference of two halves of the samples
+  /// Difference between the CPU times of the two halves of the samples, divided by the longer of these times.
+  double cpu_spread = 0;
+  double rays = 0;       ///< number of rays, of all kinds together
+  double fur_share = 0;  ///< fraction of the pixels that show fur
+  double luminance = 0;  ///< mean luminance of the pixels whose front-most surface is a strand
+  /// The relMSE of these pixels, estimated from the difference between two halves of the samples.
+  double noise = 0;
   Picture picture;
 };
 
-/// Renders scenes with the same animals in different materials and lights. Reads the geometry once.
+/// Renders the animals of a scene in different materials and lights. Reads their geometry only once.
 class FrameComparer {
  public:
   FrameComparer(const SceneDescription& scene, Assets& assets, const Job& job);
 
-  /// One frame with the given materials, in two halves with independent seeds. Throws Error.
+  /// Renders one frame with the given materials and lights, in two halves with independent seeds. `model` and
+  /// `light` are names for the result. Throws Error.
   ComparedFrame render(const std::vector<MaterialParams>& materials, const Named<LightParams>& lights,
                        const std::string& model, const std::string& light);
-  /// Mean radiance of fur in a furnace test: everything that is not black becomes white, in a uniform white
-  /// light, at a quarter of the picture's width. 1 where a coat conserves energy.
+  /// Returns the mean radiance of fur in a furnace test: a uniform white light, with materials that absorb
+  /// nothing, at a quarter of the picture's width. The result is 1 if the coat conserves energy.
   double furnace(const std::vector<MaterialParams>& materials);
 
  private:

@@ -10,19 +10,19 @@
 
 namespace pelage {
 
-/// Result of comparing the fibre models on a scene; incomplete when the user stopped it.
+/// Result of comparing fibre models on a scene. Incomplete when the user stopped the comparison.
 struct Comparison {
   std::vector<ComparedFrame> frames;
   std::vector<SingleFibre> fibres;
-  std::map<std::string, double> furnace;  ///< by model: see FrameComparer::furnace
+  std::map<std::string, double> furnace;  ///< by name of the model: result of FrameComparer::furnace()
 };
 
-/// The report without the facts about the machine: tables of cost, noise and energy, the contact sheet and
-/// the single fibres. `comparison` must have frames.
+/// Returns the report, without the facts about the machine: tables of cost, noise and energy, the contact
+/// sheet, and pictures of the single fibres. `comparison` must have at least one frame.
 Report comparison_report(const Comparison& comparison, const SceneDescription& scene);
 
-/// Data for plots, as JSON: for every fibre, the distributions of energy around and along the fibre, from the
-/// model and from tracing.
+/// Returns data for plots, as JSON. For every fibre, this is the distribution of scattered energy around the
+/// fibre and along it, both from the model and from tracing.
 std::string fibres_json(const std::vector<SingleFibre>& fibres);
 
 }  // namespace pelage

@@ -8,8 +8,9 @@
 
 namespace pelage {
 
-/// A row per model and a column per light, in order of first occurrence, with their names. Missing frames are
-/// grey. All pictures must have the same size; there must be at least one.
+/// Returns a picture with one row per model and one column per light, labelled with their names. Models and
+/// lights are in order of their first occurrence. Places without a frame are grey. All frames must have
+/// pictures of the same size, and there must be at least one frame.
 Picture contact_sheet(const std::vector<ComparedFrame>& frames);
 
 }  // namespace pelage

@@ -10,15 +10,17 @@
 
 namespace pelage {
 
-/// Results of `measure bounds`: outcomes in display order, first the strategies, then one per switch; and the
-/// difference of each picture from the picture of strategy none (empty if either run failed).
+/// Results of `measure bounds`.
 struct BoundsResults {
+  /// In display order: first the strategies, then one outcome per switch.
   std::vector<Outcome> outcomes;
-  size_t strategies = 0;  ///< number of outcomes, from the first, that are strategies
+  size_t strategies = 0;  ///< number of strategies: they are the first elements of `outcomes`
+  /// For each outcome: difference of its picture from the picture of strategy none; empty if either run
+  /// failed.
   std::vector<std::optional<PictureDifference>> differences;
   std::optional<Picture> picture;  ///< picture of strategy none
-  bool cached = false;             ///< whether the scene's grooms have caches
-  int repeat = 1;
+  bool cached = false;             ///< whether any of the scene's grooms has a cache
+  int repeat = 1;                  ///< number of runs of each variant
 };
 
 Report bounds_report(const BoundsResults& results);

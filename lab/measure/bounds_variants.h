@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// One approximation or optimisation that can be switched off, and the variant without it. The variant that
-/// uses it is kExactId.
+/// An approximation or optimisation that can be switched off. The variant `off` runs without it; the variant
+/// kExactId runs with it.
 struct Switch {
-  std::string title;  ///< "compact attributes"
+  std::string title;  ///< name for readers: "compact attributes"
   Variant off;
 };
 
@@ -21,12 +21,11 @@ constexpr const char* kNoneId = "none";
 constexpr const char* kConservativeId = "conservative";
 constexpr const char* kExactShutterId = "exact-shutter";
 
-/// Runs of `measure bounds`. Their order matters, because a cold run fills the caches of the warm runs after
-/// it.
+/// The runs of `measure bounds`. Their order matters: a cold run fills the caches of the warm runs after it.
 struct BoundsVariants {
   std::vector<Variant> run;
   std::vector<std::string> shown;  ///< ids of the strategies in the order of the report
-  std::vector<Switch> switches;    ///< measured with strategy exact and warm caches
+  std::vector<Switch> switches;    ///< each measured with strategy exact and warm caches
 };
 
 BoundsVariants bounds_variants(const SceneDescription& scene, const MeasureSetup& setup);

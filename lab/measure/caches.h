@@ -9,29 +9,30 @@
 
 namespace pelage {
 
-/// Replaces the cache folders of a scene's grooms by folders of the experiment. The experiment thus controls
-/// which caches are cold and which are warm. The scene's caches stay unchanged.
+/// Replaces the cache folders of a scene's grooms by folders of the experiment, so that the experiment
+/// controls which caches are cold and which are warm. The scene's own caches stay unchanged.
 class CacheFolders {
  public:
   CacheFolders(const SceneDescription& scene, const std::filesystem::path& folder);
 
-  /// Whether any groom has a cache.
+  /// Whether any groom of the scene has a cache.
   bool any() const { return !grooms_.empty(); }
-  /// --set arguments that redirect every cache to the folder of this name.
+  /// Returns --set arguments that redirect the cache of every groom to the folder called `name`.
   std::vector<std::string> arguments(const std::string& name) const;
-  /// Deletes the contents of the folder of this name.
+  /// Deletes the folder called `name` with its contents.
   void clear(const std::string& name) const;
   std::filesystem::path folder(const std::string& name) const { return folder_ / name; }
 
  private:
   std::vector<std::string> grooms_;
-  std::filesystem::path folder_;  // absolute
+  std::filesystem::path folder_;  // absolute path
 };
 
-/// A YAML string.
+/// Returns `text` as a quoted YAML string.
 std::string yaml_quoted(const std::string& text);
 
-/// Total size of all files below a folder whose names start with `prefix`; 0 when there are none.
+/// Returns the total size in bytes of all files below a folder whose names start with `prefix`; 0 when there
+/// are none.
 double folder_bytes(const std::filesystem::path& folder, const std::string& prefix = "");
 
 }  // namespace pelage

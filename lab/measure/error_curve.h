@@ -6,12 +6,13 @@
 
 namespace pelage {
 
-/// CPU seconds and error of pictures rendered in one way, with different numbers of samples.
+/// Error over CPU time for one way to render: pairs of (CPU seconds, error), one per picture. The pictures
+/// differ in the number of samples.
 using ErrorCurve = std::vector<std::pair<double, double>>;
 
-/// CPU seconds after which the error is at most `error`: interpolated on a straight line between two points,
-/// in logarithms of both. NaN where the points do not enclose `error`, because nothing is extrapolated.
-/// Points without a positive error are left out.
+/// Returns the CPU seconds after which the error is at most `error`. Interpolates on a straight line between
+/// two points, in the logarithms of time and error. Ignores points without a positive time and error. Returns
+/// NaN if no two successive points enclose `error`, because it does not extrapolate.
 double cpu_s_to(ErrorCurve curve, double error);
 
 }  // namespace pelage

@@ -12,43 +12,49 @@ namespace pelage {
 
 /// Result of an experiment.
 struct Measured {
-  Report report;  ///< without the facts about machine and runs, which all experiments share
+  Report report;  ///< without the facts about machine and runs, which are added for all experiments
   std::vector<Outcome> outcomes;
 };
 
 // One function per experiment. Each function runs its variants until all are done or `progress` requests a
-// stop, and reports on the variants that were run. Throws Error (kFailed) when the folder cannot be written.
+// stop, and reports on the variants that were run. It throws Error (kFailed) when the folder of `setup`
+// cannot be written.
 
-/// Acceleration structures for fur: memory, build time, speed for several kinds of rays, tests, page faults.
+/// Compares acceleration structures for fur. Reports memory, build time and page faults. For each kind of
+/// rays, also reports the rays per second and the box and segment tests per ray.
 Measured measure_accel(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Every bounding strategy: time, memory, growth, box tests, lost pixels.
+/// Compares all bounding strategies. Reports time, memory, growth, box tests and pixels that differ.
 Measured measure_bounds(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Memory budgets, from the size of all chunks down to a budget that is refused.
+/// Renders under different memory budgets, from the size of all chunks down to a budget that is refused.
 Measured measure_residency(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Time to grow with and without the operator cache, and per operator.
+/// Measures the time to grow with and without the operator cache, and the time to grow again after an edit of
+/// each operator.
 Measured measure_growth(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// Uniform and adaptive sampling: samples at equal error, and bias.
+/// Compares uniform and adaptive sampling. Reports the number of samples for equal error, and the bias.
 Measured measure_samplers(const SceneDescription& scene, const MeasureSetup& setup, Progress& progress);
 
-/// What `measure shading` runs.
+/// Sample counts and parts of `measure shading`.
 struct ShadingPlan {
-  std::vector<int> samples{4, 16, 64};  ///< per pixel, ascending: a picture of each curve with each
-  int reference_samples = 256;
-  std::vector<std::string> parts;  ///< names from kShadingParts (lab/measure/shading_curves.h); empty: all
+  /// Samples per pixel, ascending; each way to render is measured with each of these counts.
+  std::vector<int> samples{4, 16, 64};
+  int reference_samples = 256;  ///< samples per pixel of the two reference pictures
+  /// Ways to render, from kShadingParts (lab/measure/shading_curves.h); empty: all.
+  std::vector<std::string> parts;
 };
 
-/// `path` and `gather` in several ways: error over time, bias, rays, knots.
+/// Compares variants of the integrators `path` and `gather`. Reports the error as a function of CPU time, the
+/// bias, and the numbers of rays and knots (points on surfaces whose light `gather` shares among samples).
 Measured measure_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                          Progress& progress);
 
-/// Reduced detail against full detail. `parts`: names from kLodParts, or empty for all:
-///   crowd   cost of the whole crowd in full detail, extrapolated from `full_detail` characters
-///   detail  hairs, working set, time and error by criterion, distance, blur and focus
-///   wedge   contact sheet: a row per distance, a column per quality
+/// Compares reduced detail with full detail. `parts` holds names from kLodParts; empty: all parts.
+///   crowd   cost of a whole crowd in full detail, extrapolated from `full_detail` characters
+///   detail  strands, working set, time and error by criterion, distance, blur and focus
+///   wedge   contact sheet: one row per distance, one column per quality
 ///   dolly   change of the picture while the LOD camera moves
 Measured measure_lod(const SceneDescription& scene, const std::vector<int>& full_detail,
                      const std::vector<std::string>& parts, const MeasureSetup& setup, Progress& progress);

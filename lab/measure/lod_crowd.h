@@ -12,26 +12,28 @@
 
 namespace pelage {
 
-/// Estimates the cost of full detail for a whole crowd without rendering it. Some characters keep all their
-/// hair, while the others surround and occlude them with reduced detail. A line is fitted to the cost by the
-/// number of characters with all their hair, and extrapolated to all characters. A crowd of few characters is
-/// also rendered in full, which shows the error of the extrapolation.
+/// Estimates the cost of full detail for a whole crowd without rendering the crowd in full detail. In each
+/// run, some characters keep all their strands. The other characters have reduced detail; they surround and
+/// occlude the characters in full detail. A line is fitted to the cost as a function of the number of
+/// characters in full detail, and extrapolated to all characters. A crowd of at most 128 characters is also
+/// rendered in full detail, to show the error of the extrapolation.
 class LodCrowd {
  public:
-  /// `characters`: numbers of characters with all their hair, one run each.
+  /// `characters`: numbers of characters in full detail, one run for each number.
   LodCrowd(const SceneDescription& scene, const MeasureSetup& setup, std::vector<int> characters);
 
-  /// Max number of variants.
+  /// Max number of variants that run() runs.
   size_t max_variants() const { return characters_.size() + 3; }
-  /// Runs the variants. `run` returns null if a variant failed.
+  /// Runs the variants by calling `run` for each. `run` returns null if a variant failed.
   void run(const std::function<const Outcome*(const Variant&)>& run);
 
-  /// False when less than two runs succeeded, or the scene has too few characters.
+  /// Whether there is a result. False when fewer than two runs succeeded, or when the scene has too few
+  /// characters.
   bool known() const { return points_.size() > 1; }
-  /// One sentence.
+  /// Returns one sentence about the savings, for the summary of the report.
   std::string abstract() const;
   Section section() const;
-  /// Rows with the extrapolation and its standard error, for the table of all outcomes.
+  /// Adds two rows to the table of all outcomes: the extrapolation, and its standard error.
   void add_rows(Table& data) const;
 
  private:
@@ -46,10 +48,10 @@ class LodCrowd {
   std::vector<int> characters_;
   std::filesystem::path caches_;
   std::vector<std::string> arguments_;
-  double all_ = 0;  // characters with a coat
+  double all_ = 0;  // number of characters with a coat
   std::vector<Outcome> points_;
-  std::vector<double> full_detail_;  // the number for each point
-  std::vector<Outcome> whole_;       // the run in which all characters keep their hair: one or none
+  std::vector<double> full_detail_;  // for each of points_: number of characters in full detail
+  std::vector<Outcome> whole_;       // the run with all characters in full detail: one element or none
 };
 
 }  // namespace pelage

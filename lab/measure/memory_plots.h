@@ -9,11 +9,13 @@
 
 namespace pelage {
 
-/// Anonymous plus file-backed resident memory over time, one line per outcome with a timeline.
+/// Returns a plot of resident memory over time, anonymous plus file-backed, with one line per outcome that
+/// has a timeline.
 LinePlot resident_plot(const std::vector<Outcome>& outcomes, const std::string& caption);
 
-/// For each outcome with a timeline, a half-width plot of the ledger's tags stacked over time below the
-/// anonymous resident memory (above the baseline). All have the same axes.
+/// Returns one plot of half width for each outcome that has a timeline. It shows memory over time: the
+/// ledger's tags as stacked areas, and the anonymous resident memory minus the baseline as a line. All plots
+/// have the same axes.
 std::vector<LinePlot> tag_plots(const std::vector<Outcome>& outcomes);
 
 }  // namespace pelage

@@ -9,19 +9,22 @@
 
 namespace pelage {
 
-/// Ways to render that `measure shading` compares. `path` is always measured.
+/// Names of the ways to render that `measure shading` compares. `path` is always among them.
 inline constexpr const char* kShadingParts[] = {"path",    "splatted",     "adaptive",   "gather", "reuse",
                                                 "spacing", "skin_spacing", "light_rays", "paths",  "drawn"};
 
-/// One way to render, measured with several sample counts: a line in the plots.
+/// One way to render, which is measured with several sample counts. Its results are one line in the plots of
+/// error over CPU time.
 struct ShadingCurve {
   std::string id, title;
   std::vector<std::pair<std::string, std::string>> settings;  ///< keys and values of --set
-  bool gather = false;                                        ///< else `path`
-  bool adaptive = false;  ///< samples vary, with the noise budget of `path`
+  bool gather = false;  ///< whether the integrator is `gather`; otherwise, it is `path`
+  /// Whether sampling is adaptive. Its noise limit is the noise of `path` with the same sample count.
+  bool adaptive = false;
 };
 
-/// The curves with these names from kShadingParts, or all if there are none: `path` first.
+/// Returns the ways to render whose names are in `parts`, or all of them if `parts` is empty. `path` is
+/// always the first.
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
                                          const std::vector<std::string>& parts);
 

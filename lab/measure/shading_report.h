@@ -8,11 +8,13 @@
 
 namespace pelage {
 
-/// relMSE in percent to which times are interpolated.
+/// Values of relMSE, in percent, at which times are compared. Times are interpolated between pictures.
 inline constexpr int kShadingTargets[] = {5, 2, 1};
 
-/// Adds text, tables, plots and pictures. `report.data` has a row for each run. Writes
-/// difference-CURVE.png to `folder` for every difference. Throws Error (kFailed) when it cannot be written.
+/// Adds text, tables, plots and pictures to `report`. `report.data` must have one row per run. For `path` and
+/// for each way to render with `gather`, writes the difference from the references to the file
+/// difference-ID.png in `folder`, where ID is ShadingCurve::id. Throws Error (kFailed) when such a file
+/// cannot be written.
 void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
                           const std::filesystem::path& folder, Report& report);
 

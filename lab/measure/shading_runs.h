@@ -12,28 +12,31 @@
 
 namespace pelage {
 
-/// A run of the experiment `shading`.
+/// A run of the experiment `shading`, which renders one picture.
 struct ShadingRun {
-  std::optional<size_t> curve = {};  ///< index; empty: warm-up and references
-  bool last = false;                 ///< most samples of its curve
-  bool second = false;               ///< the same picture as the last one, with another seed
+  /// Index in ShadingRuns::curves; empty for the warm-up and the references.
+  std::optional<size_t> curve = {};
+  bool last = false;    ///< whether it has the largest sample count of its curve
+  bool second = false;  ///< whether it repeats the `last` run of its curve with another seed
   Outcome outcome;
   std::filesystem::path picture;
-  std::optional<PictureError> error = {};  ///< on fur, against the references
-  /// Error that this picture shares with `other` and not with the references; of `last` runs of gather.
+  std::optional<PictureError> error = {};  ///< error over pixels with fur, relative to the references
+  /// Only for `last` runs of `gather`: the error that this picture shares with the picture `other`, relative
+  /// to the references.
   std::optional<PictureError> reuse = {};
-  std::filesystem::path other = {};  ///< the second picture
+  std::filesystem::path other = {};  ///< picture of the run with another seed
 
   double cpu_s() const { return outcome.number("cpu_s"); }
 };
 
 struct ShadingRuns {
   std::vector<ShadingCurve> curves;
-  std::vector<ShadingRun> runs;  ///< in the order of the curves
+  std::vector<ShadingRun> runs;  ///< sorted by the index of their curve
   std::vector<std::filesystem::path> references;
 };
 
-/// Runs the variants. A variant that fails does not stop the others, unless it is a reference.
+/// Runs all variants of the experiment. After a variant fails, runs the others nevertheless, unless the
+/// warm-up or a reference failed.
 ShadingRuns run_shading(const SceneDescription& scene, const ShadingPlan& plan, const MeasureSetup& setup,
                         Progress& progress);
 

@@ -6,10 +6,11 @@
 
 namespace pelage {
 
-/// One number per pixel, in rows from the top.
+/// An image with one number per pixel. Rows are stored from the top.
 struct Plane {
+  /// Makes an image in which every pixel is `value`.
   Plane(int columns, int rows, double value = 0);
-  /// `from` has a number for each pixel.
+  /// Makes an image from `from`, which holds one number per pixel.
   Plane(int columns, int rows, const std::vector<float>& from);
 
   double& at(int x, int y) { return pixels[index(x, y)]; }
@@ -24,18 +25,19 @@ struct Plane {
   }
 };
 
-/// (a + b) / 2; both have the same size.
+/// Returns (a + b) / 2, pixel by pixel. The images must have the same size.
 Plane mean_of(const Plane& a, const Plane& b);
 
-/// Means of blocks of kMeanBlock x kMeanBlock pixels; an incomplete block at the right or lower border is
-/// left out.
+/// Width and height in pixels of the blocks of block_means().
 constexpr int kMeanBlock = 4;
+/// Returns the means of the blocks of an image. Omits incomplete blocks at the right and lower borders.
 Plane block_means(const Plane& plane);
 
-/// Means over 2 * around + 1 pixels in both directions. Pixels beyond the border equal those at the border.
+/// Returns for each pixel the mean over the square of 2 * around + 1 pixels per side around it. Outside the
+/// image, the pixels at the border are repeated.
 Plane blurred(const Plane& plane, int around);
 
-/// Mean over the pixels where `region` exceeds one half; NaN without any.
+/// Returns the mean over the pixels where `region` is greater than 0.5; NaN if there are none.
 double mean_over(const Plane& plane, const Plane& region);
 
 }  // namespace pelage

@@ -12,28 +12,31 @@ namespace pelage {
 
 /// Rays of one kind, in the order of tracing.
 struct LabRays {
-  std::string name;     ///< "camera", "gather", "sorted", "shadow", "deep"
-  bool shadow = false;  ///< whether any hit suffices
+  std::string name;     ///< kind: "camera", "gather", "sorted", "shadow" or "deep"
+  bool shadow = false;  ///< whether to find any hit instead of the nearest hit
   std::vector<Ray> rays;
-  std::vector<FurStart> starts;  ///< the strands that they start on
-  /// Start distance for accelerators that do not use `starts`: two widths.
+  std::vector<FurStart> starts;  ///< for each ray: the point on a strand where it starts, or none
+  /// For each ray: distance from the origin at which it starts for accelerators that cannot use `starts`. It
+  /// is two widths of the strand.
   std::vector<float> clear;
 
   size_t size() const { return rays.size(); }
 };
 
-/// The rays of a measurement, the same for the same scene:
+/// Returns the rays of a measurement. The same scene always gives the same rays. The kinds are:
 ///
-/// camera: through points of the picture, tile by tile; gather: from the hits of camera rays on fur, in all
-/// directions, in the order of the hits; sorted: the gather rays, sorted by the octant of their direction and
-/// along a space-filling curve; shadow: from the hits of camera rays on fur to points on lights; none without
-/// lights; deep: from points spread evenly over all strands, in all directions.
+/// - camera: through points of the picture, tile by tile
+/// - gather: from the hits of camera rays on fur, in random directions, in the order of these hits
+/// - sorted: the gather rays, sorted by the octant of their direction, then by origin along a space-filling
+///   curve
+/// - shadow: from the hits of camera rays on fur to points on lights; omitted if the scene has no lights
+/// - deep: from points spread evenly over all strands, in random directions
 ///
-/// `max`: max number of rays of each kind. Throws Error (kArguments) when the camera sees no fur.
+/// `max` is the max number of rays of each kind. Throws Error (kArguments) when the camera sees no fur.
 std::vector<LabRays> make_lab_rays(const RenderScene& scene, const Strands& strands,
                                    const SnappedStrands& snapped, const FurTree& tree, size_t max);
 
-/// As store_lab_fur().
+/// Stores and loads rays in the same way as store_lab_fur() and load_lab_fur().
 void store_lab_rays(const ContentStore& store, const std::vector<LabRays>& sets);
 std::vector<LabRays> load_lab_rays(const ContentStore& store);
 

@@ -8,7 +8,8 @@
 
 namespace pelage {
 
-/// A picture to draw pictures, lines and labels on. sRGB, (0, 0) at the upper left corner; clips to its area.
+/// An sRGB picture on which pictures, lines and labels can be drawn. (0, 0) is the upper left corner. Drawing
+/// is clipped to the picture.
 class Canvas {
  public:
   using Color = std::array<unsigned char, 3>;
@@ -19,7 +20,7 @@ class Canvas {
   void draw(int x, int y, const Picture& picture);
   /// Draws an antialiased line, about 1.5 pixels wide.
   void line(double x0, double y0, double x1, double y1, Color color);
-  /// Adds text over the picture, for pages and SVG files.
+  /// Adds text on top of the picture. Web pages and SVG files show it; PNG files omit it.
   void label(Label label) { picture_.labels.push_back(std::move(label)); }
 
   const Picture& picture() const { return picture_; }

@@ -7,14 +7,14 @@
 
 namespace pelage {
 
-/// Facts about the machine and program for a report: processor, cores, memory, system, date (UTC), program
-/// version, compiler and libraries. "unknown" where the system does not provide them.
+/// Returns facts about machine and program for a report: processor, cores, memory, system, date (UTC),
+/// program version, compiler and libraries. A fact that the system does not provide is "unknown".
 std::vector<std::pair<std::string, std::string>> machine_facts();
 
-/// Load average of the last minute; 0 where the system does not provide it.
+/// Returns the load average of the last minute, or 0 if the system does not provide it.
 double load_average();
 
-/// The value of "model name" in a text like /proc/cpuinfo; "unknown" without one.
+/// Returns the value of "model name" in the text of /proc/cpuinfo, or "unknown" if it is missing.
 std::string processor_name(const std::string& cpuinfo);
 
 }  // namespace pelage

@@ -6,8 +6,8 @@
 
 namespace pelage {
 
-/// Escapes text for HTML and SVG, also inside quoted attributes; replaces bytes that XML forbids or that are
-/// not UTF-8.
+/// Escapes text for HTML and SVG; the result may also be used in quoted attributes. Replaces bytes that are
+/// not valid UTF-8, and characters that XML forbids.
 std::string escape_markup(std::string_view text);
 
 }  // namespace pelage

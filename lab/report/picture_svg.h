@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// A picture with its labels as an inline SVG element, with the pixels as embedded PNG.
+/// Returns a picture with its labels as an inline SVG element. The pixels are embedded as a PNG file.
 std::string picture_svg(const Picture& picture);
 
 }  // namespace pelage

@@ -7,7 +7,8 @@
 
 namespace pelage {
 
-// Plots as inline SVG elements: axes with units, grid, legend. Non-finite numbers leave gaps.
+// Each function returns a plot as an inline SVG element, with axes, units, grid and legend. Numbers that are
+// not finite leave gaps.
 
 std::string line_plot_svg(const LinePlot& plot);
 std::string bar_plot_svg(const BarPlot& plot);

@@ -8,10 +8,10 @@
 
 namespace pelage {
 
-/// A picture as a PNG file, by libpng.
+/// Returns a picture as the content of a PNG file, written by libpng.
 std::string png_bytes(const Picture& picture);
 
-/// Base 64 with padding [RFC 4648, section 4].
+/// Returns bytes in base 64 with padding [RFC 4648, section 4].
 std::string base64(std::string_view bytes);
 
 }  // namespace pelage

@@ -6,34 +6,36 @@
 
 namespace pelage {
 
-/// The quantity that a number in a report measures; determines its unit and format.
+/// The quantity that a number in a report measures. It determines the unit and the format of the number.
 enum class Quantity {
-  kCount,    ///< integers
-  kSeconds,  ///< shown in s or ms
-  kBytes,    ///< shown in B, KiB, MiB or GiB
-  kRate,     ///< per second
-  kRatio,    ///< without unit
-  kPercent,  ///< given as a fraction, shown as a percentage
-  kError,    ///< the same, with three decimals
+  kCount,    ///< an integer without unit
+  kSeconds,  ///< seconds, shown in s or ms
+  kBytes,    ///< bytes, shown in B, KiB, MiB or GiB
+  kRate,     ///< number per second
+  kRatio,    ///< a ratio without unit
+  kPercent,  ///< a fraction, shown as a percentage with one decimal
+  kError,    ///< a fraction, shown as a percentage with three decimals
 };
 
 /// The unit in which numbers of one column or axis are shown.
 struct DisplayUnit {
-  double factor = 1;   ///< shown = number * factor
-  std::string symbol;  ///< "MiB"; empty: none
-  int decimals = 0;    ///< so that the largest has three or four digits
+  double factor = 1;   ///< the shown number is the raw number times this
+  std::string symbol;  ///< such as "MiB"; empty: no unit
+  int decimals = 0;    ///< number of decimals with which the largest number has three or four digits
 };
 
-/// The unit in which numbers up to `largest` are easiest to read.
+/// Returns the unit in which numbers up to `largest` are easiest to read.
 DisplayUnit display_unit(Quantity quantity, double largest);
 
-/// The unit of raw numbers in JSON and CSV: "bytes", "s", "1/s", or empty.
+/// Returns the unit of raw numbers in JSON and CSV: "bytes", "s", "1/s", or an empty text.
 std::string_view raw_unit(Quantity quantity);
 
-/// A number in its unit, digits in groups of three: "12 345", "0.25", "∞", "–" for NaN.
+/// Returns a raw number in the unit `unit`, without the symbol of the unit: "12 345", "0.25", "∞", "–" for
+/// NaN. Digits are in groups of three from 10 000 on.
 std::string number_text(double number, const DisplayUnit& unit);
 
-/// "peak memory (MiB)", or only the name when there is no unit.
+/// Returns a name with its unit, such as "peak memory (MiB)". Returns only the name when the unit has no
+/// symbol.
 std::string with_unit(const std::string& name, const DisplayUnit& unit);
 
 }  // namespace pelage

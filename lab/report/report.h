@@ -11,8 +11,8 @@
 
 namespace pelage {
 
-// A report as one value, independent of how it is written. The writers are in report_html.h, report_json.h
-// and report_csv.h. Numbers are in SI units and bytes; NaN means "unknown".
+// A report as data, independent of its file format. report_html.h, report_json.h and report_csv.h write it.
+// Numbers are in SI units and bytes. NaN means "unknown".
 
 struct Text {
   std::string text;
@@ -20,43 +20,45 @@ struct Text {
 using Cell = std::variant<double, Text>;
 
 struct Column {
-  std::string key;    ///< for programs: "peak_rss_bytes"
-  std::string title;  ///< for readers: "peak RSS"
+  std::string key;    ///< name for programs: "peak_rss_bytes"
+  std::string title;  ///< name for readers: "peak RSS"
   Quantity quantity = Quantity::kRatio;
 };
 
 struct Table {
   std::string caption;
   std::vector<Column> columns;
-  std::vector<std::vector<Cell>> rows;  ///< as long as `columns`
+  std::vector<std::vector<Cell>> rows;  ///< each row has one cell per column
 };
 
-/// The columns of `table` with these keys, in this order; missing keys are skipped.
+/// Returns the columns of `table` with the given keys, in the order of `keys`. Keys that the table does not
+/// have are skipped.
 Table select(const Table& table, const std::vector<std::string>& keys, std::string caption);
 
 struct Axis {
   std::string label;  ///< without unit
   Quantity quantity = Quantity::kRatio;
   bool log = false;
-  double end = 0;  ///< the axis reaches at least this far, so that plots side by side can be compared
+  double end = 0;  ///< min upper end of the axis, so that plots side by side can have the same axis; 0: none
 };
 
 struct Series {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< x ascending; the line breaks where y is not finite
+  /// Points (x, y) with ascending x. The line is interrupted where y is not finite.
+  std::vector<std::pair<double, double>> points;
 };
 
-/// Lines over x, drawn on top of stacked areas. Areas share their x.
+/// Lines over x, drawn on top of stacked areas. All areas have the same x values.
 struct LinePlot {
   std::string caption;
   Axis x, y;
   std::vector<Series> areas;
   std::vector<Series> lines;
-  bool markers = false;  ///< few points: draw a marker at each
-  bool half = false;     ///< half the page width, two side by side
+  bool markers = false;  ///< whether to draw a marker at each point, for lines of few points
+  bool half = false;     ///< whether to use half the page width, so that two plots fit side by side
 };
 
-/// Horizontal bars, one group per name. Every series has one value per group.
+/// Horizontal bars in groups. Every series has one value per group.
 struct BarPlot {
   struct Values {
     std::string name;
@@ -68,17 +70,17 @@ struct BarPlot {
   std::vector<Values> series;
   bool stacked = false;
   bool half = false;
-  std::vector<std::pair<double, double>> spread = {};  ///< min and max per group (whiskers); or empty
-  std::vector<std::string> notes = {};                 ///< per group: shown where there is no number
+  std::vector<std::pair<double, double>> spread = {};  ///< min and max per group, drawn as whiskers; or empty
+  std::vector<std::string> notes = {};  ///< per group: text shown where a value is not finite; or empty
 };
 
-/// Pixels for screens: 1 (grey) or 3 (sRGB) bytes each, rows from the top.
+/// Pixels for screens: 1 byte (grey) or 3 bytes (sRGB) each, in rows from the top.
 struct Picture {
   std::string caption;
   int width = 0, height = 0, channels = 3;
   std::vector<unsigned char> pixels;
   bool half = false;
-  std::vector<Label> labels = {};  ///< in pages and SVG files; PNG files omit them
+  std::vector<Label> labels = {};  ///< shown in web pages and SVG files; PNG files omit them
 };
 
 struct Paragraph {
@@ -93,13 +95,14 @@ struct Section {
 };
 
 struct Report {
-  std::string experiment;  ///< "bounds"
+  std::string experiment;  ///< name of the experiment: "bounds"
   std::string title;
   std::string abstract;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< what was run, and where
+  /// Name and value of facts about the scene, the settings and the machine.
+  std::vector<std::pair<std::string, std::string>> facts;
   std::vector<Section> sections;
-  Table data;        ///< all measurements, one row per variant: the content of CSV and JSON
-  std::string runs;  ///< JSON text: each run with its command and its statistics
+  Table data;        ///< all measurements, one row per variant: written to CSV and JSON
+  std::string runs;  ///< all runs, each with its command and its statistics, as JSON text
 };
 
 }  // namespace pelage

@@ -7,8 +7,9 @@
 
 namespace pelage {
 
-/// A table as CSV [RFC 4180]: a line of keys, then a line per row, in raw units. Numbers are written with the
-/// fewest digits that round-trip; unknown ones are empty, infinite ones "inf" and "-inf".
+/// Returns a table as CSV [RFC 4180]: a line of keys, then a line per row, in raw units. A number has the
+/// fewest digits from which it can be read back exactly. An unknown number is an empty field. Infinite
+/// numbers are "inf" and "-inf".
 std::string csv_text(const Table& table);
 
 }  // namespace pelage

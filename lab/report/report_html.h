@@ -9,12 +9,13 @@
 
 namespace pelage {
 
-/// A report as one self-contained HTML page: style sheet, plots (SVG) and pictures (PNG) are embedded,
-/// without scripts. Tables and figures are numbered. Also well-formed XML. Suitable for printing.
+/// Returns a report as one self-contained HTML page without scripts, also suitable for printing. The style
+/// sheet, plots (SVG) and pictures (PNG) are embedded. Tables and figures are numbered. The page is also
+/// well-formed XML.
 std::string report_html(const Report& report);
 
-/// Its plots as separate files, for papers and slides: names ("figure-03.svg", numbered as on the page) and
-/// contents.
+/// Returns the plots of a report as files for papers and slides: pairs of name and content. The names are
+/// numbered as the figures on the page: "figure-03.svg".
 std::vector<std::pair<std::string, std::string>> report_figures(const Report& report);
 
 }  // namespace pelage

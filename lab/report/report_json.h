@@ -7,12 +7,12 @@
 
 namespace pelage {
 
-/// Version of the object that `pelage measure` writes: incremented when a name changes its meaning or is
-/// removed.
+/// Version of the JSON object that `pelage measure` writes. It is incremented when a name in this object is
+/// removed or changes its meaning.
 constexpr int kReportSchema = 1;
 
-/// The configuration, the measurements (raw units, one row per variant) and every run's own statistics as one
-/// JSON object. Non-finite numbers are null.
+/// Returns a report as one JSON object: the configuration, the measurements (one row per variant, in raw
+/// units), and the statistics that every run wrote. Numbers that are not finite are null.
 std::string report_json(const Report& report);
 
 }  // namespace pelage

@@ -10,32 +10,34 @@
 
 namespace pelage {
 
-/// The columns common to all experiments on `render`, one row per outcome: status, wall and CPU time, memory
-/// peaks, bytes by ledger tag ("memory_film_bytes"), seconds by stage ("stage_render_s"), chunks and growth,
-/// rays and boxes.
+/// Returns a table with one row per outcome, and the columns that all experiments on `render` have: status,
+/// wall and CPU time, memory peaks, bytes by ledger tag ("memory_film_bytes"), seconds by stage
+/// ("stage_render_s"), counts of chunks, growth, rays and box tests.
 Table outcome_table(const std::vector<Outcome>& outcomes);
 
-/// Adds a column; calls `value` for every row's outcome.
+/// Adds a column to a table. Calls `value` for the outcome of every row.
 void add_column(Table& table, const Column& column, const std::vector<Outcome>& outcomes,
                 const std::function<Cell(const Outcome&)>& value);
 
-/// Keys of the columns that start with `prefix` and are not entirely zero or unknown, in the table's order.
+/// Returns the keys that start with `prefix`, in the order of the table's columns. Omits columns in which all
+/// numbers are zero or unknown.
 std::vector<std::string> keys_with(const Table& table, const std::string& prefix);
 
-/// The numbers of a column; NaN for texts.
+/// Returns the numbers of a column. NaN for texts and for a column that does not exist.
 std::vector<double> column_values(const Table& table, const std::string& key);
 
-/// The columns of law 5: how much of the resident memory the ledger explains.
+/// Returns the columns of `table` about law 5: how much of the resident memory the ledger explains.
 Table ledger_table(const Table& table);
 
-/// Stages by wall time, stacked, with the spread of all runs: one bar per outcome.
+/// Returns a plot with one bar per outcome: wall times of the stages, stacked, with the min and max total
+/// time over all runs.
 BarPlot stage_plot(const Table& table, const std::vector<Outcome>& outcomes, const std::string& caption);
-/// Columns side by side, or stacked: one bar per outcome and key.
+/// Returns a plot with one group per outcome and one bar per key in each group.
 BarPlot column_plot(const Table& table, const std::vector<Outcome>& outcomes,
                     const std::vector<std::string>& keys, const std::string& axis,
                     const std::string& caption);
 
-/// The sentence on law 5: how much of the resident memory the ledger does not explain.
+/// Returns a sentence about law 5: how much of the resident memory the ledger does not explain.
 std::string ledger_text(const std::vector<Outcome>& outcomes);
 
 }  // namespace pelage

@@ -9,24 +9,26 @@
 
 namespace pelage {
 
-/// The numbers that a run wrote with --stats. A value.
+/// The statistics that a run wrote with --stats.
 class RunStatistics {
  public:
-  /// Empty when the file is missing or damaged.
+  /// Reads the file of --stats. Empty when the file is missing or damaged.
   static std::optional<RunStatistics> read(const std::filesystem::path& path);
 
-  /// A number by the path of its keys, "stages_s.render"; NaN when there is none.
+  /// Returns a number by its path, which consists of the keys joined by dots: "stages_s.render". NaN when
+  /// there is none.
   double number(const std::string& path) const;
-  /// Sum of the numbers of an object, such as "rays"; NaN when there is none.
+  /// Returns the sum of all numbers in an object, such as "rays". NaN when there are none.
   double sum(const std::string& object) const;
-  /// Keys of an object of numbers, in alphabetical order.
+  /// Returns the keys of an object that contains numbers, in alphabetical order.
   std::vector<std::string> keys(const std::string& object) const;
 
-  /// Memory over time: column names, and rows of the same length. Empty without --sample-memory.
+  /// Memory over time, as a table: names of the columns, and rows with one value per column. Empty for a run
+  /// without --sample-memory.
   const std::vector<std::string>& timeline_columns() const { return timeline_columns_; }
   const std::vector<std::vector<double>>& timeline() const { return timeline_; }
 
-  /// The object without its timeline, as JSON.
+  /// All statistics except the timeline, as a JSON object.
   const std::string& json() const { return json_; }
 
  private:

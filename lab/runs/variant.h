@@ -13,31 +13,32 @@
 
 namespace pelage {
 
-/// Settings that all variants of an experiment share.
+/// Settings that are common to all variants of an experiment.
 struct MeasureSetup {
-  std::filesystem::path program;  ///< run once per variant
-  std::filesystem::path folder;   ///< receives all output files
+  std::filesystem::path program;  ///< program that every run starts
+  std::filesystem::path folder;   ///< folder for all output files
   std::string scene;
-  std::vector<std::string> arguments;  ///< for every run: --set, --threads
-  int repeat = 1;                      ///< runs of each variant
-  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is killed
+  std::vector<std::string> arguments;  ///< arguments of every run, such as --set and --threads
+  int repeat = 1;                      ///< number of runs of each variant
+  double time_limit_s = kNoLimit_s;    ///< a run that takes longer is stopped
 };
 
 /// One way to run the program.
 struct Variant {
-  std::string id;     ///< names its files: "exact-cold"
-  std::string title;  ///< for people: "exact, cold"
+  std::string id;     ///< start of the names of its files: "exact-cold"
+  std::string title;  ///< name for readers: "exact, cold"
   std::string command = "render";
   std::vector<std::string> arguments;
-  bool once = false;  ///< not repeated: warm-up runs, and cold runs, which would be warm the second time
+  /// Runs only once: for warm-up runs, and for cold runs, which would be warm the second time.
+  bool once = false;
   std::function<void()> prepare = {};  ///< called before each run
 };
 
 struct VariantRun {
   std::vector<std::string> command;
   ProcessEnd end;
-  std::string error;  ///< error message of a run that failed
-  double load = 0;    ///< load average (1 min) when it started
+  std::string error;  ///< error message; empty if the run succeeded
+  double load = 0;    ///< load average of the last minute when the run started
   std::optional<RunStatistics> statistics;
 };
 
@@ -46,36 +47,41 @@ struct Outcome {
   Variant variant;
   std::vector<VariantRun> runs;
 
-  bool succeeded() const;      ///< every run
-  bool refused() const;        ///< exit code 4: the memory budget was too small, which is a valid result
-  bool timed_out() const;      ///< a run exceeded the time limit
-  bool interrupted() const;    ///< stopped from outside, or never started
-  std::string status() const;  ///< "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted"
-  std::string error() const;   ///< error message of the run that failed
+  bool succeeded() const;  ///< whether all runs succeeded
+  /// Whether the exit code was 4: the memory budget was too small, which is a valid result.
+  bool refused() const;
+  bool timed_out() const;    ///< whether a run exceeded the time limit
+  bool interrupted() const;  ///< whether it was stopped by the user or never started
+  /// "done", "refused", "time-out", "exit code 1", "signal 9", "interrupted" or "not run".
+  std::string status() const;
+  std::string error() const;  ///< error message of the failed run; empty if there is none
 
-  /// The successful run with the median wall time; null when there is none.
+  /// Returns the successful run with the median wall time (the faster of two middle runs). Null when no run
+  /// succeeded.
   const VariantRun* typical() const;
-  /// A number from the statistics of typical(), by path; NaN when unknown.
+  /// Returns a number of typical() by its path in the statistics. NaN when unknown.
   double number(const std::string& path) const;
-  /// Min and max over all successful runs.
+  /// min() and max() return the min and max of a number over all successful runs. NaN when unknown.
   double min(const std::string& path) const;
   double max(const std::string& path) const;
 };
 
-/// Runs variants one at a time, each in its own process.
+/// Runs variants one after the other, each run in its own process.
 class VariantRunner {
  public:
-  /// `count`: number of variants expected, for the progress display.
+  /// `count`: expected number of variants, for the progress display.
   VariantRunner(const MeasureSetup& setup, Progress& progress, size_t count);
 
-  /// Writes ID.json (--stats), ID.exr or nothing (-o), and ID.log for every variant; repeated runs write
-  /// ID.2.json and so on. A variant that fails is a valid result. Throws Error (kFailed) when the folder
-  /// cannot be written.
+  /// Runs a variant. A run writes ID.json (--stats), ID.log and, if it renders, ID.exr (-o), where ID is
+  /// Variant::id. Repeated runs write ID.2.json, ID.2.log and so on. A variant that fails is a valid result;
+  /// it is not run again. Throws Error (kFailed) when the folder cannot be written.
   Outcome run(const Variant& variant);
-  /// Runs many variants in rounds, every variant once per round, so that changing load of the machine affects
-  /// all alike. A variant that failed is not run again.
+  /// Runs several variants in rounds: every round runs each variant once, so that a change of the machine's
+  /// load affects all variants alike. A variant that failed is not run again. Omits variants that were never
+  /// run because the user stopped.
   std::vector<Outcome> run_in_rounds(const std::vector<Variant>& variants);
 
+  /// Path of the picture that the runs of a variant write.
   std::filesystem::path picture(const Variant& variant) const;
 
  private:
@@ -87,7 +93,7 @@ class VariantRunner {
   size_t count_ = 0, done_ = 0;
 };
 
-/// Every run with its command, end and statistics as a JSON array.
+/// Returns all runs as a JSON array, each with its command, its end and its statistics.
 std::string runs_json(const std::vector<Outcome>& outcomes);
 
 }  // namespace pelage

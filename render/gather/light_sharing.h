@@ -13,9 +13,9 @@ namespace pelage {
 /// knot is a position on a strand or skin near which visible points share light. A zone, which contains many
 /// knots, is one of eight depth ranges of a coat, or a whole skin. See knot_keys.h for both.
 ///
-/// The estimate uses shadow rays from some of the points. Each ray has a weight: the unoccluded light that the
-/// ray represents, including the light of points without a ray. On average, the sum of the weights equals the
-/// whole unoccluded light, because SystematicChoice chooses the rays. Weights have a number for each lobe
+/// The estimate uses shadow rays from some of the points. Each ray has a weight: the unoccluded light that
+/// the ray represents, including the light of points without a ray. On average, the sum of the weights equals
+/// the whole unoccluded light, because SystematicChoice chooses the rays. Weights have a number for each lobe
 /// group and colour, and so have fractions. For one knot, light, lobe group and colour, let
 ///   U        be the exact unoccluded light: the sum over all points of the knot,
 ///   seen     be the sum of the weights of the rays,
