@@ -18,14 +18,15 @@
 
 namespace pelage {
 
-/// Receives one line about a problem that did not stop the run.
+/// Called with one line of text for each problem that does not stop the run.
 using WarningSink = std::function<void(const std::string& line)>;
 
 /// A memory-mapped file of a content store: a few sections of bytes, each aligned to 64 bytes. All bytes have
 /// been verified against their checksums.
 class StoredFile {
  public:
-  /// Reads and verifies a file, whatever its name. Throws Error (kInput) with the reason.
+  /// Maps and verifies a file, which may have any name. Throws Error (kInput) with the reason when the file
+  /// cannot be read or is damaged.
   explicit StoredFile(const std::filesystem::path& path) : StoredFile(OpenFile(path)) {}
   explicit StoredFile(const OpenFile& file);
 
@@ -42,39 +43,43 @@ class StoredFile {
   std::vector<std::span<const std::byte>> sections_;
 };
 
-/// Whether a file starts with the magic number of content store files.
+/// Returns whether a regular file starts with the magic number of content store files.
 bool is_stored_file(const std::filesystem::path& path);
 
-/// A folder of files named by kind and content hash: results that can be computed again.
+/// A folder of files, called entries, that hold results which can be computed again. The name of an entry is
+/// its kind and the content hash of the inputs of the result (its key).
 ///
-/// A file appears completely or not at all. A reader accepts only files with the right format, kind, key and
-/// length and with correct checksums of all sections (law 6); everything else counts as missing, with one
-/// warning. Symbolic links are never followed, neither for reading nor for writing (the folder itself may be
-/// one). A file of another user also counts as missing, unless that user is root or the folder is declared
-/// shared (is_shared_folder()). File system errors never throw: a store that cannot be written behaves as if
-/// it were empty. `kind`: lower-case letters, digits and '-', at most 16 characters. Thread safety: const
-/// members may be called from any thread and by many processes.
+/// A file appears completely or not at all. An entry is accepted only if format, kind, key, length and all
+/// checksums are correct (law 6). Any other file counts as missing, and the caller gets one warning. Symbolic
+/// links to entries are never followed, neither for reading nor for writing; the folder itself may be a
+/// symbolic link. A file of another user counts as missing too, unless this user is root or the folder is
+/// declared shared (is_shared_folder()). File system errors never throw: a store that cannot be written
+/// behaves as if it were empty. A `kind` has at most 16 characters: lower-case letters, digits and '-'.
+/// Thread safety: const members may be called from any thread and by many processes.
 class ContentStore {
  public:
   /// The folder need not exist.
   explicit ContentStore(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   const std::filesystem::path& folder() const { return folder_; }
-  /// Path of an entry, existing or not.
+  /// Returns the path of an entry, whether or not it exists.
   std::filesystem::path file(const std::string& kind, const ContentHash& key) const;
 
-  /// Returns nothing if the entry is missing, damaged or foreign. Calls `warn` for a damaged or foreign
-  /// entry. Updates the modification time of the file to record its last use, with a resolution of one hour.
+  /// Opens an entry and verifies all its sections. Returns an empty value if the entry is missing, damaged or
+  /// owned by an untrusted user, and calls `warn` in the last two cases. Records the use of the entry: sets
+  /// the modification time of its file to now if the file was modified more than an hour ago.
   std::optional<StoredFile> open(const std::string& kind, const ContentHash& key,
                                  const WarningSink& warn) const;
-  /// The same for an entry whose sections are read one by one. Each section is verified when it is read.
+  /// Opens an entry as open() does, but verifies only its header and table. StoredSections::read() verifies
+  /// each section when it reads the section.
   std::optional<StoredSections> open_sections(const std::string& kind, const ContentHash& key,
                                               const WarningSink& warn) const;
 
-  /// Writes one entry, section by section; it exists after commit(). After the first failure nothing more is
-  /// written, and commit() reports it once to `warn`.
+  /// Writes one entry, section by section. The entry exists once commit() has returned true. After the first
+  /// failure, nothing more is written, and commit() reports this failure to `warn`.
   class Writer {
    public:
+    /// Writes the next section.
     void add(std::span<const std::byte> section);
     template <class T>
     void add(std::span<const T> values) {
@@ -82,7 +87,7 @@ class ContentStore {
     }
     /// Whether writing has failed.
     bool failed() const { return !failure_.empty(); }
-    /// Returns whether the entry now exists.
+    /// Completes the entry. Returns whether this succeeded, so that the entry now exists.
     bool commit(const WarningSink& warn);
 
    private:
@@ -101,7 +106,7 @@ class ContentStore {
     std::vector<Section> sections_;
   };
   Writer writer(const std::string& kind, const ContentHash& key) const;
-  /// Writes all sections at once. Returns whether the entry now exists.
+  /// Writes an entry with all its sections. Returns whether this succeeded, so that the entry now exists.
   bool store(const std::string& kind, const ContentHash& key,
              std::span<const std::span<const std::byte>> sections, const WarningSink& warn) const;
 
@@ -110,8 +115,8 @@ class ContentStore {
    public:
     Lock(Lock&& other) noexcept;
     ~Lock();
-    /// Whether the lock is held: false when the folder cannot be written or the timeout expired. The work may
-    /// then be done twice, with the same result.
+    /// Whether lock() obtained the lock. False when the folder cannot be written, the timeout expired or the
+    /// wait was cancelled. Two processes may then compute the same entry, with the same result.
     bool held() const { return descriptor_ >= 0; }
 
    private:
@@ -120,29 +125,30 @@ class ContentStore {
     int descriptor_ = -1;
     std::filesystem::path path_;
   };
-  /// Waits until no other process computes this entry, the timeout expires or `cancelled` returns true. Open
-  /// the entry again afterwards: it may exist now. The locks of a process that dies are released.
+  /// Locks an entry. Waits until no other process holds the lock, `patience` has passed or `cancelled`
+  /// returns true; see Lock::held(). Afterwards, try to open the entry again, because another process may
+  /// have stored the entry meanwhile. The system releases the locks of a process that dies.
   Lock lock(
       const std::string& kind, const ContentHash& key,
       const std::function<bool()>& cancelled = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
-  /// Removes incomplete files of killed processes: temporary files (sweep_temporaries()), and locks that have
-  /// not been touched for `age`.
+  /// Removes files that killed processes left: their temporary files (see sweep_temporaries()), and lock
+  /// files that have not been modified for longer than `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
 
-  /// Storing an entry removes entries that have not been used for this time.
+  /// Argument of prune() after an entry was stored: entries that have not been used for 30 days are removed.
   static constexpr std::chrono::hours kUnusedAge{24 * 30};
 
   struct Removed {
     size_t files = 0;
     uint64_t bytes = 0;
   };
-  /// Removes entries that have not been written or opened for `age`, except for the files in `keep`. Safe
-  /// while other processes use the folder: open files stay readable, and entries removed too early are
-  /// computed again.
+  /// Removes entries that have not been written or opened for longer than `age`, except for entries whose
+  /// file name occurs in `keep`. Safe while other processes use the folder: open files stay readable, and an
+  /// entry that is needed after its removal is computed again.
   Removed prune(std::chrono::seconds age, std::span<const std::filesystem::path> keep = {}) const;
-  /// The same for a single file.
+  /// Removes one file if it has the name of an entry and was not written or opened for longer than `age`.
   static Removed remove_unused(const std::filesystem::path& file, std::chrono::seconds age);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace pelage {
 
-/// "1 sample", "16 samples".
+/// Returns the count and the noun, with an "s" unless the count is 1: "1 sample", "16 samples".
 inline std::string counted(int64_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

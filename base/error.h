@@ -9,33 +9,33 @@
 
 namespace pelage {
 
-/// A position in an input. Line and column count from 1; 0 means that the input has no lines.
+/// A position in an input file. Line and column count from 1; 0 means unknown or that the file has no lines.
 struct SourcePosition {
   std::string file;
   int line = 0;
   int column = 0;
 };
 
-/// "file:line:column", without the parts that are unknown.
+/// Returns "file:line:column", or "file:line" or "file" when the rest is unknown.
 std::string to_string(const SourcePosition& position);
 
-/// One mistake of the user, or one failure of the system, as one line without a final full stop.
+/// One mistake of the user, or one failure of the system. The message is one line without a final full stop.
 struct Problem {
   SourcePosition position;
   std::string message;
 };
 
-/// What an error means for the exit code of the command (docs/RUNNING.md).
+/// Kinds of errors. Each has its own exit code of the command, stated behind the colon (docs/RUNNING.md).
 enum class ErrorKind {
-  kFailed,     ///< render failed or an output could not be written: 1
+  kFailed,     ///< the render failed or an output could not be written: 1
   kArguments,  ///< bad arguments: 2
   kInput,      ///< a scene or an asset is missing, malformed or damaged: 3
   kMemory,     ///< the memory budget is too small: 4
-  kStopped,    ///< the user asked to stop and there is nothing to show: 130
+  kStopped,    ///< the user asked to stop before there was any result: 130
 };
 
-/// The only exception type for mistakes of the user and failures of the system. Carries every problem found,
-/// in file order. Bugs are not errors: they abort the program (base/check.h).
+/// The only exception type for mistakes of the user and failures of the system. Contains all problems that
+/// were found, in the order of the file. Bugs are not errors: they abort the program (base/check.h).
 class Error : public std::exception {
  public:
   Error(ErrorKind kind, std::vector<Problem> problems);
@@ -58,7 +58,7 @@ class Error : public std::exception {
 class Problems {
  public:
   Problems() = default;
-  /// Keeps the first `max` problems and only counts the rest, because a damaged file may contain very many.
+  /// Keeps the first `max` problems and only counts the others, because a damaged file may cause millions.
   explicit Problems(size_t max) : max_(max) {}
 
   void add(SourcePosition position, std::string message) {
@@ -69,10 +69,11 @@ class Problems {
     }
   }
   bool empty() const { return list_.empty(); }
-  /// Sorts by line. For code that reads a single file and finds some mistakes only at the end of the file.
+  /// Sorts the problems by line. For readers of a single file that find some mistakes only at its end.
   void sort_by_line();
   const std::vector<Problem>& list() const { return list_; }
-  /// Throws an Error of `kind` with all problems, if there are any. States how many more were only counted.
+  /// Throws an Error of `kind` if there are problems; otherwise does nothing. The error contains the kept
+  /// problems, and the count of the others as one more problem.
   void throw_if_any(ErrorKind kind = ErrorKind::kInput) const;
 
  private:

@@ -11,28 +11,29 @@
 
 namespace pelage {
 
-/// Contents of a file. Throws Error (kInput) with the path when it cannot be read, is not a regular file or
-/// is longer than `limit` bytes.
+/// Returns the contents of a file. Throws Error (kInput) with the path when the file cannot be read, is not a
+/// regular file or is longer than `limit` bytes.
 std::string read_file(const std::filesystem::path& path, size_t limit = size_t(4) << 30);
 
-/// Target of a path after following symbolic links at its end; it need not exist. Throws Error (kFailed) for
-/// cyclic links.
+/// Follows symbolic links as long as the last component of the path is one, and returns the resulting path.
+/// The target need not exist. Throws Error (kFailed) for cyclic links.
 std::filesystem::path target_of_links(std::filesystem::path path);
 
-/// Whether two paths refer to the same file, even by different spellings, symbolic links or hard links. The
-/// files need not exist.
+/// Returns whether two paths name the same file, also when they are spelled differently or contain symbolic
+/// or hard links. The files need not exist.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// How AtomicFile treats a symbolic link at its path.
 enum class Links {
-  kFollow,   ///< replaces the target of the link, keeping its mode and owner; the link stays
-  kReplace,  ///< replaces the link itself, or any file, by a new file that this user owns
+  kFollow,   ///< keeps the link; replaces its target, keeping mode and (if permitted) owner
+  kReplace,  ///< replaces the link itself (or a regular file) by a new file that this user owns
 };
 
-/// A file that appears completely or not at all (law 6): written under a temporary name in the same folder,
-/// synced, and renamed by commit(). Without commit(), the temporary file is removed. sweep_temporaries()
-/// removes the temporary files of killed processes. Creates missing folders and refuses to replace a device
-/// or pipe. Throws Error (kFailed).
+/// Writes a file that appears completely or not at all (law 6). The data is written to a temporary file in
+/// the same folder, which commit() flushes to the disk and renames. The destructor removes the temporary file
+/// if commit() was not called. sweep_temporaries() removes the temporary files of killed processes. Creates
+/// missing folders of its path, but not those of the target of a symbolic link. Every member throws Error
+/// (kFailed) on failure. The constructor also throws it when the path names a folder, device or pipe.
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path, Links links = Links::kFollow);
@@ -42,20 +43,22 @@ class AtomicFile {
 
   /// Path of the temporary file, for libraries that require one.
   const std::filesystem::path& temporary_path() const { return temporary_; }
+  /// Appends to the data that write() has written so far.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
-  /// Writes at an offset, independent of write().
+  /// Writes at an offset in bytes from the start of the file. Does not move the position of write().
   void write_at(uint64_t offset, std::span<const std::byte> bytes);
+  /// Moves the complete file to its path.
   void commit();
 
  private:
-  std::filesystem::path named_;  ///< as given, for messages
+  std::filesystem::path named_;  ///< as given to the constructor, for messages
   std::filesystem::path path_;   ///< the file to replace
   std::filesystem::path temporary_;
   int descriptor_ = -1;
 };
 
-/// Writes a whole file as AtomicFile does. Throws Error (kFailed).
+/// Writes a whole file through an AtomicFile. Throws Error (kFailed).
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace pelage

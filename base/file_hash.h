@@ -7,8 +7,9 @@
 
 namespace pelage {
 
-/// content_hash() of all bytes of a file, read piecewise: neither the heap nor the resident set grows with
-/// the file. Throws Error (kInput) when it cannot be read or is not a regular file.
+/// Returns the content_hash() of all bytes of a file. Reads 256 KiB at a time, so the memory use does not
+/// depend on the size of the file. Throws Error (kInput) when the file cannot be read or is not a regular
+/// file.
 ContentHash file_hash(const std::filesystem::path& path);
 
 }  // namespace pelage

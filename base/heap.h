@@ -5,19 +5,21 @@
 
 namespace pelage {
 
-/// Heap blocks of at least this size have their own pages after keep_heap_small().
+/// Size in bytes from which a heap block, including 16 bytes of overhead, has pages of its own after
+/// keep_heap_small().
 inline constexpr size_t kHeapPages = 16 * 1024;
 
-/// Makes the heap of this process return memory to the system when it is freed. Without this call, a third of
-/// the memory is lost to fragmentation if several threads keep allocating and freeing blocks of similar size,
-/// such as the trees of chunks. Call once, before threads are started.
+/// Makes the heap return each block of at least kHeapPages to the system as soon as the block is freed.
+/// Without this call, fragmentation wastes a third of the memory when several threads repeatedly allocate and
+/// free blocks of similar size, such as the trees of chunks. Call once, before threads are started.
 void keep_heap_small();
 
-/// Also returns free memory between used blocks to the system. Call after freeing much memory that will not
-/// be needed again.
+/// Returns unused memory between the blocks of the heap to the system. Call after freeing much memory that
+/// will not be needed again.
 void trim_heap();
 
-/// Actual size of a block of `bytes` after keep_heap_small().
+/// Returns the memory in bytes that a heap block of `bytes` bytes takes after keep_heap_small(): whole pages
+/// from kHeapPages on, else `bytes`.
 size_t heap_bytes(size_t bytes);
 
 }  // namespace pelage

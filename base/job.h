@@ -10,18 +10,18 @@
 
 namespace pelage {
 
-/// The resources of a long computation: threads, memory ledger, progress. Holds references only and is passed
-/// by const reference; all three resources must outlive it.
+/// The resources of a long computation: threads, memory ledger, progress. A Job only refers to these
+/// resources, which must outlive the Job. Functions take a Job by const reference.
 struct Job {
   const Workers& workers;
   MemoryLedger& ledger;
   Progress& progress;
 
-  /// Throws Error (kStopped) once the user has asked to stop. Call at least every 0.1 s.
+  /// Throws Error (kStopped) if the user has asked to stop. Long loops must call it at least every 0.1 s.
   void check_stop() const;
 
-  /// Workers::for_each that throws Error (kStopped) before the next range once the user has asked to stop. A
-  /// range should take less than 0.1 s.
+  /// Runs Workers::for_each(), and calls check_stop() before each range. Therefore throws Error (kStopped)
+  /// once the user has asked to stop. A range should take less than 0.1 s.
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 };
 

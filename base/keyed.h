@@ -10,8 +10,9 @@
 
 namespace pelage {
 
-/// A number or vector that may be animated: {keys: {1: v, 48: v}}, linear in frames between keys and constant
-/// outside them.
+/// A number or vector that may be animated. A scene contains either a constant or values at frames, such as
+/// {keys: {1: v, 48: v}}. Values are interpolated linearly between keys, and constant before the first and
+/// after the last key.
 template <class T>
 class Keyed {
  public:
@@ -20,6 +21,7 @@ class Keyed {
   /// `keys` must be sorted by frame and not empty.
   explicit Keyed(std::vector<std::pair<double, T>> keys) : keys_(std::move(keys)) {}
 
+  /// Returns the value at a frame; 0 if default-constructed.
   T at(double frame) const {
     if (keys_.empty()) return T(0);
     auto after = std::upper_bound(keys_.begin(), keys_.end(), frame,
@@ -39,8 +41,10 @@ class Keyed {
 };
 
 namespace detail {
-/// Entries of a {keys: {frame: value}} block with their frames, sorted. `is_keyed`: whether `value` is such a
-/// block. Adds problems for frames that are not numbers or occur twice.
+/// Reads the frames of a {keys: {frame: value}} block and appends each with its value to `frames`, sorted by
+/// frame. Sets `is_keyed` to whether `value` is a map. If not, appends nothing and returns true. Adds a
+/// problem for a malformed map, an unknown key, and a frame that is not a number or occurs twice. Returns
+/// whether no problem was found.
 bool read_key_frames(const Value& value, std::vector<std::pair<double, const Value*>>& frames, bool& is_keyed,
                      Problems& problems);
 }  // namespace detail

@@ -8,7 +8,8 @@
 
 namespace pelage {
 
-/// Owner of a piece of memory. The names are the keys of `memory_bytes` in the statistics.
+/// Purpose for which memory is charged. memory_tag_name() returns the keys of `memory_bytes` in the
+/// statistics.
 enum class MemoryTag {
   kChunks,  ///< grown strands and the trees over them
   kSkins,   ///< cages, refined control points, tessellations, crowds
@@ -17,25 +18,29 @@ enum class MemoryTag {
   kReflectionCache,
   kFilm,
   kTextures,   ///< decoded images and environment distributions
-  kLibraries,  ///< memory taken by loading a module, except for pages of its files
+  kLibraries,  ///< memory that loading a module takes, except for mapped pages of its files
   kCount,
 };
 std::string_view memory_tag_name(MemoryTag tag);
 
-/// Bytes in use and their peak, by tag (law 5). Thread safety: all members may be called from any thread.
+/// Counts the bytes in use and their maximum so far, for each tag (law 5). Thread safety: all members may be
+/// called from any thread.
 class MemoryLedger {
  public:
+  /// Adds `bytes` to the use of a tag; negative to subtract.
   void charge(MemoryTag tag, int64_t bytes);
+  /// Bytes in use.
   int64_t current(MemoryTag tag) const;
+  /// Max bytes that were in use at once.
   int64_t peak(MemoryTag tag) const;
-  /// Whether `render.memory` covers a tag. It covers everything held for a scene and the temporary memory
-  /// needed to make it, but neither the libraries nor the program itself (law 5).
+  /// Returns whether the limit `render.memory` includes a tag. The limit includes all data of a scene and the
+  /// temporary memory for making this data. It includes neither libraries nor the program itself (law 5).
   static bool is_budgeted(MemoryTag tag);
-  /// Bytes in use by the tags that `render.memory` covers.
+  /// Returns the bytes in use by all tags that `render.memory` includes.
   int64_t budgeted() const;
 
-  /// `render.memory` in bytes, 0 for none. Set before anything is charged. The ledger only stores the limit:
-  /// code that allocates memory checks it first (base/memory_budget.h).
+  /// Sets the limit `render.memory` in bytes; 0 means no limit. Call before charging anything. The ledger
+  /// does not enforce the limit: code that is about to allocate memory must check it (base/memory_budget.h).
   void set_limit(uint64_t bytes) { limit_ = static_cast<int64_t>(bytes); }
   int64_t limit() const { return limit_; }
 
@@ -48,7 +53,8 @@ class MemoryLedger {
   int64_t limit_ = 0;
 };
 
-/// Holds a charge for its lifetime. A default-constructed one holds nothing.
+/// Charges bytes to a ledger and subtracts them again in its destructor. A default-constructed MemoryCharge
+/// charges nothing.
 class MemoryCharge {
  public:
   MemoryCharge() = default;

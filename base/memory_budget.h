@@ -9,18 +9,20 @@
 
 namespace pelage {
 
-/// "640 KiB", "22.7 MiB", "1.3 GiB".
+/// Returns a size for a message: "640 KiB", "22.7 MiB" or "1.3 GiB".
 std::string memory_text(int64_t bytes);
 
-/// The ledger's use of the budget: "30.0 MiB are in use (skins 20.0 MiB, film 10.0 MiB)".
+/// Describes the memory in use that `render.memory` includes, by tag: "30.0 MiB are in use (skins 20.0 MiB,
+/// film 10.0 MiB)".
 std::string in_use_text(const MemoryLedger& ledger);
 
-/// Whether `bytes` more fit the ledger's limit.
+/// Returns whether another `bytes` bytes fit the ledger's limit. True if the ledger has no limit.
 bool has_room(const MemoryLedger& ledger, int64_t bytes);
 
-/// Throws Error (kMemory) when `bytes` more do not fit the ledger's limit. `what` names the object and its
-/// place in the scene ("groom 'coat': the follicles of 5,000,000 strands"); the message adds the size, the
-/// memory in use, and the smallest --memory that would suffice. Later steps may need more.
+/// Throws Error (kMemory) when another `bytes` bytes do not fit the ledger's limit. `what` names the object
+/// that needs the memory and its location in the scene ("groom 'coat': the follicles of 5,000,000 strands").
+/// The message adds the size, the memory in use, and the --memory (in MiB) that suffices for this object.
+/// Later steps may need more.
 void require_room(const MemoryLedger& ledger, int64_t bytes, std::string_view what);
 
 /// Calls require_room(), then charges the bytes.

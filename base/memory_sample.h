@@ -10,20 +10,21 @@ namespace pelage {
 
 /// Resident pages of this process, in bytes.
 struct ResidentMemory {
-  int64_t anonymous = 0;  ///< heap, stacks and other private pages: the part that a ledger can explain
+  int64_t anonymous = 0;  ///< heap, stacks and other private pages; a MemoryLedger counts only such memory
   int64_t file = 0;       ///< pages of mapped files: the program itself, libraries, caches
 };
 
-/// Current values of the kernel; zeros where it does not provide them. Takes a few tens of microseconds.
+/// Reads the current values from the kernel; zeros where the kernel does not report them. Takes a few tens of
+/// microseconds.
 ResidentMemory resident_memory();
 
 /// Memory in use at one moment of a run.
 struct MemorySample {
-  double seconds = 0;  ///< since the start of the run
+  double seconds = 0;  ///< time of the sample, since the start of the run
   ResidentMemory resident;
   std::array<int64_t, static_cast<size_t>(MemoryTag::kCount)> tags{};  ///< bytes in use by ledger tag
 
-  int64_t tagged() const;  ///< all tags together
+  int64_t tagged() const;  ///< sum of `tags`
 };
 
 }  // namespace pelage

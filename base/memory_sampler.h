@@ -11,27 +11,30 @@
 
 namespace pelage {
 
-/// Result of a sampler. Timelines of long runs are thinned as they grow.
+/// Samples of a MemorySampler. When the timeline is full, every other sample is removed and the interval is
+/// doubled.
 struct MemoryHistory {
   MemorySample highest;                ///< the sample with the most anonymous pages
   std::vector<MemorySample> timeline;  ///< in order of time; includes the first and the last sample
 };
 
-/// Samples this process's memory periodically, on its own thread. Thread safety: only one thread may call
-/// stop(); any thread may charge the ledger.
+/// Samples the memory of this process periodically, on a thread of its own, which the constructor starts.
+/// Thread safety: only one thread may call stop(). Any thread may charge the ledger meanwhile.
 class MemorySampler {
  public:
   using Clock = std::chrono::steady_clock;
-  /// At most this many samples are kept.
+  /// Max number of samples in the timeline.
   static constexpr size_t kMaxSamples = 4096;
 
-  /// Seconds count from `start`. `ledger` must outlive the sampler.
+  /// MemorySample::seconds counts from `start`. `interval_s`: seconds between samples at first. `ledger` must
+  /// outlive the sampler.
   MemorySampler(const MemoryLedger& ledger, Clock::time_point start, double interval_s);
   ~MemorySampler();
   MemorySampler(const MemorySampler&) = delete;
   MemorySampler& operator=(const MemorySampler&) = delete;
 
-  /// Takes a last sample and ends the thread. Later calls return the same result.
+  /// Takes the last sample, ends the thread and returns all samples. Later calls only return the same
+  /// samples.
   const MemoryHistory& stop();
 
  private:

@@ -6,17 +6,20 @@
 
 namespace pelage {
 
-/// A shared library opened at run time, kept open for the lifetime of the value. Searched beside the
-/// executable (../lib and ../lib/pelage), then in the folders of PELAGE_MODULE_PATH. Throws Error (kFailed)
-/// naming every searched place.
+/// A shared library that the constructor opens and the destructor closes.
 class Module {
  public:
+  /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable, then the
+  /// folders of the environment variable PELAGE_MODULE_PATH, then the folders where the system looks for
+  /// libraries. Throws Error (kFailed) when the library cannot be loaded, or when it is not found. In the
+  /// latter case, the message lists all paths tried, except those of the system.
   explicit Module(const std::string& name);
   ~Module();
   Module(const Module&) = delete;
   Module& operator=(const Module&) = delete;
 
-  /// Address of an extern "C" function. Throws Error (kFailed) when it is missing.
+  /// Returns the address of an extern "C" function. Throws Error (kFailed) when the library has no such
+  /// function.
   void* symbol(const char* name) const;
 
  private:

@@ -7,18 +7,20 @@
 
 namespace pelage {
 
-/// The candidate that `name` most likely means (optimal string alignment distance, transpositions count as
-/// one), or an empty view when no candidate is within max(1, length of `name` / 3).
+/// Returns the candidate with the smallest edit distance from `name`, or an empty view when every distance
+/// exceeds max(1, length of `name` / 3). The edit distance is the optimal string alignment distance, in which
+/// a transposition of two neighbours counts as one edit. Names longer than 64 bytes match nothing.
 std::string_view nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-/// "; did you mean 'clump'?" or an empty string.
+/// Returns "; did you mean 'clump'?" with the nearest_name(), or an empty string when there is none.
 std::string did_you_mean(std::string_view name, std::span<const std::string> candidates);
 
-/// did_you_mean(). If no candidate is similar and the list of candidates is short, returns this list: ";
-/// expected one of a, b".
+/// Returns did_you_mean(). If this is empty and there are at most 12 candidates, returns a list of them
+/// instead: "; expected one of a, b".
 std::string suggest(std::string_view name, std::span<const std::string> candidates);
 
-/// A user's text for a message: quoted, on one line, shortened when it is long.
+/// Formats a text from the user for a message: in quotes, with '?' for control characters, cut after 40
+/// bytes.
 std::string quote(std::string_view text);
 
 }  // namespace pelage

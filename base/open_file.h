@@ -8,13 +8,13 @@
 
 namespace pelage {
 
-/// A regular file that is open for reading, with its attributes. They belong to the open file, even if its
-/// path refers to another file later.
+/// A regular file that is open for reading, with its size and owner. The size and owner were read from the
+/// open file, so they stay consistent with it even if another file replaces it at its path.
 class OpenFile {
  public:
   enum class Links { kFollow, kRefuse };
-  /// Throws Error (kInput) when `path` cannot be read, is not a regular file, or is a symbolic link and
-  /// `links` refuses those.
+  /// Throws Error (kInput) when `path` cannot be read or is not a regular file. With Links::kRefuse, also
+  /// throws when the last component of `path` is a symbolic link.
   explicit OpenFile(std::filesystem::path path, Links links = Links::kFollow);
   ~OpenFile();
   OpenFile(OpenFile&& other) noexcept;
@@ -22,6 +22,7 @@ class OpenFile {
 
   const std::filesystem::path& path() const { return path_; }
   int descriptor() const { return descriptor_; }
+  /// Size when the file was opened, in bytes.
   size_t bytes() const { return bytes_; }
   uid_t owner() const { return owner_; }
 

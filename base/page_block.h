@@ -8,12 +8,13 @@ namespace pelage {
 
 class PagePool;
 
-/// A block of memory of fixed size, aligned to 64 bytes and uninitialised. Large blocks have their own pages,
-/// which return to the system as soon as the block is freed, whatever else is on the heap.
+/// A block of memory of fixed size, aligned to 64 bytes and uninitialised. A block of at least 64 KiB has
+/// pages of its own, which return to the system as soon as the block is freed. A smaller block is on the
+/// heap.
 class PageBlock {
  public:
   PageBlock() = default;
-  /// Throws std::bad_alloc.
+  /// Allocates at least `bytes` bytes. Throws std::bad_alloc.
   explicit PageBlock(size_t bytes);
   PageBlock(PageBlock&& other) noexcept
       : data_(std::exchange(other.data_, nullptr)),
@@ -27,15 +28,16 @@ class PageBlock {
   }
   ~PageBlock();
 
-  /// Requests pages of 2 MiB from the system where available, for data with random access. Call before
-  /// writing to the block.
+  /// Requests pages of 2 MiB from the system for the aligned 2 MiB ranges inside the block, because random
+  /// access is faster in large pages. Has no effect where the system has no such pages. Call before writing
+  /// to the block.
   void prefer_large_pages();
 
   std::byte* data() { return data_; }
   const std::byte* data() const { return data_; }
-  /// Actual size, rounded up to the system's granularity.
+  /// Actual size in bytes: the requested size rounded up, to 64 bytes below 64 KiB, else to pages of 4 KiB.
   size_t bytes() const { return bytes_; }
-  /// Actual size of a block of `bytes`.
+  /// Returns the actual size that a block of `bytes` bytes would have.
   static size_t held_bytes(size_t bytes);
 
  private:
@@ -44,7 +46,7 @@ class PageBlock {
 
   std::byte* data_ = nullptr;
   size_t bytes_ = 0;
-  PagePool* pool_ = nullptr;  // takes the memory back when the block is freed; null: the system does
+  PagePool* pool_ = nullptr;  // the pool that made the block; null: the constructor allocated the block
 };
 
 }  // namespace pelage

@@ -10,12 +10,14 @@
 
 namespace pelage {
 
-/// Takes blocks from large pieces of address space and requests pages of 2 MiB from the system for them.
-/// Random access is faster in large pages, even if each block is smaller than a page. The memory of a block
-/// returns to the system as soon as the block is freed. Apart from blocks, at most the unused end of the last
-/// used 2 MiB page of each piece is resident.
+/// Makes blocks of memory within mappings of 256 MiB, for which it requests pages of 2 MiB from the system.
+/// Several blocks share a page of 2 MiB, so random access is faster even for blocks smaller than such a page.
+/// The memory of a block returns to the system as soon as the block is freed. Besides the blocks, the unused
+/// rest of a 2 MiB page that contains a block may be resident. New blocks fill the lowest free range that is
+/// large enough, which keeps this rest small.
 ///
-/// Must outlive its blocks. Thread safety: every member, and the destruction of blocks, from any thread.
+/// Must outlive its blocks. Thread safety: every member may be called, and blocks may be destroyed, on any
+/// thread.
 class PagePool {
  public:
   PagePool() = default;
@@ -23,8 +25,8 @@ class PagePool {
   PagePool(const PagePool&) = delete;
   PagePool& operator=(const PagePool&) = delete;
 
-  /// Like PageBlock(bytes), with the same actual size. Small blocks come from the heap, very large ones have
-  /// their own pages. Throws std::bad_alloc.
+  /// Returns a block of the size that PageBlock(bytes) would have, including its rounding. Blocks below 64
+  /// KiB come from the heap. Blocks above 16 MiB have a mapping of their own. Throws std::bad_alloc.
   PageBlock take(size_t bytes);
 
  private:

@@ -14,33 +14,33 @@ struct WorkRange {
   int worker = 0;
 };
 
-/// A pool of threads for parallel loops. Thread safety: one loop at a time per pool.
+/// A pool of threads for parallel loops. Thread safety: a pool may run only one loop at a time.
 ///
-/// The first exception of a loop stops it from handing out further ranges; for_each rethrows it once every
-/// worker has stopped. Results must not depend on `worker` or on the order of ranges (law 1); `worker` is for
-/// scratch memory only. In the thread-sanitizer build the pool uses std::thread, because TBB's own threads
-/// are not instrumented.
+/// After the first exception, a loop starts no further ranges. for_each() rethrows this exception once all
+/// workers have stopped. Results must not depend on the order of ranges, nor on `worker`, which may only
+/// select scratch memory (law 1). In the thread-sanitizer build, the pool uses std::thread, because the
+/// threads of TBB are not instrumented.
 class Workers {
  public:
-  /// `threads` = 0: as many as the process may use (respects affinity and cgroup limits).
+  /// `threads`: number of threads; 0 means available_processors().
   explicit Workers(int threads = 0);
   ~Workers();
   Workers(Workers&&) noexcept;
   Workers& operator=(Workers&&) noexcept;
 
-  /// A pool that consists of the calling thread alone. Loops run in place, so this pool may be used inside a
-  /// loop of another pool, on many threads at once. run_library() also stays on the calling thread. While
-  /// this thread waits, it runs no task of another loop, because such a task could need a result that this
-  /// thread has not finished yet.
+  /// Returns a pool that consists of the calling thread alone. Its loops and run_library() run on the thread
+  /// that calls them, so they may be called inside a loop of another pool, on many threads at once. In
+  /// run_library(), the calling thread never runs a task of another loop while it waits, because such a task
+  /// could need a result that this thread has not finished yet.
   static Workers alone();
 
   int thread_count() const;
 
-  /// Calls `body` for disjoint ranges of at most `grain` indices that together cover 0 .. count-1.
+  /// Calls `body` for disjoint ranges of up to `grain` indices, which together cover 0 .. count-1.
   void for_each(size_t count, size_t grain, const std::function<void(WorkRange)>& body) const;
 
-  /// Calls `body` once. Libraries that `body` calls and that use TBB run only on the threads of this pool; in
-  /// the thread-sanitizer build, only on the calling thread.
+  /// Calls `body` once. If `body` calls a library that uses TBB, this library runs only on the threads of
+  /// this pool. In the thread-sanitizer build, it runs only on the calling thread.
   void run_library(const std::function<void()>& body) const;
 
  private:
@@ -49,7 +49,8 @@ class Workers {
   std::unique_ptr<Team> team_;  // null: only the calling thread
 };
 
-/// Processors that this process may use: the smaller of affinity mask and cgroup quota.
+/// Returns the number of processors that this process may use, at least 1: the number in its affinity mask or
+/// its cgroup quota (rounded up), whichever is smaller.
 int available_processors();
 
 }  // namespace pelage

@@ -6,12 +6,13 @@
 
 namespace pelage {
 
-/// Identifies this build of the program, because other builds may compute results that differ in the last
-/// digit or more. The linker's build id or, if there is none, a hash of the executable file.
+/// Returns a text that identifies this build of the program. Results of different builds may differ in the
+/// last digit or more. The text is the linker's build id or, if there is none, a hash of the executable file;
+/// "unknown" when this file cannot be read.
 std::string program_identity();
 
-/// The same for a shared library that the program was started with, given a part of its file name; "none"
-/// when there is no such library, "unknown" when it has no build id.
+/// Returns the build id of the first loaded shared library whose file name contains `name`. Returns "none"
+/// when there is no such library, "unknown" when the library has no build id.
 std::string library_identity(std::string_view name);
 
 }  // namespace pelage

@@ -5,22 +5,25 @@
 
 namespace pelage {
 
-/// Receives the progress of a long job, and can request a stop. Thread safety: every member may be called
-/// from any thread; `advance` is called often and must be cheap.
+/// Receives the progress of a long job, and tells the job whether to stop. Implementations must allow calls
+/// of every member from any thread. advance() is called often, so it must be cheap.
 class Progress {
  public:
   virtual ~Progress() = default;
-  /// A stage begins: "grow", "build", "render frame 3". Stages do not nest.
+  /// Called when a stage begins. `stage`: its name, such as "grow", "build" or "render frame 3". `total`:
+  /// amount of work in the stage, in any unit. Stages do not nest.
   virtual void begin(std::string_view stage, double total) = 0;
+  /// Called when `amount` more of the stage's total is done.
   virtual void advance(double amount) = 0;
-  /// Replaces the total that begin() gave for the current stage by a better estimate.
+  /// Called with a better estimate of the total of the current stage than the one passed to begin().
   virtual void expect(double /*total*/) {}
+  /// Called when the stage ends.
   virtual void end() = 0;
-  /// A line for the user, between or within stages; does nothing by default.
+  /// Receives a line of text for the user, between or within stages. Does nothing by default.
   virtual void note(std::string_view /*line*/) {}
-  /// The same for problems that do not stop the run.
+  /// Receives a line of text about a problem that does not stop the run. Does nothing by default.
   virtual void warn(std::string_view /*line*/) {}
-  /// True once the user has asked to stop (Ctrl-C): loops then finish the current item and return.
+  /// Returns true once the user has asked to stop (Ctrl-C). Loops then finish their current item and return.
   virtual bool cancelled() const = 0;
 };
 

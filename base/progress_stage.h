@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// A stage of a Progress that ends with its scope, even after an exception. If it is too short to be
-/// `worth_showing`, nothing is reported.
+/// Begins a stage of a Progress in its constructor and ends the stage in its destructor, also after an
+/// exception. If `worth_showing` is false, for example because the stage is short, reports nothing.
 class ProgressStage {
  public:
   ProgressStage(Progress& progress, std::string_view name, double total, bool worth_showing = true)

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// Frees the memory of a vector; `values = {}` would keep it.
+/// Empties a vector and frees its memory. `values = {}` would keep the memory.
 template <class T>
 void release(std::vector<T>& values) {
   std::vector<T>().swap(values);

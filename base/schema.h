@@ -15,7 +15,7 @@
 
 namespace pelage {
 
-// Validation of the scene file. Each type declares a `Params` struct and, beside it, one table of keys:
+// Validation of the scene file. Each kind of block has a `Params` struct and one table of its keys:
 //
 //   struct CurlParams {
 //     Field radius{0.05f};
@@ -33,10 +33,10 @@ namespace pelage {
 //     return table;
 //   }
 //
-// The same table validates documents (an unknown key is reported with the nearest known one), fills the
-// struct and prints the manual. A default-constructed Params holds the defaults. The ValueReader of a
-// member's type reads it (base/value_readers.h for numbers, strings, vectors, paths, enumerations, lists and
-// maps; other rooms add their own).
+// The table validates documents, fills the struct and prints the manual. An unknown key is reported with the
+// nearest known key. A default-constructed Params holds the defaults. Each member is read by the ValueReader
+// of its type. base/value_readers.h has ValueReaders for numbers, strings, vectors, paths, enumerations,
+// lists and maps; other folders add more.
 
 /// Constraints on a key's value, and its description in the manual.
 struct KeyOptions {
@@ -45,34 +45,34 @@ struct KeyOptions {
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< min itself is not allowed
+  bool above_min = false;  ///< whether values must be greater than min, not equal to it
   std::string default_text =
       {};  ///< shown instead of the printed default, e.g. "mean spacing of the follicles"
-  std::vector<std::string> old_names = {};  ///< published names that this key had before
+  std::vector<std::string> old_names = {};  ///< names of this key in earlier releases
 };
 
 class SchemaInfo;
 
-/// Receives a block of a document and the table that reads it.
+/// Called with a block of a document and the table that reads this block.
 using BlockVisitor = std::function<void(Value&, const SchemaInfo&)>;
 
-/// One row of a table, for the manual.
+/// One key of a table, as the manual describes it.
 struct KeyInfo {
   std::string name;
   std::string type;
   std::string default_text;
   KeyOptions options;
-  std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that are allowed here
-  /// Visits the blocks directly under a value of this key. A malformed value has none.
+  std::vector<const SchemaInfo*> blocks;  ///< tables of the blocks that a value of this key may contain
+  /// Calls the visitor for each block directly under a value of this key; for none if the value is malformed.
   std::function<void(Value&, const BlockVisitor&)> visit_blocks;
 
   bool has_old_name(std::string_view old_name) const;
 };
 
-/// One parameter as text, "levels[0].amount" with the value "{map: fur/amount.png, channel: r}", and the
-/// files whose contents are part of the value.
+/// One parameter as text: a key such as "levels[0].amount", and a value such as "{map: fur/amount.png,
+/// channel: r}". `files` are the files whose contents are part of the value.
 struct ParameterText {
-  /// An image that is looked up by texture coordinates, and the place in the scene that names it.
+  /// An image that is looked up by texture coordinates, and the position in the scene that names the image.
   struct Map {
     std::filesystem::path file;
     SourcePosition position;
@@ -81,13 +81,13 @@ struct ParameterText {
   std::string key;
   std::string text;
   std::vector<std::filesystem::path> files = {};
-  std::vector<Map> maps = {};  ///< the entries of `files` that are maps
+  std::vector<Map> maps = {};  ///< maps among the entries of `files`
 };
 
-/// "0 .. 1", "> 0", or "" when unlimited.
+/// Returns the range of allowed values: "0 .. 1", "> 0", or "" when there are no limits.
 std::string range_text(const KeyOptions& options);
 
-/// A table of keys without the types of its members: the part that the manual needs.
+/// A table of keys without the types of the struct's members. This is all that the manual needs.
 class SchemaInfo {
  public:
   SchemaInfo(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
@@ -95,14 +95,16 @@ class SchemaInfo {
   const std::string& help() const { return help_; }
   const std::vector<KeyInfo>& keys() const { return keys_; }
   std::vector<std::string> key_names() const;
-  /// The key with this name, or nullptr. find_renamed() looks up former names instead.
+  /// Returns the key whose present name is `name`, or nullptr.
   const KeyInfo* find(std::string_view name) const;
+  /// Returns the key of which `old_name` is a former name, or nullptr.
   const KeyInfo* find_renamed(std::string_view old_name) const;
 
-  /// Part of a scene file, from its root, that uses this block. The manual prints it; a test parses it.
+  /// Excerpt of a scene file that uses this block, with all enclosing keys. The manual prints it; a test
+  /// parses it.
   const std::string& example() const { return example_; }
   void set_example(std::string yaml) { example_ = std::move(yaml); }
-  /// Caption of the picture in the manual, or "" when the section has none.
+  /// Caption of the block's picture in the manual, or "" when there is no picture.
   const std::string& picture() const { return picture_; }
   void set_picture(std::string caption) { picture_ = std::move(caption); }
 
@@ -117,19 +119,20 @@ class SchemaInfo {
 /// Reads a T from a Value. Specialisations provide
 ///   // Returns false and adds a problem when the value is not a T.
 ///   static bool read(const Value&, const KeyOptions&, T& out, Problems&);
+///   // Returns the type for the manual and for messages.
 ///   static std::string type_name();
-///   // As written in a scene file.
+///   // Returns the value as a scene file would write it.
 ///   static std::string print(const T&);
 /// and optionally
-///   // Tables of nested blocks.
+///   // Returns the tables of the blocks that a T may contain.
 ///   static std::vector<const SchemaInfo*> blocks();
-///   // Visits those blocks in a value that may be malformed.
+///   // Visits these blocks in a value. The value may be malformed.
 ///   static void visit_blocks(Value&, const BlockVisitor&);
-///   // Adds the files whose contents belong to the value.
+///   // Adds the files whose contents are part of the value.
 ///   static void add_files(const T&, std::vector<std::filesystem::path>&);
 ///   // Adds the images that the value looks up by texture coordinates.
 ///   static void add_maps(const T&, std::vector<ParameterText::Map>&);
-///   // For values that print() does not describe completely.
+///   // Describes a value completely as parameters; needed if print() does not describe it completely.
 ///   static void describe(const T&, const std::string& key, std::vector<ParameterText>& out);
 template <class T, class Enable = void>
 struct ValueReader;
@@ -174,6 +177,7 @@ class Schema : public SchemaInfo {
  public:
   using SchemaInfo::SchemaInfo;
 
+  /// Adds the key `name`, which sets `member`. Returns this table.
   template <class T>
   Schema& key(std::string name, T P::*member, KeyOptions options) {
     std::string shown = options.default_text;
@@ -190,16 +194,16 @@ class Schema : public SchemaInfo {
     return *this;
   }
 
-  /// Every parameter, in the order of the table. Structs that differ give different texts.
+  /// Returns all parameters as text, in the order of the table. Different structs have different texts.
   std::vector<ParameterText> describe(const P& params, const std::string& prefix = {}) const {
     std::vector<ParameterText> out;
     for (const auto& describer : describers_) describer(params, prefix, out);
     return out;
   }
 
-  /// Fills `out` from a map and adds a problem for every unknown, missing or malformed key. `skip` names a
-  /// key that belongs to the enclosing structure, such as the `type` of a light. Returns whether no problem
-  /// was added.
+  /// Fills `out` from a map. Adds a problem for every unknown key, every missing required key and every
+  /// malformed value. Ignores the key `skip`, which another table reads, such as the `type` of a light.
+  /// Returns whether it added no problem.
   bool read(const Value& value, P& out, Problems& problems, std::string_view skip = {}) const {
     if (!detail::expect_map(value, *this, problems)) return false;
     const size_t before = problems.list().size();
@@ -228,7 +232,7 @@ class Schema : public SchemaInfo {
   std::vector<std::function<void(const P&, const std::string&, std::vector<ParameterText>&)>> describers_;
 };
 
-/// Reads a struct that has a table of keys, so that such a struct can be the value of a key.
+/// Reads a struct P that has a table of keys (P::schema()). With this reader, a key's value can be a block.
 template <class P>
 struct ValueReader<P, std::void_t<decltype(P::schema())>> {
   static bool read(const Value& value, const KeyOptions&, P& out, Problems& problems) {

@@ -5,11 +5,13 @@
 
 namespace pelage {
 
-/// Environment variable: folders, separated by ':', whose caches other users may fill for this user.
+/// Name of an environment variable. Its value lists folders, separated by ':'. In these folders, cache files
+/// that other users wrote are accepted.
 inline constexpr const char* kSharedCachesVariable = "PELAGE_SHARED_CACHES";
 
-/// Whether the variable names `folder` or a parent of it, by any path. Only the environment, set by the user
-/// or the farm, can declare trust in other users. A scene cannot, because it may come from these other users.
+/// Returns whether the variable lists `folder` or a folder that contains it; both paths are compared without
+/// symbolic links. A scene cannot declare a folder as shared, because the scene may come from the very users
+/// whose files would then be trusted. The environment is set by the user or the farm.
 bool is_shared_folder(const std::filesystem::path& folder);
 
 }  // namespace pelage

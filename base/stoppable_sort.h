@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// std::sort that throws Error (kStopped), leaving the elements in unspecified order, once the user has asked
-/// to stop.
+/// Sorts like std::sort. Throws Error (kStopped) once the user has asked to stop; the order of the elements
+/// is then unspecified.
 template <class Iterator, class Less>
 void stoppable_sort(const Job& job, Iterator begin, Iterator end, const Less& less) {
   size_t comparisons = 0;

@@ -5,7 +5,7 @@
 
 namespace pelage {
 
-/// Wall time since construction.
+/// Measures the wall time since its construction.
 class Stopwatch {
  public:
   double seconds() const {

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
-// Layout of a file of ContentStore: header, sections (each at a multiple of kAlignment), table of sections,
-// trailer at the very end. Numbers have the byte order of the machine that wrote the file; the header states
-// it.
+// Layout of a file of ContentStore: header, sections, table of sections, trailer. Each section starts at a
+// multiple of kAlignment bytes; the gaps are filled with zeros. The trailer ends the file. Numbers have the
+// byte order of the machine that wrote the file, which Header::byte_order tells.
 namespace pelage::stored_file_format {
 
 inline constexpr uint64_t kMagic = 0x686361436c65500aull;  // "\nPelCach"

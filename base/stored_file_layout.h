@@ -13,20 +13,22 @@
 
 namespace pelage {
 
-/// Verified header and table of a content store's file. The sections are not verified.
+/// Header and table of sections of a file of a content store, both verified. The contents of the sections are
+/// not verified.
 struct StoredFileLayout {
   std::string kind;
   ContentHash key;
   uint64_t table_offset = 0;
   std::vector<stored_file_format::Section> sections;
 
-  /// `read` fills the span with the bytes of the file from an offset on; it is never called for bytes beyond
-  /// `file_bytes`. Throws Error (kInput) with the reason.
+  /// Reads and verifies header and table. `read` must fill the span with the bytes of the file that start at
+  /// `offset`; it is never called for bytes beyond `file_bytes`, the length of the file. Throws Error
+  /// (kInput) with the reason.
   static StoredFileLayout read(const std::filesystem::path& path, uint64_t file_bytes,
                                const std::function<void(uint64_t offset, std::span<std::byte>)>& read);
 };
 
-/// Throws the error for a damaged file: "PATH: damaged cache file: WHY".
+/// Throws Error (kInput) for a damaged file: "PATH: damaged cache file: WHY".
 [[noreturn]] void refuse_stored_file(const std::filesystem::path& path, const char* why);
 
 }  // namespace pelage

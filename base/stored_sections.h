@@ -12,9 +12,9 @@
 
 namespace pelage {
 
-/// A file of a content store that may be larger than memory. Sections are read on request into the caller's
-/// memory and verified each time. Nothing is mapped, and the system is asked not to cache what was read, so
-/// that only the caller's memory stays resident.
+/// A file of a content store that may be larger than memory. read() copies one section to memory of the
+/// caller and verifies it, each time. The file is not mapped, and the system is asked not to cache the
+/// sections that were read. Therefore only the memory of the caller stays resident.
 ///
 /// Thread safety: const members may be called from any thread.
 class StoredSections {
@@ -29,14 +29,14 @@ class StoredSections {
   size_t section_count() const { return layout_.sections.size(); }
   uint64_t section_bytes(size_t i) const { return layout_.sections[i].bytes; }
   uint64_t file_bytes() const { return file_.bytes(); }
-  /// Memory of this object.
+  /// Heap memory of this object.
   size_t bytes() const { return layout_.sections.capacity() * sizeof(layout_.sections[0]); }
 
-  /// Reads section `i` into `out`, which must have its length. Throws Error (kInput) when it cannot be read
-  /// or its checksum is wrong.
+  /// Reads section `i` into `out`, which must have section_bytes(i) bytes. Throws Error (kInput) when the
+  /// section cannot be read or its checksum is wrong.
   void read(size_t i, std::span<std::byte> out) const;
-  /// Tells the system that section `i` will be read soon. The system may load the section in advance, and
-  /// keeps its copy until read().
+  /// Tells the system that section `i` will be read soon. The system may then load the section in advance and
+  /// cache it until read().
   void prefetch(size_t i) const;
 
  private:

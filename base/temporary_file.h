@@ -9,19 +9,22 @@ namespace pelage {
 /// Prefix of the names of temporary files.
 inline constexpr std::string_view kTemporaryPrefix = ".pelage-";
 
-/// A new, empty file in the folder of its target, so that renaming stays on one file system:
-/// ".pelage-HOST-PROCESS-RANDOM.ENDING". It ends like the target, because libraries depend on the ending.
+/// A new, empty file that will be renamed to a target path. The file is in the folder of the target, so that
+/// renaming stays on one file system. Its name is ".pelage-HOST-PROCESS-RANDOM.ENDING", with the file name
+/// extension of the target, because libraries choose the format by the extension.
 struct TemporaryFile {
   std::filesystem::path path;
-  int descriptor = -1;  ///< open for reading and writing, and locked (flock); -1: failed, see errno
+  int descriptor = -1;  ///< open for reading and writing, and locked (flock); -1 on failure, see errno
 };
 
-/// The caller must close the descriptor, which releases the lock, and rename or remove the file.
+/// Creates a temporary file for `target`. The caller must rename or remove the file, and close the
+/// descriptor, which releases the lock.
 TemporaryFile create_temporary(const std::filesystem::path& target);
 
-/// Removes the temporary files that killed processes left in `folder`. A file is removed if this user made it
-/// on this machine with create_temporary(), its process no longer exists and its lock is free. In case of
-/// doubt or failure the file stays. Safe while other processes write there.
+/// Removes the temporary files that killed processes left in `folder`. A file is removed only if this user
+/// made it on this machine with create_temporary(), the process that made it no longer exists, and nobody
+/// holds its lock. In case of doubt or failure, the file stays. Safe while other processes write to the
+/// folder.
 void sweep_temporaries(const std::filesystem::path& folder);
 
 }  // namespace pelage

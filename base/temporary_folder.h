@@ -5,14 +5,15 @@
 
 namespace pelage {
 
-/// A new, empty folder "pelage-XXXXXX" (X: any letter or digit), removed on destruction with everything in
-/// it. Does not touch anything else.
+/// Creates a new, empty folder "pelage-XXXXXX" (X: any letter or digit). The destructor removes this folder
+/// and its contents, and nothing else.
 class TemporaryFolder {
  public:
-  /// In the system's folder for temporary files. Throws Error (kFailed) when it cannot be created.
+  /// Creates the folder in the system's folder for temporary files (TMPDIR). Throws Error (kFailed) on
+  /// failure.
   TemporaryFolder();
-  /// In `parent`, which is created if necessary and not removed. Throws Error (kFailed) when it cannot be
-  /// created.
+  /// Creates the folder in `parent`. Creates `parent` too if it is missing, but never removes it. Throws
+  /// Error (kFailed) on failure.
   explicit TemporaryFolder(const std::filesystem::path& parent);
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;

@@ -12,10 +12,10 @@
 
 namespace pelage {
 
-/// A node of a scene document with its position, independent of the parser that made it.
+/// A node of a scene document with its position. It does not depend on the parser that made it.
 ///
-/// Scalars keep their text. The schema of the key decides the meaning of the text: `strands: 1e5` is a
-/// number, `name: 007` is a text. Maps keep the order of the file; their keys are unique.
+/// A scalar stores its text. The schema of its key decides the meaning of this text: `strands: 1e5` is a
+/// number, `name: 007` is a text. A map has its entries in the order of the file, and its keys are unique.
 class Value {
  public:
   enum class Kind { kNull, kScalar, kList, kMap };
@@ -34,18 +34,20 @@ class Value {
 
   const SourcePosition& position() const { return position_; }
   void set_position(SourcePosition position) { position_ = std::move(position); }
-  /// Text of a scalar, and whether it was quoted (then it is never a number, a boolean or null).
+  /// Text of a scalar, without quotes.
   const std::string& text() const { return text_; }
+  /// Whether the text of a scalar was in quotes. Such a text is never a number, a boolean or null.
   bool quoted() const { return quoted_; }
   const std::vector<Value>& items() const { return items_; }
   std::vector<Value>& items() { return items_; }
   const std::vector<Entry>& entries() const { return entries_; }
   std::vector<Entry>& entries() { return entries_; }
 
-  /// Value of a map's key, or nullptr.
+  /// Returns the value of a key of this map. Returns nullptr if the map has no such key or this is not a map.
   const Value* find(std::string_view key) const;
   Value* find(std::string_view key);
-  /// "a number", "a list of 3" ... for messages of the form "expected X, got Y".
+  /// Describes the value for messages of the form "expected X, got Y": the quoted text of a scalar, "a list
+  /// of 3", "a block of 2 keys", or "nothing" for null.
   std::string describe() const;
 
  private:

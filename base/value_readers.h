@@ -16,31 +16,34 @@
 
 namespace pelage {
 
-/// A finite decimal number: 12, -0.5, 1e6, 1_000; empty for any other text.
+/// Parses a finite decimal number: 12, -0.5, 1e6, 1_000. Returns an empty value for any other text.
 std::optional<double> parse_number(std::string_view text);
-/// Bytes with an optional suffix K, M, G or T (powers of 1024): 512M, 1.5G; empty for any other text.
+/// Parses a number of bytes with an optional suffix K, M, G or T (powers of 1024), which may be followed by B
+/// or iB: 512M, 1.5GB. Returns an empty value for any other text.
 std::optional<uint64_t> parse_bytes(std::string_view text);
 
-/// A file that a scene names. Relative paths are relative to the file that contains them or, on the command
-/// line, to the current folder. `position`: where it was named, for errors about the file itself.
+/// A file that a scene names, and the position of this name, for errors about the file. A relative path
+/// starts at the folder of the file that contains the name or, for names on the command line, at the current
+/// folder.
 struct AssetPath {
   std::filesystem::path path;
   SourcePosition position;
   bool empty() const { return path.empty(); }
 };
 
-/// The name of something else in the scene, and where it was used, for error messages.
+/// The name of another item of the scene, such as a material, and the position where this name is used, for
+/// error messages.
 struct NameReference {
   std::string name;
   SourcePosition position;
 };
 
-/// Bytes, written as 512M or 4G (powers of 1024).
+/// A number of bytes, which a scene writes as 512M or 4G (powers of 1024).
 struct ByteSize {
   uint64_t bytes = 0;
 };
 
-/// A map whose keys are names chosen by the user, in file order.
+/// A map from names that the user chooses to values, in the order of the file.
 template <class T>
 struct Named {
   struct Item {
@@ -50,6 +53,7 @@ struct Named {
   };
   std::vector<Item> items;
 
+  /// Returns the item with this name, or nullptr.
   const Item* find(std::string_view name) const {
     for (const Item& item : items) {
       if (item.name == name) return &item;
@@ -63,7 +67,8 @@ struct Named {
   }
 };
 
-/// Names of an enumeration in the scene file (kebab-case), in the order of its values from 0. Specialise:
+/// Names of an enumeration's values in the scene file (kebab-case), ordered by value from 0. Specialise it
+/// for each enumeration:
 ///   template <>
 ///   struct EnumNames<Filter> {
 ///     static constexpr const char* names[] = {"box", "blackman-harris"};
@@ -83,7 +88,7 @@ struct ValueReader<float> {
   static std::string type_name() { return "number"; }
   static std::string print(const float& v);
 };
-/// Whole numbers; `1e6` and `1_000` are accepted, `1.5` is not.
+/// Reads whole numbers. Accepts `1e6` and `1_000`, but not `1.5`.
 template <>
 struct ValueReader<int64_t> {
   static bool read(const Value&, const KeyOptions&, int64_t& out, Problems&);
@@ -141,7 +146,7 @@ struct ValueReader<V3f> {
   static std::string type_name() { return "3 numbers"; }
   static std::string print(const V3f& v);
 };
-/// A single number sets all three channels.
+/// Reads three numbers, or one number for all three channels.
 template <>
 struct ValueReader<Rgb> {
   static bool read(const Value&, const KeyOptions&, Rgb& out, Problems&);
@@ -152,8 +157,8 @@ struct ValueReader<Rgb> {
 namespace detail {
 bool read_enum(const Value&, std::span<const char* const> names, int& out, Problems&);
 std::string enum_type_name(std::span<const char* const> names);
-/// The value of `key`, which selects the kind of a block. Returns nullptr and adds a problem that lists
-/// `kinds` when it is none of them.
+/// Returns the value of `key`, which selects the kind of a block. If this value is missing or not one of
+/// `kinds`, returns nullptr and adds a problem.
 const Value* find_type(const Value& block, const char* key, std::span<const std::string> kinds, Problems&);
 }  // namespace detail
 
@@ -171,7 +176,7 @@ struct ValueReader<E, std::enable_if_t<std::is_enum_v<E>>> {
 
 template <class T>
 struct ValueReader<std::optional<T>> {
-  /// null means empty, so that `--set camera.lens=null` removes the value of the file.
+  /// Reads null as an empty value. Thus `--set camera.lens=null` removes the value that the file sets.
   static bool read(const Value& value, const KeyOptions& options, std::optional<T>& out, Problems& problems) {
     if (value.is_null()) {
       out.reset();
@@ -253,9 +258,9 @@ struct ValueReader<Named<T>> {
   }
 };
 
-/// A block of one of several kinds, distinguished by a key. Beside its schema, each P has
-///   static constexpr const char* kTypeKey = "type";   // the same for all
-///   static constexpr const char* kTypeName = "sphere";
+/// Reads a block of one of several kinds. One key of the block names its kind. Each P has, besides schema(),
+///   static constexpr const char* kTypeKey = "type";     // this key; all Ps must have the same one
+///   static constexpr const char* kTypeName = "sphere";  // the value of this key for P
 template <class... Ps>
 struct ValueReader<std::variant<Ps...>> {
   using Variant = std::variant<Ps...>;

@@ -10,8 +10,8 @@
 
 namespace pelage {
 
-// Vectors for interfaces and scalar code. They are not trivially copyable; point storage and SIMD kernels use
-// plain float arrays instead.
+// Vector and matrix types for interfaces and scalar code. They are not trivially copyable, so arrays of
+// points and SIMD kernels use plain floats instead.
 using Imath::Box3f;
 using Imath::M33f;
 using Imath::M44f;
@@ -22,13 +22,13 @@ using Imath::V3f;
 /// Linear, scene-referred colour or radiance with Rec. 709 primaries.
 using Rgb = Imath::Color3f;
 
-/// Rec. 709 luminance of a linear colour.
-/// Largest component of a vector or a colour.
+/// Returns the largest component of a vector or a colour.
 inline float max_component(const V3f& v) { return std::max({v.x, v.y, v.z}); }
+/// Returns the Rec. 709 luminance of a linear colour.
 inline float luminance(const Rgb& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
 
-/// Right-handed orthonormal frame of a follicle or surface point: tangent along the surface's u direction,
-/// bitangent = normal x tangent, normal outward.
+/// Right-handed orthonormal frame of a follicle or surface point. The normal points outward. The tangent
+/// points along the u direction of the surface. bitangent = normal x tangent.
 struct Frame {
   V3f tangent{1, 0, 0};
   V3f bitangent{0, 1, 0};

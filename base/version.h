@@ -3,11 +3,11 @@
 
 namespace pelage {
 
-/// Version of this program, "0.1.0".
+/// Returns the version of this program: "0.1.0".
 const char* version();
-/// Compiler and build type: "GNU 12.2.0, Release".
+/// Returns the compiler and build type: "GNU 12.2.0, Release".
 const char* compiler();
-/// The libraries that affect speed and results, with their versions: "Embree 3.13.5, ...".
+/// Returns the libraries that affect speed or results, with their versions: "Embree 3.13.5, ...".
 const char* libraries();
 
 }  // namespace pelage

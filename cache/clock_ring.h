@@ -7,21 +7,23 @@
 
 namespace pelage {
 
-/// A ring of numbers below a fixed capacity, with a hand on one of them, for CLOCK replacement [Corbato68]:
-/// the hand moves around the ring and evicts entries that were not used since its last visit. Not thread
-/// safe.
+/// A ring of slot numbers 0 .. capacity-1 for CLOCK replacement [Corbato68]. The hand points to one number of
+/// the ring. A cache moves the hand around the ring, and evicts each slot that was not used since the hand
+/// last passed it. Not thread safe.
 class ClockRing {
  public:
   explicit ClockRing(size_t capacity) : links_(capacity) {}
 
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
+  /// Heap memory.
   size_t bytes() const { return links_.capacity() * sizeof(Link); }
-  /// The number under the hand. The ring must not be empty.
+  /// Returns the number under the hand. The ring must not be empty.
   uint32_t hand() const { return hand_; }
+  /// Moves the hand to the next number. The ring must not be empty.
   void advance() { hand_ = links_[hand_].next; }
 
-  /// Adds a number that is not in the ring, at the position that the hand reaches last.
+  /// Adds a number that is not in the ring, directly behind the hand, so that the hand reaches it last.
   void insert(uint32_t number) {
     if (size_++ == 0) {
       links_[number] = {number, number};
@@ -34,7 +36,7 @@ class ClockRing {
     links_[hand_].previous = number;
   }
 
-  /// Removes the number under the hand and moves the hand to the next one.
+  /// Removes the number under the hand, moves the hand to the next number, and returns the removed number.
   uint32_t remove_hand() {
     const uint32_t number = hand_;
     const Link link = links_[number];

@@ -23,84 +23,90 @@
 
 namespace pelage {
 
-/// A unit that can be evicted and grown again.
+/// A unit of memory, such as a chunk of fur, that can be evicted and grown again.
 class Resident {
  public:
   virtual ~Resident() = default;
 };
 
-/// Grows the units of a Residency. Thread safety: every member may be called from many threads at once, for
-/// different slots.
+/// Grows the units of a Residency. Implementations must allow calls of every member from many threads at
+/// once, for different slots.
 class Grower {
  public:
   struct Grown {
-    std::unique_ptr<Resident> unit;  ///< null: needs more memory than reserved, see grow()
-    size_t bytes = 0;                ///< memory held from now on, at most reserve_bytes()
+    std::unique_ptr<Resident> unit;  ///< null if the slot needs more memory than reserved, see grow()
+    size_t bytes = 0;  ///< memory of the unit, at most reserve_bytes(); without unit: memory needed
   };
   virtual ~Grower() = default;
-  /// Upper bound of the memory held at any moment while `slot` is grown and afterwards. May decrease once the
-  /// slot has been grown; increases only to the size reported by grow().
+  /// Returns an upper bound of the memory that `slot` takes at any moment, while its unit is grown and
+  /// afterwards. The bound may decrease once the slot has been grown. It may increase only to the size that
+  /// grow() reported.
   virtual size_t reserve_bytes(uint32_t slot) const = 0;
-  /// Name of the slot's owner for messages; may be empty.
+  /// Returns the name of the slot's owner (such as "rat.coat") for messages; may be empty.
   virtual std::string name(uint32_t) const { return {}; }
-  /// Grows the unit of a slot; a slot always has the same content. Called by a thread that pins nothing; must
-  /// not visit the Residency itself. May throw. If the slot needs more memory than reserved, returns no unit,
-  /// and the required size in `bytes`. From then on, reserve_bytes() must return this size. The Residency
-  /// then reserves this size and calls grow() again. The Grower must hold no memory for the slot in between.
+  /// Grows the unit of a slot. Every call for a slot must grow the same content. The calling thread pins no
+  /// unit. grow() must not visit the Residency. May throw.
+  ///
+  /// If the slot needs more memory than reserved, grow() returns no unit, and the required size in `bytes`.
+  /// From then on, reserve_bytes() must return this size. The Residency then reserves this size and calls
+  /// grow() again. Between the two calls, the Grower must hold no memory for the slot.
   virtual Grown grow(uint32_t slot) = 0;
 };
 
-/// The part of `render.memory` available to everything that MemoryLedger::budgeted() counts.
+/// Max total of the memory that MemoryLedger::budgeted() counts.
 struct MemoryBudget {
-  uint64_t limit = 0;  ///< bytes; 0 is no limit
+  uint64_t limit = 0;  ///< in bytes; 0 means no limit
 };
 
-/// Holds a fixed number of slots within a memory budget. A slot's unit is grown on the first visit, kept
-/// while the budget allows, and grown again if a visit needs it after an eviction.
+/// Holds units in a fixed number of slots, within a memory budget. The first visit of a slot grows its unit.
+/// The unit may be evicted when memory is needed for other units. A visit after the eviction grows the unit
+/// again.
 ///
-/// Guarantees:
-/// - The budget never changes what a visit sees.
-/// - A unit stays alive until the visits that use it end.
-/// - A slot is grown only after its upper bound has been charged to the ledger, and the bound is charged only
+/// Guarantees: - The contents of the units that visits see do not depend on the budget. - A unit stays alive
+/// until all visits that use the unit have ended. - Before a slot is grown, the upper bound of its memory is
+/// charged to the ledger. The bound is charged only
 ///   if the sum of the budgeted tags then stays within the budget.
-/// - Visits make progress with every budget that holds the largest slot in addition to everything else on the
-///   budgeted tags. The constructor refuses smaller budgets.
+/// - Visits make progress if the budget can hold the largest slot in addition to all other memory of the
+///   budgeted tags. The constructor rejects smaller budgets.
 ///
-/// Why visits make progress: a thread reserves the upper bound of a slot, all or nothing, before it claims
-/// the slot. While it waits, it holds no memory, no pin and no claim. It can therefore obtain everything that
-/// the other threads do not pin or grow at that moment, and those threads finish. If the budget holds the
-/// largest slots of all threads at once, no thread waits for memory. If the working sets of the threads do
-/// not fit together, fewer threads may grow at a time (GrowthThrottle).
+/// Why visits make progress: a thread reserves the whole upper bound of a slot before it marks the slot as
+/// growing. A thread that waits has reserved no memory, pins no unit and grows no slot. Threads that pin or
+/// grow a unit do not wait for memory, so they finish. Then all units can be evicted, and the waiting thread
+/// obtains its memory. If the budget can hold the largest slots of all threads at once, no thread waits for
+/// memory. If the budget is too small for the units that all threads need, fewer threads may grow at a time
+/// (GrowthThrottle).
 ///
-/// How: a visit of a resident unit takes no lock. It pins the unit with one store to its thread's hazard
-/// pointer [Michael04] and then reads the index again. Growth and eviction are rare and share one mutex,
-/// which is released while units are grown or freed. Eviction removes a unit from the index and then looks
-/// for pins: it puts a pinned unit back and frees the others.
+/// How it works: a visit of a resident unit takes no lock. The visit stores the unit in the hazard pointer of
+/// its thread [Michael04], which pins the unit, and then checks that the unit is still in the index. Growth
+/// and eviction are rare. Both lock one mutex, which is released while units are grown or freed. An eviction
+/// removes a unit from the index, and then checks whether a thread pins the unit. If so, it puts the unit
+/// back; if not, it frees the unit.
 ///
-/// Other users of the budgeted tags may charge memory at any time; the next reservation takes it into
-/// account. Memory that may grow while a Residency is in use, such as poses, must be charged at its maximum
-/// beforehand.
+/// Other users of the budgeted tags may charge memory at any time. The next reservation takes these charges
+/// into account. Memory that may increase while a Residency is in use, such as the memory of poses, must be
+/// charged at its maximum before.
 ///
-/// Thread safety: visit, is_resident, mark_hit and counts may be called from any thread, but only one thread
-/// at a time may use a `thread` number. Call the other members from one thread, without concurrent visits.
+/// Thread safety: visit(), is_resident(), mark_hit() and counts() may be called from any thread. Two threads
+/// must not use the same `thread` number at the same time. Call the other members from one thread, while no
+/// visit is running.
 class Residency {
  public:
-  /// Visits pass thread numbers 0 .. threads-1. Throws Error (kMemory) when the budget does not hold the
-  /// largest slot in addition to the memory already charged to the budgeted tags.
+  /// Callers of visit() must pass `thread` numbers 0 .. threads-1. Throws Error (kMemory) when the budget
+  /// cannot hold the largest slot in addition to the memory already charged to the budgeted tags.
   Residency(Grower& grower, size_t slots, int threads, const MemoryBudget& budget, MemoryLedger& ledger,
             MemoryTag tag);
-  /// Frees everything. There must be no concurrent visit.
+  /// Frees all units. No visit may be running.
   ~Residency();
-  /// Memory of a Residency without its units.
+  /// Returns the memory in bytes of a Residency without its units.
   static size_t index_bytes(size_t slots, int threads);
   Residency(const Residency&) = delete;
   Residency& operator=(const Residency&) = delete;
 
-  /// Calls use(Resident&) and returns its result. If the unit is not resident, first grows it, or waits while
-  /// another thread grows it. `use` must not visit any slot (this is checked), and it must not keep a
-  /// reference to the unit. If the grower throws, all visits that wait for the slot and all later visits of
-  /// it throw the same exception. Throws Error (kMemory) when other users of the budget have left too little
-  /// for the slot.
+  /// Calls use(Resident&) with the unit of a slot, and returns the result of `use`. If the unit is not
+  /// resident, first grows it, or waits while another thread grows it. `use` must not call visit() (this is
+  /// checked) and must not keep a reference to the unit. If Grower::grow() throws an exception, all waiting
+  /// and all later visits of this slot throw the same exception. Throws Error (kMemory) when other users of
+  /// the budget have left too little memory for the slot.
   template <class Use>
   decltype(auto) visit(uint32_t slot, int thread, Use&& use) {
     Resident& unit = pin(slot, thread);
@@ -108,16 +114,17 @@ class Residency {
     return std::forward<Use>(use)(unit);
   }
 
-  /// A hint: may be outdated immediately.
+  /// Returns whether the slot has a unit. Only a hint, because another thread may evict or grow the unit at
+  /// any moment.
   bool is_resident(uint32_t slot) const {
     return slots_[slot].unit.load(std::memory_order_relaxed) != nullptr;
   }
 
-  /// Records that the unit was useful, for false_expansions.
+  /// Records that the unit of the slot was useful (ResidencyCounts::false_expansions).
   void mark_hit(uint32_t slot) { set_flag(slots_[slot].hit); }
 
-  /// Grows all units and never evicts afterwards; call before the first visit. Returns early when the job's
-  /// progress is cancelled. Throws Error (kMemory) when not everything fits.
+  /// Grows all units and turns off eviction for good. Call before the first visit. Returns early when the job
+  /// is cancelled. Throws Error (kMemory) when the budget cannot hold all units.
   void grow_all(const Job& job);
 
   size_t slot_count() const { return slots_.size(); }
@@ -126,12 +133,12 @@ class Residency {
  private:
   struct Slot {
     std::atomic<Resident*> unit{nullptr};
-    std::atomic<bool> used{false};  // since the last visit of the clock's hand
-    std::atomic<bool> hit{false};   // since it was grown
+    std::atomic<bool> used{false};  // visited since the hand of the clock last passed
+    std::atomic<bool> hit{false};   // mark_hit() was called since the unit was grown
     bool growing = false;           // this and the following members: guarded by mutex_
     bool touched = false;
-    uint8_t credit = 0;       // rounds of the clock's hand that it may stay unused
-    uint32_t dropped_at = 0;  // number of expansions at the time of its eviction
+    uint8_t credit = 0;       // rounds of the clock's hand that the unit may stay unused
+    uint32_t dropped_at = 0;  // count of expansions when the unit was last evicted
     size_t bytes = 0;
   };
   struct alignas(64) Hazard {
@@ -142,7 +149,8 @@ class Residency {
     int thread;
     ~Unpin() { residency.unpin(thread); }
   };
-  /// Units removed from the index, to be freed without the mutex; still charged.
+  /// Units removed from the index. They will be freed while the mutex is not locked. Their memory is still
+  /// charged.
   struct Victims {
     std::vector<std::pair<uint32_t, std::unique_ptr<Resident>>> units;
     int64_t bytes = 0;
@@ -193,7 +201,7 @@ class Residency {
   Reservation evict(int64_t bytes, Victims& victims);
   bool is_pinned(const Resident* unit) const;
   void charge(int64_t bytes);
-  /// Waits until something changed, at most for `timeout`.
+  /// Waits for a notification of changed_, or until `timeout` has passed.
   void sleep(std::unique_lock<std::mutex>& lock, std::optional<std::chrono::milliseconds> timeout = {});
   void wake();
   void refuse_small_budget() const;
@@ -205,9 +213,9 @@ class Residency {
   const MemoryBudget budget_;
   std::vector<Slot> slots_;
   std::vector<Hazard> hazards_;
-  bool never_evicts_;  // nothing is ever evicted, so pins are not needed; fixed before the first visit
+  bool never_evicts_;  // true: no unit is evicted, so pins are not needed; fixed before the first visit
   MemoryCharge index_charge_;
-  std::atomic<int> waiting_for_memory_{0};  // threads waiting for a pin or a reservation to be released
+  std::atomic<int> waiting_for_memory_{0};  // count of threads that wait until others release memory or pins
 
   mutable std::mutex mutex_;
   std::condition_variable
@@ -216,7 +224,7 @@ class Residency {
   GrowthThrottle throttle_;
   std::map<uint32_t, std::exception_ptr> failures_;
   int growing_ = 0;
-  int64_t held_ = 0;  // charged for units and reservations
+  int64_t held_ = 0;  // bytes charged for units and reservations
   ResidencyCounts counts_;
 };
 

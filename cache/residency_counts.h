@@ -6,18 +6,19 @@
 
 namespace pelage {
 
-/// Counts of the work of a Residency. Add up only the counts of residencies that existed one after the other.
+/// Counts of the work of a Residency. Do not add the counts of two Residencies that existed at the same time:
+/// operator+= takes the max, not the sum, of working_set_bytes and peak_bytes.
 struct ResidencyCounts {
-  int64_t expansions = 0;    ///< units grown
-  int64_t reexpansions = 0;  ///< units grown again, because their slot had been evicted
+  int64_t expansions = 0;    ///< growths of units, including reexpansions
+  int64_t reexpansions = 0;  ///< growths of a unit that had been evicted
   int64_t evictions = 0;
-  int64_t touched = 0;            ///< distinct slots that were grown
-  int64_t false_expansions = 0;   ///< units evicted, or held now, without a mark_hit()
-  int64_t working_set_bytes = 0;  ///< of all distinct slots ever grown; a sum of counts keeps the largest
-  int64_t peak_bytes = 0;         ///< max held at once, including reservations
-  int64_t overruns = 0;           ///< units larger than their reservation: a bug of the grower
-  double waited_s = 0;            ///< time asleep waiting for others, summed over threads
-  double cpu_s = 0;               ///< CPU time of growing, evicting and freeing units, of all threads
+  int64_t touched = 0;            ///< distinct slots whose unit was grown
+  int64_t false_expansions = 0;   ///< growths without a mark_hit() until the unit's eviction, or until now
+  int64_t working_set_bytes = 0;  ///< total memory of the units of all `touched` slots
+  int64_t peak_bytes = 0;         ///< max memory held at once, including reservations
+  int64_t overruns = 0;           ///< units larger than their reservation, which is a bug of the grower
+  double waited_s = 0;            ///< seconds spent waiting for memory or other threads, summed over threads
+  double cpu_s = 0;               ///< CPU seconds of growing, evicting and freeing units, of all threads
 
   ResidencyCounts& operator+=(const ResidencyCounts& other) {
     expansions += other.expansions;

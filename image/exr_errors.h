@@ -6,18 +6,19 @@
 
 #include "base/error.h"
 
-// Errors about EXR files; only for the sources of image/.
+// Errors about EXR files. Include this header only in image/.
 
 namespace pelage {
 
-/// Throws Error (kInput).
+/// Throws Error (kInput) with the path and the reason `why`.
 [[noreturn]] void refuse_exr(const std::filesystem::path& path, const std::string& why);
 
-/// Call in an exception handler: converts the current exception to an Error. Exceptions of OpenEXR become
-/// errors of `kind`: kInput for reading, kFailed for writing.
+/// Converts the current exception to an Error and throws this Error. Call it in an exception handler. An
+/// Error is rethrown unchanged. std::bad_alloc becomes kMemory. Any other exception, such as those of
+/// OpenEXR, becomes `kind`: pass kInput when reading, kFailed when writing.
 [[noreturn]] void rethrow_exr(const std::filesystem::path& path, ErrorKind kind);
 
-/// Runs `work` and converts all its exceptions with rethrow_exr().
+/// Calls `work` and returns its result. Converts its exceptions with rethrow_exr().
 template <class Work>
 auto guarded_exr(const std::filesystem::path& path, ErrorKind kind, Work&& work) {
   try {

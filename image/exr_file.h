@@ -30,31 +30,32 @@ struct ExrChannelInfo {
   bool operator==(const ExrChannelInfo&) const = default;
 };
 
-/// Contents of a part's header. A single part may have no name.
+/// Contents of the header of one part. If a file has only one part, its name may be empty.
 struct ExrPart {
   std::string name;
   std::string view;
-  PixelBox data;     ///< where pixels exist
-  PixelBox display;  ///< the frame of the picture
+  PixelBox data;     ///< data window: the pixels that the part stores
+  PixelBox display;  ///< display window: the frame of the picture
   std::vector<ExrChannelInfo> channels;
-  ExrAttributes attributes;             ///< those that ExrAttribute can hold
-  std::vector<std::string> multi_view;  ///< views of a multi-view part, the default first
+  ExrAttributes attributes;             ///< only attributes that ExrAttribute can hold
+  std::vector<std::string> multi_view;  ///< views of a multi-view part, the default view first
 };
 
-/// Location of one channel's rows: each pixel is a 4-byte word, a float or, for kUint, the bits of the
-/// integer. `words`: the first pixel of the first row to be transferred.
+/// Rows of one channel in memory, as source or destination of a transfer. Each pixel is a word of 4 bytes: a
+/// float or, for kUint, the bits of the integer. `channel` is an index of ExrPart::channels. `words` points
+/// to the first pixel of the first row.
 struct ExrRows {
   size_t channel = 0;
   float* words = nullptr;
   size_t row_stride = 0;  ///< in words
 };
 
-/// Reads any EXR of flat parts (scan lines or tiles, full resolution) by rows. Thread safety: one thread at a
-/// time.
+/// Reads EXR files by rows. The parts must be flat (not deep); they may have scan lines or tiles. Of tiled
+/// parts, reads the full resolution. Thread safety: only one thread at a time may use a reader.
 class ExrReader {
  public:
-  /// Throws Error (kInput) naming the file when it is missing, damaged, deep or subsampled. `threads`: number
-  /// of decoding threads.
+  /// Reads the headers. Throws Error (kInput) naming the file when it is missing, damaged, deep or
+  /// subsampled. `threads`: number of decoding threads; 0 or 1 decodes on the calling thread.
   explicit ExrReader(std::filesystem::path path, int threads = 0);
   ~ExrReader();
   ExrReader(const ExrReader&) = delete;
@@ -63,12 +64,13 @@ class ExrReader {
   const std::filesystem::path& path() const { return path_; }
   const std::vector<ExrPart>& parts() const { return parts_; }
 
-  /// Max memory of the library while it decodes with these threads, or encodes the same data: blocks of rows,
-  /// several per thread.
+  /// Max memory in bytes that OpenEXR uses while it decodes the file with these threads: several blocks of
+  /// rows per thread. Encoding the same data takes as much.
   int64_t buffer_bytes() const { return buffer_bytes_; }
 
-  /// Reads rows y0 <= y < y1 of a part, which must lie in its data window; `rows` start at column data.x0.
-  /// Throws Error (kInput) for a damaged file.
+  /// Reads rows y0 <= y < y1 of a part into `rows`, one entry per channel to read. The rows must lie in the
+  /// data window. ExrRows::words receives the pixel in column data.x0 of row y0. Throws Error (kInput) for a
+  /// damaged file.
   void read(size_t part, int y0, int y1, std::span<const ExrRows> rows);
 
  private:
@@ -81,35 +83,39 @@ class ExrReader {
 };
 
 /// A part to write. Its header is a copy of the header of part `like` of the input file, including attributes
-/// that Pelage does not know. `header` replaces the name, the view, the data window and the channels, and
-/// adds its attributes.
+/// that Pelage does not know. The data window, display window and channels of `header` replace those of the
+/// copy. So do its name and view, unless they are empty. Its attributes are added, or replace those of the
+/// same name.
 struct ExrOutputPart {
   size_t like = 0;
   ExrPart header;
 };
 
-/// Writes a file by rows from the top, completely or not at all (law 6). Half channels are rounded to
-/// nearest; values beyond their range become the largest finite half, infinity stays. `threads`: number of
-/// encoding threads. Throws Error (kFailed) naming the path, also for channel names that a file cannot
-/// distinguish. Thread safety: one thread at a time.
+/// Writes a file by rows from the top. The file appears completely or not at all (law 6). Values of half
+/// channels are rounded to nearest; finite values beyond the range of a half become the largest finite half,
+/// and infinity stays infinite. All members throw Error (kFailed) naming the path. The constructors also
+/// throw it when a channel name is empty, longer than kLongestExrName, contains a zero byte or occurs twice.
+/// `threads`: number of encoding threads; 0 or 1 encodes on the calling thread. Thread safety: only one
+/// thread at a time may use a writer.
 class ExrWriter {
  public:
-  /// A new picture, ZIP compressed, with Rec. 709 chromaticities.
+  /// Begins a picture with one part, ZIP compression and Rec. 709 chromaticities.
   ExrWriter(std::filesystem::path path, ExrPart part, int threads = 0);
-  /// Parts with the headers of another file's parts. Keeps lossless compression; replaces lossy compression
-  /// by ZIP.
+  /// Begins a file whose parts have copies of the headers of `source`. Keeps the compression if it is
+  /// lossless, else uses ZIP.
   ExrWriter(std::filesystem::path path, const ExrReader& source, std::vector<ExrOutputPart> parts,
             int threads = 0);
   ~ExrWriter();
   ExrWriter(const ExrWriter&) = delete;
   ExrWriter& operator=(const ExrWriter&) = delete;
 
-  /// Max memory of the library while it encodes.
+  /// Max memory in bytes that OpenEXR uses while it encodes.
   int64_t buffer_bytes() const;
 
-  /// Writes the next `count` rows of a part, all its channels in order. `workers` convert floats to halves.
+  /// Writes the next `count` rows of a part. `rows` has one entry for each channel of the part. `workers`
+  /// convert floats to halves.
   void write(size_t part, int count, std::span<const ExrRows> rows, const Workers& workers);
-  /// Finishes the file, once every part has all its rows, and moves it to its path.
+  /// Finishes the file and moves it to its path. All rows of all parts must have been written.
   void commit();
 
  private:

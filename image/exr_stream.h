@@ -8,12 +8,12 @@
 
 #include "base/file.h"
 
-// Only for the sources of image/.
+// Include this header only in image/.
 
 namespace pelage {
 
-/// Lets OpenEXR write to an AtomicFile without an intermediate buffer, and records failures: the library
-/// writes its table of rows in a destructor, which swallows exceptions.
+/// Lets OpenEXR write to an AtomicFile without an intermediate buffer. Also stores the exception of the first
+/// failed write, because OpenEXR writes its table of rows in a destructor that swallows exceptions.
 class ExrStream final : public Imf::OStream {
  public:
   explicit ExrStream(AtomicFile& file) : OStream(file.temporary_path().c_str()), file_(file) {}

@@ -13,31 +13,32 @@ namespace pelage {
 
 class TextureLibrary;
 
-/// A named per-strand or per-point value that a field may read; a single number is repeated for three
-/// channels.
+/// A named value of a strand or of a point of a strand, which a field may read. A value with a single number
+/// has this number in all three channels.
 struct FieldAttribute {
   std::string_view name;
   Rgb value;
 };
 
-/// Where a field is evaluated.
+/// A point where a field is evaluated.
 struct FieldPoint {
   V3f rest{0};         ///< position on the skin, rest space
   float u = 0, v = 0;  ///< texture coordinates of the root
-  float along = 0;     ///< 0 at the root, 1 at the tip
+  float along = 0;     ///< position along the strand: 0 at the root, 1 at the tip
   std::span<const FieldAttribute> attributes;
 };
 
-/// Which inputs a field depends on, so that callers evaluate it no more often than needed.
+/// Tells which inputs a field depends on, so that callers can avoid needless evaluations.
 struct FieldDependence {
-  bool along = false;       ///< changes along a strand
-  bool surface = false;     ///< changes over the skin
-  bool attributes = false;  ///< reads attributes
-  bool rest = false;        ///< changes with the position in rest space, not with (u, v) alone
+  bool along = false;       ///< depends on FieldPoint::along
+  bool surface = false;     ///< depends on the root: its rest position or its texture coordinates
+  bool attributes = false;  ///< depends on FieldPoint::attributes
+  bool rest = false;        ///< depends on FieldPoint::rest
 };
 
-/// A number or colour of an operator or material that may vary: a constant, a map, a ramp, noise, an
-/// attribute, or a product of fields. docs/MANUAL.md has the keys. An immutable value, cheap to copy.
+/// A number or colour of an operator or material that may vary over the skin and along strands: a constant, a
+/// map, a ramp, noise, an attribute, or a product of fields. docs/MANUAL.md describes the keys. A Field is
+/// immutable and cheap to copy.
 ///
 ///   0.5 | [r, g, b]
 ///   {map: f.png, channel: r, range: [a, b], space: auto|linear|srgb}    # without channel: colour
@@ -46,8 +47,8 @@ struct FieldDependence {
 ///   {attribute: name}                                # 0 where strands do not have it
 ///   {product: [field, field, ...]}
 ///
-/// A map with a channel is data: `space: auto` uses it as stored. A map without one is a colour: auto decodes
-/// integer formats from sRGB and leaves floating-point formats unchanged.
+/// A map with the key `channel` is data: `space: auto` uses its values as stored. A map without `channel` is
+/// a colour: `space: auto` decodes integer formats from sRGB and uses floating-point values as stored.
 class Field {
  public:
   struct Node;
@@ -56,26 +57,28 @@ class Field {
   explicit Field(Rgb constant);
   explicit Field(std::shared_ptr<const Node> node);
 
-  /// First channel / all three. Maps must have been loaded (with_textures).
+  /// Returns the first channel. Maps must have been loaded (with_textures()).
   float value(const FieldPoint& point) const;
+  /// Returns all three channels. Maps must have been loaded (with_textures()).
   Rgb color(const FieldPoint& point) const;
 
   FieldDependence dependence() const;
   bool is_constant() const;
-  /// Bounds of the values of the first channel. Maps: bounds of their contents, or of their `range` until
-  /// they are loaded. Attributes are unbounded except for the limits of the key; `random` and `clump` are in
-  /// [0, 1] wherever they are set.
+  /// Returns the min and max that the first channel can have. For a map, these are the bounds of its texels,
+  /// or of its `range` until the map has been loaded. For the attributes `random` and `clump`, they are 0 and
+  /// 1. Other attributes have no bounds except the limits of the key that the field is read for.
   std::pair<float, float> value_range() const;
-  /// Names of the attributes it reads.
+  /// Returns the names of the attributes that the field reads, without repetitions.
   std::vector<std::string> attribute_names() const;
 
-  /// The factors of a product, in order; empty for other fields.
+  /// Returns the factors of a product, in order. Empty for other fields.
   std::span<const Field> factors() const;
-  /// The maps that are looked up by texture coordinates, each with its position in the scene.
+  /// Returns the files of all maps, each with the position in the scene that names the file.
   std::vector<AssetPath> maps() const;
 
-  /// The same field with its maps loaded. Throws Error (kInput) at the position in the scene that names the
-  /// map.
+  /// Returns this field with its maps loaded. Passes on the errors of TextureLibrary::load(). Throws Error
+  /// (kInput) when an image has no channel of the given name. Both have the position in the scene that names
+  /// the map.
   Field with_textures(TextureLibrary& textures) const;
 
   const Node& node() const { return *node_; }
@@ -84,8 +87,9 @@ class Field {
   std::shared_ptr<const Node> node_;
 };
 
-/// The limits of the options hold for every value of a field: constants outside them are refused; the results
-/// of maps, noise, attributes and products are clamped to them.
+/// Reads a field. The limits of the key (KeyOptions::min and max) apply to every value of the field. A
+/// constant outside the limits is a problem. The values of maps, noise, attributes and products are clamped
+/// to the limits.
 template <>
 struct ValueReader<Field> {
   static bool read(const Value&, const KeyOptions&, Field& out, Problems&);
@@ -101,9 +105,10 @@ struct ValueReader<Field> {
   static void visit_blocks(Value& value, const BlockVisitor& visit);
 };
 
-/// Smooth gradient noise in [-1, 1], zero at lattice points, the same on every machine. `perlin_noise3` gives
-/// three decorrelated values. [Perlin02, "Improving noise"]
+/// Returns smooth gradient noise in [-1, 1] [Perlin02, "Improving noise"]. The noise is 0 where all
+/// coordinates are integers. The result is the same on every machine.
 float perlin_noise(const V3f& p, uint32_t seed = 0);
+/// Returns three uncorrelated values of such noise.
 V3f perlin_noise3(const V3f& p, uint32_t seed = 0);
 
 }  // namespace pelage

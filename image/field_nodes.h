@@ -11,7 +11,7 @@
 #include "image/field.h"
 #include "image/texture_library.h"
 
-// The kinds of fields behind image/field.h, and the scene blocks that describe them.
+// The kinds of fields (see image/field.h), and the blocks of a scene that describe fields.
 
 namespace pelage {
 
@@ -25,9 +25,10 @@ struct Field::Node {
   virtual void collect_attributes(std::vector<std::string>&) const {}
   virtual std::span<const Field> factors_of() const { return {}; }
   virtual void collect_maps(std::vector<AssetPath>&) const {}
-  /// The node with its maps loaded, or nullptr when it has none to load.
+  /// Returns a copy of the node with its maps loaded, or nullptr when the node contains no maps.
   virtual std::shared_ptr<const Node> with_textures(TextureLibrary&) const { return nullptr; }
-  /// Where the scene names an attribute that the field reads; nullptr when it does not read this one.
+  /// Returns the position where the scene names the attribute `name` in this field; nullptr when the field
+  /// does not read this attribute.
   virtual const SourcePosition* place_of_attribute(std::string_view name) const {
     for (const Field& factor : factors_of()) {
       if (const SourcePosition* place = factor.node().place_of_attribute(name)) return place;
@@ -42,7 +43,7 @@ struct EnumNames<MapChannel> {
   static constexpr const char* names[] = {"r", "g", "b", "a"};
 };
 
-/// {map: f.png, channel: r, range: [a, b], space: auto}
+/// Keys of {map: f.png, channel: r, range: [a, b], space: auto}. Stored values 0 and 1 become a and b.
 struct MapForm {
   AssetPath map;
   std::optional<MapChannel> channel;
@@ -70,7 +71,7 @@ struct ValueReader<RampKnot> {
 
 struct Ramp {
   RampAxis along = RampAxis::kStrand;
-  std::vector<RampKnot> knots;  ///< by increasing `at`; two with equal `at` make a step
+  std::vector<RampKnot> knots;  ///< by increasing `at`; two knots with the same `at` make a step
   static const Schema<Ramp>& schema();
 };
 
@@ -87,7 +88,7 @@ Field ramp_field(Ramp ramp);
 Field noise_field(Noise noise);
 Field attribute_field(std::string name, SourcePosition named_at = {});
 Field product_field(std::vector<Field> factors);
-/// `field` with every channel clamped to [low, high].
+/// Returns a field with the values of `field`, each channel clamped to [low, high].
 Field clamped_field(Field field, float low, float high);
 
 }  // namespace pelage

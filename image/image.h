@@ -6,12 +6,12 @@
 
 namespace pelage {
 
-/// Linear floating-point pixels, rows from the top, channels interleaved.
+/// An image of linear floating-point pixels. Rows run from the top; the channels of a pixel are adjacent.
 struct Image {
   int width = 0;
   int height = 0;
   int channels = 0;
-  std::vector<float> pixels;  ///< width * height * channels
+  std::vector<float> pixels;  ///< width * height * channels values
 
   const float* at(int x, int y) const {
     return &pixels[(static_cast<size_t>(y) * width + x) * static_cast<size_t>(channels)];

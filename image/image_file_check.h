@@ -8,12 +8,12 @@
 
 namespace pelage {
 
-/// Throws an Error (kInput) at the place in the scene that names a file; the message starts with the file
-/// name.
+/// Throws Error (kInput) at the position in the scene that names the file. The message is the path, followed
+/// by `reason`.
 [[noreturn]] void fail_image(const AssetPath& asset, const std::string& reason);
 
-/// Throws clear errors for problems that image libraries report poorly: a missing, empty or truncated file,
-/// damaged EXR headers.
+/// Throws Error (kInput) with a clear message for problems that image libraries report poorly: a file that is
+/// missing, empty, truncated (PNG and JPEG), not a regular file or a git-lfs pointer, or damaged EXR headers.
 void check_image_file(const AssetPath& asset);
 
 }  // namespace pelage

@@ -16,11 +16,12 @@ namespace pelage {
 /// Header of an image file.
 struct ImageHeader {
   TexelLayout layout;
-  bool is_integer = false;    ///< stored as integers
-  int64_t working_bytes = 0;  ///< estimated temporary memory of reading
+  bool is_integer = false;    ///< whether the file stores integers
+  int64_t working_bytes = 0;  ///< estimated temporary memory of reading the file
 };
 
-/// Receives an image in strips of rows from the top. Both functions may throw, which ends reading.
+/// Receives an image: first its header, then strips of `count` whole rows from the top. Either function may
+/// throw an exception, which ends the reading.
 class ImageSink {
  public:
   virtual ~ImageSink() = default;
@@ -28,15 +29,15 @@ class ImageSink {
   virtual void rows(const std::byte* rows, int count) = 0;
 };
 
-/// C++ interface of the module that reads images (image/reader_module.h). Thread safety: const members may be
-/// called from any thread.
+/// Reads image files through the module of image/reader_module.h, which contains OpenImageIO. Thread safety:
+/// const members may be called from any thread.
 class ImageReader {
  public:
-  /// Loads the module. Throws Error (kFailed).
+  /// Loads the module. Throws Error (kFailed) when the module cannot be loaded or has another version.
   ImageReader();
 
-  /// Reads the first image of a file. Returns the problem with the file, or an empty string; exceptions of
-  /// the sink propagate.
+  /// Passes the first image of a file to `sink`. Returns an empty string on success, otherwise a description
+  /// of the problem with the file. Exceptions of the sink propagate.
   std::string read(const std::filesystem::path& file, ImageSink& sink) const;
 
  private:
@@ -50,20 +51,23 @@ class ImageReader {
   decltype(&pelage_read_image) read_ = nullptr;
 };
 
-/// Recently used tiles of images, in a fixed amount of memory. Thread safety: all members may be called from
-/// any thread.
+/// A cache of tiles of images. Keeps the most recently used tiles within a fixed amount of memory. Thread
+/// safety: all members may be called from any thread.
 class TileCache : public std::enable_shared_from_this<TileCache> {
  public:
-  /// Throws Error (kFailed).
+  /// `bytes`: max memory of the tiles; values below kSmallest are raised to kSmallest. Throws Error (kFailed)
+  /// when the cache cannot be made.
   TileCache(const ImageReader& reader, int64_t bytes);
   ~TileCache();
   TileCache(const TileCache&) = delete;
   TileCache& operator=(const TileCache&) = delete;
 
-  /// An image with the texels of `tiles`, which must be complete. `name`: for messages. Throws Error
+  /// Returns an image whose texels are read from `tiles` through this cache. All rows must have been added to
+  /// `tiles`. `ranges`: min and max of each channel. `name`: name of the image for messages. Throws Error
   /// (kFailed).
   std::unique_ptr<TexelStore> store(std::string name, const TexelLayout& layout,
                                     std::vector<NumberRange> ranges, std::unique_ptr<TileFile> tiles);
+  /// Smallest max memory that a cache can respect, in bytes.
   static constexpr int64_t kSmallest = PELAGE_SMALLEST_TILE_CACHE;
 
  private:

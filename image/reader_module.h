@@ -5,7 +5,8 @@
 #include <stdint.h>
 
 /* The C interface between the texture library and the module that contains OpenImageIO
- * (image/reader_module.cpp, image/tile_cache_module.cpp). No exceptions or C++ types cross it. */
+ * (image/reader_module.cpp, image/tile_cache_module.cpp). Its functions throw no exceptions and
+ * have no C++ types. */
 
 #define PELAGE_IMAGE_READER_VERSION 2
 #define PELAGE_EXPORT __attribute__((visibility("default")))
@@ -19,15 +20,16 @@ enum { PELAGE_TEXEL_U8, PELAGE_TEXEL_U16, PELAGE_TEXEL_HALF, PELAGE_TEXEL_FLOAT 
 typedef struct PelageImageInfo {
   int width;
   int height;
-  int channels;          /* 1 .. 4; further ones are not read */
-  int kind;              /* PELAGE_TEXEL_...: of the values that rows() receives */
-  int is_integer;        /* stored as integers */
-  int64_t working_bytes; /* estimated temporary memory of reading */
+  int channels;          /* 1 .. 4; further channels are not read */
+  int kind;              /* PELAGE_TEXEL_...: type of the values that rows() receives */
+  int is_integer;        /* 1 if the file stores integers, else 0 */
+  int64_t working_bytes; /* estimated temporary memory of reading the file */
 } PelageImageInfo;
 
-/* Receives an image row by row, so that memory is not allocated for rows that a damaged file only claims to
- * contain. begin() receives the header. Both return 0 to continue. rows() receives `count` whole rows from
- * the top, channels interleaved, colours not premultiplied by alpha. */
+/* Receives an image in strips of rows, so that memory is allocated only for rows that the file really
+ * contains; the header of a damaged file may claim more rows. begin() is called first, with the header. Then
+ * rows() is called with `count` whole rows at a time, from the top; channels are interleaved, and colours are
+ * not premultiplied by alpha. Both functions return 0 to continue, any other value to stop. */
 typedef struct PelageImageSink {
   void* context;
   int (*begin)(void* context, const PelageImageInfo* info);
@@ -36,31 +38,36 @@ typedef struct PelageImageSink {
 
 PELAGE_EXPORT int pelage_image_reader_version(void);
 
-/* Reads the first image of a file. Returns 0, or 1 and one line in `message`. */
+/* Reads the first image of a file. Returns 0 on success and 1 on failure or when the sink stops. On failure,
+ * `message` receives one line of text. */
 PELAGE_EXPORT int pelage_read_image(const char* path, const PelageImageSink* sink, char* message,
                                     size_t message_size);
 
-/* A cache of tiles in a bounded amount of memory, for files of tiles (see PelageTiles). Thread safe. */
+/* A cache of tiles, which it reads from files of tiles (see PelageTiles), with a limit on memory. Thread
+ * safe. */
 typedef struct PelageTileCache PelageTileCache;
 typedef struct PelageTileImage PelageTileImage;
 
-/* A file of square tiles, stored row by row; each tile is complete (those at the right and lower edges are
- * padded) and contains its texels row by row. */
+/* A file of square tiles. The tiles are stored from left to right and from top to bottom, and so are the
+ * texels of each tile. All tiles have the same size; tiles beyond the right and lower edges of the image are
+ * padded. */
 typedef struct PelageTiles {
   int descriptor; /* must stay open while the cache is in use */
   int width, height;
-  int side; /* of a tile, in texels */
+  int side; /* side length of a tile, in texels */
   int texel_bytes;
 } PelageTiles;
 
-/* Smallest size limit that a cache respects. */
+/* Smallest memory limit of a cache, in bytes. Smaller limits are raised to this value. */
 #define PELAGE_SMALLEST_TILE_CACHE (10 << 20)
 
+/* Creates a cache with a memory limit of `bytes`. Returns null on failure. */
 PELAGE_EXPORT PelageTileCache* pelage_tile_cache_create(int64_t bytes);
 PELAGE_EXPORT void pelage_tile_cache_destroy(PelageTileCache* cache);
-/* Null on failure. The image lives as long as the cache. */
+/* Adds a file of tiles to a cache. Returns null on failure. The cache owns the returned image. */
 PELAGE_EXPORT PelageTileImage* pelage_tile_cache_add(PelageTileCache* cache, const PelageTiles* tiles);
-/* Copies the texels of a rectangle inside the image to `to`, row after row. Returns 0 on success. */
+/* Copies the texels of a rectangle inside the image to `to`, row by row. Returns 0 on success, 1 on failure.
+ */
 PELAGE_EXPORT int pelage_tile_cache_read(PelageTileImage* image, int x, int y, int width, int height,
                                          void* to);
 

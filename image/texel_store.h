@@ -10,20 +10,21 @@
 
 namespace pelage {
 
-/// Min and max of a channel (stored_number).
+/// Min and max of the values of a channel, as stored_number() returns them (not decoded from sRGB).
 using NumberRange = std::pair<float, float>;
 
-/// The texels of one image as its file stores them, in memory or in tiles of which only some are resident.
-/// Immutable. Thread safety: const members may be called from any thread.
+/// The texels of one image, in the type in which its file stores them. All texels are in memory, or they are
+/// in a file of tiles of which only some are resident. Immutable. Thread safety: const members may be called
+/// from any thread.
 class TexelStore {
  public:
   virtual ~TexelStore() = default;
   const TexelLayout& layout() const { return layout_; }
   const NumberRange& range(int channel) const { return ranges_[static_cast<size_t>(channel)]; }
-  /// All texels, row by row from the top; null for tiles.
+  /// All texels, row by row from the top; null if they are in a file of tiles.
   const std::byte* in_memory() const { return in_memory_; }
-  /// Copies a rectangle inside the image to `to`, row by row. Throws Error (kFailed) when tiles cannot be
-  /// read back.
+  /// Copies the texels of a rectangle inside the image to `to`, row by row. Throws Error (kFailed) when a
+  /// tile cannot be read.
   virtual void read(int x, int y, int width, int height, std::byte* to) const = 0;
 
  protected:
@@ -37,7 +38,7 @@ class TexelStore {
   const std::byte* in_memory_ = nullptr;
 };
 
-/// All texels in memory.
+/// An image whose texels are all in memory.
 class TexelsInMemory final : public TexelStore {
  public:
   TexelsInMemory(const TexelLayout& layout, std::vector<NumberRange> ranges, std::vector<std::byte> texels);

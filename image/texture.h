@@ -11,31 +11,35 @@
 
 namespace pelage {
 
-/// An image looked up by texture coordinates: u to the right, v up, (0, 0) the lower left corner, repeated.
-/// Lookups give the same values whether the texels are in memory or in tiles, and throw Error (kFailed) when
-/// tiles cannot be read back. Immutable. Thread safety: const members may be called from any thread.
+/// An image that is looked up by texture coordinates. u points right and v points up; the lower left corner
+/// of the image is (0, 0), the upper right one (1, 1). The image repeats outside this range. Lookups give the
+/// same values whether the texels are in memory or in a file of tiles. They throw Error (kFailed) when a tile
+/// cannot be read. Immutable. Thread safety: const members may be called from any thread.
 class Texture {
  public:
-  /// With `srgb`, all channels except alpha are decoded before filtering.
+  /// `srgb`: whether all channels except alpha are decoded from sRGB, which happens before filtering.
   Texture(std::shared_ptr<const TexelStore> texels, bool srgb);
-  /// Float texels, used as they are.
+  /// Copies float texels and does not decode them.
   explicit Texture(const Image& image);
 
   int width() const { return texels_->layout().width; }
   int height() const { return texels_->layout().height; }
   int channels() const { return texels_->layout().channels; }
-  /// Min and max of a channel.
+  /// Returns the min and max of the texels of a channel, as linear values.
   std::pair<float, float> range(int channel) const;
 
-  /// Bilinear lookup of one channel / of the first three (a single channel is repeated).
+  /// Looks up one channel with bilinear interpolation.
   float channel(float u, float v, int channel) const;
+  /// Looks up the first three channels with bilinear interpolation. If the image has only one or two
+  /// channels, returns the first channel three times.
   Rgb color(float u, float v) const;
 
-  /// The colours of a rectangle of texels inside the image, row by row from the top.
+  /// Copies the linear colours of a rectangle of texels inside the image to `to`, row by row from the top.
   void colors(int x, int y, int width, int height, Rgb* to) const;
+  /// Returns the linear colour of one texel; (0, 0) is the upper left one.
   Rgb texel(int x, int y) const;
 
-  /// Without the texels, which several textures may share.
+  /// Heap memory in bytes, without the texels, because several textures may share them.
   size_t bytes() const { return decode_.bytes(); }
 
  private:

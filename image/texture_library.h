@@ -17,29 +17,34 @@ namespace pelage {
 class ImageReader;
 class TileCache;
 
-/// How stored values are converted to linear ones.
+/// Conversion of the stored values of an image to linear values. kAuto: from sRGB if the file stores
+/// integers, else none.
 enum class ColorSpace { kAuto, kLinear, kSrgb };
 template <>
 struct EnumNames<ColorSpace> {
   static constexpr const char* names[] = {"auto", "linear", "srgb"};
 };
 
-/// Reads images of any format that OpenImageIO supports, using a module that is loaded for the first image
-/// (linking it would cost 0.3 s and 130 MB at every start). Keeps one copy of the texels per file, in the
-/// type that the file stores.
+/// Reads images of any format that OpenImageIO supports. OpenImageIO is in a module that is loaded for the
+/// first image, because linking it to the program would cost 0.3 s and 130 MB at every start. The library
+/// keeps one copy of the texels of each file, in the type in which the file stores them.
 ///
-/// With a ledger limit, images stay in memory as long as all images together take at most a quarter of the
-/// limit. Each further image becomes a temporary file of tiles; a cache of an eighth of the limit holds the
-/// recently used ones. Both give the same values. Thread safety: all members may be called from any thread.
+/// Without a ledger limit, all images stay in memory. With a limit, an image stays in memory if all images in
+/// memory then take at most a quarter of the limit and there is room for this image. Any other image becomes
+/// a temporary file of tiles, and a cache of an eighth of the limit holds the most recently used tiles.
+/// Textures have the same values in both cases. Thread safety: all members may be called from any thread.
 class TextureLibrary {
  public:
-  /// `progress` shows the reading of large images and may stop it. Both arguments must outlive the library.
+  /// `progress`, if not null, shows the reading of large images and may cancel it. Both arguments must
+  /// outlive the library.
   explicit TextureLibrary(MemoryLedger& ledger, Progress* progress = nullptr);
   ~TextureLibrary();
 
-  /// Throws at `asset.position`, naming the file: Error (kInput) when it is missing or unreadable (a missing
-  /// texture is never black), Error (kMemory) before reading anything when it does not fit the ledger's
-  /// limit, Error (kStopped) once the user has asked to stop.
+  /// Returns the texture of a file. Reads the file if this library has not read it yet. Throws Error: kInput
+  /// when the file is missing, damaged or has non-finite values (there is no black default texture), kMemory
+  /// (before any pixel is read) when the image does not fit the ledger's limit, kFailed when the temporary
+  /// file or the module fails, kStopped once the user has asked to stop. Except for kStopped, the error has
+  /// the position `asset.position` and names the file.
   std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
 
   /// Throws Error (kStopped) once the user has asked to stop.
@@ -62,7 +67,7 @@ class TextureLibrary {
 
   MemoryLedger& ledger_;
   Progress* progress_;
-  std::mutex mutex_;  // guards the rest
+  std::mutex mutex_;  // guards all members below
   std::unique_ptr<ImageReader> reader_;
   MemoryCharge library_charge_;
   std::shared_ptr<TileCache> tiles_;

@@ -11,9 +11,9 @@ namespace pelage {
 /// Side length of a tile in texels.
 constexpr int kTileSide = 64;
 
-/// An image as square tiles in an unnamed file in the folder for temporary files (TMPDIR). The file
-/// disappears when this object is destroyed or the process ends, even if the process is killed. Layout:
-/// PelageTiles in image/reader_module.h.
+/// A file that stores an image as square tiles. The file is in the folder for temporary files (TMPDIR) and
+/// has no name, so it disappears when this object is destroyed or the process ends, even if the process is
+/// killed. See PelageTiles in image/reader_module.h for the layout of the file.
 class TileFile {
  public:
   /// Throws Error (kFailed) when the file cannot be created.
@@ -25,9 +25,9 @@ class TileFile {
   /// Appends the next rows from the top. Throws Error (kFailed) when the disk is full.
   void add_rows(const std::byte* rows, int count);
 
-  /// The file is complete once all rows were added.
+  /// Descriptor of the file. The file is complete once all rows have been added.
   int descriptor() const { return descriptor_; }
-  /// Memory used while a file is filled.
+  /// Memory in bytes that a TileFile uses until all rows have been added.
   static size_t buffer_bytes(const TexelLayout& layout);
 
  private:
@@ -36,7 +36,7 @@ class TileFile {
   TexelLayout layout_;
   int descriptor_ = -1;
   int rows_ = 0;
-  std::vector<std::byte> band_;  // a row of tiles
+  std::vector<std::byte> band_;  // one row of tiles, in the layout of the file
 };
 
 }  // namespace pelage

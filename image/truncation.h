@@ -6,12 +6,13 @@
 
 namespace pelage {
 
-/// Whether the stream is a PNG or JPEG file that ends before its end marker. Decoders silently fill the
-/// missing part of a JPEG with grey, and leak memory for a PNG. False for everything else.
+/// Returns whether the stream is a PNG or JPEG file that ends before its end marker. Returns false for all
+/// other formats. Decoders silently fill the missing rest of a JPEG with grey, and leak memory for a
+/// truncated PNG.
 bool is_cut_short(std::istream& file);
 
-/// Memory for decoding an interlaced PNG or a progressive JPEG, which are decoded as a whole before the first
-/// row is available. 0 for everything else.
+/// Returns the memory in bytes for decoding an interlaced PNG or a progressive JPEG. Decoders decode such a
+/// file completely before they return its first row. Returns 0 for all other files.
 int64_t interlaced_bytes(std::istream& file);
 
 }  // namespace pelage

@@ -5,8 +5,9 @@
 
 namespace pelage {
 
-/// How skin with this unit normal faces the camera when the shutter opens: the cosine of the angle between
-/// the normal and the direction to the eye; -1 faces away. 1 where the normal is 0 (unknown).
+/// Returns the cosine of the angle between the unit normal of the skin and the direction to the camera when
+/// the shutter opens: 1 if the skin faces the camera, -1 if it faces away. Returns 1 if the normal is 0
+/// (unknown).
 float facing(const LodView& view, const V3f& point, const V3f& normal);
 
 }  // namespace pelage

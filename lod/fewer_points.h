@@ -7,11 +7,15 @@
 
 namespace pelage {
 
-/// Refits a strand with 5 or 4 control points if this moves no point of its curve by more than `tolerance` at
-/// any motion key. `tolerance`: one value per strand, scene units; 0 leaves the strand unchanged. Least
-/// squares with fixed ends; the error is measured at the parameters of the old curve. Radii are fitted like
-/// the curve, per-point attributes with hat functions; both keep their mean along the strand. Strands in
-/// other bases than the pinned B-spline are unchanged. The result for a strand depends on that strand only.
+/// Refits each strand with 4 control points or, if that moves the curve too far, with 5. Uses the fit only if
+/// it moves no point of the curve by more than the strand's `tolerance` at any motion key; otherwise leaves
+/// the strand unchanged. `tolerance`: one value per strand, in scene units; 0 leaves the strand unchanged.
+///
+/// The fit is by least squares with fixed ends. The error is the distance between points of the old and the
+/// new curve at equal parameters. Radii are fitted like positions. Per-point attributes are fitted as values
+/// that are linear between points, and then limited to their old range around their mean. The means of radii
+/// and attributes along the strand stay nearly the same. Strands whose basis is not the pinned B-spline stay
+/// unchanged. The result for a strand depends only on this strand and its tolerance.
 Strands with_fewer_points(Strands strands, std::span<const float> tolerance);
 
 }  // namespace pelage

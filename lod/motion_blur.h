@@ -5,14 +5,16 @@
 
 namespace pelage {
 
-/// Distance by which a point moves across the picture while the shutter is open, in scene units at the depth
-/// of the point. It is the motion relative to the camera, projected onto the plane perpendicular to the line
-/// of sight [Ryu07]. Multiply by pixels_per_unit() for the length of the blur in pixels.
+/// Returns the distance by which a point moves across the picture while the shutter is open, in scene units
+/// at the depth of the point. This is the length of the motion relative to the camera, projected onto the
+/// plane perpendicular to the line of sight [Ryu07]. Multiply by pixels_per_unit() to get the length of the
+/// blur in pixels.
 float motion_across(const LodView& view, const V3f& at_open, const V3f& at_close);
 
-/// The component of this motion across a line through the point. `line`: direction of the line at shutter
-/// open, a unit vector, shorter where the direction is uncertain. For a line along the line of sight or
-/// without direction, all motion is across.
+/// Returns the component of the motion of motion_across() that is perpendicular to a line through the point,
+/// such as a strand. `line`: direction of the line when the shutter opens. A unit vector means a certain
+/// direction, a shorter vector a less certain one, 0 an unknown one. If `line` is 0 or parallel to the line
+/// of sight, returns all of motion_across().
 float motion_across_line(const LodView& view, const V3f& at_open, const V3f& at_close, const V3f& line);
 
 }  // namespace pelage

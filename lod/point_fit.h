@@ -7,22 +7,23 @@
 
 namespace pelage {
 
-/// The linear map from the points of a pinned B-spline to the points of another one with fewer points. The
-/// result is the closest such curve, in the mean over the parameter. Memory and construction time are linear
-/// in the number of points. Immutable.
+/// A linear map from the control points of a pinned B-spline to those of a pinned B-spline with fewer points.
+/// The new curve has the smallest mean squared distance from the old curve at equal parameters. Memory and
+/// construction time are linear in `from`. Immutable.
 class PointFit {
  public:
-  /// 4 <= to < from.
+  /// `from`, `to`: number of points of the old and the new curve; 4 <= to < from.
   PointFit(size_t from, size_t to);
 
   size_t to() const { return to_; }
 
-  /// Weights of the old points for each new point, row by row. The first and the last point are kept.
+  /// Returns the weights of all old points in new point `row`. The first and the last point stay the same.
   std::span<const float> curve(size_t row) const { return std::span(curve_).subspan(row * from_, from_); }
-  /// The same for values that are linear between points.
+  /// Returns the weights of the values at all old points in the value at new point `row`, for values that are
+  /// interpolated linearly between points.
   std::span<const float> values(size_t row) const { return std::span(values_).subspan(row * from_, from_); }
-  /// Whether the new curve, at evenly spaced parameters, stays within `tolerance` of the old one. `points`: 4
-  /// floats each, of which the first 3 are used.
+  /// Returns whether the new curve is within `tolerance` of the old curve at each of many evenly spaced
+  /// parameters. `points`: the old points, 4 floats each, of which the first 3 are the position.
   bool stays_within(const float* points, float tolerance) const;
   /// Heap memory.
   size_t bytes() const { return (curve_.size() + values_.size() + error_.size()) * sizeof(float); }
@@ -33,7 +34,7 @@ class PointFit {
 
   size_t from_, to_;
   std::vector<float> curve_, values_;
-  std::vector<float> error_;  // for few points: new minus old curve, as weights of the old points
+  std::vector<float> error_;  // weights of the old points in new curve minus old curve; empty for many points
 };
 
 }  // namespace pelage

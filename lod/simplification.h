@@ -14,91 +14,103 @@ namespace pelage {
 struct CoatStats {
   float width = 0;
   float length = 0;
-  float area_share = 0;  ///< mean width * length of a strand / area of the whole skin; 0 when unknown
+  float area_share = 0;  ///< mean of width * length of a strand / area of the whole skin; 0 when unknown
   float density = 0;     ///< strands per unit of skin area; 0 when unknown
-  bool even = true;      ///< whether every prefix of their order is blue noise
+  bool even = true;      ///< whether the roots of the first n strands are blue noise, for every n
 };
 
-/// The root of a strand, which determines its level of detail. World space.
+/// Data of a strand's root, which determine the level of detail of the strand. World space.
 struct RootPlace {
   V3f open{0}, close{0};  ///< position when the shutter opens and closes
   V3f normal{0};          ///< unit normal of the skin when the shutter opens; 0: unknown
-  V3f direction{0};       ///< mean direction of the strands at the root when the shutter opens: unit, shorter
-                          ///< where directions vary
+  V3f direction{0};  ///< mean direction of the strands near the root when the shutter opens: a unit vector,
+                     ///< shorter if directions vary widely, 0 if unknown
 };
 
-/// Stochastic simplification of one coat: determines the fraction of the strands that suffices at a place,
-/// and the width of the kept strands [Cook07, Ryu07].
+/// Stochastic simplification of one coat [Cook07, Ryu07]. Determines which fraction of the strands suffices
+/// for a root, and by which factor the kept strands are widened.
 ///
 /// Every strand has a fixed priority x, uniformly distributed over [0, 1) and independent of everything else.
-/// Where the fraction (share) lambda suffices, strands with x < lambda - t are kept, strands with x up to
-/// lambda + t fade out by width, and all other strands do not exist. The strands kept at one share are
-/// therefore a subset of the strands kept at every larger share. Everything is a continuous function of the
-/// root's position, so nothing pops and no boundary between chunks is visible.
+/// The fraction of strands that suffices is called the share, lambda. With t = fade_half_width(lambda),
+/// strands with x < lambda - t are kept at full width. From there to x = lambda + t, the width decreases
+/// linearly to 0. Strands with a larger x are omitted. Therefore the strands kept at one share are a subset
+/// of the strands kept at every larger share. Shares and widths are continuous functions of the root's
+/// position, so strands do not pop, and boundaries between chunks are invisible.
 ///
-/// A value. Thread safety: const members may be called from any thread.
+/// Copyable. Thread safety: const members may be called from any thread.
 class Simplification {
  public:
-  /// `budget`: factor on the share, from the role of the coat.
+  /// `budget`: factor on the share that the role of the coat selects, such as SimplificationParams::guard; 1
+  /// for no change.
   Simplification(const SimplificationParams& params, const LodView& view, const CoatStats& stats,
                  float budget);
 
   const LodView& view() const { return view_; }
-  /// Mean number of strands over a point of the skin; 0 when unknown.
+  /// Returns the mean number of strands that cover a point of the skin at full detail; 0 when unknown.
   float depth() const { return stats_.density * stats_.width * stats_.length; }
 
-  /// The share lambda in (0, 1] of the strands with this root.
+  /// Returns the share lambda in (0, 1] for strands with this root.
   ///
-  /// lambda = lambda_size * lambda_blur [Cook07, eq. 1], but at least large enough that a widened strand
-  /// stays below hypot(1, a tenth of the blur across it) pixels and a quarter of its own length: otherwise
-  /// widths would grow without bound where a coat becomes small. lambda_size = w^(2 ln(1/2) / ln h) for a
-  /// width of w < 1 pixels, h = 0.4 [Cook07, eq. 2]; lambda_blur is raised to the power blur_strength; with
-  /// the exponent 1, blur does not change the number of strands that contribute to a pixel. Back-facing skin
-  /// keeps fewer strands, down to a fifth, and these may be wider accordingly.
+  /// lambda = lambda_size * lambda_blur * budget [Cook07, eq. 1], but at most 1. - lambda_size = w^(2 ln(1/2)
+  /// / ln h) with h = 0.4 for strands of a width of w < 1 pixels [Cook07, eq. 2], and 1
+  ///   for wider strands.
+  /// - lambda_blur = b^-blur_strength, where b is the factor by which blur increases the number of strands
+  /// that
+  ///   contribute to a pixel. With blur_strength = 1, this number is the same as without blur.
+  ///
+  /// lambda has a minimum at which a widened strand is no wider than hypot(1, 0.1 * blur across it) pixels,
+  /// and no wider than a quarter of its length. Without this minimum, widths would have no bound for small
+  /// coats. Back-facing skin keeps fewer strands, down to a fifth of lambda; these strands may exceed the max
+  /// width.
   float share(const RootPlace& root) const;
-  /// Upper bound of share() for roots at this distance from the camera or farther away.
+  /// Returns an upper bound of share() for roots at this distance from the camera or at a larger one.
   float max_share(float distance) const;
-  /// Half the width of the fade: min(0.1, lambda / 4, 1 - lambda), so that the mean of fade() over all x is
-  /// lambda.
+  /// Returns t = min(0.1, lambda / 4, 1 - lambda), half the range of priorities in which strands fade. With
+  /// this t, the mean of fade() over all priorities is lambda.
   static float fade_half_width(float share);
-  /// 1 before the fade, 0 after it.
+  /// Returns the factor on the width with which a strand of this priority fades: 1 up to lambda - t, 0 from
+  /// lambda + t on, linear between.
   static float fade(float share, float priority);
 
-  /// Factor on the width of a strand; 0: it does not exist. 1 at share 1. Preserves the fraction of the skin
-  /// that a coat covers.
+  /// Returns the factor on the width of a strand: fade() * gain(), or 0 if the strand is omitted. Returns 1
+  /// at share 1. The wider strands cover the same fraction of the skin as the full coat.
   ///
-  /// For strands at random positions the factor is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], with r the
-  /// area_share. When positions are evenly spread, wide strands overlap less than thin ones. The strands over
-  /// a point of the skin have their roots in a strip of one strand's width and length. For strips narrower
-  /// than the distance between roots, the strands are modelled as intervals on a line, with a minimum
-  /// distance between them. Let mu be their mean number over a point, and x the fraction of the line that the
-  /// minimum distances take up: the point is uncovered with probability (1 - x) exp(-(mu - x) / (1 - x)). As
-  /// x grows with the width, mu must shrink.
+  /// For strands at random positions, the gain is (1 - (1 - r)^(1 / lambda)) / r [Cook07, eq. 6], where r is
+  /// CoatStats::area_share. If roots are evenly spread (CoatStats::even), wide strands overlap less than thin
+  /// strands, so the gain is smaller. All strands that cover a point of the skin have their roots in a strip
+  /// as wide and as long as one strand. If this strip is narrower than the distance between roots, the
+  /// strands are modelled as intervals on a line with a minimum distance between them. Let mu be the mean
+  /// number of intervals that cover a point, and x the fraction of the line that the minimum distances take
+  /// up. The point is uncovered with probability (1 - x) exp(-(mu - x) / (1 - x)). x increases with the width
+  /// of the strands, so the same probability needs a smaller mu.
   float width_factor(float share, float priority) const;
-  /// The same for strands that do not fade.
+  /// Returns the factor on the width of strands that do not fade; 1 at share 1.
   float gain(float share) const;
-  /// Upper bound of width_factor() for roots up to this distance.
+  /// Returns an upper bound of width_factor() for roots at this distance from the camera or at a smaller one.
   float max_width_factor(float distance) const;
-  /// A kept strand represents strands around it. Light continues from one of the represented strands: at the
-  /// same position along its length, with a root up to this distance away on the skin. 0 at share 1.
+  /// A kept strand represents omitted strands around it. Light that hits the kept strand continues from one
+  /// of the represented strands, at the same position along the strand. Returns the max distance on the skin,
+  /// in scene units, between the roots of these two strands; 0 at share 1.
   float spread(float share) const;
-  /// Probability that light leaving a represented strand may hit the strand that represents it. Evenly spread
-  /// strands have free space around them, in which the omitted strands would have blocked light. The fewer
-  /// strands are kept, the larger this space is. 0 at share 1.
+  /// Returns the probability that light from a represented strand is allowed to hit the kept strand that
+  /// represents it; 0 at share 1. Around each of the evenly spread kept strands is free space, in which
+  /// omitted strands would have blocked light. The fewer strands are kept, the larger this space is.
   float own_shadow(float share) const;
-  /// Factor on the deviation of a strand's colour from the mean [Cook07, eq. 22].
+  /// Returns the factor on the difference between the colour of a strand and the mean colour; 1 at share 1
+  /// [Cook07, eq. 22].
   float contrast(float share) const;
-  /// Max distance by which a refit with fewer control points may move a strand, in scene units; 0: no refit
-  /// is allowed.
+  /// Returns the max distance by which a refit with fewer control points may move a strand, in scene units.
+  /// This is a tenth of a pixel of a picture with SimplificationParams::quality times the resolution. Returns
+  /// 0 if no refit is allowed.
   float tolerance(const V3f& root_at_open) const;
 
-  /// Hash of everything that affects the result.
+  /// Returns a hash of everything that affects the results of all members.
   ContentHash hash() const;
 
  private:
   float share(float pixels, float motion, float across, float confusion) const;
-  /// The minimum share that widths or the scene require. A budget may increase this share, but never decrease
-  /// it.
+  /// Returns the minimum share: `share`, which the max width requires, or min_share if larger. A budget above
+  /// 1 increases the minimum; a budget below 1 does not decrease it.
   float min_kept(float share) const;
   void tabulate_area();
 
@@ -108,7 +120,7 @@ class Simplification {
   CoatStats stats_;
   float budget_;
   std::array<float, kAreaSteps + 1>
-      area_;  // fraction of the strands' area that remains, by the square root of the share
+      area_;  // factor by which even spacing reduces gain(); index: sqrt(share) * kAreaSteps
 };
 
 }  // namespace pelage

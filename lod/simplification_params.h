@@ -6,8 +6,8 @@
 
 namespace pelage {
 
-/// Keys of `render.lod`, which control how many strands of a coat are kept. Each criterion has its own
-/// switch.
+/// Values of the keys of `render.lod`, which control how many strands of a coat are kept. See
+/// add_simplification_keys() for their meaning. Each criterion can be turned off separately.
 struct SimplificationParams {
   float quality = 1;
   bool size = true, motion_blur = true, depth_of_field = true, back_facing = true;
@@ -17,7 +17,7 @@ struct SimplificationParams {
   float min_share = 0.005f;
 };
 
-/// Adds these keys to the table of a struct that derives from SimplificationParams.
+/// Adds the keys of SimplificationParams to the table of a struct that derives from it.
 template <class P>
 void add_simplification_keys(Schema<P>& s) {
   using Base = SimplificationParams;

@@ -5,10 +5,11 @@
 
 namespace pelage {
 
-/// Pixels per scene unit at a point when the shutter opens. Uses distance rather than depth, so that objects
-/// behind the camera, which may cast shadows, have a size too.
+/// Returns the size in pixels of one scene unit at a point when the shutter opens. The size depends on the
+/// distance of the point, not on its depth along the view axis. Therefore it is also defined for points
+/// behind the camera, where objects may cast shadows.
 float pixels_per_unit(const LodView& view, const V3f& point);
-/// The same at a distance from the camera.
+/// Returns the size in pixels of one scene unit at this distance from the camera, but at least near_distance.
 float pixels_per_unit(const LodView& view, float distance);
 
 }  // namespace pelage

@@ -15,60 +15,64 @@ namespace pelage {
 
 /// Result of processing a file.
 struct PostReport {
-  bool cancelled = false;  ///< nothing was written
-  PixelBox window;         ///< box of all pixels that were written
-  int steps = 1;
+  bool cancelled = false;             ///< true: the job was cancelled and no file was written
+  PixelBox window;                    ///< box that contains all pixels written
+  int steps = 1;                      ///< number of times at which the picture was sampled
   int bands = 1;                      ///< number of bands in which the file was processed
-  float longest = 0;                  ///< max motion or parallax, in pixels
-  std::vector<std::string> notes;     ///< for the user, one line each
-  std::vector<std::string> warnings;  ///< the same, for probable mistakes
+  float longest = 0;                  ///< length of the longest motion or parallax, in pixels
+  std::vector<std::string> notes;     ///< information for the user, one line each
+  std::vector<std::string> warnings;  ///< probable mistakes of the user, one line each
 };
 
-/// Parameters that both tools share.
+/// Parameters that the tools for motion blur and stereo share.
 struct PostFileParams {
   LayerChoice layers;
   VectorParams vectors;
-  int scale = 4;                      ///< samples per pixel and side, 1 to 8
-  std::optional<int> longest_fill;    ///< max number of pixels to fill in a gap; each tool has its default
-  int64_t memory = int64_t{4} << 30;  ///< max bytes of pixels, vectors and work buffers
+  int scale = 4;                      ///< samples along each side of a pixel, 1 to 8
+  std::optional<int> longest_fill;    ///< max number of pixels to fill in each gap; empty: the tool's default
+  int64_t memory = int64_t{4} << 30;  ///< max memory of pixels, vectors and work buffers, in bytes
 };
 
-/// The file that a tool reads. Throws Error (kInput) when it cannot be read or has no channels.
+/// The input file of a tool.
 struct PostSource {
+  /// Throws Error (kInput) when the file cannot be read or has no channels.
   PostSource(const std::filesystem::path& path, int threads);
 
   ExrReader reader;
   const std::vector<NamedChannel> channels;
 };
 
-/// A view whose pixels move. Without a field, its pixels are copied.
+/// A view of the file. Its pixels move as `field` describes; if `field` is null, they are copied.
 struct MovingView {
   std::unique_ptr<ViewImage> image;
   std::unique_ptr<FlowField> field;
 };
 
-/// Processes a file band by band: reads the source rows that a band needs, calls `process` to make the band,
-/// and writes it. Uses memory for the fields, `scratch_bytes`, the blocks of rows that the library decodes
-/// and encodes, and the rows of a band. A band has the max number of rows that the budget allows.
+/// Processes a file in bands of rows of the result. For each band, reads the source rows that the band needs,
+/// calls `process` to make the rows of the band, and writes these rows. The memory in use is the sum of the
+/// fields, `scratch_bytes`, the blocks of rows that OpenEXR decodes and encodes, and the source rows and
+/// result rows of a band. A band has as many rows as `memory` allows, but takes at most 256 MiB unless it has
+/// 16 rows or fewer.
 class BandJob {
  public:
   struct Band {
-    int first, last;  ///< rows of the result
+    int first, last;  ///< rows first <= y < last of the result
   };
-  /// Makes the band of one view.
+  /// Makes the rows of one band for one view. `layers` has the source rows and the result rows.
   using Process = std::function<void(const MovingView& view, const WarpTarget& target, Band band,
                                      const PostLayers& layers)>;
-  /// Rows of the view's canvas that the band needs.
+  /// Returns the rows of the view's canvas that a band needs.
   using Reach = std::function<RowRange(const MovingView& view, const WarpTarget& target, Band band)>;
 
-  /// A part to write, with a plane number for each channel. Numbers below the channel count of the file are
-  /// channels of the file. The following numbers are additional planes that `process` fills.
+  /// A part to write. `planes` has one number for each channel of the part. Numbers below the count of
+  /// channels in PostSource::channels are indices of these channels. The numbers that follow are additional
+  /// planes, which `process` fills (extra_plane()).
   struct Part {
     ExrOutputPart part;
     std::vector<size_t> planes;
   };
 
-  /// `source` must outlive this object. `fill`: default of the max number of pixels to fill in a gap.
+  /// `source` must outlive this object. `fill`: value of `longest_fill` if `params` does not set it.
   BandJob(PostSource& source, const PostFileParams& params, int fill)
       : scale(params.scale),
         longest_fill(params.longest_fill.value_or(fill)),
@@ -77,30 +81,30 @@ class BandJob {
 
   std::vector<MovingView> views;
   std::vector<Part> parts;
-  PixelBox window;  ///< window of the result; contains all its parts
-  size_t extra_planes = 0;
-  const int scale;
-  const int longest_fill;  ///< max number of pixels to fill in a gap
-  const int64_t memory;
-  int64_t scratch_bytes = 0;
+  PixelBox window;            ///< pixels of the result; contains the data windows of all `parts`
+  size_t extra_planes = 0;    ///< count of additional planes, see Part
+  const int scale;            ///< samples along each side of a pixel
+  const int longest_fill;     ///< max number of pixels to fill in each gap
+  const int64_t memory;       ///< max memory in bytes
+  int64_t scratch_bytes = 0;  ///< memory that `process` uses on all threads, in bytes
   Process process;
   Reach reach;
 
-  /// Plane `extra` of the current band, for `process`.
+  /// Returns additional plane `extra` (from 0) of the current band. Only `process` may call it.
   Plane extra_plane(size_t extra) const;
 
-  /// Throws Error: kInput and kFailed like reader and writer, kMemory when the budget does not hold the
-  /// narrowest band. Sets `cancelled`, `window` and `bands` of the report.
+  /// Makes and writes all bands. Sets `cancelled`, `window` and `bands` of the report. Passes on the errors
+  /// of ExrReader and ExrWriter. Throws Error (kMemory) when `memory` does not suffice for a band of 16 rows.
   void run(const std::filesystem::path& output, const Job& job, PostReport& report);
 
-  /// Memory of the views' fields.
+  /// Memory of the fields of all views, in bytes.
   int64_t field_bytes() const;
 
-  /// Position of the view in the window.
+  /// Returns the position of `window` in the canvas of the view, with the scale and the max width of seams.
   WarpTarget target(const MovingView& view) const;
 
  private:
-  /// Memory except for the bands.
+  /// Memory in bytes that does not depend on the size of a band.
   int64_t fixed_bytes() const;
   int64_t band_bytes(Band band) const;
   Band next_band(int first) const;
@@ -113,23 +117,24 @@ class BandJob {
   Band band_{0, 0};
 };
 
-/// Throws Error (kMemory) naming the file when the memory for making the field of this picture and `held`
-/// bytes of other fields together exceed the budget.
+/// Throws Error (kMemory) naming the file when making the field of this picture, together with `held` bytes
+/// of other fields, needs more than `budget` bytes.
 void check_field_memory(const ViewImage& image, int64_t held, int64_t budget);
 
-/// Throws Error (kInput) naming a layer that was declared as data or colours but is found in no view.
+/// Throws Error (kInput) naming the layer when `choice` declares a layer as data or colours that no view has.
 void check_named_layers(const std::vector<MovingView>& views, const LayerChoice& choice);
 
-/// Reads the vectors of a layer, which `params` describes. Reports non-finite vectors and warns of a wrong
-/// unit. `flag`: prefix of the flags that set the unit; `where`: end of every message.
+/// Reads vectors from two channels, u and v (`layer`: their indices), and converts them to pixels as `params`
+/// describes. Adds a note about non-finite vectors, and a warning if the unit seems wrong. `flag`: prefix of
+/// the command line options that set the unit, such as "--motion". `where`: text appended to both messages.
 std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, size_t> layer,
                                      const VectorParams& params, const std::string& flag,
                                      const std::string& where, PostReport& report);
 
-/// "depth", or "depth 'far'" if it was named.
+/// Returns a layer's description for messages: "depth", or "depth 'far'" if `name` is "far" instead of empty.
 std::string layer_label(const std::string& what, const std::string& name);
 
-/// Throws Error (kInput); the message names the missing data, the remedy and the available layers.
+/// Throws Error (kInput). The message contains `what` is missing, `advice`, and the available channels.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

@@ -11,10 +11,10 @@ struct BlurFileParams {
   PostTiling tiling;
 };
 
-/// `pelage motionblur` on one file: blurs each view that has motion vectors and copies the other views. Parts
-/// keep their names, channels, types and attributes; their data windows grow by the motion, up to the display
-/// window. Throws Error (kInput) when no view has vectors or a view with vectors has no depth; throws the
-/// errors of BandJob.
+/// Processes one file as `pelage motionblur` does: blurs each view that has motion vectors, and copies the
+/// other views. Parts keep their names, channels, types and attributes. Their data windows grow by the
+/// motion, up to the display window. Throws Error (kInput) when no view has motion vectors, or when a view
+/// with motion vectors has no depth. Passes on the errors of BandJob.
 PostReport blur_file(const std::filesystem::path& input, const std::filesystem::path& output,
                      const BlurFileParams& params, const Job& job);
 

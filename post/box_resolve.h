@@ -10,26 +10,26 @@
 
 namespace pelage {
 
-/// Converts work buffers to pixels with equal weights for all samples. Counts are integers, so a pixel that
-/// sees only one pixel of the source is an exact copy of this source pixel, for any number of samples. NaN
-/// colours count as zero in averages.
+/// Converts the samples of work buffers to pixels. All samples of a pixel have the same weight. If all
+/// samples of a pixel show the same source pixel, the pixel is an exact copy of this source pixel. In
+/// averages, NaN colours count as zero.
 ///
-/// Colours are read once for each run of steps in which a pixel sees the same pixels of the source. Thread
-/// safety: one thread at a time; use one per worker.
+/// Counts samples per source pixel first, so the colours of a source pixel are read only once for consecutive
+/// steps that show it. Thread safety: only one thread at a time may use an instance; use one per worker.
 class BoxResolve {
  public:
-  /// `with_colors`: otherwise channels of role kColor are not written.
+  /// `with_colors`: whether channels of role kColor are written.
   explicit BoxResolve(const PostLayers& layers, bool with_colors = true)
       : layers_(layers), with_colors_(with_colors) {}
 
-  /// Starts pixels `box` of the result.
+  /// Starts the pixels of `box` of the result, with scale * scale samples per pixel in each step.
   void begin(const PixelBox& box, int scale);
-  /// Adds the samples of one step, or of `steps` equal steps. `buffer` must cover the box.
+  /// Adds the samples of a buffer `steps` times. The buffer must contain all samples of the box.
   void add(const WorkBuffer& buffer, int steps = 1);
   /// Writes the pixels of the box.
   void finish();
 
-  /// Temporary memory per pixel of the box.
+  /// Temporary memory in bytes per pixel of the box.
   static size_t bytes_per_pixel(const PostLayers& layers) {
     return layers.channels.size() * sizeof(float) + sizeof(State) + 2 * sizeof(Entry);
   }
@@ -41,10 +41,10 @@ class BoxResolve {
     uint32_t count;
   };
   struct State {
-    Sample front;  // nearest of all samples
+    Sample front;  // nearest of all samples so far
     uint32_t source = 0;
     uint32_t count = 0;     // samples of `source` that are not yet in the sums
-    bool is_mixed = false;  // the sums are not empty
+    bool is_mixed = false;  // samples of other source pixels are in the sums
   };
   static constexpr size_t kMaxEntries = 1 << 14;
 

@@ -10,14 +10,13 @@
 
 namespace pelage {
 
-/// Extends a picture beyond its left and right sides, where `cut` declares that the picture is cut off. A row
-/// of the field is mirrored at the side, and each mirrored pixel keeps its depth and motion. A sky that moves
-/// farther than a surface in front of it therefore appears behind that surface, as it would in a wider
-/// picture.
+/// Extends one row of a picture beyond each side where `cut` declares that the picture is cut off. The row of
+/// the field is mirrored at this side. Each mirrored pixel keeps its depth and motion. If a sky moves farther
+/// than a surface in front of it, mirrored sky appears behind this surface, as it would in a wider picture.
 ///
-/// `line`: sample row `row` of the result from column 0 on, warped to time 1; empty samples get the nearest
-/// of the mirrored pixels that reach them, and kExtended in `filled`. Extends by at most `max` pixels on each
-/// side.
+/// `line`: sample row `row` of the result, from column 0 on, after the warp to time 1. Each empty sample
+/// becomes the nearest of the mirrored pixels that move to it, and is marked kExtended in `filled`. Samples
+/// that no mirrored pixel reaches stay empty. `max`: max number of pixels to mirror at each side.
 void extend_sides(const FlowField& field, const WarpTarget& target, RowEnds cut, int max, int row,
                   std::span<Sample> line, std::span<uint8_t> filled);
 

@@ -12,63 +12,74 @@
 
 namespace pelage {
 
-/// A channel of a file and the meaning of its name. If a layer is stored in a separate part, its channel
-/// names often contain no layer; the name of the part is then the layer.
+/// A channel of a file, with its name split into view, layer and component. If a layer is stored in a part of
+/// its own, the names of its channels often contain no layer; then the name of the part is the name of the
+/// layer.
 struct NamedChannel {
-  size_t part = 0, channel = 0;  ///< indices in ExrReader::parts() and in the part
-  std::string view;              ///< empty when the file has no views, or the channel belongs to none
-  std::string layer;             ///< "key.diffuse" of "key.diffuse.R"; empty for a bare name
-  std::string component;         ///< "R"
+  size_t part = 0, channel = 0;  ///< index in ExrReader::parts(), and in ExrPart::channels
+  std::string view;              ///< empty if the channel belongs to no view
+  std::string layer;             ///< "key.diffuse" of "key.diffuse.R"; empty for "R"
+  std::string component;         ///< "R" of "key.diffuse.R"
   ChannelType type = ChannelType::kHalf;
-  /// The name without its view.
+  /// Returns the name without the view.
   std::string name() const { return layer.empty() ? component : layer + "." + component; }
 };
 
-/// All channels of a file, in order, with the views of multi-view files removed from their names: from the
-/// part's `view`, or from "left.R" and "forward.left.u" where the header lists the views.
+/// Returns all channels of a file, in order, and determines their views. If a part has a `view`, all its
+/// channels belong to this view. If the header lists several views instead (ExrPart::multi_view), the view is
+/// the name before the component, as in "left.R" and "forward.left.u"; names with a single component belong
+/// to the default view.
 std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
 
-/// Names of the views, the default one first; {""} for a file without views.
+/// Returns the names of the views, with the default view first. Contains "" if some channels belong to no
+/// view.
 std::vector<std::string> views_of(const std::vector<NamedChannel>& channels,
                                   const std::vector<ExrPart>& parts);
 
-/// User's choice of layers whose names are not standard.
+/// Layers that the user chose, because their names are not standard. Empty members mean no choice.
 struct LayerChoice {
-  std::string motion;             ///< "forward", a part's name, or two channels: "mv.R,mv.G"
-  std::string depth;              ///< a layer, a part or a channel; "none": everything has the same distance
-  std::vector<std::string> data;  ///< layers that are not averaged
-  std::vector<std::string> colors;  ///< layers that are averaged, whatever their names suggest
+  std::string motion;               ///< a layer, a part, or two channels: "mv.R,mv.G"
+  std::string depth;                ///< a layer, a part or a channel; "none": all pixels have the same depth
+  std::vector<std::string> data;    ///< layers, parts or channels that are not averaged
+  std::vector<std::string> colors;  ///< layers, parts or channels that are averaged, also if named like data
 };
 
-/// Finds the layers that the tools need among the channels of one view. Names are compared ignoring case and
-/// punctuation. Numbers are indices of `channels`.
+/// Finds the layers that the tools need among the channels of one view. Comparisons of names ignore case and
+/// punctuation. All size_t values are indices of `channels`.
 class LayerFinder {
  public:
   LayerFinder(const std::vector<NamedChannel>& channels, const std::vector<ExrPart>& parts, std::string view,
               const LayerChoice& choice);
 
-  /// Both channels of the vectors: u and v, x and y, or r and g of the chosen layer, otherwise of "forward",
-  /// "motion" and other usual names.
+  /// Returns the two channels of the motion vectors; empty if there are none. They are called u and v, x and
+  /// y, r and g, or red and green. Their layer is the one that the user chose or, without a choice, the first
+  /// of "forward", "motion" and other usual names.
   std::optional<std::pair<size_t, size_t>> motion() const { return motion_; }
-  /// The same for a layer with this name. Falls back to channels that belong to no view.
+  /// Returns the two channels of the vectors in the layer `name` of this view or, if there is none, among
+  /// channels that belong to no view. `name` may also be two channels: "mv.R,mv.G".
   std::optional<std::pair<size_t, size_t>> vectors(const std::string& name) const;
+  /// Returns the channel of the depth: the user's choice, or a channel with a usual name; empty if there is
+  /// none.
   std::optional<size_t> depth() const { return depth_; }
-  /// The alpha channel without a layer, or else of a layer "combined", "beauty" or "rgba".
+  /// Returns the alpha channel without a layer or, if there is none, that of a layer "combined", "beauty" or
+  /// "rgba".
   std::optional<size_t> alpha() const;
   LayerRole role(size_t channel) const;
-  /// Cryptomattes declared by the attributes, as indices of channels.
+  /// Returns the Cryptomattes that the attributes of the file declare.
   const std::vector<RankedMatte>& mattes() const { return mattes_; }
+  /// Whether any channel of this view has the role kColor.
   bool has_colors() const;
-  /// Whether any channel of the file has this name as channel, layer or part.
+  /// Whether this is the name of a channel, layer or part of the file, in any view.
   bool has(const std::string& name) const;
 
-  /// The available channels, for messages: "R, G, B, A, key.diffuse.R and 12 more". With several parts, names
-  /// without a layer follow the name of their part: "mv.R".
+  /// Returns the names of the first 12 channels, for messages: "R, G, B, A, key.diffuse.R and 12 more". If
+  /// the file has several parts, the name of a channel without a layer is preceded by the name of its part:
+  /// "mv.R".
   std::string listing() const;
 
  private:
   bool is_here(size_t channel) const { return channels_[channel].view == view_; }
-  /// Calls `search` for this view and, if that finds nothing, for channels that belong to no view.
+  /// Calls search(view) with this view. If `search` finds nothing, calls it with "", for channels of no view.
   template <class Search>
   auto in_view_or_none(Search&& search) const {
     const auto found = search(view_);

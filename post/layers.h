@@ -7,16 +7,16 @@
 
 namespace pelage {
 
-/// How a channel is resolved where one pixel of the result shows several pixels of the source.
+/// How a channel of a pixel is computed if the samples of the pixel show several source pixels.
 enum class LayerRole {
-  kColor,  ///< premultiplied light or coverage: averaged
-  kData,   ///< normals, ids, vectors ...: from the front-most visible pixel, zero where there is none
-  kDepth,  ///< the same, but infinite where there is none
-  kMatte,  ///< part of a ranked matte: averaged by id, then ranked again
+  kColor,  ///< premultiplied light or coverage: the average
+  kData,   ///< normals, ids, vectors: the value of the nearest source pixel; zero if there is none
+  kDepth,  ///< depth: the value of the nearest source pixel; infinity if there is none
+  kMatte,  ///< id or coverage of a RankedMatte: coverage is averaged for each id, then ids are ranked again
 };
 
-/// Words of 4 bytes in memory: floats, or the bits of other numbers when they are only copied. Pixel (x, y)
-/// is words[(y - first_row) * row_stride + x * pixel_stride].
+/// Pixels of one channel in memory. Each is a word of 4 bytes: a float, or the bits of another number that is
+/// only copied. Pixel (x, y) is words[(y - first_row) * row_stride + x * pixel_stride].
 struct Plane {
   float* words = nullptr;
   ptrdiff_t pixel_stride = 1;
@@ -29,14 +29,15 @@ struct Plane {
   }
 };
 
-/// One channel to process. `source` is read-only.
+/// One channel to process: reads `source` and writes `target`.
 struct PostChannel {
   LayerRole role = LayerRole::kColor;
   Plane source;
   Plane target;
 };
 
-/// A Cryptomatte or another list of (id, coverage), best first: numbers of channels, all of role kMatte.
+/// A Cryptomatte or a similar list of pairs (id, coverage) for each pixel, sorted by decreasing coverage.
+/// `id` and `coverage` are indices of channels with the role kMatte.
 struct RankedMatte {
   struct Rank {
     size_t id, coverage;

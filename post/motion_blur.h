@@ -11,59 +11,62 @@
 
 namespace pelage {
 
-/// Opening of the shutter, and number of samples in time. Times are in frames (or the unit of the vectors),
-/// relative to the rendered instant.
+/// Interval in which the shutter is open, and number of samples in time. The unit of time is the frame, or
+/// the time in which a pixel moves by its vector. Time 0 is the rendered instant.
 struct ShutterParams {
-  float length = 0.5f;  ///< 0.5 is a shutter of 180 degrees
-  float centre = 0;     ///< 0: symmetric about the rendered instant
-  int steps = 0;        ///< number of times; 0: about one per pixel of the longest motion, 8 to 64
+  float length = 0.5f;  ///< duration; 0.5 is a shutter of 180 degrees
+  float centre = 0;     ///< middle of the interval
+  int steps = 0;        ///< number of samples; 0: one per pixel of the longest motion, but 8 to 64
 };
 
-/// The sample times: centres of equal parts of the shutter. `longest`: max length of all vectors, in pixels.
-/// Without motion, there is a single time.
+/// Returns the sample times: the centres of equal parts of the shutter interval. `longest`: max length of all
+/// vectors, in pixels. If steps == 0 and there is no motion, returns a single time.
 std::vector<float> shutter_times(const ShutterParams& shutter, float longest);
 
-/// Default max size of gaps to close, in pixels.
+/// Default of WarpTarget::longest_seam for motion blur, in pixels.
 inline constexpr int kDefaultSeam = 4;
 
-/// Tiling of the work; does not affect pixels.
+/// Size of the tiles in which workers process the picture. Does not affect pixels.
 struct PostTiling {
-  int columns = 128, rows = 16;  ///< pixels of a tile that a worker draws and resolves at a time
+  int columns = 128, rows = 16;  ///< size of a tile in pixels
 };
 
-/// Rows of the result (the picture shifted by target.origin) to make, and their input.
+/// Rows of the result to make, and their input. Pixel (x, y) of the result is pixel (x + target.origin_x, y +
+/// target.origin_y) of the field.
 struct BlurJob {
   const FlowField* field = nullptr;
   WarpTarget target;
   std::vector<float> times;
-  int width = 0;                    ///< columns of the result
-  int first_row = 0, last_row = 0;  ///< half-open
+  int width = 0;                    ///< number of columns of the result
+  int first_row = 0, last_row = 0;  ///< rows first_row <= y < last_row
 };
 
-/// Pixmotor [Neulander07; Neulander13]: warps the picture to each of the job's times, resolves visibility,
-/// and averages. The sources of the layers must contain all rows of the field that can reach the job's rows
-/// (`rows_reaching`). The targets of the layers must contain the job's rows. Throws no Error. Reports a step
-/// per row to `progress` and returns early when `progress` is cancelled. Otherwise the result depends only on
-/// the job and the layers, not on the tiling and the workers.
+/// Blurs some rows of a picture with the algorithm Pixmotor [Neulander07; Neulander13]: warps the picture to
+/// each of the times, determines which pixel is visible at each sample, and averages over all times. The
+/// sources of the layers must contain all rows that rows_reaching() returns for the rows of the job. The
+/// targets must contain the rows of the job. Throws no Error. Advances `progress` by 1 per row, and returns
+/// early when `progress` is cancelled. If not cancelled, the result depends only on the job and the layers,
+/// not on the tiling or the workers.
 void blur_rows(const BlurJob& job, const PostLayers& layers, PostTiling tiling, const Workers& workers,
                Progress& progress);
 
-/// Half-open; empty is {0, 0}.
+/// Rows first <= y < last; {0, 0} if empty.
 struct RowRange {
   int first = 0, last = 0;
 };
 
-/// Rows of the field from which a pixel may reach rows first_row .. last_row (half-open) of the result at one
-/// of the times.
+/// Returns a range of rows of the field that contains all pixels that may appear in rows first_row <= y <
+/// last_row of the result at one of the times. `width`: number of columns of the result.
 RowRange rows_reaching(const FlowField& field, const WarpTarget& target, int width, int first_row,
                        int last_row, const std::vector<float>& times);
 
-/// Integer number of pixels per side.
+/// Number of pixels by which a picture grows at each side.
 struct Overhang {
   int left = 0, top = 0, right = 0, bottom = 0;
 };
 
-/// How far pixels move outside the field at any of the times.
+/// Returns upper bounds of the distance by which pixels move beyond each side of the field at any of the
+/// times.
 Overhang overhang(const FlowField& field, const std::vector<float>& times);
 
 }  // namespace pelage

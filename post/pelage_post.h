@@ -3,15 +3,18 @@
 #define PELAGE_POST_H
 #pragma once
 /*
- * Motion blur and stereo from one eye, for a compositing host: plain C, pictures in the host's own memory.
+ * C interface for compositing programs (hosts): adds motion blur to a picture, or makes the picture of the
+ * second eye from the picture of the first eye. All pictures are in memory of the host.
  *
- * Fill a pelage_post_image with the picture, an options struct with its *_defaults function, call
- * pelage_motion_blur or pelage_stereo. The functions keep no state between calls, throw no exceptions, and
- * may run concurrently. Every struct starts with its size, so that later versions can extend it.
+ * Describe the picture in a pelage_post_image, fill a pelage_post_options with pelage_post_defaults(), change
+ * options as needed, and call pelage_motion_blur() or pelage_stereo(). The functions keep no state between
+ * calls, throw no exceptions, and may run concurrently. pelage_post_image and pelage_post_options start with
+ * their size, so that later versions can extend them.
  *
- * Pixels: rows from the top, x right, y down; channels anywhere in memory, with strides in floats. Result and
- * source have the same size; targets must not overlap memory that is read. Vectors are in pixels per frame,
- * depth is the distance along the camera axis; pixels with alpha 0 are infinitely far away.
+ * Rows of pixels run from the top; x points right, y points down. Each channel may be anywhere in memory; its
+ * strides are in floats. Result and source have the same size. Targets must not overlap memory that is read.
+ * Motion vectors are in pixels per frame. Depth is the distance along the camera axis. Pixels with alpha 0
+ * count as infinitely far away, whatever their depth.
  */
 #include <stddef.h>
 
@@ -28,14 +31,14 @@ extern "C" {
 typedef enum pelage_post_result {
   PELAGE_POST_DONE = 0,
   PELAGE_POST_CANCELLED = 1,    /* the progress function asked to stop; targets are unfinished */
-  PELAGE_POST_BAD_ARGUMENT = 2, /* described in pelage_post_options.message */
+  PELAGE_POST_BAD_ARGUMENT = 2, /* pelage_post_options.message describes the problem */
   PELAGE_POST_NO_MEMORY = 3
 } pelage_post_result;
 
 typedef enum pelage_post_role {
-  PELAGE_POST_COLOR = 0, /* premultiplied light or coverage: averaged */
-  PELAGE_POST_DATA = 1,  /* of the front-most pixel; zero where there is none */
-  PELAGE_POST_DEPTH = 2  /* the same; infinite where there is none */
+  PELAGE_POST_COLOR = 0, /* premultiplied light or coverage: the average */
+  PELAGE_POST_DATA = 1,  /* the value of the nearest visible pixel; zero if there is none */
+  PELAGE_POST_DEPTH = 2  /* the value of the nearest visible pixel; infinity if there is none */
 } pelage_post_role;
 
 /* Read-only floats: pixel (x, y) is words[y * row_stride + x * pixel_stride]. */
@@ -48,7 +51,7 @@ typedef struct pelage_post_plane {
 typedef struct pelage_post_channel {
   pelage_post_role role;
   pelage_post_plane source;
-  float* target; /* first pixel */
+  float* target; /* pixel (0, 0) of the result */
   ptrdiff_t target_pixel_stride;
   ptrdiff_t target_row_stride;
 } pelage_post_channel;
@@ -58,34 +61,37 @@ typedef struct pelage_post_image {
   int width, height; /* at most 65535 */
   const pelage_post_channel* channels;
   size_t channel_count;
-  pelage_post_plane depth;              /* words NULL: everything has the same distance */
-  pelage_post_plane alpha;              /* words NULL: every pixel is covered */
-  pelage_post_plane motion_x, motion_y; /* only for pelage_motion_blur */
+  pelage_post_plane depth;              /* required for stereo; else words NULL: same depth everywhere */
+  pelage_post_plane alpha;              /* words NULL: alpha is 1 everywhere */
+  pelage_post_plane motion_x, motion_y; /* required for motion blur; unused for stereo */
 } pelage_post_image;
 
-/* Called from any thread with the fraction done, 0 to 1; a non-zero result stops the work. */
+/* Called from any thread with the fraction of the work that is done, 0 to 1. Return 0 to continue, any other
+ * value to stop. */
 typedef int (*pelage_post_progress)(void* user, double done);
 
 typedef struct pelage_post_options {
   size_t size;          /* sizeof(pelage_post_options) */
-  int scale;            /* samples per pixel and side, 1 to 8 */
-  int threads;          /* 0: all */
-  float shutter;        /* motion blur: open for this many frames */
-  float centre;         /* motion blur: its centre, in frames from the rendered instant */
-  int steps;            /* motion blur: 0: about one per pixel of motion */
-  float focal_pixels;   /* stereo */
-  float eye_separation; /* stereo: scene units, positive to the right */
-  float convergence;    /* stereo: scene units; infinity for none */
-  int box_filter;       /* stereo: 0: Lanczos */
-  int longest_fill;     /* max pixels to fill in a gap, up to 65535; -1: all for stereo,
-                           4 for blur */
-  float* invented;      /* stereo: NULL, or width * height floats: the filled fraction of each pixel */
+  int scale;            /* samples along each side of a pixel, 1 to 8 */
+  int threads;          /* number of threads; 0: one per processor */
+  float shutter;        /* motion blur: time for which the shutter is open, in frames */
+  float centre;         /* motion blur: middle of this time, in frames from the rendered instant */
+  int steps;            /* motion blur: number of sample times, up to 4096; 0: one per pixel of the
+                           longest motion, but 8 to 64 */
+  float focal_pixels;   /* stereo: focal length, in pixels of the picture's width */
+  float eye_separation; /* stereo: scene units to the other eye; positive: right, negative: left */
+  float convergence;    /* stereo: distance with zero parallax, in scene units; may be infinite */
+  int box_filter;       /* stereo: 0: Lanczos filter, else box filter */
+  int longest_fill;     /* max number of pixels to fill in each gap, up to 65535; -1: 65535 for stereo,
+                           4 for motion blur */
+  float* invented;      /* stereo: NULL, or width * height floats that receive the filled fraction of
+                           each pixel */
   pelage_post_progress progress; /* NULL: none */
   void* user;
-  char message[160]; /* out: the error, or empty */
+  char message[160]; /* result: describes a bad argument; else empty */
 } pelage_post_options;
 
-/* Sets size, and every other member to its default. */
+/* Sets `size`, and all other members to their defaults. */
 PELAGE_POST_API void pelage_post_defaults(pelage_post_options* options);
 
 PELAGE_POST_API pelage_post_result pelage_motion_blur(const pelage_post_image* image,

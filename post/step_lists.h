@@ -9,30 +9,34 @@
 
 namespace pelage {
 
-/// Lists of the pixels that reach a tile of the picture at each step, for blocks of the field whose vectors
-/// differ so much that the blocks' bounds are useless: every block would reach every tile at every step, at a
-/// cost of pixels * tiles * steps. With the lists the cost is pixels * tiles. Does not affect pixels.
+/// Lists, for one tile of the picture, the pixels of the field that may reach the tile at each step (time).
+/// Used for blocks of the field whose vectors differ very much. The bounds of such a block would reach almost
+/// every tile at every step, so drawing whole blocks would cost pixels * tiles * steps. With the lists, the
+/// cost is pixels * tiles. Does not affect the result.
 ///
-/// Thread safety: one thread at a time; use one per worker.
+/// Thread safety: only one thread at a time may use an instance; use one per worker.
 class StepLists {
  public:
   struct Pixel {
     uint16_t x, y;
   };
 
-  /// Removes from `blocks` all blocks whose vectors diverge by more than kWild pixels between two times, and
-  /// lists the pixels of these blocks instead. When the lists are full, the other blocks stay. `times` may be
-  /// in any order; only times in ascending order are listed.
+  /// Clears the lists. Then removes from `blocks` each block whose pixels move apart by more than kWild
+  /// pixels until the time with the largest absolute value, and lists the pixels of this block instead. When
+  /// the lists are full, the remaining blocks stay in `blocks`. If `times` are not ascending, lists nothing
+  /// and leaves `blocks` unchanged. `samples`: the samples of the tile.
   void gather(const Warp& warp, const std::vector<float>& times, const PixelBox& samples,
               std::vector<const FlowField::Block*>& blocks);
+  /// Returns the listed pixels for times[step].
   const std::vector<Pixel>& at(size_t step) const { return by_step_[step]; }
 
-  /// Whether any block of the field may need lists at times up to `largest`.
+  /// Returns whether any block of the field may need lists, given the largest absolute value of the times.
   static bool is_needed(const FlowField& field, float largest) {
     return spread(field.low(), field.high()) * largest > kWild;
   }
-  /// Capacity of kMaxPixels pixels, twice that while a list grows.
+  /// Max number of pixels in all lists together.
   static constexpr size_t kMaxPixels = 1 << 19;
+  /// Max memory in bytes: kMaxPixels pixels, doubled because a growing list is copied.
   static constexpr size_t bytes_needed() { return 2 * kMaxPixels * sizeof(Pixel); }
 
  private:

@@ -7,31 +7,33 @@
 namespace pelage {
 
 struct StereoFileParams {
-  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< fill: every gap by default
-  std::optional<std::string> view;      ///< input view; default "left" if it exists, else the default view
-  std::optional<float> eye_separation;  ///< scene units; default 6.5 cm where the file defines a unit
+  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< default: 6 samples per side; fills all gaps
+  std::optional<std::string> view;      ///< input view; empty: "left" if it exists, else the file's default
+  std::optional<float> eye_separation;  ///< scene units; empty: 6.5 cm, if the file defines the unit
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units
-  std::optional<float> focal_pixels;                           ///< overrides the camera of the file
-  std::optional<float> fov_deg;                                ///< vertical; overrides the camera of the file
-  std::string parallax;  ///< layer that contains the parallax, as described by `file.vectors`; empty:
-                         ///< computed from a camera
-  bool to_left = false;  ///< makes the left eye from the right one
+  std::optional<float> focal_pixels;                           ///< empty: from the file's camera
+  std::optional<float> fov_deg;  ///< vertical field of view; empty: from the file
+  std::string parallax;  ///< layer that contains the parallax, in the unit of `file.vectors`; empty: the
+                         ///< parallax is computed from depth and camera
+  bool to_left = false;  ///< makes the left eye's picture from the right eye's
   StereoFilter filter = StereoFilter::kLanczos;
   int strip_rows = kStripRows;
 };
 
-/// `pelage stereo` on one file: makes the other eye's picture of one view, with parts named after the other
-/// eye. The layer `invented` of the part with the colours contains the filled fraction (`mask`) and the empty
-/// fraction (`hole`) of each pixel. Camera matrices, if any, become the other eye's. Throws Error: kInput
-/// when the view, its depth or a camera is missing; also throws the errors of BandJob.
+/// Processes one file as `pelage stereo` does: makes the other eye's picture of one view. The names of the
+/// parts are those of the other eye. The part with the colours gets a layer `invented`, whose channels are
+/// the filled fraction (`mask`) and the empty fraction (`hole`) of each pixel. Camera matrices of the header,
+/// if any, are converted to the other eye. Throws Error (kInput) when the view, its depth or a camera is
+/// missing. Passes on the errors of BandJob.
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
                        const StereoFileParams& params, const Job& job);
 
-/// Focal length in pixels from the matrices worldToCamera and worldToNDC of a header, in its standard
-/// meaning (row vectors, NDC from 0 to 1); nothing where they are missing or singular.
+/// Returns the focal length in pixels of the picture's width, computed from the matrices worldToCamera and
+/// worldToNDC of a header. They have the meaning of the OpenEXR standard: row vectors, NDC from 0 to 1.
+/// Returns an empty value when a matrix is missing or the focal length cannot be computed.
 std::optional<float> focal_pixels_of(const ExrPart& part);
 
-/// Converts the camera matrices to the other eye.
+/// Converts the camera matrices of a header to the other eye. Does nothing when they are missing or singular.
 void move_camera(ExrPart& part, const StereoCamera& camera);
 
 }  // namespace pelage

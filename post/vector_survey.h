@@ -9,26 +9,29 @@
 
 namespace pelage {
 
-/// Interpretation of a file's vectors.
+/// Unit and direction of the vectors in a file.
 struct VectorParams {
-  bool is_ndc = false;   ///< fractions of the display window instead of pixels
-  bool is_y_up = false;  ///< positive v points up, as in Nuke; Pelage writes it pointing down
-  float scale = 1;       ///< additional factor that converts the vectors to motion per frame
+  bool is_ndc = false;   ///< true: fractions of the display window's size; false: pixels
+  bool is_y_up = false;  ///< true: positive v points up, as in Nuke; false: down, as in files of Pelage
+  float scale = 1;       ///< factor that converts the vectors to motion per frame
 };
 
-/// Statistics of a layer of vectors, collected while it is read, to recognise a wrong unit.
+/// Collects statistics of the vectors of a layer while they are read, to recognise that VectorParams are
+/// wrong.
 class VectorSurvey {
  public:
   /// `limit`: length in pixels above which a vector counts as too long.
   explicit VectorSurvey(float limit) : limit_(limit) {}
 
-  /// Adds one pixel: the words of the file, and the resulting vector in pixels.
+  /// Adds the vector of one pixel: u and v as stored in the file, and the converted vector in pixels.
   void add(float u, float v, Flow pixels);
 
+  /// Count of vectors with a non-finite u or v.
   size_t not_finite() const { return not_finite_; }
-  /// A warning if the vectors probably have another unit than the parameters declare; it names the option to
-  /// change. Empty otherwise. `flag`: prefix of the options' names, "--motion". `width`: of the display
-  /// window. `is_ours`: the file comes from Pelage, whose vectors are always in pixels.
+  /// Returns a warning if the vectors are damaged or probably have another unit than `params` declares; else
+  /// an empty value. The warning names the command line option to change. `flag`: prefix of these options,
+  /// such as "--motion". `width`: width of the display window in pixels. `is_ours`: whether Pelage wrote the
+  /// file; its vectors are always in pixels.
   std::optional<std::string> warning(const VectorParams& params, const std::string& flag, int width,
                                      bool is_ours) const;
 
@@ -36,12 +39,12 @@ class VectorSurvey {
   std::string long_vector_warning(const VectorParams& params, const std::string& flag) const;
 
   float limit_;
-  float longest_ = 0;  // in pixels, over all finite vectors
+  float longest_ = 0;  // max length of all finite vectors, in pixels
   size_t count_ = 0, not_finite_ = 0;
-  size_t moving_ = 0;    // non-zero
-  size_t too_long_ = 0;  // among moving_
-  size_t at_half_ = 0;   // both words within 0.01 of 0.5
-  bool is_unit_ = true;  // all words lie within 0 and 1
+  size_t moving_ = 0;    // count of non-zero vectors
+  size_t too_long_ = 0;  // count of vectors longer than limit_
+  size_t at_half_ = 0;   // count of vectors with u and v within 0.01 of 0.5
+  bool is_unit_ = true;  // all u and v are in [0, 1]
 };
 
 }  // namespace pelage

@@ -11,36 +11,39 @@
 
 namespace pelage {
 
-/// Destination of a field: pixel (x, y) of the picture is pixel (x + origin_x, y + origin_y) of the field,
-/// which may lie outside the field.
+/// Maps pixels of the resulting picture to pixels of the field: without motion, pixel (x, y) of the picture
+/// shows pixel (x + origin_x, y + origin_y) of the field, which may lie outside the field.
 struct WarpTarget {
-  int scale = 4;  ///< samples per pixel and side
+  int scale = 4;  ///< samples along each side of a pixel
   int origin_x = 0, origin_y = 0;
-  /// Gaps between two surfaces that are adjacent in the field are closed up to this size, in pixels.
+  /// Max width of seams, in pixels: wider gaps between two pixels that are neighbours in the field stay open.
   float longest_seam = 0;
 };
 
 /// Draws the pixels of a field, moved to a given time, into tiles of a picture. A pixel is a square whose
-/// corners move (FlowField::corner); a sample belongs to it when the sample's centre lies inside. Neighbours
-/// on one surface share their corners, so that each sample between them belongs to exactly one of them.
+/// four corners move (FlowField::corner()). A sample shows the pixel if the centre of the sample lies inside
+/// the moved pixel. Neighbours on one surface share their corners, so each sample near their common side
+/// shows exactly one of them.
 ///
-/// Where neighbours on different surfaces have separated, the farther pixel is extended to the nearer pixel.
-/// The extension is called a seam. It is visible only where there is no surface.
+/// If two neighbours on different surfaces move apart, the farther pixel is extended to the nearer one. The
+/// extension is called a seam. A seam is visible only at samples that show no pixel at a finite distance.
 ///
-/// `Buffer` is WorkBuffer, or has the same members samples() and put(). Thread safety: const members from any
-/// thread, each with a separate buffer.
+/// `Buffer` is WorkBuffer, or a class with the same members samples() and put(). Thread safety: const members
+/// may be called from any thread, if each thread passes its own buffer.
 class Warp {
  public:
   Warp(const FlowField& field, WarpTarget target) : field_(field), target_(target) {}
 
-  /// Blocks of the field that may reach `samples` at any time from `first_time` to `last_time`.
+  /// Returns the blocks of the field whose pixels may reach `samples` at any time from `first_time` to
+  /// `last_time`.
   std::vector<const FlowField::Block*> reaching(const PixelBox& samples, float first_time,
                                                 float last_time) const;
-  /// Whether the block may reach `samples` at one time.
+  /// Returns whether pixels of the block may reach `samples` at one time.
   bool reaches(const FlowField::Block& block, const PixelBox& samples, float time) const {
     return reaches(block, samples, time, time);
   }
 
+  /// Draws all pixels of a block, moved to `time`.
   template <class Buffer>
   void draw(const FlowField::Block& block, float time, Buffer& buffer) const {
     const Point margin = margin_at(std::abs(time));
@@ -48,7 +51,7 @@ class Warp {
       for (int x = block.x0; x < block.x1; ++x) draw_pixel(x, y, time, margin, buffer);
     }
   }
-  /// The same for one pixel.
+  /// Draws pixel (x, y) of the field, moved to `time`.
   template <class Buffer>
   void draw(int x, int y, float time, Buffer& buffer) const {
     draw_pixel(x, y, time, margin_at(std::abs(time)), buffer);
@@ -57,8 +60,8 @@ class Warp {
   struct Times {
     float first, last;  ///< empty when last < first
   };
-  /// A range of times with magnitudes up to `largest`. Outside of this range, the pixel draws nothing into
-  /// `samples`.
+  /// Returns a range within -largest <= time <= largest that contains all such times at which pixel (x, y)
+  /// may reach `samples`.
   Times times_near(int x, int y, float largest, const PixelBox& samples) const;
 
  private:
@@ -67,8 +70,10 @@ class Warp {
   };
 
   bool reaches(const FlowField::Block& block, const PixelBox& samples, float first, float last) const;
-  /// How far from the end of its own vector a pixel may be visible at times up to `time`, in samples: its
-  /// size, the motion of its shared corners, and its seams.
+  /// Returns the max distance in x and y, in samples, between a moved pixel and the samples that it or its
+  /// seams may cover, for times with an absolute value up to `time`. The moved pixel is the pixel's corner
+  /// moved by the pixel's own vector. The distance includes the size of the pixel, the motion of its shared
+  /// corners, and its seams.
   Point margin_at(float time) const {
     const auto scale = static_cast<float>(target_.scale);
     const float own = 2 + field_.slack() * time;
@@ -86,11 +91,12 @@ class Warp {
       draw_seams(x, y, time, buffer);
     }
   }
-  /// Max width and height of a seam, in pixels, at times up to `time`: bounded by the range of all vectors of
-  /// the picture.
+  /// Returns upper bounds of the width and height of a seam, in pixels, at times with an absolute value up to
+  /// `time`. The range of all vectors of the field limits them.
   Point seam_reach(float time) const;
 
-  /// In samples of the picture. The same for every pixel that shares the corner.
+  /// Returns the position of corner (x, y) of the field, moved to `time`, in samples of the picture. The
+  /// result is bit-identical for all pixels that share the corner.
   Point place(int x, int y, Flow motion, float time) const {
     const auto scale = static_cast<float>(target_.scale);
     return {scale * (static_cast<float>(x - target_.origin_x) + time * motion.x),
@@ -101,7 +107,8 @@ class Warp {
     return p.x >= static_cast<float>(box.x0) - margin.x && p.x <= static_cast<float>(box.x1) + margin.x &&
            p.y >= static_cast<float>(box.y0) - margin.y && p.y <= static_cast<float>(box.y1) + margin.y;
   }
-  /// The first of the samples low .. high whose centre is not before `edge`.
+  /// Returns the smallest i >= low for which the centre of sample i, i + 0.5, is not before `edge`; at most
+  /// `high`.
   static int first_sample(float edge, int low, int high) {
     const float at = std::min(std::max(edge - 0.5f, static_cast<float>(low)), static_cast<float>(high));
     const int below = static_cast<int>(at);  // tiles have no negative samples
@@ -120,7 +127,7 @@ class Warp {
     for (int row = y0; row < y1; ++row) buffer.put(row, x0, x1, sample);
   }
 
-  /// A side of a quad, from its upper end: both adjacent pixels compute the same crossings from it.
+  /// A side of a quad. Starts at its upper end, so that both adjacent pixels compute the same crossings.
   struct Side {
     float y0, y1, x0, slope;
     Side(Point a, Point b) {
@@ -166,7 +173,8 @@ class Warp {
         draw_seam(p, sample, buffer);
       }
     }
-    // Where seams meet: between the four pixels around a corner, the farthest one fills it.
+    // At a corner where seams meet, the farthest of the four pixels around the corner fills the gap between
+    // them.
     for (int c = 0; c < 4; ++c) {
       const int left = x + (c & 1) - 1, top = y + (c >> 1) - 1;
       bool is_last = exists(left, top) && exists(left + 1, top + 1);
@@ -189,7 +197,7 @@ class Warp {
     if (apart > 0 && apart <= longest) fill_quad(p, sample, buffer);
   }
 
-  /// Corners: left and right of the upper side, then of the lower one.
+  /// Draws a quad. `p`: left and right end of its upper side, then left and right end of its lower side.
   template <class Buffer>
   void fill_quad(const Point (&p)[4], Sample sample, Buffer& buffer) const {
     const PixelBox& box = buffer.samples();

@@ -12,18 +12,19 @@
 
 namespace pelage {
 
-/// One sample of the work buffer: the visible pixel of the source as a pair of 16-bit coordinates, and its
-/// distance as a float; 8 bytes without colours [Neulander13]. The nearer of two samples has the smaller
-/// packed number; at equal distance, the pixel that comes first in the source has it. So the final sample
-/// does not depend on the drawing order. Seams (post/warp.h) are visible where there is no surface: they are
-/// behind everything at a finite distance, and in front of everything infinitely far away.
+/// One sample of the work buffer: the coordinates of the visible source pixel as two 16-bit numbers, and its
+/// distance as a float. A sample takes 8 bytes and contains no colours [Neulander13]. All data is packed in
+/// one number. The nearer of two samples has the smaller number; if both are equally far, so does the one
+/// that comes first in the source. Therefore the visible sample does not depend on the order of drawing.
+/// Seams (class Warp) are behind all pixels at a finite distance, and in front of pixels at an infinite
+/// distance.
 class Sample {
  public:
   Sample() = default;
   Sample(float depth, int x, int y) : Sample(std::bit_cast<uint32_t>(depth), x, y) {
     if (!(depth < std::numeric_limits<float>::infinity())) bits_ |= kBehind;
   }
-  /// `depth` must be finite.
+  /// Returns a sample of a seam. `depth` must be finite.
   static Sample seam(float depth, int x, int y) {
     Sample sample(std::bit_cast<uint32_t>(depth), x, y);
     sample.bits_ |= kBehind;
@@ -34,7 +35,7 @@ class Sample {
   bool is_seam() const { return bits_ >= kBehind && bits_ < kInfinite; }
   int x() const { return static_cast<int>(bits_ & 0xffff); }
   int y() const { return static_cast<int>(bits_ >> 16 & 0xffff); }
-  /// Both coordinates in one number, for comparing.
+  /// Both coordinates of the source pixel in one number, to test whether two samples show the same pixel.
   uint32_t pixel() const { return static_cast<uint32_t>(bits_); }
   float depth() const { return std::bit_cast<float>(static_cast<uint32_t>(bits_ >> 32) & 0x7fffffff); }
   bool is_nearer_than(Sample other) const { return bits_ < other.bits_; }
@@ -46,28 +47,29 @@ class Sample {
 
   static constexpr uint64_t kBehind = uint64_t{1} << 63;  // the sign of the depth
   static constexpr uint64_t kInfinite = uint64_t{0xff800000} << 32;
-  static constexpr uint64_t kEmpty = ~uint64_t{0};  // beyond infinity, outside of any picture
+  static constexpr uint64_t kEmpty = ~uint64_t{0};  // farther than infinity; no picture has such a pixel
   uint64_t bits_ = kEmpty;
 };
 static_assert(sizeof(Sample) == 8);
 
-/// A tile of the picture at `scale` samples per pixel and side. Samples are counted from the upper left
-/// corner of the whole picture; the tile contains the samples of the pixels in `box`.
+/// The samples of a tile of the picture. Each pixel has scale * scale samples. The tile contains the samples
+/// of the pixels in `box`. Coordinates of samples count from the upper left corner of the whole picture.
 class WorkBuffer {
  public:
   WorkBuffer(PixelBox box, int scale) { reset(box, scale); }
 
-  /// Resets to another, empty tile.
+  /// Changes the tile, and makes all samples empty.
   void reset(PixelBox box, int scale) {
     samples_ = {box.x0 * scale, box.y0 * scale, box.x1 * scale, box.y1 * scale};
     width_ = static_cast<size_t>(samples_.width());
     data_.assign(width_ * static_cast<size_t>(samples_.height()), Sample());
   }
+  /// Makes all samples empty.
   void clear() { std::fill(data_.begin(), data_.end(), Sample()); }
 
-  /// The range of its samples.
+  /// Range of the samples of the tile.
   const PixelBox& samples() const { return samples_; }
-  /// Row `y` of samples, from samples().x0 on.
+  /// Pointer to the sample in column samples().x0 of row `y`.
   Sample* row(int y) { return &data_[static_cast<size_t>(y - samples_.y0) * width_]; }
   const Sample* row(int y) const { return const_cast<WorkBuffer*>(this)->row(y); }
 
@@ -78,6 +80,7 @@ class WorkBuffer {
     for (int x = x0; x < x1; ++x) to[x] = sample.is_nearer_than(to[x]) ? sample : to[x];
   }
 
+  /// Memory in bytes for the samples of a tile.
   static size_t bytes_needed(PixelBox box, int scale) {
     return sizeof(Sample) * static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()) *
            static_cast<size_t>(scale) * static_cast<size_t>(scale);

@@ -10,10 +10,10 @@ namespace pelage {
 
 class Workers;
 
-/// Grows the strands of a groom with ids below `count` at rest, for a character of scale 1. Calls `visit`
-/// with a batch and an index for each strand, in the order of the ids. Sums in this order do not depend on
-/// how the groom is divided into leaves. The strands are spread over the whole skin. `rest`: null for a groom
-/// without a skin.
+/// Grows the strands of a groom whose ids are below `count`, at rest, for a character of scale 1. Then calls
+/// `visit` for each strand, in the order of the ids, with a batch and the index of the strand in the batch.
+/// Sums in this order do not depend on how the groom is divided into leaves. These strands are spread over
+/// the whole skin. `rest`: the skin at rest; null for a groom without a skin.
 void visit_coat_sample(const Groom& groom, const LimitSurface* rest, uint64_t count, const Workers& workers,
                        const std::function<void(const Strands&, size_t strand)>& visit);
 

@@ -11,22 +11,25 @@
 
 namespace pelage {
 
-/// A skin whose triangles are made on demand, piece by piece. World space.
+/// A skin whose triangles are made on demand. The skin is divided into pieces, which are groups of faces.
+/// World space. The same skin and view always give the same triangles, bit by bit.
 ///
-/// Thread safety: all members may be called from many threads at once. Same skin, same view, same bytes.
+/// Thread safety: all members may be called from many threads at once.
 class DeferredSkin {
  public:
   virtual ~DeferredSkin() = default;
-  /// Divides the skin into pieces that cost at most `max_cost` each, if the faces allow it (divide_skin).
-  /// Throws Error (kStopped).
+  /// Divides the skin into pieces that cost at most `max_cost` each. A piece may cost more if it is a single
+  /// face or would be too small (see divide_skin()). Throws Error (kStopped) when the job is stopped.
   virtual std::vector<SkinPiece> divide(const View& view, size_t max_cost, const Job& job) const = 0;
-  /// A box that contains every triangle of a piece over the span.
+  /// Returns a box that contains every triangle of a piece during the time span.
   virtual Box3f bound(const SkinPiece& piece, BoundSpan span) const = 0;
-  /// Number of poses of tessellate(), at evenly spaced times over the shutter.
+  /// Returns the number of motion keys of tessellate(): poses at evenly spaced times from shutter open to
+  /// close.
   virtual int motion_keys() const = 0;
-  /// The triangles of a piece, independent of how the skin is divided.
+  /// Returns the triangles of a piece. They do not depend on how the skin is divided into pieces.
   virtual SkinMesh tessellate(const SkinPiece& piece, const View& view) const = 0;
-  /// Max temporary memory of tessellate(), without its result and without memory that is already charged.
+  /// Returns the max temporary memory of tessellate() in bytes, without its result and without memory that is
+  /// already charged to the ledger.
   virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
 };
 

@@ -11,19 +11,22 @@
 
 namespace pelage {
 
-/// Level of detail of the coats of a frame. Measures each groom once, however many characters wear it.
+/// Determines the level of detail of all coats of a frame. Measures each groom only once, even if many
+/// characters have this groom.
 class DetailPolicy {
  public:
   /// `job` must outlive this object. `shutter`: opening and closing time, in frames.
   DetailPolicy(const SimplificationParams& params, const LodView& view, const V2f& shutter, const Job& job)
       : params_(params), view_(view), blurs_(params.motion_blur && shutter.y > shutter.x), job_(job) {}
 
-  /// Simplification of a groom on the skin of a character. `rest`: null for a groom without a skin. Whiskers
-  /// are a few dozen isolated strands. They are thinned by size only: omitting more would be visible and
-  /// would save nothing.
+  /// Returns the simplification of a groom on the skin of a character. `rest`: the skin at rest; null for a
+  /// groom without a skin. The share of whiskers depends only on their size in the picture, not on blur and
+  /// facing. Whiskers are a few dozen isolated strands, so omitting more of them would be visible and would
+  /// save nothing.
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
-  /// Direction of the groom's strands, for motion blur; null when not needed.
+  /// Returns the mean directions of the groom's strands, which motion blur needs. Returns null when they are
+  /// not needed: without motion blur, without a skin, and for whiskers.
   std::shared_ptr<const CoatDirection> direction(const Groom& groom,
                                                  const std::shared_ptr<const LimitSurface>& rest);
 

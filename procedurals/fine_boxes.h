@@ -11,44 +11,51 @@
 
 namespace pelage {
 
-/// Many small boxes around the contents of one chunk, in few bytes. Each side is 0 to 255 steps from a corner
-/// of the chunk; the corner moves linearly over the shutter. The boxes are the leaves of an implicit tree:
-/// each box of a coarser level contains four consecutive boxes of the level below, so consecutive boxes
-/// should be close together.
+/// Many small boxes that together contain one chunk, stored in few bytes. The sides of a box are stored as 0
+/// to 255 steps from a corner of the chunk. The corner moves linearly while the shutter is open. The boxes
+/// are the leaves of an implicit tree: each box of a coarser level contains up to four consecutive boxes of
+/// the next finer level. Therefore consecutive boxes should be close together.
 ///
-/// Immutable once made.
+/// Immutable once constructed.
 class FineBoxes {
  public:
-  /// Low and high sides of four boxes, by axis. Missing boxes are inverted on every axis.
+  /// Four boxes: group[axis][0][i] and group[axis][1][i] are the low and the high side of box i, in steps. If
+  /// there are fewer than four boxes, low > high on every axis for the missing ones.
   using Group = std::array<std::array<std::array<uint8_t, 4>, 2>, 3>;
 
-  /// Origin of the steps at shutter open, its motion until shutter close, and the length of a step.
+  /// `corner`: the position of step 0 at shutter open. `motion`: its motion from shutter open to close.
+  /// `step`: the length of a step along each axis.
   struct Grid {
     V3f corner{0}, motion{0}, step{0};
   };
 
-  /// No boxes: nothing is known about the chunk.
+  /// Makes no boxes, which means that nothing is known about the chunk.
   FineBoxes() = default;
-  /// Boxes that contain `boxes`, which must not be empty: box b at key k (evenly spaced times of the shutter)
-  /// is boxes[b * keys + k]. The contents move linearly between keys.
+  /// Makes boxes that contain the given boxes. Box b at key k is boxes[b * keys + k]; it must contain at
+  /// least a point. Keys are at evenly spaced times from shutter open to close. The contents of a box must
+  /// move linearly between keys.
   FineBoxes(std::span<const Box3f> boxes, size_t keys);
-  /// From stored data: the finest level and its number of boxes.
+  /// Makes boxes from stored data. `finest`: the groups of the finest level. `count`: number of boxes of this
+  /// level.
   FineBoxes(const Grid& grid, std::span<const Group> finest, size_t count);
 
   /// Number of boxes of the finest level.
   size_t count() const { return count_; }
   const Grid& grid() const { return grid_; }
-  /// The groups of a level; 0 is the finest. The highest has one group.
+  /// Returns the groups of a level. Level 0 is the finest. Level levels() - 1 is the coarsest and has one
+  /// group.
   std::span<const Group> level(size_t level) const {
     return std::span(groups_).subspan(first_group(level), group_count(level));
   }
   size_t levels() const { return levels_; }
-  /// Box b of the finest level at a time of the shutter.
+  /// Returns box b of the finest level at a time of the shutter: 0 at shutter open, 1 at close.
   Box3f box(size_t b, float time) const;
-  /// Whether every box is well-formed and the grid finite: false after reading garbage.
+  /// Returns whether low <= high for every box, and all numbers of the grid are finite. False if stored data
+  /// is damaged.
   bool is_possible() const;
   /// Heap memory.
   size_t bytes() const { return groups_.capacity() * sizeof(Group); }
+  /// Number of groups for this number of boxes.
   static size_t groups_of(size_t boxes) { return (boxes + 3) / 4; }
 
  private:

@@ -12,7 +12,7 @@
 
 namespace pelage {
 
-/// Existing strands as a procedural.
+/// A procedural whose strands are given to the constructor instead of being grown.
 class FixedStrands final : public Procedural {
  public:
   explicit FixedStrands(Strands strands) : strands_(std::move(strands)) {}
@@ -41,7 +41,7 @@ class FixedStrands final : public Procedural {
   Strands strands_;
 };
 
-/// Existing triangles as a skin.
+/// A skin whose triangles are given to the constructor. It has a single piece.
 class FixedSkin final : public DeferredSkin {
  public:
   explicit FixedSkin(SkinMesh mesh) : mesh_(std::move(mesh)) {}

@@ -9,19 +9,19 @@
 
 namespace pelage {
 
-/// The coat of one groom on one character. Splits into one leaf procedural per leaf of the groom's follicle
-/// tree.
+/// The coat of one groom on one character. Without level of detail, it splits into one FurLeafProcedural per
+/// leaf of the groom's follicle tree.
 class FurProcedural final : public Procedural {
  public:
-  /// With `lod`, reduces detail as described by `lod` and `direction` (CoatDetail); several leaves may then
-  /// form one chunk.
+  /// If `lod` is given, reduces the level of detail (see CoatDetail for `direction`). The coat then splits
+  /// into ThinnedFurProcedurals, each of which has the kept strands of one or more leaves.
   FurProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
                 const std::optional<Simplification>& lod = {},
                 std::shared_ptr<const CoatDirection> direction = {});
 
   Box3f bound(BoundSpan span) const override;
   std::vector<std::unique_ptr<Procedural>> split() const override;
-  /// The whole coat at once, leaf by leaf, for tools that need a single batch.
+  /// Returns all strands of the coat, chunk by chunk, for tools that need a single batch.
   Strands generate() const override;
   StrandCounts counts() const override;
   StrandScale scale() const override;
@@ -30,10 +30,10 @@ class FurProcedural final : public Procedural {
  private:
   std::shared_ptr<const Groom> groom_;
   std::shared_ptr<const PosedCharacterSkin> skin_;
-  std::shared_ptr<const CoatDetail> detail_;  // null: every strand
+  std::shared_ptr<const CoatDetail> detail_;  // null: every strand is grown
 };
 
-/// One leaf of a coat: a chunk.
+/// One leaf of a coat with all its strands. It is one chunk.
 class FurLeafProcedural final : public Procedural {
  public:
   FurLeafProcedural(std::shared_ptr<const Groom> groom, std::shared_ptr<const PosedCharacterSkin> skin,
@@ -45,7 +45,7 @@ class FurLeafProcedural final : public Procedural {
   StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
   std::optional<ContentHash> content() const override;
-  /// Stored beside the cache of the groom, one file for all leaves of the coat.
+  /// The boxes are stored beside the cache of the groom, in one file for all leaves of the coat.
   std::optional<BoundsRecord> bounds_record() const override;
   size_t bytes() const override { return sizeof(*this); }
 

@@ -10,15 +10,16 @@
 
 namespace pelage {
 
-/// Shapes of level ground, as described by a scene.
+/// Values of the keys of a level rectangle of ground.
 struct RectangleAreaParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "rectangle";
   V3f center{0};
-  V2f size{100, 100};  ///< along x and z before `rotate`
+  V2f size{100, 100};  ///< lengths of the sides along x and z, before the rotation
   float rotate = 0;    ///< degrees about y
   static const Schema<RectangleAreaParams>& schema();
 };
+/// Values of the keys of a level disc of ground.
 struct DiscAreaParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "disc";
@@ -26,6 +27,7 @@ struct DiscAreaParams {
   float radius = 50;
   static const Schema<DiscAreaParams>& schema();
 };
+/// Values of the keys of a level polygon of ground.
 struct PolygonAreaParams {
   static constexpr const char* kTypeKey = "type";
   static constexpr const char* kTypeName = "polygon";
@@ -35,20 +37,20 @@ struct PolygonAreaParams {
 };
 using AreaParams = std::variant<RectangleAreaParams, DiscAreaParams, PolygonAreaParams>;
 
-/// A ground area of any shape, ready for queries. Points are (x, z). Immutable.
+/// A level area of ground of any of these shapes. Points are (x, z), in world space. Immutable.
 class GroundArea {
  public:
   explicit GroundArea(const AreaParams& params);
 
   bool contains(const V2f& point) const;
-  /// The point of the area nearest to `point`.
+  /// Returns the point of the area that is nearest to `point`.
   V2f nearest(const V2f& point) const;
-  /// Smallest and largest coordinates.
+  /// Smallest and largest x and z of the area.
   V2f min() const { return min_; }
   V2f max() const { return max_; }
-  double surface() const { return surface_; }
-  double border() const { return border_; }  ///< length of the border
-  float height() const { return height_; }
+  double surface() const { return surface_; }  ///< area in square scene units
+  double border() const { return border_; }    ///< length of the border
+  float height() const { return height_; }     ///< y of the ground
 
  private:
   std::vector<V2f> outline_;  // empty for a disc

@@ -7,11 +7,12 @@
 
 namespace pelage {
 
-/// Counts of the geometry that could be grown, and of the geometry that was grown for use.
+/// Counts of the chunks that rays could hit, and of the strands that were grown for rays. Strands that were
+/// grown only to measure their boxes do not count.
 struct GrowthCounts {
-  int64_t chunks = 0;   ///< leaves of coats and skins that could be grown
-  int64_t strands = 0;  ///< strands grown; strands that are grown again count again
-  BoundsArea area;      ///< area of the boxes of all leaves of coats
+  int64_t chunks = 0;   ///< count of chunks of coats and skins, grown or not
+  int64_t strands = 0;  ///< count of strands grown; a strand counts each time it is grown
+  BoundsArea area;      ///< total area of the boxes of all chunks of coats
 
   GrowthCounts& operator+=(const GrowthCounts& other) {
     chunks += other.chunks;

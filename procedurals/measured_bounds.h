@@ -12,20 +12,22 @@
 
 namespace pelage {
 
-/// The first of two passes (bound_chunks): obtains the boxes of chunks by growing each chunk once and
-/// measuring it, in this run or an earlier run. Call read(), then measure(), then use the results. Warns once
-/// when side files cannot be written.
+/// Determines the boxes of chunks for bound_chunks(), for strategies that measure strands. The boxes of a
+/// chunk are read from a side file that an earlier run wrote; otherwise the chunk is grown and measured. Call
+/// read(), then measure(), then use the results. Warns only once if side files cannot be written.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
                  const WarningSink& warn);
 
-  /// Reads the boxes that earlier runs stored in side files.
+  /// Reads the boxes of all chunks for which earlier runs wrote side files.
   void read(const Job& job);
-  /// Measures the other chunks, and writes each side file when all of its chunks are known.
+  /// Grows and measures the other chunks. Writes each side file as soon as the boxes of all its chunks are
+  /// known. Does not write a file if some of its chunks are not to be bounded.
   void measure(const Job& job);
 
   BoundingCounts counts() const;
+  /// Returns the boxes of all chunks, in the order of `chunks`.
   std::vector<ChunkBounds> bounds() && { return std::move(bounds_); }
 
  private:
@@ -33,7 +35,7 @@ class MeasuredBounds {
   /// The chunks whose boxes are stored in one file.
   struct BoundsGroup {
     BoundsRecord record;
-    std::vector<uint32_t> chunks;  // by index in the file; kNone where a chunk is not being bounded
+    std::vector<uint32_t> chunks;  // by index in the file; kNone: the chunk is not in chunks_
     bool is_complete() const;
   };
 
@@ -49,13 +51,13 @@ class MeasuredBounds {
   const std::span<const Procedural* const> chunks_;
   const WarningSink warn_;  // called by one thread at a time
   std::mutex warning_;
-  bool warned_ = false;  // that side files cannot be written; guarded by warning_
+  bool warned_ = false;  // whether it warned that a file cannot be written; guarded by warning_
   std::vector<ChunkBounds> bounds_;
   std::vector<BoundsArea> areas_;  // by chunk, so that their sum does not depend on the order
   std::vector<BoundsGroup> groups_;
-  std::vector<uint32_t> group_of_;           // by chunk; kNone: not in a complete group
-  std::vector<std::atomic<uint32_t>> left_;  // by group: chunks that are not known yet
-  std::vector<char> known_;                  // by chunk: read from a file
+  std::vector<uint32_t> group_of_;           // by chunk; kNone: in no complete group
+  std::vector<std::atomic<uint32_t>> left_;  // by group: count of chunks whose boxes are not known yet
+  std::vector<char> known_;                  // by chunk: whether its boxes were read from a file
 };
 
 }  // namespace pelage

@@ -12,14 +12,16 @@
 
 namespace pelage {
 
-/// Owns the memory of poses. Whole poses with trees are expensive. The cache keeps the most recently used
-/// whole poses alive, one per thread, so that consecutive chunks of a character share one pose. A partial
-/// pose is made for a single leaf and freed after it. Thread safety: all members may be called from any
-/// thread.
+/// Keeps recently used poses of skins alive, and charges the memory of all poses to the ledger. A whole pose
+/// contains the whole skin and may contain trees, which are expensive to make. The cache keeps as many whole
+/// poses as there are threads, namely the most recently used ones, so that consecutive chunks of a character
+/// share one pose. A partial pose contains only the faces below one chunk. It is made for this chunk and
+/// freed after the chunk has been grown. Thread safety: all members may be called from any thread.
 ///
-/// Each thread uses at most one whole pose that the cache does not keep. From the start, the cache therefore
-/// charges 2 * threads whole poses of the largest size, and one partial pose per thread, to the skins. Poses
-/// made later need no further budget.
+/// Poses must be announced with their sizes before they are made. Each thread uses at most one whole pose
+/// that the cache does not keep, and one partial pose. Therefore each announcement makes the cache charge, to
+/// MemoryTag::kSkins, enough for 2 * threads whole poses of the largest announced size and for `threads`
+/// partial poses of the largest announced size. Making poses later needs no further memory budget.
 class PoseCache {
  public:
   PoseCache(int threads, MemoryLedger& ledger);
@@ -27,14 +29,15 @@ class PoseCache {
   PoseCache(const PoseCache&) = delete;
   PoseCache& operator=(const PoseCache&) = delete;
 
-  /// Announces whole poses of up to `bytes` bytes.
+  /// Announces whole poses that take up to `bytes` bytes each.
   void reserve(size_t bytes);
-  /// Announces that leaves of a groom will grow on partial poses with `keys` times. Groom and topology must
-  /// outlive the cache.
+  /// Announces partial poses with `keys` keys, each for one leaf of a groom. Groom and topology must outlive
+  /// the cache.
   void reserve_for_leaves(const Groom& groom, const SurfaceTopology& topology, size_t keys);
-  /// Announces partial poses with `keys` times that may contain all faces.
+  /// Announces partial poses with `keys` keys, which may contain all faces of the skin.
   void reserve_for_whole(const SurfaceTopology& topology, size_t keys);
-  /// Keeps `pose` alive until as many other poses as there are threads have been used after it.
+  /// Records the use of a whole pose. The cache keeps this pose alive until as many other poses as there are
+  /// threads have been used after it.
   void keep(std::shared_ptr<const SkinPose> pose);
 
  private:

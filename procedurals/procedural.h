@@ -17,52 +17,54 @@ namespace pelage {
 
 class ContentStore;
 
-/// Time span for which a bound holds. A procedural that does not know the shutter must bound the whole
-/// interval of its frame, [frame - 1/2, frame + 1/2]. With a closed shutter, kFrame and kShutter
-/// are the same instant.
+/// Time span for which a bound is valid. kFrame: the frame interval [frame - 1/2, frame + 1/2]. kShutter:
+/// from shutter open to close. A procedural that does not know the shutter must return bounds for kFrame in
+/// both cases. If the shutter opens and closes at the same time, both spans are this instant.
 enum class BoundSpan { kFrame, kShutter };
 
-/// Where the exact boxes of a chunk are stored between runs: entry `index` of the `count` entries with one
-/// key.
+/// Location of the exact boxes of a chunk that are stored between runs. The boxes of `count` chunks are
+/// stored together in one file of `store`; this chunk has the index `index`.
 struct BoundsRecord {
   std::shared_ptr<const ContentStore> store;
-  ContentHash key;  ///< hash of everything that the boxes of all entries depend on, except `span` and `keys`
-                    ///< of exact_bounds()
+  ContentHash key;  ///< hash of everything on which the boxes of all these chunks depend, except `span` and
+                    ///< `keys` of exact_bounds()
   size_t index = 0;
   size_t count = 0;
 };
 
-/// Geometry that is made on demand, in the steps bound, split and generate, like RenderMan's RiProcedural
-/// [RISPEC 3.2, procedural primitives]. World space.
+/// Strands that are made on demand. As with RiProcedural of RenderMan [RISPEC 3.2, procedural primitives],
+/// there are three steps: bound(), split() and generate(). World space. Every call of generate() returns the
+/// same strands, bit by bit.
 ///
-/// Thread safety: all members may be called from many threads at once. The same procedural always generates
-/// the same bytes.
+/// Thread safety: all members may be called from many threads at once.
 class Procedural {
  public:
   virtual ~Procedural() = default;
-  /// A box that contains every point +- radius that generate() can return, over the span (law 4). Does not
-  /// grow strands.
+  /// Returns a box that contains all strands of generate(), with their radii, during the span (law 4). Does
+  /// not grow strands.
   virtual Box3f bound(BoundSpan span) const = 0;
-  /// Smaller procedurals that replace this one; empty for a leaf.
+  /// Returns smaller procedurals that together replace this one. Returns none for a leaf.
   virtual std::vector<std::unique_ptr<Procedural>> split() const { return {}; }
-  /// The strands of a leaf, over the shutter.
+  /// Returns the strands of a leaf, with motion keys from shutter open to close.
   virtual Strands generate() const = 0;
-  /// Size of the result of generate(): exact, or an upper bound.
+  /// Returns the size of the result of generate(), or an upper bound of it.
   virtual StrandCounts counts() const = 0;
-  /// Scale of the coat; the same for all procedurals that this one is split into.
+  /// Returns the scale of the coat. It is the same for this procedural and all those that split() returns.
   virtual StrandScale scale() const = 0;
-  /// Temporary memory of generate() that is neither its result nor the memory that growing any leaf with this
-  /// number of strands needs.
+  /// Returns additional temporary memory of generate(), in bytes: without its result, and without the memory
+  /// that growing any leaf with the same counts() needs.
   virtual size_t temporary_bytes() const { return 0; }
-  /// Exact boxes of the parts of a leaf over the span (two-pass bounding): grows everything, measures and
-  /// discards it. `keys`: 1, or 2 for boxes linear in time over the shutter.
+  /// Returns the exact boxes of the parts of a leaf during the span. Grows all strands of the leaf, measures
+  /// them, and discards them. `keys`: 1 for boxes that are constant in time, 2 for boxes that are linear in
+  /// time from shutter open to close.
   virtual ChunkBounds exact_bounds(BoundSpan span, int keys) const = 0;
-  /// Identifies the result of generate(): equal hashes mean equal strands, in any run of this program. Empty
-  /// when unknown.
+  /// Returns a hash that identifies the result of generate(): equal hashes mean equal strands, in all runs of
+  /// this build of the program. Empty when unknown.
   virtual std::optional<ContentHash> content() const { return {}; }
-  /// Where the exact boxes of this leaf are stored; empty if they are not stored.
+  /// Returns the location where the exact boxes of this leaf are stored; empty if they are not stored.
   virtual std::optional<BoundsRecord> bounds_record() const { return {}; }
-  /// Heap memory of this object. A frame has hundreds of thousands of procedurals.
+  /// Returns the heap memory that this object takes, including the object itself, because a frame may have
+  /// hundreds of thousands of procedurals.
   virtual size_t bytes() const { return 0; }
 };
 

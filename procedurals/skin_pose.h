@@ -12,26 +12,27 @@
 
 namespace pelage {
 
-/// A skin in one pose, or its part below one leaf, ready for growing hair. Made from posed cages when
-/// something grows, and freed afterwards. Immutable. Thread safety: const members may be called from any
-/// thread.
+/// A skin of a character in a frame, or only some of its faces, with everything needed to grow strands on it.
+/// It is made from posed cages when strands grow, and freed afterwards. Immutable. Thread safety: const
+/// members may be called from any thread.
 struct SkinPose {
-  std::vector<LimitSurface> keys;        ///< one per motion key
-  std::unique_ptr<const SkinMesh> mesh;  ///< the mesh of `trees`; null if there are no trees
-  std::vector<ClosestPointTree> trees;   ///< one per key, only for grooms with push_out
-  std::vector<M44f> transforms;          ///< of the character, one per key; used for strands without a skin
-  size_t open_key = 0, close_key = 0;    ///< keys at which the shutter opens and closes
-  float scale = 1;
-  float length = 1;
+  std::vector<LimitSurface> keys;        ///< the skin at each key, in order of time
+  std::unique_ptr<const SkinMesh> mesh;  ///< mesh that `trees` refer to; null if there are no trees
+  std::vector<ClosestPointTree> trees;   ///< one per key; only for grooms with the operator push_out
+  std::vector<M44f> transforms;          ///< object to world space, one per key; for strands without a skin
+  size_t open_key = 0, close_key = 0;    ///< indices of the keys at which the shutter opens and closes
+  float scale = 1;                       ///< CharacterPose::scale
+  float length = 1;                      ///< CharacterPose::length
 
   PosedSkin skin() const { return {keys, trees, scale, transforms, length}; }
   size_t bytes() const;
 };
 
-/// Appends to `faces` the ptex faces below the first `count` strands of a leaf, possibly with repetitions.
-/// Appends none for a groom without a skin.
+/// Appends the ptex faces on which the first `count` strands of a leaf grow to `faces`, in no particular
+/// order and possibly with repetitions. Appends none for a groom without a skin.
 void add_faces(const Groom& groom, size_t leaf, size_t count, std::vector<uint32_t>& faces);
-/// The ptex faces below the strands of a leaf, ascending; none for a groom without a skin.
+/// Returns the ptex faces on which the strands of a leaf grow, ascending and without repetitions. Returns
+/// none for a groom without a skin.
 std::vector<uint32_t> leaf_faces(const Groom& groom, size_t leaf);
 
 }  // namespace pelage

@@ -9,15 +9,16 @@
 
 namespace pelage {
 
-/// A chunk of a coat with reduced detail. It has the strands kept from one leaf or from several adjacent
-/// leaves; for a distant character, from all leaves. Strands that are not kept are never grown.
+/// A chunk of a coat with reduced level of detail. It has the kept strands of one leaf or of several
+/// consecutive leaves; for a distant character, of all leaves. Strands that are not kept are never grown.
 class ThinnedFurProcedural final : public Procedural {
  public:
-  /// All leaves of the coat, in chunks with about as many strands as its largest leaf.
+  /// Returns all leaves of the coat as chunks of consecutive leaves. A chunk has at most as many candidates
+  /// (CoatDetail::candidates()) as the largest leaf has strands.
   static std::vector<std::unique_ptr<Procedural>> divide(std::shared_ptr<const CoatDetail> detail,
                                                          std::shared_ptr<const PosedCharacterSkin> skin);
 
-  /// Leaves [first, end) as chunk `index` of `count`.
+  /// Makes chunk `index` of the `count` chunks of a coat, with the leaves first <= leaf < end.
   ThinnedFurProcedural(std::shared_ptr<const CoatDetail> detail,
                        std::shared_ptr<const PosedCharacterSkin> skin, size_t first, size_t end, size_t index,
                        size_t count);

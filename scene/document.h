@@ -11,46 +11,50 @@
 
 namespace pelage {
 
-/// One `--set a.b.c=value` of the command line; the value is YAML.
+/// One option `--set key=value` of the command line. The key is a path "a.b.c"; the value is YAML.
 struct Override {
   std::string key;
   std::string value;
 };
 
-/// Splits "a.b=value" at its first '='. Throws Error (kArguments) when there is none.
+/// Splits "a.b=value" at the first '='. Throws Error (kArguments) when there is no '=' or no key before it.
 Override parse_override(const std::string& text);
 
-/// Reads a scene file into a tree of values. Applies `include:` (a file or a list; maps are merged, the
-/// including file wins), then the overrides, which take precedence over everything. Overrides address list
-/// items by index. An item that is a map with one key can also be addressed by that key:
-/// `grooms.under.operators.clump.amount`. Does not interpret the keys: schemas do that afterwards.
+/// Reads a scene file into a tree of values. Merges the files of the key `include` (a file or a list of
+/// files) into the document: maps are merged key by key, and the values of the including file take
+/// precedence. Then applies the overrides, which take precedence over all files. The key of an override
+/// addresses an item of a list by its index, from 0. If the item is a map with one key, this key can be used
+/// instead of the index: `grooms.under.operators.clump.amount`. Does not interpret keys and values; schemas
+/// do so afterwards.
 ///
-/// Reports all syntax mistakes, duplicate keys, anchors, aliases and tags together, each with
-/// file:line:column. Depth, size and the number of included files are limited; include cycles are errors.
-/// Throws Error (kInput).
+/// Throws Error (kInput) with all mistakes together, each with file:line:column. Mistakes are malformed YAML,
+/// duplicate keys, anchors, aliases, tags, and a file that includes itself. The depth of nesting, the total
+/// size and the number of files are limited (DocumentLimits).
 Value load_document(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
-/// Support for renamed keys. A document may use an old name: the loader replaces it by the new name before
-/// files are merged, so the including file and the overrides take precedence under either name. A file or an
-/// override that gives a key under both names adds a problem.
+/// Support for renamed keys. A document may use an old name of a key. The loader replaces old names by
+/// current names before it merges files, so the precedence of files and overrides does not depend on which
+/// name they use. A file or an override that uses both names of a key causes a problem.
 struct RenamedKeys {
   const SchemaInfo& root;              ///< table of the whole document
-  std::vector<Problem> warnings = {};  ///< one for every old name, with its position and the new name
+  std::vector<Problem> warnings = {};  ///< one per use of an old name, with its position and the current name
 };
 
-/// The same for callers that validate the values afterwards and report all mistakes together. Adds mistakes
-/// to `problems` instead of throwing, unless the scene file itself cannot be opened. Returns nullopt when a
-/// file could not be read or is not YAML, because keys that are missing from such a document should not be
-/// reported.
+/// Reads a scene file like the other load_document(), but adds mistakes to `problems` instead of throwing, so
+/// that the caller can report them together with mistakes in the values. Throws Error (kInput) only if the
+/// scene file itself cannot be opened. Returns nullopt when any file could not be read or is not YAML. The
+/// caller then must not report missing keys, because the unreadable file may contain them.
 std::optional<Value> load_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
                                    Problems& problems, RenamedKeys* renamed = nullptr);
 
-/// Reads a document from memory; `name` replaces the file name in positions; includes are relative to the
-/// current folder.
+/// Reads a document from a text. `name` is used as the file name in positions. Included files are relative to
+/// the folder of `name`, which is the current folder if `name` contains no folder. Throws Error (kInput) with
+/// all mistakes.
 Value parse_document(const std::string& text, const std::string& name);
 
-/// The manual of every key reachable from `root`, or of one table. Markdown when `markdown`, else plain text.
-/// Throws Error (kArguments) with the nearest name when the section does not exist.
+/// Returns the manual: of all tables that can be reached from `root`, or only of the table `section` if this
+/// is not empty. The text is Markdown if `markdown` is true, else plain text. Throws Error (kArguments) with
+/// the nearest name when there is no such section.
 std::string manual_text(const SchemaInfo& root, const std::string& section = {}, bool markdown = false);
 
 }  // namespace pelage

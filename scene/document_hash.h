@@ -6,8 +6,9 @@
 
 namespace pelage {
 
-/// Hash of a document after includes and overrides: keys and values in their order, without positions,
-/// comments and formatting.
+/// Returns the hash of a document to which includes and overrides have been applied. The hash depends on all
+/// keys and values, on their order, and on whether texts are quoted. It does not depend on positions,
+/// comments or formatting.
 ContentHash document_hash(const Value& document);
 
 }  // namespace pelage

@@ -8,11 +8,12 @@
 
 namespace pelage {
 
-/// Sets the value of an override in a document: replaces the existing value, or creates the value and the
-/// blocks that contain it. Does not create a block if a block of a similar name exists. An item of a list is
-/// addressed by its index (from 0). An item that is a map with one key can also be addressed by this key, or
-/// by the `name:` in the block under the key. Added values have the position "--set a.b.c". With `renamed`,
-/// the document uses current names, and the path may use old names.
+/// Sets the value that an override names: replaces the existing value, or creates the value and the blocks
+/// that contain it. If a block is missing but a block with a similar name exists, adds a problem instead of
+/// creating the block. The path addresses an item of a list by its index (from 0). If the item is a map with
+/// one key, the path can also use this key, or the value of `name` in the block under this key. The position
+/// of the new value is "--set a.b.c". If `renamed` is given, the document must use current names of keys, but
+/// the path may use old names.
 void apply_override(const Override& override, Value& document, DocumentLimits& limits, Problems& problems,
                     RenamedKeys* renamed = nullptr);
 

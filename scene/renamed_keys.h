@@ -11,29 +11,31 @@
 
 namespace pelage {
 
-/// Gives every key of a document its current name and adds a warning for every old one. A block that has a
-/// key under both names adds a problem.
+/// Replaces every old name of a key in a document by its current name, and adds a warning for it. If a block
+/// contains both names of a key, adds a problem and removes the entry with the old name.
 void rename_old_keys(Value& document, RenamedKeys& renamed, Problems& problems);
 
-/// Follows the path of an override through a document whose keys have their current names.
+/// Follows the path of an override through a document, and translates old names of keys in the path. The keys
+/// of the document must have their current names.
 class RenamedPath {
  public:
   RenamedPath(Value& document, RenamedKeys& renamed);
-  /// The current name of a key of `block`. If `name` is an old name, adds a warning with the position
-  /// `where`.
+  /// Returns the current name of a key of `block`. If `name` is an old name, adds a warning with the position
+  /// `where`; otherwise returns `name`.
   std::string present_name(const Value& block, const std::string& name, const SourcePosition& where);
-  /// Takes the next step of the path: from `block` to the `value` of one of its keys. `name`: the current
-  /// name of this key.
+  /// Moves one step along the path, from `block` to `value`, which is the value of the key `name` of this
+  /// block. `name` must be the current name.
   void enter(const Value& block, const std::string& name, Value& value);
 
  private:
   const SchemaInfo* table_of(const Value& block) const;
 
   RenamedKeys& renamed_;
-  std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // next on the path
+  std::vector<std::pair<const Value*, const SchemaInfo*>> blocks_;  // possible next blocks, with tables
 };
 
-/// Merges `over` into `base`: entries of maps one by one, other values as a whole. `over` wins.
+/// Merges `over` into `base`. If both are maps, merges them key by key; keys of only one map are kept.
+/// Otherwise replaces `base` by `over`.
 void merge_into(Value& base, Value over);
 
 }  // namespace pelage

@@ -9,35 +9,37 @@
 
 namespace pelage {
 
-/// The text of a scene file and its line starts. Lines and columns count from 1; columns count characters as
-/// an editor does, not bytes.
+/// The text of a scene file, which converts byte positions to lines and columns for messages. Lines and
+/// columns of a SourcePosition count from 1. Columns count characters as an editor does, not bytes.
 class SourceText {
  public:
-  /// Skips a byte order mark. `file`: file name in positions.
+  /// Removes a byte order mark from the start of `text`. `file`: file name for positions.
   SourceText(std::string text, std::string file);
 
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
 
-  /// A line, counted from 0, without its line end; empty when it does not exist.
+  /// Returns a line, counted from 0, without its '\n'. Returns an empty text when the line does not exist.
   std::string_view line(int line) const;
 
-  /// Position of a byte of a line, both counted from 0; positions beyond the text are clamped to its end.
-  /// Fast for ascending queries.
+  /// Returns the position of a byte in a line. Both arguments count from 0, and are clamped to the text. Fast
+  /// if calls for the same line have ascending columns.
   SourcePosition position(int line, int byte_column);
 
-  /// The same for a byte offset in the whole text.
+  /// Returns the position of a byte, given its offset in the whole text.
   SourcePosition position_of_byte(size_t byte);
 
-  /// Adds a problem and returns false when the text is not UTF-8, contains control characters, or opens
-  /// hundreds of brackets: yaml-cpp queues a quarter kilobyte for each bracket before its first event.
+  /// Returns whether the text can be parsed safely; if not, adds a problem. The text must be UTF-8, without
+  /// control characters, and with at most 256 brackets open at once, because yaml-cpp allocates 256 bytes for
+  /// each open bracket before it reports anything.
   bool check(Problems& problems);
 
  private:
   std::string text_;
   std::string file_;
   std::vector<size_t> line_starts_;
-  // Where the last character count ended, so that a long line is not counted again for each of its values.
+  // Line and byte where the last count of characters ended, and its result. The next call for this line
+  // starts there, so that a long line is not counted again for each of its values.
   int counted_line_ = -1;
   size_t counted_bytes_ = 0;
   int counted_characters_ = 0;

@@ -9,20 +9,21 @@
 
 namespace pelage {
 
-/// Remaining allowance of one scene, over all its files and overrides. Readers subtract what they use.
+/// Limits for all files and overrides of one scene together. A reader subtracts its use, so the members are
+/// what the scene may still use.
 struct DocumentLimits {
-  size_t bytes = size_t(2) << 20;
-  size_t values = 100'000;
-  int files = 64;
+  size_t bytes = size_t(2) << 20;  ///< total size of the texts
+  size_t values = 100'000;         ///< count of scalars, lists, maps and keys
+  int files = 64;                  ///< count of files, including the scene itself
 };
 
-/// Reads one YAML document into values, without expanding anything: anchors, aliases, tags, merge keys,
-/// duplicate keys and keys that are not names are problems, as is nesting beyond 64 levels. An empty document
-/// is a null value; text that is not YAML adds a problem and returns nothing. Never throws because of the
-/// text.
+/// Reads a text with one YAML document into a tree of values. Adds a problem for each anchor, alias, tag,
+/// merge key, duplicate key and key that is not a scalar. Returns a null value for an empty document. Adds a
+/// problem and returns nullopt if the text is not YAML, exceeds the limits, or is nested more than 64 levels
+/// deep. Throws no exception because of the text.
 ///
-/// `file`: file name in positions; with `fixed`, every value has this position instead (for text from the
-/// command line).
+/// `file`: file name for positions. If `fixed` is given, all values and problems have this position instead
+/// (for text from the command line).
 std::optional<Value> read_yaml(std::string text, const std::string& file,
                                const std::optional<SourcePosition>& fixed, DocumentLimits& limits,
                                Problems& problems);

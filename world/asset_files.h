@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// The files that a scene names, except poses: meshes, strands, guides, maps and environments. Used to refuse
-/// output files that would overwrite them.
+/// Returns the paths of all files that a scene names, except for poses: meshes, strands, guides, maps and
+/// environments. Commands use the list to reject output files that would overwrite these files.
 std::vector<std::filesystem::path> asset_files(const SceneDescription& scene);
 
 }  // namespace pelage

@@ -17,13 +17,13 @@
 
 namespace pelage {
 
-/// Data that all frames of a scene share: cages with shared topologies, grooms, materials with their
-/// textures.
+/// Data that all frames of a scene share: skins, grooms, crowds, and materials with their textures. Skins
+/// with the same topology share one SurfaceTopology.
 struct Assets {
   struct Skin {
-    std::shared_ptr<const LimitSurface> rest;  ///< object space
-    ControlMesh cage;                          ///< at rest
-    std::optional<PoseSequence> poses;
+    std::shared_ptr<const LimitSurface> rest;  ///< surface at rest, in object space
+    ControlMesh cage;                          ///< control cage at rest, in object space
+    std::optional<PoseSequence> poses;         ///< empty: always at rest
   };
 
   explicit Assets(MemoryLedger& ledger, Progress* progress = nullptr) : textures(ledger, progress) {}
@@ -31,17 +31,19 @@ struct Assets {
   TextureLibrary textures;
   std::map<std::string, Skin> skins;
   std::map<std::string, std::shared_ptr<const Groom>> grooms;
-  /// Poses that belong to a single part of a character, by the character's name and the part's index.
+  /// Poses of a part of a character that replace the poses of its skin. The key is the name of the character
+  /// and the index of the part (CharacterParams::parts).
   std::map<std::pair<std::string, size_t>, PoseSequence> part_poses;
-  std::vector<std::vector<CrowdMember>> crowds;  ///< in the order of the scene
+  std::vector<std::vector<CrowdMember>> crowds;  ///< the animals of each crowd, in the order of the scene
   std::vector<MaterialParams> materials;         ///< in the order of the scene
   std::vector<MemoryCharge> charges;
 };
 
-/// Reads every file that the scene names and makes all data that does not change from frame to frame: rest
-/// surfaces, follicles, prepared operators, coats (from their cache if they have one), positions of crowds.
-/// Sets the limit of the ledger. Throws Error: kInput, kMemory before making anything that does not fit
-/// `render.memory`, kStopped when the job is stopped.
+/// Makes all data that is the same in all frames: surfaces at rest, follicles, prepared operators, positions
+/// of crowds, materials. Reads the files that this data needs. Reads coats from their caches where the scene
+/// has any. Sets the limit of the ledger to `render.memory`. Throws Error: kInput for mistakes in files,
+/// kMemory when an object does not fit `render.memory` (before the object is made), kStopped when the job is
+/// stopped.
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

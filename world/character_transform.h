@@ -6,11 +6,11 @@
 
 namespace pelage {
 
-/// Matrix from a character's object space to world space at a frame, for row vectors (p * M): scale, then
-/// rotation about x, y, z, then translation.
+/// Returns the matrix from the object space of a character to world space at a frame, for row vectors (p *
+/// M). The matrix scales first, then rotates about x, y and z in this order, then translates.
 M44f character_matrix(const TransformParams& transform, double frame);
 
-/// Whether the transform is animated.
+/// Returns whether the transform is animated, because one of its values has at least two keys.
 bool moves(const TransformParams& transform);
 
 }  // namespace pelage

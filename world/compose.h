@@ -14,7 +14,7 @@ namespace pelage {
 /// Counts for one frame, or for all frames of a run together.
 struct WorldCounts {
   int64_t strands_described = 0;    ///< number of strands before level of detail
-  int64_t strands_unique = 0;       ///< coats of equal poses counted once
+  int64_t strands_unique = 0;       ///< the same, but equal coats on equal poses are counted once
   int64_t characters = 0;           ///< number of characters with a coat
   int64_t characters_in_frame = 0;  ///< number of characters with a coat whose bound intersects the camera's
                                     ///< view
@@ -32,12 +32,13 @@ struct WorldCounts {
 struct World {
   RenderScene scene;
   WorldCounts counts;
-  FrameHeader header;  ///< header of the EXR file; write_frame() adds the results of rendering
+  FrameHeader header;  ///< header of the EXR file; write_frame() adds the results of the render
   std::vector<MemoryCharge> charges;
 };
 
-/// Poses everything for a frame: skins, coats, materials, lights, camera. Throws Error: kInput for missing
-/// poses and images, kStopped when the job is stopped.
+/// Makes the world of one frame: poses skins and coats, and sets up materials, lights and the camera. Does
+/// not grow strands. Throws Error: kInput for missing or damaged poses and images, kMemory when memory does
+/// not suffice, kStopped when the job is stopped.
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
 
 }  // namespace pelage

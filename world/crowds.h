@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// Places the crowds of a scene one after the other. Each crowd avoids the animals of the previous crowds.
-/// `drawn_bytes`: memory of one animal in a frame, for each character of the scene in order. Before placing
-/// any animal, checks each crowd against `render.memory`, including the memory for rendering it. Passes on
-/// exceptions of make_crowd().
+/// Places the crowds of a scene one after the other. Each crowd keeps its distance from the animals of
+/// earlier crowds. Before placing any animal, throws Error (kMemory) if placing a crowd, or rendering all
+/// crowds up to it, does not fit `render.memory`. Passes on the errors of make_crowd(). `drawn_bytes`: for
+/// each character of the scene, in order, the memory of one animal in a frame (drawn_character_bytes()).
 std::vector<std::vector<CrowdMember>> make_crowds(const SceneDescription& scene,
                                                   const std::vector<int64_t>& drawn_bytes, const Job& job);
 

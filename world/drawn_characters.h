@@ -11,34 +11,37 @@
 
 namespace pelage {
 
-/// A visible character: a single one, or an animal of a crowd.
+/// A character that is visible in the picture: a single character of the scene, or an animal of a crowd.
 struct DrawnCharacter {
   std::string name;       ///< "rat", or "colony.17" for an animal of a crowd, counted from 0
-  std::string prototype;  ///< the character of the scene that it is an instance of
-  const CharacterParams* params = nullptr;
-  std::optional<CrowdMember> member;
+  std::string prototype;  ///< name of the character of the scene that it is or is copied from
+  const CharacterParams* params = nullptr;  ///< parameters of the prototype
+  std::optional<CrowdMember> member;        ///< only for an animal of a crowd
 };
 
-/// All visible characters of a scene, first single ones, then crowds, in the order of the scene. `scene` must
-/// outlive the result.
+/// Returns all visible characters of a scene: first the single characters, then the animals of each crowd, in
+/// the order of the scene. `scene` must outlive the result.
 std::vector<DrawnCharacter> drawn_characters(const SceneDescription& scene, const Assets& assets);
 
-/// Memory of one animal of a character in a frame: names, posed cages and the description of the coats.
-/// Excludes grown hair and whole poses.
+/// Returns the memory in bytes that one animal of a crowd takes in a frame: its names, posed cages and
+/// descriptions of its coats. `name` and `character`: the animal's prototype. The result does not include
+/// grown strands and whole poses (class PoseCache).
 int64_t drawn_character_bytes(const SceneDescription& scene, const Assets& assets, const std::string& name,
                               const CharacterParams& character);
 
-/// Whether hair grows on the character.
+/// Returns whether the character has any groom.
 bool has_coat(const DrawnCharacter& character);
 
-/// Selects `count` characters that keep all their hair; all when fewer have a coat. Sorts the characters with
-/// a coat by distance from `eye`, divides them into `count` equal groups and selects the middle character of
-/// each group, so that near and far characters are sampled equally.
+/// Selects `count` of the characters with a coat to be rendered without level of detail; all of them if there
+/// are no more than `count`. Returns one value per character: true if it is selected. Sorts the characters
+/// with a coat by their distance from `eye` at `frame`, divides the sorted list into `count` equal groups,
+/// and selects the middle character of each group. Thus the selection contains near and far characters.
 std::vector<bool> full_detail_characters(const std::vector<DrawnCharacter>& characters, int64_t count,
                                          const V3f& eye, double frame);
 
-/// The posed cages of one part of a character: over the shutter, and at the ends of the frame's interval if
-/// something moves while the shutter is open.
+/// Returns the posed cages of one part of a character. If the part is animated and the shutter is open for
+/// some time, these are one cage per motion key of the camera, and two cages at frame - 1/2 and frame + 1/2.
+/// Otherwise there is one cage.
 CharacterPose pose_character(const DrawnCharacter& character, size_t part, const Assets& assets,
                              const CameraParams& camera, double frame);
 

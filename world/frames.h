@@ -15,14 +15,16 @@ struct FrameList {
   std::vector<int> frames{1};
 };
 
-/// Reads "7", "1-48", "1-48x2", "-5--1" and lists of these, "1,5,9-12". Throws Error (kArguments) with the
-/// reason, also for more than 1,000,000 frames.
+/// Parses a frame "7", a range "1-48" or "-5--1", a range with a step "1-48x2", or a list of these separated
+/// by commas, "1,5,9-12". Removes duplicates. Throws Error (kArguments) with the reason when the text is
+/// malformed or has more than 1,000,000 frames.
 FrameList parse_frames(const std::string& text);
 
-/// The shortest text from which parse_frames reads the same list: "1-12".
+/// Returns a text that parse_frames() converts to the same list, such as "1-12". Writes three or more frames
+/// with equal steps as a range.
 std::string print_frames(const FrameList& list);
 
-/// `frames:` of a scene: a number or a text for parse_frames.
+/// Reads the key `frames` of a scene: a number, or a text for parse_frames().
 template <>
 struct ValueReader<FrameList> {
   static bool read(const Value&, const KeyOptions&, FrameList& out, Problems&);
@@ -30,14 +32,16 @@ struct ValueReader<FrameList> {
   static std::string print(const FrameList& list) { return print_frames(list); }
 };
 
-/// Whether a file name contains a placeholder for the frame number: %04d, %d, ####, $F4, $F, <F4> or <F>.
+/// Returns whether a file name contains a placeholder for the frame number: %04d, %d, ####, $F4, $F, <F4> or
+/// <F>. The digit, or the count of #, is the min number of digits.
 bool has_frame_pattern(std::string_view name);
 
-/// The name with the frame number in place of all placeholders; `%%` becomes `%`. Negative numbers keep their
-/// digits: %04d of -3 is -0003.
+/// Replaces each placeholder of a file name by the frame number, and `%%` by `%`. The minus sign of a
+/// negative number does not count as a digit: %04d becomes -0003 for frame -3.
 std::string frame_file_name(std::string_view name, int frame);
 
-/// Throws Error (kArguments) when several frames would be written to one file.
+/// Throws Error (kArguments) when the list has several frames but `name` has no placeholder, so that all
+/// frames would be written to the same file.
 void check_output_pattern(const std::string& name, const FrameList& list);
 
 }  // namespace pelage

@@ -9,9 +9,10 @@
 
 namespace pelage {
 
-/// Throws Error (kInput) if maps of grooms, or of materials of characters' parts, are used without texture
-/// coordinates: on a mesh that has none, or on strands without a skin. Lists every such map with its position
-/// in the scene.
+/// Throws Error (kInput) if a map, or a ramp along u or v, is used where there are no texture coordinates: on
+/// a mesh without texture coordinates, or on strands without a skin. Checks all grooms, and the materials of
+/// all characters. The error lists such maps and ramps with their positions in the scene: the first 20, and
+/// the count of the others.
 void check_maps(const SceneDescription& scene, const std::map<std::string, Assets::Skin>& skins);
 
 }  // namespace pelage

@@ -21,10 +21,10 @@
 
 namespace pelage {
 
-// The scene file as one value; docs/MANUAL.md has its keys. A block that belongs to another room is described
-// in that room.
+// The contents of a scene file as one struct. docs/MANUAL.md describes the keys. Structs of blocks that
+// belong to another folder, such as render/, are declared there.
 
-/// `pelage:`, the version of the scene format.
+/// Value of the key `pelage`: the version of the scene format.
 struct FormatVersion {
   int number = 1;
 };
@@ -41,14 +41,15 @@ struct UnitsParams {
   static const Schema<UnitsParams>& schema();
 };
 
-/// A posed cage per frame, or one every few frames. Character frame `first` shows pose `first`; positions are
-/// interpolated linearly between poses.
+/// A sequence of `count` posed cages. Pose `first` applies at frame `first` of the character, and each
+/// further pose frames_per_pose frames later. Positions are interpolated linearly between poses.
 struct PosesParams {
-  AssetPath files;  ///< with a placeholder for the number, see world/frames.h
-  int first = 1;
+  AssetPath files;  ///< path with a placeholder for the file's number, see world/frames.h
+  int first = 1;    ///< number of the first file
   int count = 1;
   double frames_per_pose = 1;
-  bool cycle = false;  ///< pose `first` follows the last pose again; else the first and last poses hold
+  bool cycle = false;  ///< true: the sequence repeats; false: the first pose also applies before, the last
+                       ///< pose after the sequence
   static const Schema<PosesParams>& schema();
 };
 
@@ -64,12 +65,12 @@ struct SkinParams {
 struct PartParams {
   NameReference skin;
   NameReference material;
-  Named<NameReference> grooms;       ///< name of a groom -> name of its material
-  std::optional<PosesParams> poses;  ///< instead of the skin's poses
+  Named<NameReference> grooms;       ///< from the name of each groom to the name of its material
+  std::optional<PosesParams> poses;  ///< empty: the poses of the skin
   static const Schema<PartParams>& schema();
 };
 
-/// Scale first, then rotation, then translation.
+/// Transform of a character: scales first, then rotates, then translates.
 struct TransformParams {
   Keyed<V3f> translate{V3f(0)};
   Keyed<V3f> rotate{V3f(0)};  ///< degrees about x, y, z, in this order
@@ -80,9 +81,9 @@ struct TransformParams {
 struct CharacterParams {
   std::vector<PartParams> parts;
   TransformParams transform;
-  float frame_offset = 0;     ///< added to the frame to get the pose
-  Footprint footprint;        ///< discs (x, z, radius) on the ground, of an animal of scale 1
-  std::optional<bool> drawn;  ///< empty: drawn unless a crowd uses it
+  float frame_offset = 0;     ///< frame of the character = frame of the scene + this
+  Footprint footprint;        ///< ground that an animal of scale 1 covers: discs (x, z, radius)
+  std::optional<bool> drawn;  ///< whether it appears by itself; empty: only if no crowd uses it
   static const Schema<CharacterParams>& schema();
 };
 
@@ -100,20 +101,21 @@ struct SceneDescription {
   Named<CrowdParams> crowds;
   Named<LightParams> lights;
   RenderParams render;
-  std::string hash;  ///< hash of the document with its overrides, without the files that it names
-  /// Every file from which the document was read: the scene and its includes. See asset_files() for the files
-  /// that they name.
+  std::string hash;  ///< hash of the document with its overrides, not of the assets that it names
+  /// All files from which the document was read: the scene file and its included files. asset_files() returns
+  /// the assets.
   std::vector<std::filesystem::path> files;
-  std::vector<Problem> warnings;  ///< old names of keys in the document, each with the new one
+  std::vector<Problem> warnings;  ///< one per use of an old name of a key, with the current name
   static const Schema<SceneDescription>& schema();
 };
 
-/// Adds a problem for every unknown name, with the nearest known one, and for every invalid combination: a
-/// groom on a part with another skin, a fibre material on a skin.
+/// Adds a problem for every reference to a name that does not exist, with the nearest existing name. Also
+/// adds a problem for every invalid combination, such as a groom on a part with another skin, or a fibre
+/// material on a skin.
 void check_references(const SceneDescription& scene, Problems& problems);
 
-/// Reads a scene and checks everything that can be checked without other files. Throws Error (kInput) with
-/// all mistakes, in file order.
+/// Reads a scene file with its includes, applies the overrides, and checks everything that can be checked
+/// without the assets. Throws Error (kInput) with all mistakes, in the order of the file.
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 }  // namespace pelage

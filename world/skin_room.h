@@ -9,11 +9,13 @@
 
 namespace pelage {
 
-/// Charges the memory for reading the mesh of a skin; throws Error (kMemory) when it does not fit.
+/// Charges the memory for reading the mesh of skin `name`. Throws Error (kMemory) when this memory does not
+/// fit the limit.
 MemoryCharge reserve_reading(const std::string& name, const SkinParams& params, const Job& job);
 
-/// Charges the cage and the max memory for making a skin of `cage`; throws Error (kMemory) when it does not
-/// fit. Warns if the mesh has so many faces that it was probably not made for subdivision.
+/// Charges the memory of `cage` and the max memory for making skin `name` from it. Throws Error (kMemory)
+/// when this memory does not fit the limit. Warns if the skin is subdivided but has so many faces that it was
+/// probably not modelled for subdivision.
 MemoryCharge reserve_skin(const std::string& name, const SkinParams& params, const ControlMesh& cage,
                           const Job& job);
 

@@ -18,25 +18,28 @@
 //   render         grows and traces; the result is a film
 //   write_frame    writes it as an EXR file
 //
-// A Job (base/job.h) holds the threads, the memory ledger, and the Progress that reports how far the work is
-// and can request a stop. One scene and its assets serve any number of frames. All five throw Error
-// (base/error.h): kInput for mistakes in files, with file, line and column; kMemory if memory does not
-// suffice under `render.memory`; kStopped once Progress::cancelled() returned true. Exception: when
-// cancelled, render() returns a partial picture instead.
+// A Job (base/job.h) refers to the threads, the memory ledger, and a Progress. The Progress receives reports
+// on the work, and its member cancelled() can stop the work. One scene and its assets can be used for any
+// number of frames.
+//
+// All five functions throw Error (base/error.h): kInput for mistakes in files, with file, line and column;
+// kMemory if `render.memory` does not suffice; kStopped once Progress::cancelled() has returned true. Only
+// render() is different when it is cancelled: it returns a partial picture.
 
 namespace pelage {
 
-/// Renders a composed frame with the integrator of the scene, see render_frame().
+/// Renders a composed frame with the integrator that the scene selects. See render_frame().
 FrameResult render(const World& world, const Job& job);
 
-/// Writes a rendered frame as EXR, completely or not at all. `seconds`: duration of the render, stored in the
-/// header of the file. Throws Error (kFailed).
+/// Writes a rendered frame as an EXR file, completely or not at all. `seconds`: duration of the render, for
+/// the header of the file. Throws Error (kFailed) when the file cannot be written.
 void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
                  double seconds, const Job& job);
 
-/// Sets the limit of the ledger to `render.memory` and reserves memory for the film of a frame, so that
-/// load_assets() fails early when there would be no room for it. Release the charge before render(), which
-/// charges the film again.
+/// Sets the limit of the ledger to `render.memory` and charges the memory of a frame's film. Throws Error
+/// (kMemory) when the film does not fit. While the caller keeps this charge, load_assets() fails early if its
+/// data and the film do not fit together. Release the charge before render(), because render() charges the
+/// film itself.
 MemoryCharge reserve_film(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage
