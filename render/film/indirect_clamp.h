@@ -41,7 +41,10 @@ struct IndirectClamp {
   }
 
  private:
-  static int64_t in_parts(float value) { return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536); }
+  static int64_t in_parts(float value) {
+    if (!(value > 0)) return 0;  // NaN, too: the film rejects such samples
+    return static_cast<int64_t>(std::min(double{value}, 1e9) * 65536);
+  }
 };
 
 }  // namespace pelage
