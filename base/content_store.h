@@ -87,7 +87,7 @@ class ContentStore {
     }
     /// Whether writing has failed.
     bool failed() const { return !failure_.empty(); }
-    /// Completes the entry. Returns whether this succeeded, so that the entry now exists.
+    /// Completes the entry. Returns true if the entry now exists, false after a failure.
     bool commit(const WarningSink& warn);
 
    private:
@@ -106,7 +106,7 @@ class ContentStore {
     std::vector<Section> sections_;
   };
   Writer writer(const std::string& kind, const ContentHash& key) const;
-  /// Writes an entry with all its sections. Returns whether this succeeded, so that the entry now exists.
+  /// Writes an entry with all its sections. Returns true if the entry now exists, false after a failure.
   bool store(const std::string& kind, const ContentHash& key,
              std::span<const std::span<const std::byte>> sections, const WarningSink& warn) const;
 

@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// A regular file that is open for reading, with its size and owner. The size and owner were read from the
-/// open file, so they stay consistent with it even if another file replaces it at its path.
+/// A regular file that is open for reading, with its size and owner. Size and owner are those of the open
+/// file, even if another file has this path later.
 class OpenFile {
  public:
   enum class Links { kFollow, kRefuse };

@@ -5,8 +5,8 @@
 
 namespace pelage {
 
-/// Receives the progress of a long job, and tells the job whether to stop. Implementations must allow calls
-/// of every member from any thread. advance() is called often, so it must be cheap.
+/// Receives the progress of a long job, and tells the job whether to stop. advance() is called often, so it
+/// must be cheap. Thread safety: implementations must allow calls of every member from any thread.
 class Progress {
  public:
   virtual ~Progress() = default;

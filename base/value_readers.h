@@ -67,8 +67,8 @@ struct Named {
   }
 };
 
-/// Names of an enumeration's values in the scene file (kebab-case), ordered by value from 0. Specialise it
-/// for each enumeration:
+/// Names of an enumeration's values in the scene file (kebab-case), ordered by value from 0. Specialise
+/// EnumNames for each enumeration:
 ///   template <>
 ///   struct EnumNames<Filter> {
 ///     static constexpr const char* names[] = {"box", "blackman-harris"};

@@ -14,8 +14,8 @@ namespace pelage {
 ///
 /// While the limit is below the number of threads, only threads with a turn may grow units. There are as many
 /// turns as the limit. A thread may lose its turn when the limit is lowered. It also loses its turn when it
-/// has grown nothing for kIdleTimeout and another thread asks for a turn. Thus no thread waits for a thread
-/// that needs no more units or has ended. Not thread safe.
+/// has grown nothing for kIdleTimeout and another thread asks for a turn. Thus threads do not wait for a
+/// thread that needs no more units or has ended. Not thread safe.
 class GrowthThrottle {
  public:
   using Clock = std::chrono::steady_clock;

@@ -29,8 +29,8 @@ class Resident {
   virtual ~Resident() = default;
 };
 
-/// Grows the units of a Residency. Implementations must allow calls of every member from many threads at
-/// once, for different slots.
+/// Grows the units of a Residency. Thread safety: implementations must allow calls of every member from many
+/// threads at once, for different slots.
 class Grower {
  public:
   struct Grown {
@@ -62,10 +62,11 @@ struct MemoryBudget {
 /// The unit may be evicted when memory is needed for other units. A visit after the eviction grows the unit
 /// again.
 ///
-/// Guarantees: - The contents of the units that visits see do not depend on the budget. - A unit stays alive
-/// until all visits that use the unit have ended. - Before a slot is grown, the upper bound of its memory is
-/// charged to the ledger. The bound is charged only
-///   if the sum of the budgeted tags then stays within the budget.
+/// Guarantees:
+/// - The contents of the units that visits see do not depend on the budget.
+/// - A unit stays alive until all visits that use the unit have ended.
+/// - Before a slot is grown, the upper bound of its memory is charged to the ledger. The bound is charged
+///   only if the sum of the budgeted tags then stays within the budget.
 /// - Visits make progress if the budget can hold the largest slot in addition to all other memory of the
 ///   budgeted tags. The constructor rejects smaller budgets.
 ///

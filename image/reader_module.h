@@ -43,8 +43,7 @@ PELAGE_EXPORT int pelage_image_reader_version(void);
 PELAGE_EXPORT int pelage_read_image(const char* path, const PelageImageSink* sink, char* message,
                                     size_t message_size);
 
-/* A cache of tiles, which it reads from files of tiles (see PelageTiles), with a limit on memory. Thread
- * safe. */
+/* A cache of tiles with a limit on memory. Reads the tiles from files (see PelageTiles). Thread safe. */
 typedef struct PelageTileCache PelageTileCache;
 typedef struct PelageTileImage PelageTileImage;
 
@@ -66,8 +65,7 @@ PELAGE_EXPORT PelageTileCache* pelage_tile_cache_create(int64_t bytes);
 PELAGE_EXPORT void pelage_tile_cache_destroy(PelageTileCache* cache);
 /* Adds a file of tiles to a cache. Returns null on failure. The cache owns the returned image. */
 PELAGE_EXPORT PelageTileImage* pelage_tile_cache_add(PelageTileCache* cache, const PelageTiles* tiles);
-/* Copies the texels of a rectangle inside the image to `to`, row by row. Returns 0 on success, 1 on failure.
- */
+/* Copies the texels of a rectangle inside the image to `to`, row by row. Returns 0 on success, else 1. */
 PELAGE_EXPORT int pelage_tile_cache_read(PelageTileImage* image, int x, int y, int width, int height,
                                          void* to);
 

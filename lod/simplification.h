@@ -51,12 +51,11 @@ class Simplification {
 
   /// Returns the share lambda in (0, 1] for strands with this root.
   ///
-  /// lambda = lambda_size * lambda_blur * budget [Cook07, eq. 1], but at most 1. - lambda_size = w^(2 ln(1/2)
-  /// / ln h) with h = 0.4 for strands of a width of w < 1 pixels [Cook07, eq. 2], and 1
-  ///   for wider strands.
+  /// lambda = lambda_size * lambda_blur * budget [Cook07, eq. 1], but at most 1.
+  /// - lambda_size = w^(2 ln(1/2) / ln h), with h = 0.4, for strands of a width of w < 1 pixels [Cook07, eq.
+  ///   2]. lambda_size = 1 for wider strands.
   /// - lambda_blur = b^-blur_strength, where b is the factor by which blur increases the number of strands
-  /// that
-  ///   contribute to a pixel. With blur_strength = 1, this number is the same as without blur.
+  ///   that contribute to a pixel. With blur_strength = 1, this number is the same as without blur.
   ///
   /// lambda has a minimum at which a widened strand is no wider than hypot(1, 0.1 * blur across it) pixels,
   /// and no wider than a quarter of its length. Without this minimum, widths would have no bound for small

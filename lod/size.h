@@ -9,7 +9,8 @@ namespace pelage {
 /// distance of the point, not on its depth along the view axis. Therefore it is also defined for points
 /// behind the camera, where objects may cast shadows.
 float pixels_per_unit(const LodView& view, const V3f& point);
-/// Returns the size in pixels of one scene unit at this distance from the camera, but at least near_distance.
+/// Returns the size in pixels of one scene unit at this distance from the camera. Distances below
+/// LodView::near_distance count as near_distance.
 float pixels_per_unit(const LodView& view, float distance);
 
 }  // namespace pelage

@@ -134,7 +134,8 @@ std::vector<Flow> read_layer_vectors(const ViewImage& image, std::pair<size_t, s
 /// Returns a layer's description for messages: "depth", or "depth 'far'" if `name` is "far" instead of empty.
 std::string layer_label(const std::string& what, const std::string& name);
 
-/// Throws Error (kInput). The message contains `what` is missing, `advice`, and the available channels.
+/// Throws Error (kInput). The message states that `what` is missing, gives `advice`, and lists the available
+/// channels.
 [[noreturn]] void fail_missing(const ViewImage& image, const std::string& what, const std::string& advice);
 
 }  // namespace pelage

@@ -26,8 +26,8 @@ struct LinkLimits {
 };
 
 /// Motion and depth of every pixel of a picture. Also stores which neighbouring pixels belong to the same
-/// surface; this replaces the motion-gradient image of [Neulander13]. Neighbours on one surface are called
-/// linked. Immutable, so any thread may use it.
+/// surface. This is the information of Pixmotor's motion-gradient image. Neighbours on one surface are called
+/// linked. Thread safety: immutable once constructed, so any thread may use it.
 ///
 /// Memory: kBytesPerPixel bytes per pixel, and one more byte per pixel in the constructor.
 class FlowField {

@@ -16,7 +16,7 @@ namespace pelage {
 struct ShutterParams {
   float length = 0.5f;  ///< duration; 0.5 is a shutter of 180 degrees
   float centre = 0;     ///< middle of the interval
-  int steps = 0;        ///< number of samples; 0: one per pixel of the longest motion, but 8 to 64
+  int steps = 0;        ///< number of samples; 0: one per pixel of the longest motion, at least 8, at most 64
 };
 
 /// Returns the sample times: the centres of equal parts of the shutter interval. `longest`: max length of all

@@ -12,8 +12,8 @@ namespace pelage {
 class Workers;
 
 /// Mean direction of a groom's strands at rest, from root to tip, as a continuous function of the position on
-/// the skin. It is computed from the 8192 strands with the smallest ids. The result is bit-identical for
-/// every division of the groom into leaves.
+/// the skin. It is computed from the strands with ids below 8192. The result is bit-identical for every
+/// division of the groom into leaves.
 ///
 /// Immutable. Thread safety: const members may be called from any thread.
 class CoatDirection {

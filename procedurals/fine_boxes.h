@@ -31,9 +31,9 @@ class FineBoxes {
 
   /// Makes no boxes, which means that nothing is known about the chunk.
   FineBoxes() = default;
-  /// Makes boxes that contain the given boxes. Box b at key k is boxes[b * keys + k]; it must contain at
-  /// least a point. Keys are at evenly spaced times from shutter open to close. The contents of a box must
-  /// move linearly between keys.
+  /// Makes boxes that contain the given boxes. Box b at key k is boxes[b * keys + k]. No given box may be
+  /// empty. Keys are at evenly spaced times from shutter open to close. The contents of a box must move
+  /// linearly between keys.
   FineBoxes(std::span<const Box3f> boxes, size_t keys);
   /// Makes boxes from stored data. `finest`: the groups of the finest level. `count`: number of boxes of this
   /// level.

@@ -12,11 +12,11 @@
 // Pelage as a library: from a scene file to a picture in five calls.
 //
 //   load_scene     reads the scene file                                       world/scene_schema.h
-//   load_assets    reads the files it names, places follicles,
+//   load_assets    reads the files of the scene, places follicles,
 //                  prepares grooms                                            world/assets.h
 //   compose        poses everything for one frame                             world/compose.h
 //   render         grows and traces; the result is a film
-//   write_frame    writes it as an EXR file
+//   write_frame    writes the film as an EXR file
 //
 // A Job (base/job.h) refers to the threads, the memory ledger, and a Progress. The Progress receives reports
 // on the work, and its member cancelled() can stop the work. One scene and its assets can be used for any
