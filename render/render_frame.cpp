@@ -58,7 +58,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOpt
 
   const double prepared_s = clock.seconds();
   if (gathers) {
-    GatherLoop(scene, geometry->accel(), options, tiles, job, clock, result).run();
+    GatherLoop(scene, geometry->accel(), geometry->chunks(), options, tiles, job, clock, result).run();
   } else {
     trace_paths(scene, *geometry, options, job, clock, result);
   }

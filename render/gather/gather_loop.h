@@ -35,9 +35,11 @@ class GatherLoop {
   /// not even one fits.
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
-  /// References are kept. `result.film` gets the samples. `clock`: starts when the time limit does.
-  GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Memory& memory,
-             const Job& job, const Stopwatch& clock, FrameResult& result);
+  /// References are kept. `chunks`: those of `accel`. `result.film` gets the samples. `clock`: starts when
+  /// the time limit does.
+  GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+             const PathOptions& options, const Memory& memory, const Job& job, const Stopwatch& clock,
+             FrameResult& result);
 
   /// Renders the frame into `result`.
   void run();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/job.h"
 #include "render/frame/tile_order.h"
@@ -11,6 +12,7 @@
 #include "render/gather/path_sharing.h"
 #include "render/gather/shadow_rays.h"
 #include "render/gather/visible_points.h"
+#include "render/raster/tile_raster.h"
 
 namespace pelage {
 
@@ -25,15 +27,15 @@ class GatherTile {
   static constexpr int kSide = FilmSums::kTileSide;
 
   /// References are kept.
-  GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
-             const PathOptions& options);
+  GatherTile(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+             const FilmLayers& layers, const PathOptions& options);
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;
   /// Max number of samples per pixel of one call of trace(), which limits the memory of a scratch.
   static uint32_t max_samples(size_t lights);
   /// Max memory of a scratch for up to `samples` per pixel at once.
-  static size_t scratch_bytes(size_t lights, uint32_t samples);
+  static size_t scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather);
 
   /// Traces samples first .. first + count - 1 of each pixel. Returns false when `job` was cancelled.
   bool trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;
@@ -45,9 +47,11 @@ class GatherTile {
   void add_scattered(uint32_t point, Scratch& scratch) const;
 
   const RenderScene& scene_;
+  const Accel& accel_;
   const FilmLayers& layers_;
   FrameShading shading_;
   CameraSamples camera_;
+  std::optional<TileRaster> raster_;
   VisiblePoints points_;
   ShadowRays shadow_rays_;
   IndirectPaths indirect_paths_;
@@ -56,11 +60,13 @@ class GatherTile {
 /// Memory and counts of one thread.
 struct GatherTile::Scratch final : SampleScratch {
   TileSamples samples;
+  TileRaster::Scratch raster;
   VisiblePoints::Scratch look;
   ShadowRays::Scratch shadow_rays;
   IndirectPaths::Scratch indirect_paths;
   LightSharing lights;
   PathSharing paths;
+  uint32_t first_sample = 0;  ///< of the current call of trace()
 };
 
 }  // namespace pelage

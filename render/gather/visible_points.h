@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -20,8 +21,10 @@ namespace pelage {
 class VisiblePoints {
  public:
   /// References are kept.
-  VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
-                const CameraSamples& camera);
+  VisiblePoints(const RenderScene& scene, const FrameShading& shading, const CameraSamples& camera);
+
+  /// What a camera ray sees, as Accel::closest(): stores the geometry in the thread's HitGeometry.
+  using FindHit = std::function<Hit(const Ray& ray)>;
 
   struct Scratch {
     DirectLightScratch direct;
@@ -35,8 +38,9 @@ class VisiblePoints {
     }
   };
 
-  /// Adds sample number `sample` of a pixel of the tile; `pixel` is its index within the tile.
-  void look(uint32_t pixel, uint32_t sample, Scratch& scratch, SampleScratch& thread,
+  /// Adds sample number `sample` of a pixel of the tile; `pixel` is its index within the tile. `find`: uses
+  /// `thread`.
+  void look(uint32_t pixel, uint32_t sample, const FindHit& find, Scratch& scratch, SampleScratch& thread,
             TileSamples& tile) const;
 
  private:
@@ -45,7 +49,6 @@ class VisiblePoints {
                   TileSamples& tile) const;
 
   const RenderScene& scene_;
-  const Accel& accel_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
   KnotKeys keys_;

@@ -80,6 +80,15 @@ class FurRays {
 
 /// The queries of FurTree for a ray prepared for this view, which must have nodes.
 FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
+/// A block that holds a segment.
+struct FurSegmentPlace {
+  const std::byte* block = nullptr;
+  bool wide = false;
+  uint32_t number = FurHit::kNone;
+};
+/// The first hit with one segment: the same as that of closest_fur() where no other segment is hit before.
+FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at,
+                      FurFilter* filter);
 bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 
 }  // namespace pelage
