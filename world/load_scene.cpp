@@ -163,6 +163,11 @@ void check_gather(const SceneDescription& scene, const Value& document, Problems
   };
   if (scene.render.adaptive) refuse("render", "adaptive");
   if (scene.image.noise_layers) refuse("image", "noise_layers");
+  const bool draws = scene.render.gather.visibility == GatherVisibility::kRaster;
+  if (draws && !in_fur_trees(scene.render.accel, scene.render.curves)) {
+    problems.add(document.find("render")->find("gather")->position(),
+                 "`visibility: raster` needs `accel: fur` and `curves: flat`");
+  }
 }
 
 void collect_files(const Value& value, std::set<std::string>& files) {

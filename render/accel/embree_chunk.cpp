@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/heap.h"
 #include "base/parallel.h"
@@ -39,9 +40,9 @@ size_t reference_bytes_bound(size_t primitives, size_t pairs_of_keys) {
   return heap_bytes(kMovingReference * primitives * pairs_of_keys);
 }
 
-/// Positions and normals; indices, faces and corners.
+/// Positions and normals; indices, faces and corners; boxes.
 size_t skin_bytes_bound(const ChunkCounts& n) {
-  return 24 * static_cast<size_t>(n.motion_keys) * n.vertices + 40 * n.triangles + 64;
+  return 24 * static_cast<size_t>(n.motion_keys) * n.vertices + 41 * n.triangles + 96;
 }
 
 /// Embree reads 16 bytes at each vertex, so 4 bytes after the last one must be valid.
@@ -177,7 +178,8 @@ EmbreeChunk::EmbreeChunk(ChunkContents contents, uint32_t number, float widest,
   } else {
     skin_ = std::move(std::get<SkinMesh>(contents.geometry));
     pad_for_embree(skin_.positions);
-    held += skin_.bytes();
+    add_triangle_boxes();
+    held += skin_.bytes() + triangle_boxes_.capacity() * sizeof(triangle_boxes_[0]);
   }
   {
     const auto lock = device_.one_at_a_time();
@@ -283,6 +285,43 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
     hit.v = offset_across(met.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
   }
   return true;
+}
+
+/// Finds the boxes that visit_primitives() tests.
+void EmbreeChunk::add_triangle_boxes() {
+  triangle_boxes_.resize((skin_.triangle_count() + kTrianglesPerBox - 1) / kTrianglesPerBox);
+  const size_t vertices = skin_.vertex_count();
+  for (size_t i = 0; i < skin_.triangles.size(); ++i) {
+    for (int key = 0; key < skin_.motion_keys; ++key) {
+      const float* p = &skin_.positions[(static_cast<size_t>(key) * vertices + skin_.triangles[i]) * 3];
+      triangle_boxes_[i / (3 * kTrianglesPerBox)].extendBy(V3f(p[0], p[1], p[2]));
+    }
+  }
+}
+
+bool EmbreeChunk::visit_primitives(const Beam& beam, PrimitiveSink& sink) const {
+  if (strands_) return false;
+  const size_t count = skin_.triangle_count(), vertices = skin_.vertex_count();
+  std::vector<V3f> corners(3 * static_cast<size_t>(skin_.motion_keys));
+  for (size_t box = 0; box < triangle_boxes_.size(); ++box) {
+    float entry = 0;
+    if (!beam.meets(triangle_boxes_[box], sink.far(), entry)) continue;
+    const size_t end = std::min(count, (box + 1) * kTrianglesPerBox);
+    for (size_t triangle = box * kTrianglesPerBox; triangle < end; ++triangle) {
+      for (size_t i = 0; i < corners.size(); ++i) {
+        const float* p = &skin_.positions[(i / 3 * vertices + skin_.triangles[3 * triangle + i % 3]) * 3];
+        corners[i] = V3f(p[0], p[1], p[2]);
+      }
+      sink.triangle(static_cast<uint32_t>(triangle), corners);
+    }
+  }
+  return true;
+}
+
+bool EmbreeChunk::stops(uint32_t random, uint32_t primitive, float u) const {
+  if (opaque()) return true;
+  const PackedStrands::Place place = strands_->locate(primitive);
+  return stops_at(random, crossing(place, u), strands_->opacity(place, u));
 }
 
 bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const {

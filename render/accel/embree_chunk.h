@@ -31,7 +31,15 @@ class EmbreeChunk final : public ChunkGeometry {
   EmbreeChunk& operator=(const EmbreeChunk&) = delete;
 
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  /// Supports skins only.
+  bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
+  bool closest_at(const Ray& ray, uint32_t, FurRays& rays, NearestSoFar& nearest,
+                  HitGeometry& met) const override {
+    return closest(ray, rays, nearest, met);
+  }
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
+  bool stops(uint32_t random, uint32_t primitive, float u) const override;
+  bool opaque() const override { return !strands_ || strands_->opaque(); }
 
   size_t strand_count() const override { return strands_ ? strands_->strand_count() : 0; }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_->id(index)}; }
@@ -55,6 +63,8 @@ class EmbreeChunk final : public ChunkGeometry {
   static size_t bytes_bound(const ChunkCounts& counts, size_t build_peak);
 
  private:
+  static constexpr size_t kTrianglesPerBox = 32;
+
   struct Query;
   struct NearestQuery;
   struct LightQuery;
@@ -63,8 +73,8 @@ class EmbreeChunk final : public ChunkGeometry {
   void build();
   void add_curves();
   void add_skin();
+  void add_triangle_boxes();
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
-  bool opaque() const { return !strands_ || strands_->opaque(); }
   bool starts_here(const Ray& ray) const { return strands_ && ray.start.chunk == number_; }
   bool is_start(const Ray& ray, uint32_t primitive, float u, float distance) const;
 
@@ -74,7 +84,8 @@ class EmbreeChunk final : public ChunkGeometry {
   float before_ = 0;                      // distance by which Embree's rays start earlier; see embree_ray()
   std::optional<PackedStrands> strands_;  // empty if the chunk is a skin
   SkinMesh skin_;
-  float longest_ = 0;  // see far_behind()
+  std::vector<Box3f> triangle_boxes_;  // of kTrianglesPerBox triangles each, at all times
+  float longest_ = 0;                  // see far_behind()
   RTCScene scene_ = nullptr;
   size_t bytes_ = 0, build_peak_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/accel/fur/fur_beam.h"
 #include "render/accel/fur/fur_leaf.h"
 
 namespace pelage {
@@ -30,10 +31,7 @@ size_t bytes_of(const FurContents& grown) {
 class FurChunk::StoppingFilter final : public FurFilter {
  public:
   StoppingFilter(const FurChunk& chunk, uint32_t random) : chunk_(chunk), random_(random) {}
-  bool accepts(const FurHit& hit) override {
-    const PackedStrands::Place place = chunk_.strands_.locate(hit.number);
-    return stops_at(random_, chunk_.crossing(place, hit.u), chunk_.strands_.opacity(place, hit.u));
-  }
+  bool accepts(const FurHit& hit) override { return chunk_.stops(random_, hit.number, hit.u); }
 
  private:
   const FurChunk& chunk_;
@@ -119,7 +117,35 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   if (!prepared) return false;
   StoppingFilter filter(*this, ray.random);
   const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
-  if (!found) return false;
+  if (!found || !keep(found, nearest)) return false;
+  strand(nearest.hit.strand_index, met.strand);
+  return true;
+}
+
+bool FurChunk::visit_primitives(const Beam& beam, PrimitiveSink& sink) const {
+  visit_segments(tree_.view(), beam, sink);
+  return true;
+}
+
+bool FurChunk::closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
+                          HitGeometry&) const {
+  const FurTreeView& tree = tree_.view();
+  const FurSegmentLookup::Place place = places_.find(tree, primitive);
+  const FurRay* prepared = place.block ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
+  if (!prepared) return false;
+  StoppingFilter filter(*this, ray.random);
+  const FurHit found = closest_fur_at(tree, *prepared, {place.block, place.wide, primitive},
+                                      strands_.opaque() ? nullptr : &filter);
+  return found && keep(found, nearest);
+}
+
+bool FurChunk::stops(uint32_t random, uint32_t primitive, float u) const {
+  const PackedStrands::Place place = strands_.locate(primitive);
+  return stops_at(random, crossing(place, u), strands_.opacity(place, u));
+}
+
+/// Makes a hit the nearest one if it precedes that.
+bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
   const PackedStrands::Place place = strands_.locate(found.number);
   NearestSoFar candidate;
   Hit& hit = candidate.hit;
@@ -134,7 +160,6 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   hit.strand_index = place.strand;
   if (!nearest.comes_after(candidate)) return false;
   nearest = candidate;
-  strand(place.strand, met.strand);
   return true;
 }
 

@@ -30,7 +30,12 @@ class FurChunk final : public ChunkGeometry {
   FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
 
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
+  bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
+  bool closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
+                  HitGeometry& met) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
+  bool stops(uint32_t random, uint32_t primitive, float u) const override;
+  bool opaque() const override { return strands_.opaque(); }
 
   size_t strand_count() const override { return strands_.strand_count(); }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
@@ -64,6 +69,7 @@ class FurChunk final : public ChunkGeometry {
   FurChunk(const FurContents& grown, uint32_t part, uint32_t number, const FurGrid& grid,
            const FurChunkOptions& options);
   FurStart start_of(const Ray& ray) const;
+  bool keep(const FurHit& found, NearestSoFar& nearest) const;
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
 
   uint32_t part_, number_;

@@ -22,7 +22,7 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   const size_t lights = scene.lights.size();
   const uint32_t samples =
       std::min(GatherTile::max_samples(lights), static_cast<uint32_t>(scene.render.samples));
-  const auto tile = static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples));
+  const auto tile = static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples, scene.render.gather));
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
@@ -30,10 +30,11 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
                          "the samples of the tiles that are rendered at once")};
 }
 
-GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options,
-                       const Memory& memory, const Job& job, const Stopwatch& clock, FrameResult& result)
+GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+                       const PathOptions& options, const Memory& memory, const Job& job,
+                       const Stopwatch& clock, FrameResult& result)
     : scene_(scene),
-      tile_(scene, accel, result.film.layers(), options),
+      tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),

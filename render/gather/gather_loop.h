@@ -37,10 +37,11 @@ class GatherLoop {
   /// fits.
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
-  /// Keeps references to its arguments, except `options` and `memory`. `clock`: the time limit starts with
-  /// it.
-  GatherLoop(const RenderScene& scene, const Accel& accel, const PathOptions& options, const Memory& memory,
-             const Job& job, const Stopwatch& clock, FrameResult& result);
+  /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
+  /// `clock`: the time limit starts with it.
+  GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+             const PathOptions& options, const Memory& memory, const Job& job, const Stopwatch& clock,
+             FrameResult& result);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();

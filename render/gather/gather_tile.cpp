@@ -18,15 +18,19 @@ constexpr uint32_t kPilotShare = 8;
 
 }  // namespace
 
-GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
-                       const PathOptions& options)
+GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+                       const FilmLayers& layers, const PathOptions& options)
     : scene_(scene),
+      accel_(accel),
       layers_(layers),
       shading_(scene),
       camera_(scene, accel, layers.splat.has_value()),
-      points_(scene, accel, shading_, camera_),
+      points_(scene, shading_, camera_),
       shadow_rays_(scene, accel),
-      indirect_paths_(scene, accel, shading_, camera_, options) {}
+      indirect_paths_(scene, accel, shading_, camera_, options) {
+  if (scene.render.gather.visibility == GatherVisibility::kRaster)
+    raster_.emplace(scene, accel, chunks, camera_);
+}
 
 std::unique_ptr<GatherTile::Scratch> GatherTile::make_scratch() const { return std::make_unique<Scratch>(); }
 
@@ -35,13 +39,15 @@ uint32_t GatherTile::max_samples(size_t lights) {
   return static_cast<uint32_t>(std::clamp<size_t>(fits, 1, kMaxSamples));
 }
 
-size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples) {
+size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather) {
   constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
   const size_t ordered = (lights + 1) * sizeof(KnotItem) + lights * sizeof(float);
   // At worst, each sample has a knot of its own.
   const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
-  return kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double));
+  const bool draws = gather.visibility == GatherVisibility::kRaster;
+  return kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
+         (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
 
 bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job,
@@ -55,6 +61,8 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.look.clear();
   scratch.lights.begin(lights, reuse);
+  if (raster_ && !raster_->find(tile, first, count, job, scratch.thread.worker, scratch.raster)) return false;
+  scratch.first_sample = first;
   const uint32_t pilot = (count + kPilotShare - 1) / kPilotShare;
   if (!look(first, pilot, job, scratch)) return false;
   if (!shadow_rays_.trace(samples, 0, job, scratch.shadow_rays, scratch, scratch.lights)) return false;
@@ -74,9 +82,17 @@ bool GatherTile::look(uint32_t first, uint32_t count, const Job& job, Scratch& s
   for (uint32_t pixel = 0; pixel < scratch.samples.pixels(); ++pixel) {
     if (job.progress.cancelled()) return false;
     for (uint32_t i = 0; i < count; ++i) {
-      points_.look(pixel, first + i, scratch.look, scratch, scratch.samples);
+      const auto hit = [&](const Ray& ray) {
+        if (!raster_) return scratch.closest(RayKind::kCamera, accel_, ray);
+        return scratch.costs.rays.measure(RayKind::kCamera, scratch.thread.counts, [&] {
+          return raster_->closest(pixel, first + i - scratch.first_sample, ray, scratch.thread,
+                                  scratch.raster);
+        });
+      };
+      points_.look(pixel, first + i, hit, scratch.look, scratch, scratch.samples);
     }
   }
+  TileRaster::end(scratch.thread, scratch.raster);
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/job.h"
 #include "render/frame/knot_statistics.h"
@@ -12,6 +13,7 @@
 #include "render/gather/path_sharing.h"
 #include "render/gather/shadow_rays.h"
 #include "render/gather/visible_points.h"
+#include "render/raster/tile_raster.h"
 
 namespace pelage {
 
@@ -25,9 +27,9 @@ class GatherTile {
   /// Side of a tile in pixels. Samples of different tiles never share light.
   static constexpr int kSide = FilmSums::kTileSide;
 
-  /// Keeps references to its arguments, except `options`.
-  GatherTile(const RenderScene& scene, const Accel& accel, const FilmLayers& layers,
-             const PathOptions& options);
+  /// Keeps references to its arguments, except `options`. `chunks`: the chunks of `accel`.
+  GatherTile(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
+             const FilmLayers& layers, const PathOptions& options);
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;
@@ -36,7 +38,7 @@ class GatherTile {
   static uint32_t max_samples(size_t lights);
   /// Returns the max memory of a scratch, in bytes, if trace() takes up to `samples` samples per pixel at
   /// once.
-  static size_t scratch_bytes(size_t lights, uint32_t samples);
+  static size_t scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather);
 
   /// Traces samples first .. first + count - 1 of each pixel. Stores the result in `scratch`. Returns false
   /// when `job` was cancelled.
@@ -50,9 +52,11 @@ class GatherTile {
   void add_scattered(uint32_t point, Scratch& scratch) const;
 
   const RenderScene& scene_;
+  const Accel& accel_;
   const FilmLayers& layers_;
   FrameShading shading_;
   CameraSamples camera_;
+  std::optional<TileRaster> raster_;
   VisiblePoints points_;
   ShadowRays shadow_rays_;
   IndirectPaths indirect_paths_;
@@ -61,12 +65,14 @@ class GatherTile {
 /// Memory, results and counts of one thread.
 struct GatherTile::Scratch final : SampleScratch {
   TileSamples samples;
+  TileRaster::Scratch raster;
   VisiblePoints::Scratch look;
   ShadowRays::Scratch shadow_rays;
   IndirectPaths::Scratch indirect_paths;
   LightSharing lights;
   PathSharing paths;
   KnotStatistics knots;
+  uint32_t first_sample = 0;  ///< index of the first sample of the current call of trace()
 };
 
 }  // namespace pelage

@@ -30,10 +30,9 @@ uint32_t index_of(std::unordered_map<uint64_t, uint32_t>& indices, uint64_t key)
 
 }  // namespace
 
-VisiblePoints::VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
                              const CameraSamples& camera)
     : scene_(scene),
-      accel_(accel),
       shading_(shading),
       camera_(camera),
       keys_(scene.camera, scene.render.gather),
@@ -51,14 +50,14 @@ uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSample
   return knot;
 }
 
-void VisiblePoints::look(uint32_t pixel, uint32_t sample, Scratch& scratch, SampleScratch& thread,
-                         TileSamples& tile) const {
+void VisiblePoints::look(uint32_t pixel, uint32_t sample, const FindHit& find, Scratch& scratch,
+                         SampleScratch& thread, TileSamples& tile) const {
   const int x = tile.x(pixel), y = tile.y(pixel);
   SampleStream stream = camera_.stream(x, y, sample);
   const CameraSample from = camera_.draw(x, y, sample, stream);
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
-  const Hit hit = thread.closest(RayKind::kCamera, accel_, from.ray);
+  const Hit hit = find(from.ray);
   seen_lights(scene_.lights, from.ray.origin, from.ray.direction, hit.distance,
               [&](size_t light, const Rgb& radiance) {
                 tile.seen_lights.push_back({index, static_cast<uint32_t>(light), radiance});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -21,8 +22,11 @@ namespace pelage {
 class VisiblePoints {
  public:
   /// Keeps references to its arguments.
-  VisiblePoints(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
-                const CameraSamples& camera);
+  VisiblePoints(const RenderScene& scene, const FrameShading& shading, const CameraSamples& camera);
+
+  /// Returns what a camera ray sees, as Accel::closest() does. Stores the geometry in the thread's
+  /// HitGeometry.
+  using FindHit = std::function<Hit(const Ray& ray)>;
 
   struct Scratch {
     DirectLightScratch direct;
@@ -36,9 +40,9 @@ class VisiblePoints {
     }
   };
 
-  /// Traces the camera ray of sample `sample` of a pixel, and adds the sample to `tile`. `pixel`: index of
-  /// the pixel in the tile.
-  void look(uint32_t pixel, uint32_t sample, Scratch& scratch, SampleScratch& thread,
+  /// Finds what sample `sample` of a pixel sees, and adds the sample to `tile`. `pixel`: index of the pixel
+  /// in the tile. `find`: uses `thread`.
+  void look(uint32_t pixel, uint32_t sample, const FindHit& find, Scratch& scratch, SampleScratch& thread,
             TileSamples& tile) const;
 
  private:
@@ -47,7 +51,6 @@ class VisiblePoints {
                   TileSamples& tile) const;
 
   const RenderScene& scene_;
-  const Accel& accel_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
   KnotKeys keys_;

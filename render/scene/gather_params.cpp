@@ -12,8 +12,12 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.set_example(R"(render:
   integrator: gather
   gather: {spacing: 4, light_rays: 3})");
-    s.key("visibility", &GatherParams::visibility,
-          {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`"});
+    s.key(
+        "visibility", &GatherParams::visibility,
+        {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`. `raster`: "
+                 "strands and skins are drawn tile by tile, which needs fewer CPU seconds for the same "
+                 "picture: fewer than 0.2 % of the samples see another strand. Needs `accel: fur` and "
+                 "`curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. The picture then has no approximation, and as much noise "
                    "as `integrator: path`; use it to measure what sharing changes"});

@@ -7,10 +7,10 @@
 namespace pelage {
 
 /// How the gather integrator finds the strands and skins that the camera sees.
-enum class GatherVisibility { kRays };
+enum class GatherVisibility { kRays, kRaster };
 template <>
 struct EnumNames<GatherVisibility> {
-  static constexpr const char* names[] = {"rays"};
+  static constexpr const char* names[] = {"rays", "raster"};
 };
 
 /// `gather:` of `render:`.

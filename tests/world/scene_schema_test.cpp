@@ -159,6 +159,12 @@ TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
   EXPECT_EQ(problems(kScene, {gather, {"image.noise_layers", "true"}}),
             Lines{"--set image.noise_layers: `noise_layers` does not work with `integrator: gather`; remove "
                   "one of them"});
+  const Override raster{"render.gather", "{visibility: raster}"};
+  EXPECT_EQ(load(kScene, {gather, raster}).render.gather.visibility, GatherVisibility::kRaster);
+  for (const Override& other : {Override{"render.curves", "round"}, Override{"render.accel", "embree"}}) {
+    EXPECT_EQ(problems(kScene, {gather, raster, other}),
+              Lines{"--set render.gather: `visibility: raster` needs `accel: fur` and `curves: flat`"});
+  }
   EXPECT_EQ(problems(kScene, {gather, {"render.gather.spacng", "2"}}),
             Lines{"--set render.gather.spacng: unknown key 'spacng' in gather; did you mean 'spacing'?"});
 }

@@ -82,6 +82,16 @@ FurHit closest(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, Fu
   return counted.hit;
 }
 
+FurHit closest_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at, FurFilter* filter) {
+  OnlySegment<NearestFur> query(at.number, ray, filter, tree.step);
+  if (tree.motion_keys > 1) {
+    at.wide ? test_wide_block<true>(at.block, ray, query) : test_block<false, true>(at.block, ray, query);
+  } else {
+    at.wide ? test_wide_block<false>(at.block, ray, query) : test_block<false, false>(at.block, ray, query);
+  }
+  return query.hit;
+}
+
 bool occluded(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
   if (HWY_LIKELY(!tests)) return answer<AnyFur>(tree, ray, filter).hit;
   const auto counted = answer<Counting<AnyFur>>(tree, ray, filter);
@@ -98,11 +108,20 @@ HWY_AFTER_NAMESPACE();
 namespace pelage {
 namespace {
 HWY_EXPORT(closest);
+HWY_EXPORT(closest_at);
 HWY_EXPORT(occluded);
 }  // namespace
 
 FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests) {
   FurHit hit = HWY_DYNAMIC_DISPATCH(closest)(tree, ray, filter, tests);
+  if (!hit) return {};
+  hit.distance *= tree.step;
+  return hit;
+}
+
+FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at,
+                      FurFilter* filter) {
+  FurHit hit = HWY_DYNAMIC_DISPATCH(closest_at)(tree, ray, at, filter);
   if (!hit) return {};
   hit.distance *= tree.step;
   return hit;

@@ -96,6 +96,20 @@ class AnyFur {
   FurFilter* filter_;
 };
 
+/// A query about one segment.
+template <class Query>
+class OnlySegment : public Query {
+ public:
+  OnlySegment(uint32_t number, const FurRay& ray, FurFilter* filter, float step)
+      : Query(ray, filter, step), number_(number) {}
+  bool wants(float distance, uint32_t number) const {
+    return number == number_ && Query::wants(distance, number);
+  }
+
+ private:
+  uint32_t number_;
+};
+
 /// A query that also counts its tests.
 template <class Query>
 class Counting : public Query {

@@ -85,6 +85,15 @@ class FurRays {
 /// Like FurTree::closest() and FurTree::occluded(), for a ray that was prepared for this view. The view must
 /// have nodes. They add the numbers of their tests to `tests`, unless `tests` is null.
 FurHit closest_fur(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
+/// A block that holds a segment.
+struct FurSegmentPlace {
+  const std::byte* block = nullptr;
+  bool wide = false;
+  uint32_t number = FurHit::kNone;
+};
+/// The first hit with one segment: the same as that of closest_fur() where no other segment is hit before.
+FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at,
+                      FurFilter* filter);
 bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);
 
 }  // namespace pelage

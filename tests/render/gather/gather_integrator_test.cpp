@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
@@ -28,10 +30,29 @@ TEST(GatherIntegrator, OneAndManyThreadsGiveTheSameFilm) {
   }
 }
 
+TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) {
+  GatherScene scene;
+  scene.image.filter_samples = FilterSamples::kSplatted;
+  const FrameResult traced = scene.run({}, 1);
+  scene.render.gather.visibility = GatherVisibility::kRaster;
+  const FrameResult drawn = scene.run({}, 1);
+  expect_same(drawn.film, scene.run({}, 4).film);
+  double alpha = 0, depths = 0, pixels = 0;
+  for (int y = 0; y < scene.image.height; ++y) {
+    for (int x = 0; x < scene.image.width; ++x) {
+      alpha += std::abs(drawn.film.alpha(x, y) - traced.film.alpha(x, y));
+      depths += drawn.film.surface(x, y).depth == traced.film.surface(x, y).depth ? 1 : 0;
+      ++pixels;
+    }
+  }
+  EXPECT_LT(alpha / pixels, 0.002);
+  EXPECT_GT(depths / pixels, 0.98);
+}
+
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   const FrameResult free = scene.run({}, 3);
-  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8);
+  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.gather);
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(3 * tile));

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "render/raster/raster_shapes.h"
+
+namespace pelage {
+
+/// A segment in a tile's frame: Bezier points, radii.
+struct TileSegment {
+  std::array<V3f, 4> p;
+  std::array<float, 4> r{};
+};
+
+/// Pieces of a segment that are parabolas, close enough to decide which lines meet it.
+class FlatPieces {
+ public:
+  static constexpr size_t kMaxPieces = 8;
+
+  /// Divides a segment that moves from `from` to `to`, which may be the same object. Radii are enlarged by
+  /// the max distance between pieces and segment, and by the fraction `wider`: a line that misses all pieces
+  /// misses the segment.
+  FlatPieces(const TileSegment& from, const TileSegment& to, float wider);
+
+  const RasterPiece* begin() const { return pieces_.data(); }
+  const RasterPiece* end() const { return pieces_.data() + count_; }
+
+ private:
+  std::array<RasterPiece, kMaxPieces> pieces_;
+  size_t count_ = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/raster/tile_raster_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "base/hash.h"
+#include "geom/strands.h"
+#include "render/accel/strand_handle.h"
+
+namespace pelage {
+
+/// The strands that a thread copied last: samples of neighbouring pixels often see the same ones. One of them
+/// at a time is lent to the thread's HitGeometry.
+class HeldStrands {
+ public:
+  static constexpr size_t kCount = 32;
+
+  /// Makes `met` the strand of a handle; calls copy(Strands&) if it is not held.
+  template <class Copy>
+  void lend(const StrandHandle& handle, Strands& met, const Copy& copy) {
+    Held& held = held_[hash64(handle.chunk, handle.index) % kCount];
+    if (lent_ != &held) {
+      take_back(met);
+      std::swap(held.strand, met);
+      lent_ = &held;
+    }
+    if (held.handle == handle) return;
+    held.handle = {};
+    copy(met);
+    held.handle = handle;
+  }
+  /// Call before something else uses `met`, with the strand that was lent.
+  void take_back(Strands& met) {
+    if (lent_) std::swap(lent_->strand, met);
+    lent_ = nullptr;
+  }
+
+ private:
+  struct Held {
+    StrandHandle handle;
+    Strands strand;
+  };
+  std::array<Held, kCount> held_;
+  Held* lent_ = nullptr;
+};
+
+}  // namespace pelage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// The part of the shutter between two motion keys. At time t, a shape that moves from a to b is at
+/// a + f (b - a), where f = t * scale - first.
+struct KeySpan {
+  float scale = 0, first = 0;
+  bool is_last = true;  ///< includes its end
+};
+
+/// A piece of a strand in a tile's frame: p + u d + u (1 - u) q for u in [0, 1], with radius r + u dr.
+struct RasterPiece {
+  struct Curve {
+    V3f p{0}, d{0}, q{0};
+
+    V3f end() const { return p + d; }
+    /// Max distance from the chord.
+    float bulge() const { return 0.25f * q.length(); }
+  };
+  Curve at;      ///< at the first motion key
+  Curve motion;  ///< until the second: differences
+  float r = 0, dr = 0;
+  /// Range of u in which the nearest point of the piece must lie. It is clamped to [0, 1] afterwards.
+  float low = 0, high = 0;
+  float segment_u = 0, segment_du = 1;  ///< u of the segment = segment_u + u * segment_du
+  bool moves = false;
+};
+
+/// A triangle in a tile's frame.
+struct RasterTriangle {
+  V3f corners[3];
+  V3f motion[3];
+  bool moves = false;
+};
+
+}  // namespace pelage

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/raster/tile_raster_test.cpp.
+#include "render/raster/tile_lines.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace pelage {
+namespace {
+
+constexpr float kPerCell = 8;     // lines in a row's height of cells, on average
+constexpr size_t kPerGroup = 64;  // lines, at least
+constexpr size_t kMaxGroups = 64;
+
+/// The number of groups along each axis of the lens, and in time.
+struct Division {
+  int lens = 1, time = 1;
+};
+Division divide(size_t lines, bool has_lens, bool has_time) {
+  const size_t groups = std::clamp<size_t>(lines / kPerGroup, 1, kMaxGroups);
+  Division d;
+  const size_t for_lens = has_time ? groups / 4 : groups;
+  if (has_lens)
+    while (static_cast<size_t>((d.lens + 1) * (d.lens + 1)) <= for_lens) ++d.lens;
+  if (has_time) d.time = std::clamp<int>(static_cast<int>(groups) / (d.lens * d.lens), 1, 8);
+  return d;
+}
+
+int part_of(float x, const Range& range, int parts) {
+  if (parts == 1 || !(range.size() > 0)) return 0;
+  const float at = (x - range.low) / range.size() * static_cast<float>(parts);
+  return std::clamp(static_cast<int>(at), 0, parts - 1);
+}
+
+}  // namespace
+
+int TileLines::cell(float position, size_t axis) const {
+  const float at = (position - low_[axis]) * inverse_size_[axis];
+  const int count = axis == 0 ? columns_ : rows_;
+  return static_cast<int>(std::floor(std::clamp(at, -1.0f, static_cast<float>(count))));
+}
+
+void TileLines::assign(std::span<const TileLine> lines, float reference) {
+  inverse_reference_ = std::isfinite(reference) && reference > 0 ? 1 / reference : 0;
+  const auto position = [&](const TileLine& line) { return line.b + inverse_reference_ * line.a; };
+  Range at[2], a[2], time;
+  slopes_[0] = slopes_[1] = {};
+  for (const TileLine& line : lines) {
+    slopes_[0].extend(line.b.x), slopes_[1].extend(line.b.y);
+    const V2f c = position(line);
+    at[0].extend(c.x), at[1].extend(c.y);
+    a[0].extend(line.a.x), a[1].extend(line.a.y);
+    time.extend(line.time);
+  }
+  has_lens_ = a[0].size() > 0 || a[1].size() > 0 || a[0].low != 0 || a[1].low != 0;
+  const Division parts = divide(lines.size(), has_lens_, time.size() > 0);
+  const auto group_count = static_cast<size_t>(parts.lens * parts.lens * parts.time);
+  const float per_group = static_cast<float>(lines.size()) / static_cast<float>(group_count);
+  rows_ = std::clamp(static_cast<int>(std::sqrt(per_group / kPerCell)), 1, kMaxRows);
+  columns_ = 2 * rows_;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    const int count = axis == 0 ? columns_ : rows_;
+    low_[axis] = at[axis].low;
+    size_[axis] = std::max(at[axis].size() / static_cast<float>(count), 1e-30f);
+    inverse_size_[axis] = 1 / size_[axis];
+  }
+
+  const auto cells = static_cast<uint32_t>(rows_ * columns_);
+  groups_.assign(group_count, {});
+  for (size_t g = 0; g < group_count; ++g) groups_[g].first_start = static_cast<uint32_t>(g) * cells;
+  starts_.assign(group_count * cells + 1, 0);
+  keys_.resize(lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const TileLine& line = lines[i];
+    const int g = (part_of(line.time, time, parts.time) * parts.lens + part_of(line.a.y, a[1], parts.lens)) *
+                      parts.lens +
+                  part_of(line.a.x, a[0], parts.lens);
+    Group& group = groups_[static_cast<size_t>(g)];
+    group.a[0].extend(line.a.x), group.a[1].extend(line.a.y);
+    group.time.extend(line.time);
+    const V2f c = position(line);
+    const int row = std::clamp(cell(c.y, 1), 0, rows_ - 1),
+              column = std::clamp(cell(c.x, 0), 0, columns_ - 1);
+    keys_[i] = static_cast<uint32_t>(g) * cells + static_cast<uint32_t>(row * columns_ + column);
+    ++starts_[keys_[i]];
+  }
+  std::exclusive_scan(starts_.begin(), starts_.end(), starts_.begin(), 0u);
+  place_.resize(lines.size());
+  for (size_t i = 0; i < lines.size(); ++i) place_[i] = starts_[keys_[i]]++;
+  for (size_t i = starts_.size() - 1; i > 0; --i) starts_[i] = starts_[i - 1];
+  starts_[0] = 0;
+
+  const size_t padded = lines.size() + kPadding;
+  for (auto* values : {&ax_, &ay_, &bx_, &by_, &time_}) values->assign(padded, 0.0f);
+  depth_.assign(padded, std::numeric_limits<float>::infinity());
+  chunk_.assign(padded, TileWinner::kNothing);
+  for (auto* values : {&primitive_, &random_}) values->assign(padded, 0u);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const TileLine& line = lines[i];
+    const uint32_t to = place_[i];
+    ax_[to] = line.a.x, ay_[to] = line.a.y;
+    bx_[to] = line.b.x, by_[to] = line.b.y;
+    time_[to] = line.time;
+    random_[to] = line.random;
+  }
+}
+
+TileLines::Arrays TileLines::arrays() {
+  return {ax_.data(),    ay_.data(),    bx_.data(),        by_.data(),    time_.data(),
+          depth_.data(), chunk_.data(), primitive_.data(), random_.data()};
+}
+
+std::array<Range, 2> TileLines::extent(float depth) const {
+  std::array<Range, 2> result;
+  if (!has_lens_) {
+    for (size_t axis = 0; axis < 2; ++axis) {
+      result[axis].extend(depth * slopes_[axis].low);
+      result[axis].extend(depth * slopes_[axis].high);
+    }
+    return result;
+  }
+  for (size_t i = 0; i < size(); ++i) {
+    result[0].extend(ax_[i] + depth * bx_[i]);
+    result[1].extend(ay_[i] + depth * by_[i]);
+  }
+  return result;
+}
+
+float TileLines::max_depth() const {
+  float max = 0;
+  for (size_t i = 0; i < size(); ++i) max = std::max(max, depth_[i]);
+  return max;
+}
+
+void TileLines::trace_all() { std::fill(chunk_.begin(), chunk_.end(), TileWinner::kTraced); }
+
+size_t TileLines::bytes(size_t lines) {
+  const size_t starts = lines / static_cast<size_t>(kPerCell) * 2 + kMaxGroups * 2 + 1;
+  return (lines + kPadding) * (9 * sizeof(float)) + lines * 2 * sizeof(uint32_t) + starts * sizeof(uint32_t) +
+         kMaxGroups * sizeof(Group);
+}
+
+}  // namespace pelage

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/raster/tile_raster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/raster/tile_drawing.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kCandidates = 64;  // found at once
+/// Lines with a larger angle to the axis of their tile, as a tangent, are traced.
+constexpr float kMaxSlope = 0.5f;
+
+/// The range of depths of a box.
+Range depths_of(const TileFrame& frame, const Box3f& box) {
+  constexpr float kFarthest = 1e18f;
+  const V3f size = box.size();
+  if (!std::isfinite(size.x + size.y + size.z)) return {-kFarthest, kFarthest};
+  const float middle = frame.local(box.center()).z;
+  const float half = 0.5f * BeamPlane{frame.axes[2], 0}.spread(box.size());
+  return Range{middle - half, middle + half}.widened(1e-5f * (std::abs(middle) + half));
+}
+
+/// Where the lines of a pixel are close.
+float reference_depth(const RenderScene& scene, const Accel& accel, const TileFrame& frame, float focus) {
+  if (scene.camera.has_lens()) return focus;
+  const Box3f all = accel.bounds();
+  return all.isEmpty() ? 1.0f : std::max(frame.local(all.center()).z, 0.0f);
+}
+
+}  // namespace
+
+size_t TileRaster::scratch_bytes(size_t samples) {
+  return samples * sizeof(TileLine) + TileLines::bytes(samples) +
+         (kCandidates + 1) * sizeof(Scratch::Candidate);
+}
+
+/// Sorts the lines of all samples. Returns false where they diverge too much to be drawn.
+bool TileRaster::place_lines(const Tile& tile, uint32_t first, uint32_t count, TileFrame& frame,
+                             Range& starts, Scratch& scratch) const {
+  const CameraRay axis = scene_.camera.ray(0.5f * static_cast<float>(tile.x0 + tile.x1),
+                                           0.5f * static_cast<float>(tile.y0 + tile.y1), V2f(0.5f), 0.5f);
+  frame = TileFrame::along(axis.origin, axis.direction);
+  scratch.drawn.clear();
+  bool possible = true;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      for (uint32_t i = 0; i < count; ++i) {
+        SampleStream stream = camera_.stream(x, y, first + i);
+        const Ray ray = camera_.draw(x, y, first + i, stream).ray;
+        const V3f from = frame.local(ray.origin), along = frame.rotated(ray.direction);
+        TileLine line;
+        line.b = V2f(along.x, along.y) * (1 / std::max(along.z, 1e-6f));
+        line.a = V2f(from.x, from.y) - from.z * line.b;
+        line.time = ray.time;
+        line.random = ray.random;
+        possible = possible && along.z > 0 && std::max(std::abs(line.b.x), std::abs(line.b.y)) <= kMaxSlope;
+        starts.extend(from.z);
+        scratch.drawn.push_back(line);
+      }
+    }
+  }
+  const float focus = scene_.camera.lod_view().focus_distance * axis.direction.dot(scene_.camera.axis(0.5f));
+  scratch.lines.assign(scratch.drawn, reference_depth(scene_, accel_, frame, focus));
+  return possible;
+}
+
+bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Job& job, int worker,
+                      Scratch& scratch) const {
+  scratch.samples_per_pixel = count;
+  TileFrame frame;
+  Range starts;
+  bool possible = place_lines(tile, first, count, frame, starts, scratch);
+  const ChunkBoxes& boxes = chunks_.boxes();
+  const Box3f bounds = accel_.bounds();
+  if (bounds.isEmpty()) return true;
+  TileDrawing drawing(frame, starts, scratch.lines);
+  const TileBeam beam = drawing.beam(depths_of(frame, bounds));
+  // Skins hide what is behind them, and are quickly drawn.
+  for (const bool skins : {true, false}) {
+    Scratch::Candidate done{-std::numeric_limits<float>::infinity(), 0};
+    do {
+      find_candidates(skins, beam.beam(), drawing.far(), done, scratch);
+      for (const Scratch::Candidate& next : scratch.candidates) {
+        if (job.progress.cancelled()) return false;
+        done = next;
+        drawing.update_far();
+        const Range depths = depths_of(frame, boxes.whole(next.chunk));
+        if (!possible || !may_be_seen(next.chunk, drawing.beam(depths).beam(), drawing.far())) continue;
+        possible = chunks_.visit(next.chunk, worker, [&](const ChunkGeometry& geometry) {
+          return drawing.draw(geometry, next.chunk, depths);
+        });
+      }
+    } while (scratch.candidates.size() == kCandidates);
+  }
+  if (!possible) scratch.lines.trace_all();
+  return true;
+}
+
+/// The first chunks after one, in the order of their least depth.
+void TileRaster::find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
+                                 Scratch& scratch) const {
+  auto& candidates = scratch.candidates;
+  candidates.clear();
+  for (uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
+    Scratch::Candidate candidate{0, chunk};
+    if (chunks_.is_skin(chunk) != skins || !beam.meets(chunks_.boxes().whole(chunk), far, candidate.entry) ||
+        !(after < candidate))
+      continue;
+    candidates.push_back(candidate);
+    std::push_heap(candidates.begin(), candidates.end());
+    if (candidates.size() <= kCandidates) continue;
+    std::pop_heap(candidates.begin(), candidates.end());
+    candidates.pop_back();
+  }
+  std::sort_heap(candidates.begin(), candidates.end());
+}
+
+/// Whether the beam meets the boxes of a chunk before `far`: its fine boxes, if it would have to be grown.
+bool TileRaster::may_be_seen(uint32_t chunk, const Beam& beam, float far) const {
+  const ChunkBoxes& boxes = chunks_.boxes();
+  float entry = 0;
+  if (!beam.meets(boxes.whole(chunk), far, entry)) return false;
+  if (chunks_.is_resident(chunk) || !boxes.has_fine(chunk)) return true;
+  const FineBoxes& fine = boxes.fine(chunk);
+  const V3f margin(boxes.margin(chunk));
+  for (size_t b = 0; b < fine.count(); ++b) {
+    Box3f box = fine.box(b, 0);
+    box.extendBy(fine.box(b, 1));
+    if (beam.meets({box.min - margin, box.max + margin}, far, entry)) return true;
+  }
+  return false;
+}
+
+Hit TileRaster::closest(uint32_t pixel, uint32_t sample, const Ray& ray, TraceThread& thread,
+                        Scratch& scratch) const {
+  const TileWinner winner = scratch.lines.winner(size_t{pixel} * scratch.samples_per_pixel + sample);
+  if (winner.chunk == TileWinner::kNothing) return {};
+  if (winner.chunk != TileWinner::kTraced) {
+    NearestSoFar nearest;
+    FurRays rays;
+    const bool found = chunks_.visit(winner.chunk, thread.worker, [&](const ChunkGeometry& geometry) {
+      if (!geometry.closest_at(ray, winner.primitive, rays, nearest, thread.met)) return false;
+      if (const StrandHandle strand = nearest.hit.handle()) {
+        scratch.held.lend(strand, thread.met.strand,
+                          [&](Strands& out) { geometry.strand(strand.index, out); });
+      }
+      return true;
+    });
+    if (found) {
+      chunks_.mark_hit(winner.chunk);
+      return nearest.hit;
+    }
+  }
+  ++scratch.traced;
+  scratch.held.take_back(thread.met.strand);
+  return accel_.closest(ray, thread);
+}
+
+}  // namespace pelage
