@@ -133,11 +133,11 @@ class ContentStore {
       const std::function<bool()>& cancelled = [] { return false; },
       std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
 
-  /// Removes files that killed processes left: their temporary files (see sweep_temporaries()), and lock
-  /// files that have not been modified for longer than `age`.
+  /// Removes what processes leave behind when they are killed: their temporary files (see
+  /// sweep_temporaries()), and lock files that have not been modified for longer than `age`.
   void sweep(std::chrono::seconds age = std::chrono::hours(1)) const;
 
-  /// Argument of prune() after an entry was stored: entries that have not been used for 30 days are removed.
+  /// Argument for prune() after storing an entry: removes entries that have not been used for 30 days.
   static constexpr std::chrono::hours kUnusedAge{24 * 30};
 
   struct Removed {

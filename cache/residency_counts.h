@@ -13,7 +13,7 @@ struct ResidencyCounts {
   int64_t reexpansions = 0;  ///< growths of a unit that had been evicted
   int64_t evictions = 0;
   int64_t touched = 0;            ///< distinct slots whose unit was grown
-  int64_t false_expansions = 0;   ///< growths without a mark_hit() until the unit's eviction, or until now
+  int64_t false_expansions = 0;   ///< growths of units without any mark_hit() while in memory
   int64_t working_set_bytes = 0;  ///< total memory of the units of all `touched` slots
   int64_t peak_bytes = 0;         ///< max memory held at once, including reservations
   int64_t overruns = 0;           ///< units larger than their reservation, which is a bug of the grower

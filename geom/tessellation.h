@@ -14,8 +14,8 @@ namespace pelage {
 
 class Workers;
 
-/// The triangles of a skin. All consumers of a frame share them: rays, push_out and occlusion. Vertices lie
-/// on the limit surface. Watertight where the surface is closed.
+/// The triangles of a skin. Within one frame, rays, push_out and occlusion all use the same triangles.
+/// Vertices lie on the limit surface. Watertight where the surface is closed.
 struct SkinMesh {
   int motion_keys = 1;
   std::vector<float> positions;  ///< motion_keys x vertex_count x (x, y, z): all of key 0 first
@@ -45,8 +45,8 @@ struct TessellationOptions {
   float edge_pixels = 4;  ///< target length in pixels of the parts of an edge on screen
   /// Max number of parts into which an edge of the cage is divided; at least 2 beside an n-gon.
   int max_rate = 32;
-  /// Range of the keys that determine the rates (numbers of parts of edges). Poses before and after this
-  /// range have no influence on the triangles.
+  /// Range of the keys that determine the rates (numbers of parts of edges). Poses outside this range are
+  /// tessellated too, but do not change how edges are divided.
   size_t first_rated_key = 0, end_rated_key = SIZE_MAX;
 };
 
@@ -60,9 +60,10 @@ SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const 
 /// Tessellates in the same way, but throws Error (kStopped) when the job is stopped.
 SkinMesh tessellate(std::span<const LimitSurface> keys, const View& view, const TessellationOptions& options,
                     const Job& job);
-/// Tessellates only `faces`, which must be all ptex faces of some cage faces, ascending. The triangles are
-/// bit-identical to those of the whole skin and in the same order; their vertices are renumbered. The
-/// surfaces are needed only on faces_around(faces). Runs on the calling thread.
+/// Tessellates only `faces`: indices of ptex faces, ascending. If one ptex face of a cage face is in the
+/// list, all ptex faces of this cage face must be. The triangles are bit-identical to those of the whole skin
+/// and in the same order; their vertices are renumbered. The surfaces are needed only on faces_around(faces).
+/// Runs on the calling thread.
 SkinMesh tessellate_faces(std::span<const LimitSurface> keys, std::span<const uint32_t> faces,
                           const View& view, const TessellationOptions& options);
 /// Returns the max temporary memory, without the result, of tessellate() and tessellate_faces(). `faces`:

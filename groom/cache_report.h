@@ -52,7 +52,7 @@ class GroomManifest {
   /// Recent states, the most recent first.
   const std::vector<State>& states() const { return states_; }
   /// Sets the states to `now`, followed by the states of `before`, the manifest that this one replaces. Drops
-  /// a state, and removes its files, if eight more recent states exist and its files have not been used for a
+  /// a state and removes its files if at least eight states are newer and its files have not been used for a
   /// day.
   void add_state(State now, const std::optional<GroomManifest>& before, const ContentStore& store);
   static std::filesystem::path file(const ContentStore& store, const std::string& groom);

@@ -37,8 +37,8 @@ class GuideSet {
   float length(size_t g) const { return lengths_[g]; }  ///< length of the control polygon of guide g
   /// Max of length() over all guides.
   float longest() const { return longest_; }
-  /// Median over the guides of the distance from a guide's root to the nearest other root. Of many guides,
-  /// samples about a thousand.
+  /// Median over the guides of the distance from a guide's root to the nearest other root. If there are many
+  /// guides, uses a sample of about a thousand.
   float spacing() const { return spacing_; }
   size_t bytes() const;
 

@@ -51,8 +51,9 @@ class OctaveGrid {
 
   float smallest_;
   float cell_ = 1;
-  unsigned octaves_ = 0;         // bit k is set if octave k holds follicles
-  std::vector<uint32_t> heads_;  // first items of lists; 16 cells of a row along x are adjacent
+  unsigned octaves_ = 0;  // bit k is set if octave k holds follicles
+  std::vector<uint32_t>
+      heads_;  // first item of the list of each cell; the entries of 16 cells in a row along x are adjacent
   std::vector<Item> items_;
 };
 

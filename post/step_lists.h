@@ -9,10 +9,10 @@
 
 namespace pelage {
 
-/// Lists, for one tile of the picture, the pixels of the field that may reach the tile at each step (time).
-/// Used for blocks of the field whose vectors differ very much. The bounds of such a block would reach almost
-/// every tile at every step, so drawing whole blocks would cost pixels * tiles * steps. With the lists, the
-/// cost is pixels * tiles. Does not affect the result.
+/// For one tile of the picture and each step in time, holds a list of the pixels of the flow field that may
+/// reach the tile at that time. Used for blocks of the field whose vectors differ very much. The bounds of
+/// such a block would reach almost every tile at every step, so drawing whole blocks would cost pixels *
+/// tiles * steps. With the lists, the cost is pixels * tiles. Does not affect the result.
 ///
 /// Thread safety: only one thread at a time may use an instance; use one per worker.
 class StepLists {

@@ -20,15 +20,15 @@ struct StereoFileParams {
   int strip_rows = kStripRows;
 };
 
-/// Processes one file as `pelage stereo` does: makes the other eye's picture of one view. The names of the
-/// parts are those of the other eye. The part with the colours gets a layer `invented`, whose channels are
-/// the filled fraction (`mask`) and the empty fraction (`hole`) of each pixel. Camera matrices of the header,
-/// if any, are converted to the other eye. Throws Error (kInput) when the view, its depth or a camera is
-/// missing. Passes on the errors of BandJob.
+/// Processes one file as `pelage stereo` does: reads the view of one eye and makes the picture for the other
+/// eye. The names of the parts are those of the other eye. The part with the colours gets a layer `invented`,
+/// whose channels are the filled fraction (`mask`) and the empty fraction (`hole`) of each pixel. Camera
+/// matrices of the header, if any, are converted to the other eye. Throws Error (kInput) when the view, its
+/// depth or a camera is missing. Passes on the errors of BandJob.
 PostReport stereo_file(const std::filesystem::path& input, const std::filesystem::path& output,
                        const StereoFileParams& params, const Job& job);
 
-/// Returns the focal length in pixels of the picture's width, computed from the matrices worldToCamera and
+/// Returns the focal length in horizontal pixels. It is computed from the matrices worldToCamera and
 /// worldToNDC of a header. They have the meaning of the OpenEXR standard: row vectors, NDC from 0 to 1.
 /// Returns an empty value when a matrix is missing or the focal length cannot be computed.
 std::optional<float> focal_pixels_of(const ExrPart& part);

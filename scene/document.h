@@ -34,7 +34,7 @@ Value load_document(const std::filesystem::path& path, const std::vector<Overrid
 
 /// Support for renamed keys. A document may use an old name of a key. The loader replaces old names by
 /// current names before it merges files, so the precedence of files and overrides does not depend on which
-/// name they use. A file or an override that uses both names of a key causes a problem.
+/// name they use. It is an error if one file or one override uses both names of a key.
 struct RenamedKeys {
   const SchemaInfo& root;              ///< table of the whole document
   std::vector<Problem> warnings = {};  ///< one per use of an old name, with its position and the current name
@@ -52,9 +52,9 @@ std::optional<Value> load_document(const std::filesystem::path& path, const std:
 /// all mistakes.
 Value parse_document(const std::string& text, const std::string& name);
 
-/// Returns the manual: of all tables that can be reached from `root`, or only of the table `section` if this
-/// is not empty. The text is Markdown if `markdown` is true, else plain text. Throws Error (kArguments) with
-/// the nearest name when there is no such section.
+/// Returns the manual of all schemas that can be reached from `root`. If `section` is not empty, returns only
+/// the manual of the schema of that name. The text is Markdown if `markdown` is true, else plain text. Throws
+/// Error (kArguments) with the nearest name when there is no such section.
 std::string manual_text(const SchemaInfo& root, const std::string& section = {}, bool markdown = false);
 
 }  // namespace pelage

@@ -9,7 +9,7 @@
 
 namespace pelage {
 
-/// The text of a scene file, which converts byte positions to lines and columns for messages. Lines and
+/// Holds the text of a scene file. Converts byte positions to lines and columns for messages. Lines and
 /// columns of a SourcePosition count from 1. Columns count characters as an editor does, not bytes.
 class SourceText {
  public:

@@ -44,7 +44,8 @@ const Schema<PosesParams>& PosesParams::schema() {
     s.key("frames_per_pose", &PosesParams::frames_per_pose,
           {.unit = "frames", .help = "Frames from one pose to the next", .min = 0, .above_min = true});
     s.key("cycle", &PosesParams::cycle,
-          {.help = "Repeat from the first pose after the last. Otherwise the first pose also applies before "
+          {.help = "After the last pose, start again with the first one. Otherwise the first pose also "
+                   "applies before "
                    "its frame, and the last pose after its frame"});
     return s;
   }();

@@ -37,9 +37,9 @@ void write_frame(const std::filesystem::path& path, const World& world, const Fr
                  double seconds, const Job& job);
 
 /// Sets the limit of the ledger to `render.memory` and charges the memory of a frame's film. Throws Error
-/// (kMemory) when the film does not fit. While the caller keeps this charge, load_assets() fails early if its
-/// data and the film do not fit together. Release the charge before render(), because render() charges the
-/// film itself.
+/// (kMemory) when the film does not fit. While the caller keeps this charge, load_assets() fails early if the
+/// memory limit has no room for both its data and the film. Release the charge before render(), because
+/// render() charges the film itself.
 MemoryCharge reserve_film(const SceneDescription& scene, const Job& job);
 
 }  // namespace pelage

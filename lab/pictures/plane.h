@@ -33,8 +33,8 @@ constexpr int kMeanBlock = 4;
 /// Returns the means of the blocks of an image. Omits incomplete blocks at the right and lower borders.
 Plane block_means(const Plane& plane);
 
-/// Returns for each pixel the mean over the square of 2 * around + 1 pixels per side around it. Outside the
-/// image, the pixels at the border are repeated.
+/// Box filter: returns for each pixel the mean over the square window centred on it, whose width is 2 *
+/// around + 1 pixels. Outside the image, the pixels at the border are repeated.
 Plane blurred(const Plane& plane, int around);
 
 /// Returns the mean over the pixels where `region` is greater than 0.5; NaN if there are none.

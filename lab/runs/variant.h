@@ -59,7 +59,7 @@ struct Outcome {
   /// Returns the successful run with the median wall time (the faster of two middle runs). Null when no run
   /// succeeded.
   const VariantRun* typical() const;
-  /// Returns a number of typical() by its path in the statistics. NaN when unknown.
+  /// Returns one value of the statistics of typical(). `path`: of the value in the JSON. NaN when unknown.
   double number(const std::string& path) const;
   /// min() and max() return the min and max of a number over all successful runs. NaN when unknown.
   double min(const std::string& path) const;

@@ -53,9 +53,9 @@ float longest_segment(const Strands& strands, CurveShape shape);
 /// Whether the ray's origin, direction, near end and time are finite and its far end is not NaN.
 bool is_finite(const Ray& ray);
 /// Converts a ray to Embree's form. Embree's ray starts earlier by the distance `before`, so all distances
-/// that Embree reports are larger by `before`. Reason: Embree ignores hits on flat curves within a strand's
-/// width of the origin, on any strand. For flat curves, `before` should therefore be at least one width (see
-/// begins_before()).
+/// that Embree reports are larger by `before`. Reason: Embree ignores every hit on a flat curve that is
+/// nearer to the origin of the ray than the width of the strand, also on strands other than the one that the
+/// ray starts on. For flat curves, `before` should therefore be at least one width (see begins_before()).
 RTCRay embree_ray(const Ray& ray, float before = 0);
 /// Returns `before` for embree_ray(), for strands whose widths are at most `widest`; 0 for round strands.
 inline float begins_before(float widest, CurveShape shape) {
@@ -70,8 +70,8 @@ RTCGeometryType embree_curve_type(CurveBasis basis, CurveShape shape);
 
 /// Returns which joint of a segment is nearer to the parameter `u`: 0 for the segment's beginning, 1 for its
 /// end. Embree tests a flat segment as `tessellation_rate` pieces. Adjacent pieces overlap, so a point
-/// between two pieces may be reported twice. The value of `u` that separates the two joints is therefore in
-/// the middle of a piece.
+/// between two pieces may be reported twice. Both reports of such a point must give the same joint. The value
+/// of `u` at which the joint changes is therefore in the middle of a piece, not between two pieces.
 inline uint32_t joint_beside(float u, int tessellation_rate) {
   return u > 0.5f + 0.5f / static_cast<float>(tessellation_rate) ? 1 : 0;
 }

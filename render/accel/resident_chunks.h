@@ -41,9 +41,9 @@ struct ResidentChunksOptions {
 /// rather than rays visits one chunk after the other.
 ///
 /// Procedural and DeferredSkin make strands and skins; Residency keeps them. Two classes connect these. A
-/// ChunkGrower, which is FrameChunks for a frame, knows the scene: it numbers the chunks and makes the plain
-/// contents of each. ResidentChunks does not know the scene: it turns contents into geometry that rays are
-/// traced against, states how much memory this needs, and stores the boxes of the chunks.
+/// ChunkGrower knows the scene: it numbers the chunks and makes the plain contents of each. (FrameChunks is
+/// the ChunkGrower of a frame.) ResidentChunks does not know the scene: it turns contents into geometry that
+/// rays are traced against, states how much memory this needs, and stores the boxes of the chunks.
 ///
 /// Thread safety: const members from any thread, but a `worker` number may be used by only one thread at a
 /// time. visit() passes on the exceptions of the grower.

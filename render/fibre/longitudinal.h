@@ -31,8 +31,8 @@ inline float bessel_i0_exp(float x, float exponent) {
   return scaled / std::sqrt(x) * std::exp(exponent + x);
 }
 
-/// The energy-conserving longitudinal function of [dEon11, equation 7], as a density in the measure
-/// cos(theta_i) d theta_i of solid angle:
+/// The energy-conserving longitudinal function of [dEon11, equation 7]. It is a density with respect to
+/// cos(theta_i) d theta_i, the longitudinal part of solid angle:
 ///
 ///   M(v; theta_i, theta_o) = I0(cos ti cos to / v) exp(-sin ti sin to / v) / (2 v sinh(1 / v)),
 ///

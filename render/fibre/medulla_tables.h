@@ -51,8 +51,8 @@ class MedullaTables {
   std::vector<Node> nodes_;
 };
 
-/// The lobe of scattered light for one inclination and one h: a mixture of the four nodes of the tables that
-/// surround them. Keeps a reference to the tables.
+/// The lobe of scattered light for one inclination and one h. It is a mixture of the four table nodes around
+/// this inclination and h. Keeps a reference to the tables.
 class TabulatedScatter {
  public:
   TabulatedScatter(const MedullaTables& tables, float sin_theta_o, float h);

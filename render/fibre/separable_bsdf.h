@@ -12,8 +12,8 @@
 
 namespace pelage {
 
-/// Widths of the lobes R, TT and TRT and of the last lobe, for all longer paths. Evaluation and sampling
-/// share them, so that the two cannot disagree.
+/// Widths of the four lobes: R, TT, TRT, and a last lobe that represents all longer paths. Evaluation and
+/// sampling share them, so that the two cannot disagree.
 template <class Azimuth>
 struct LobeWidths {
   std::array<LongitudinalLobe, kFibreLobes> longitudinal;
@@ -44,7 +44,8 @@ class SeparableBsdf {
     for (int p = 0; p < kFibreLobes; ++p) {
       const float sin_tilt = p < 3 ? widths.sin_tilt[p] : 0, cos_tilt = p < 3 ? widths.cos_tilt[p] : 1;
       sin_o_[p] = frame.sin_theta_o() * cos_tilt + frame.cos_theta_o() * sin_tilt;
-      // Beyond a pole the cosine is negative; its magnitude keeps M normalised.
+      // If the tilt moves theta_o beyond 90 degrees, its cosine is negative. The absolute value keeps M
+      // normalised.
       cos_o_[p] = std::abs(frame.cos_theta_o() * cos_tilt - frame.sin_theta_o() * sin_tilt);
       choice_[p] = (amplitude_[p].x + amplitude_[p].y + amplitude_[p].z) / 3;
     }
@@ -76,8 +77,9 @@ class SeparableBsdf {
     return value;
   }
 
-  /// Draws a direction without evaluating it. u.x selects the azimuth, u.y the distance from the peak, u.z
-  /// the lobe and, rescaled, the side of the peak.
+  /// Draws a direction without evaluating it. u.x selects the azimuth. u.y selects the distance from the
+  /// peak. u.z selects the lobe; rescaled to [0, 1) within its lobe, it also selects the angle about the
+  /// peak.
   V3f draw(const V3f& u) const {
     int p = 0;
     float rest = u.z;

@@ -40,8 +40,9 @@ const Schema<ImageParams>& ImageParams::schema() {
              "computed from the pixel's own samples only and is too high: with `blackman-harris`, about "
              "1.5 times the true error. Not available with `integrator: gather`, whose samples share light"});
     s.key("lod_layer", &ImageParams::lod_layer,
-          {.help = "Adds the layer `lod`: the fraction of strands that render.lod removed at the front-most "
-                   "surface, 0 on skins. `tools/exr_to_png IN.exr OUT.png lod` shows it in false colours"});
+          {.help = "Adds the layer `lod`: in each pixel, the fraction of strands that render.lod removed "
+                   "from the front-most coat; 0 where a skin is front-most. `tools/exr_to_png IN.exr OUT.png "
+                   "lod` shows it in false colours"});
     return s;
   }();
   return table;

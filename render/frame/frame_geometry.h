@@ -14,9 +14,9 @@ namespace pelage {
 /// needs it. With `render.bounds: none`, all chunks are grown up front instead.
 class FrameGeometry {
  public:
-  /// Splits all procedurals and bounds their leaves. Throws Error, of kind kMemory if the largest chunk does
-  /// not fit `render.memory`. Returns null when cancelled. `statistics` receives the counts and times of
-  /// these steps.
+  /// Splits all procedurals into leaves and computes the boxes of each leaf. Throws Error, of kind kMemory if
+  /// the largest chunk does not fit `render.memory`. Returns null when cancelled. `statistics` receives the
+  /// counts and times of these steps.
   static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Job& job,
                                                    FrameStatistics& statistics);
 

@@ -15,9 +15,9 @@
 namespace pelage {
 
 /// Chooses and traces shadow rays from the visible points of a tile: on average, about `gather.light_rays`
-/// per point. A point gets more rays if the direct light that it may scatter is bright compared to the light
-/// of its pixel, and if it is uncertain how much of this light arrives. Thread safety: const members may be
-/// called from any thread, each with its own scratch.
+/// per point. A point gets more rays if its unoccluded direct light is bright compared to the light of its
+/// pixel, and the visibility of this direct light is uncertain. Thread safety: const members may be called
+/// from any thread, each with its own scratch.
 class ShadowRays {
  public:
   /// Keeps references to its arguments.
@@ -29,9 +29,9 @@ class ShadowRays {
     std::vector<double> pixel_light;  // direct luminance that is expected to reach the camera, by pixel
   };
 
-  /// Chooses some of the rays of `samples.light_rays` from index `first` on. The choice uses the fractions
-  /// that `light` estimates from the rays added before (LightSharing::chance()). Traces the chosen rays and
-  /// adds the results to `light`. Returns false when `job` was cancelled.
+  /// Chooses some of the rays of `samples.light_rays` from index `first` on. The choice uses
+  /// LightSharing::chance(), which `light` estimates from the rays of earlier calls. Traces the chosen rays
+  /// and adds the results to `light`. Returns false when `job` was cancelled.
   bool trace(const TileSamples& samples, size_t first, const Job& job, Scratch& scratch,
              SampleScratch& thread, LightSharing& light) const;
 

@@ -20,15 +20,18 @@ void add_color_keys(Schema<P>& s, const char* help) {
 template <class P>
 void add_absorption_keys(Schema<P>& s) {
   using Amount = std::optional<float> P::*;
-  s.key("preset", static_cast<HairPreset P::*>(&P::preset),
-        {.help = "Pigment concentrations to start from. A given eumelanin or pheomelanin replaces the "
-                 "preset's concentration of that pigment; a given absorption replaces the whole preset. The "
-                 "absorption of the pigments is measured [dEon11, after Donner and Jensen 2006]. The "
-                 "concentrations are guide values for people (blond, brown, black), and guesses for red "
-                 "hair and all animals"});
+  s.key(
+      "preset", static_cast<HairPreset P::*>(&P::preset),
+      {.help =
+           "Pigment concentrations to start from. If eumelanin or pheomelanin is set, it replaces the "
+           "preset's concentration of that pigment. If absorption is set, it replaces the whole preset. The "
+           "absorption of the pigments is measured [dEon11, after Donner and Jensen 2006]. The "
+           "concentrations are guide values for people (blond, brown, black), and guesses for red "
+           "hair and all animals"});
   s.key("absorption", static_cast<std::optional<Rgb> P::*>(&P::absorption),
         {.unit = "per radius of the fibre",
-         .help = "Absorption coefficient; the absorption of a given eumelanin or pheomelanin is added to it",
+         .help = "Absorption coefficient. If eumelanin or pheomelanin is also set, the absorption of that "
+                 "pigment is added",
          .min = 0,
          .max = 1000});
   s.key("eumelanin", static_cast<Amount>(&P::eumelanin),

@@ -36,11 +36,11 @@ const Schema<KajiyaKayParams>& KajiyaKayParams::schema() {
         s,
         "Colour of a dense coat, converted to albedo. If diffuse is given, color is not converted but used "
         "as the colour of the diffuse term");
-    s.key(
-        "diffuse", &P::diffuse,
-        {.help = "Albedo of the diffuse term, multiplied by color. Without it, the albedo follows from color",
-         .min = 0,
-         .max = 1});
+    s.key("diffuse", &P::diffuse,
+          {.help = "Albedo of the diffuse term, multiplied by color. Without this key, Pelage computes the "
+                   "albedo from color",
+           .min = 0,
+           .max = 1});
     s.key("specular", &P::specular,
           {.help = "Albedo of the highlight, independent of color", .min = 0, .max = 1});
     s.key("exponent", &P::exponent,

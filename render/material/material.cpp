@@ -55,8 +55,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
         "Colour of a dense coat, converted to albedo. If diffuse is given, color is not converted but used "
         "as the colour of the fibre's lobes");
     s.key("diffuse", &P::diffuse,
-          {.help = "Albedo of the diffuse lobe, multiplied by color. Without it, the albedo follows from "
-                   "color, so that a white fibre absorbs nothing",
+          {.help = "Albedo of the diffuse lobe, multiplied by color. Without this key, Pelage computes the "
+                   "albedo from color, so that a white fibre absorbs nothing",
            .min = 0,
            .max = 1});
     s.key("balance", &P::balance,

@@ -73,7 +73,9 @@ void add_medulla_keys(Schema<P>& s) {
   number("g", &MedullaParams::g, "Mean cosine of scattering in the medulla; 0.5 without a preset", -0.95,
          0.95);
   number("layers", &MedullaParams::layers,
-         "Number of cuticle layers; 0.5 (a single smooth interface) without a preset", 0.05, 10);
+         "Number of cuticle layers. A layer has two interfaces, so 0.5, the value without a preset, is a "
+         "single smooth interface",
+         0.05, 10);
   absorption("sigma_ca", &MedullaParams::sigma_ca, "Absorption coefficient of the cortex");
   absorption("sigma_ma", &MedullaParams::sigma_ma, "Absorption coefficient of the medulla");
   s.key("field", static_cast<FibreField P::*>(&P::field), field_key());

@@ -25,8 +25,8 @@ const Schema<AdaptiveParams>& AdaptiveParams::schema() {
            .max = 10});
     s.key("goal", &AdaptiveParams::goal,
           {.help = "For `two-stage`: which noise must meet the budget. `frame`: the root mean square of the "
-                   "noise of all pixels whose samples vary; Pelage distributes the samples so that their "
-                   "total is as small as possible. `pixel`: the noise of each pixel"});
+                   "noise of all pixels whose samples vary. Pelage meets this budget with as few samples in "
+                   "total as possible. `pixel`: the noise of each pixel"});
     s.key("pilot", &AdaptiveParams::pilot,
           {.help = "For `two-stage`: samples per pixel in the pilot pass. Pixels in areas where nothing is "
                    "hit and nothing varies get a quarter of them",

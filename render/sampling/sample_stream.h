@@ -52,15 +52,15 @@ constexpr float fraction(uint32_t bits) { return static_cast<float>(bits >> 8) *
 /// Random numbers in [0, 1) for one sample of one pixel: shuffled and Owen-scrambled Sobol points, padded
 /// [Burley20, section 3].
 ///
-/// A draw is one call of next1d() or next2d(). Draws have the indices 0, 1, 2 ... Over the samples of a
-/// pixel, the draws of one index are a scrambled Sobol sequence (in 2-D, a (0, m, 2)-net), shuffled in an
-/// order of their own. The first 2^k samples of a pixel are therefore stratified in every draw. Draws with
-/// different indices, and draws of different pixels, are independent. A draw is a pure function of (seed, x,
-/// y, sample, index), whatever the order of calls (law 1).
+/// A draw is one call of next1d() or next2d(). Draws have the indices 0, 1, 2 ... Take the draws with the
+/// same index from all samples of a pixel. They form a scrambled Sobol sequence (in 2-D, a (0, m, 2)-net).
+/// Each index has its own shuffled order. The first 2^k samples of a pixel are therefore stratified in every
+/// draw. Draws with different indices, and draws of different pixels, are independent. A draw is a pure
+/// function of (seed, x, y, sample, index), whatever the order of calls (law 1).
 ///
 /// To stratify a quantity over the samples of a pixel, every sample must take this quantity from the draw of
-/// the same index. A count of the draws so far would depend on the course of the path. Integrators therefore
-/// call seek() with a fixed index for each use.
+/// the same index. An index that counted the draws so far would depend on the course of the path. Integrators
+/// therefore call seek() with a fixed index for each use.
 class SampleStream {
  public:
   SampleStream(uint64_t seed, uint32_t x, uint32_t y, uint32_t sample)

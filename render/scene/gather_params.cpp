@@ -19,8 +19,8 @@ const Schema<GatherParams>& GatherParams::schema() {
                  "picture: fewer than 0.2 % of the samples see another strand. Needs `accel: fur` and "
                  "`curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
-          {.help = "false: samples share nothing. The picture then has no approximation, and as much noise "
-                   "as `integrator: path`; use it to measure what sharing changes"});
+          {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
+                   "as with `integrator: path`. Set it to false to measure what sharing changes"});
     s.key("spacing", &GatherParams::spacing,
           {.unit = "pixels",
            .help = "Maximum distance between knots along a strand. Knots are points at which light is "

@@ -49,8 +49,7 @@ const Schema<BvhParams>& BvhParams::schema() {
           {.help = "Folder that stores the fur of each frame with its trees. Each file is named by a hash "
                    "of everything that determines its content. When a ray in a later run needs a chunk, "
                    "Pelage reads it from such a file instead of growing it. The limit `memory` still "
-                   "applies. Requires accel: fur, flat "
-                   "strands and opaque coats",
+                   "applies. Works only with `accel: fur`, `curves: flat` and opaque coats",
            .default_text = "none"});
     return s;
   }();
@@ -113,14 +112,15 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key("compact_attributes", &RenderParams::compact_attributes,
           {.help = "Stores colours of grown strands with as few values and bits as possible without visible "
                    "loss; false stores them as computed"});
-    s.key("bounds", &RenderParams::bounds,
-          {.help =
-               "How Pelage finds the bounding boxes of chunks. Rays are tested against these boxes before "
-               "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
-               "boxes scaled "
-               "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
-               "`exact`: strands grow once beforehand to be measured; `exact-shutter`: as `exact`, but only "
-               "over the open shutter; `linear`: as `exact-shutter`, with boxes that move with the strands"});
+    s.key(
+        "bounds", &RenderParams::bounds,
+        {.help = "How Pelage finds the bounding boxes of chunks. Rays are tested against these boxes before "
+                 "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
+                 "boxes scaled "
+                 "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
+                 "`exact`: strands grow once beforehand and are measured over the whole interval of the "
+                 "frame; `exact-shutter`: as `exact`, but measured only while the shutter is open; `linear`: "
+                 "as `exact-shutter`, with boxes that move with the strands"});
     s.key("bounds_factor", &RenderParams::bounds_factor,
           {.help = "Size of the boxes of `bounds: user` relative to the conservative ones. Below 1, strands "
                    "may be lost",
