@@ -15,9 +15,9 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key(
         "visibility", &GatherParams::visibility,
         {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`. `raster`: "
-                 "strands and skins are drawn tile by tile, which needs fewer CPU seconds for the same "
-                 "picture: fewer than 0.2 % of the samples see another strand. Needs `accel: fur` and "
-                 "`curves: flat`"});
+                 "strands and skins are drawn tile by tile; fewer than 0.2 % of the samples see another "
+                 "strand. Drawing is faster on still fur that no lens blurs, and slower with a lens or a "
+                 "shutter. Needs `accel: fur` and `curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
                    "as with `integrator: path`. Set it to false to measure what sharing changes"});
