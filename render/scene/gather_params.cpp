@@ -16,8 +16,8 @@ const Schema<GatherParams>& GatherParams::schema() {
         "visibility", &GatherParams::visibility,
         {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`. `raster`: "
                  "strands and skins are drawn tile by tile; fewer than 0.2 % of the samples see another "
-                 "strand. Drawing is faster on still fur that no lens blurs, and slower with a lens or a "
-                 "shutter. Needs `accel: fur` and `curves: flat`"});
+                 "strand. Drawing is faster where a still picture without a lens is full of fur, and slower "
+                 "with a lens or a shutter. Needs `accel: fur` and `curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
                    "as with `integrator: path`. Set it to false to measure what sharing changes"});
