@@ -11,7 +11,8 @@
 
 namespace pelage {
 
-/// A frame of the film's size: a turning ball before a panning background, twenty layers of three colours.
+/// A frame of 2048 x 1556 pixels: a turning ball in front of a panning background. It has twenty layers of
+/// three colour channels.
 struct BenchPicture {
   static constexpr int kWidth = 2048, kHeight = 1556, kColors = 60;
   std::vector<float> colors, targets, depth;

@@ -23,7 +23,7 @@ struct SkinPiece {
 
 /// Memory that posing one ptex face needs, as a number of triangles that need the same memory.
 constexpr size_t kTrianglesPerPose = 16;
-/// Max number of pieces into which a skin is divided to keep the cost of each low, see divide_skin().
+/// Division stops at pieces that cost no more than 1 / kMaxPieces of the skin, see divide_skin().
 constexpr size_t kMaxPieces = 64;
 
 /// Divides a skin into compact pieces of similar cost. The cost of a piece is its number of triangles, plus

@@ -32,7 +32,8 @@ const Schema<GroomCacheParams>& GroomCacheParams::schema() {
     Schema<GroomCacheParams> s(
         "groom cache",
         "Stores the result of the frozen operators between runs. For each groom, the folder keeps the "
-        "results of its eight latest versions, and of all versions used within the last day. A result that "
+        "results of the eight latest versions of the groom, and of all versions used within the last day. A "
+        "result that "
         "is unused for thirty days is deleted when something new is stored. `pelage grow SCENE --prune` "
         "deletes everything that the scene does not need. Different builds of Pelage share stored results "
         "if their source code for growing hair is the same.");
@@ -113,17 +114,18 @@ const Schema<GroomParams>& GroomParams::schema() {
     s.key("operators", &GroomParams::operators,
           {.help = "Operators that shape the strands, in order. Every strand starts straight and one scene "
                    "unit long"});
-    s.key("leaf_strands", &GroomParams::leaf_strands,
-          {.help = "Maximum number of strands that grow together, as one chunk; changes no pixel. The "
-                   "default is 8000 for coats with a cache. With render.bvh.file, it is 8000 for strands "
-                   "from a file and 500 for other coats. In all other cases, Pelage chooses among 8000, "
-                   "2000, 500 and 125 (for long strands also 31 and 7). It takes the largest size for which "
-                   "N chunks fit into render.memory, counting 80 bytes per control point, or the smallest "
-                   "size if none fits. N is 8 if all fur fits into render.memory. Otherwise N is 32 for "
-                   "strands from a file and 400 for other coats",
-           .min = 1,
-           .max = 1e6,
-           .default_text = "8000 or less"});
+    s.key(
+        "leaf_strands", &GroomParams::leaf_strands,
+        {.help = "Maximum number of strands that grow together, as one chunk; changes no pixel. The "
+                 "default is 8000 for coats with a cache. With render.bvh.file, it is 8000 for strands "
+                 "from a file and 500 for other coats. In all other cases, Pelage chooses among 8000, "
+                 "2000, 500 and 125 (for long strands also 31 and 7). It takes the largest size at which a "
+                 "required number of chunks fits into render.memory at once, or the smallest size if no size "
+                 "meets this. A control point counts as 80 bytes. The required number is 8 if all fur fits "
+                 "into render.memory; otherwise it is 32 for strands from a file and 400 for other coats",
+         .min = 1,
+         .max = 1e6,
+         .default_text = "8000 or less"});
     s.key("cache", &GroomParams::cache,
           {.help = "Stores the result of frozen operators between runs", .default_text = "none"});
     return s;

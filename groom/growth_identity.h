@@ -11,10 +11,10 @@ namespace pelage {
 /// has to update it.
 std::string_view growth_sources();
 
-/// Returns a text that differs between programs and machines that may grow different strands, even in the
-/// last digit. It consists of growth_sources(), the system libraries used for computation, and the
-/// instruction sets among which these libraries may choose. Programs that differ only in other rooms, such as
-/// rendering, return the same text.
+/// Returns a text that identifies how this program computes strands on this machine. If two programs or
+/// machines may grow strands that differ, if only in the last digit, their texts differ. It consists of
+/// growth_sources(), the system libraries used for computation, and the instruction sets among which these
+/// libraries may choose. Programs that differ only in other rooms, such as rendering, return the same text.
 std::string growth_identity();
 
 }  // namespace pelage

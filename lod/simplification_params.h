@@ -25,8 +25,8 @@ void add_simplification_keys(Schema<P>& s) {
     s.key(name, static_cast<T P::*>(member), std::move(options));
   };
   key("quality", &Base::quality,
-      {.help = "Keeps as many strands as a picture with a higher resolution would need, by this factor: 2 is "
-               "for twice the resolution and keeps about twice as many strands",
+      {.help = "Factor on the resolution for which strands are kept: 2 keeps the strands that a picture of "
+               "twice the resolution needs, about twice as many",
        .min = 0.01,
        .max = 100});
   key("size", &Base::size, {.help = "Thins out strands that are narrower than a pixel"});

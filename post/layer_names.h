@@ -27,8 +27,8 @@ struct NamedChannel {
 
 /// Returns all channels of a file, in order, and determines their views. If a part has a `view`, all its
 /// channels belong to this view. If the header lists several views instead (ExrPart::multi_view), the view is
-/// the name before the component, as in "left.R" and "forward.left.u"; names with a single component belong
-/// to the default view.
+/// the second last of the names between dots: "left" in "left.R" and in "forward.left.u". A name without a
+/// dot, such as "R", belongs to the default view.
 std::vector<NamedChannel> name_channels(const std::vector<ExrPart>& parts);
 
 /// Returns the names of the views, with the default view first. Contains "" if some channels belong to no

@@ -7,9 +7,10 @@
 namespace pelage {
 
 struct StereoFileParams {
-  PostFileParams file{{}, {}, 6, {}, int64_t{4} << 30};  ///< default: 6 samples per side; fills all gaps
-  std::optional<std::string> view;      ///< input view; empty: "left" if it exists, else the file's default
-  std::optional<float> eye_separation;  ///< scene units; empty: 6.5 cm, if the file defines the unit
+  PostFileParams file{
+      {}, {}, 6, {}, int64_t{4} << 30};  ///< default: 6 x 6 samples per pixel, fills all gaps, 4 GiB
+  std::optional<std::string> view;       ///< input view; empty: "left" if it exists, else the file's default
+  std::optional<float> eye_separation;   ///< scene units; empty: 6.5 cm, if the file defines the unit
   float convergence = std::numeric_limits<float>::infinity();  ///< scene units
   std::optional<float> focal_pixels;                           ///< empty: from the file's camera
   std::optional<float> fov_deg;  ///< vertical field of view; empty: from the file

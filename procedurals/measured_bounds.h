@@ -23,7 +23,7 @@ class MeasuredBounds {
   /// Reads the boxes of all chunks for which earlier runs wrote side files.
   void read(const Job& job);
   /// Grows and measures the other chunks. Writes each side file as soon as the boxes of all its chunks are
-  /// known. Does not write a file if some of its chunks are not to be bounded.
+  /// known. Writes a file only if all chunks that belong in it are among `chunks`.
   void measure(const Job& job);
 
   BoundingCounts counts() const;

@@ -21,8 +21,8 @@ struct ShadingRun {
   Outcome outcome;
   std::filesystem::path picture;
   std::optional<PictureError> error = {};  ///< error over pixels with fur, relative to the references
-  /// Only for `last` runs of `gather`: the error that this picture shares with the picture `other`, relative
-  /// to the references.
+  /// Only for `last` runs of `gather`: the error that sharing light between samples causes. It is the part of
+  /// the error that is equal in this picture and in `other`; noise is not, because they have different seeds.
   std::optional<PictureError> reuse = {};
   std::filesystem::path other = {};  ///< picture of the run with another seed
 

@@ -37,10 +37,10 @@ struct ImageParams {
   static const Schema<ImageParams>& schema();
 };
 
-/// The light layers of a film. Each light has one layer per lobe group: the light that this group of lobes of
-/// the first visible surface scatters to the camera. Skin counts as diffuse, except that a clear coat counts
-/// as the primary highlight. A light that the camera may see has one layer more, for the light that the
-/// camera sees directly (emission).
+/// The light layers of a film. Each light source has one layer per lobe group. The layer holds the part of
+/// this source's radiance that these lobes of the first visible surface scatter to the camera. Skin counts as
+/// diffuse, except that a clear coat counts as the primary highlight. A light that the camera may see has one
+/// layer more, for the light that the camera sees directly (emission).
 ///
 /// With `events`, the scattered light of each layer is divided further. Direct light came to the first
 /// visible surface straight from the light source. Indirect light was scattered at least once before. A film

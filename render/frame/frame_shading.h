@@ -38,7 +38,8 @@ class FrameShading {
     std::optional<GlossyParams> coat;  // empty: Lambert
   };
 
-  /// Returns the fraction of the strands that level of detail keeps at the root of this strand; 1 without it.
+  /// Returns the fraction of strands that level of detail keeps where this strand grows; 1 without level of
+  /// detail.
   float kept_share(const Hit& hit, const Strands& strand) const;
   ScatterPoint fibre_point(const Ray& ray, const Hit& hit, const Strands& strand) const;
   ScatterPoint skin_point(const Ray& ray, const Hit& hit, const SkinMesh& triangle) const;

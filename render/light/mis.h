@@ -10,7 +10,8 @@ namespace pelage {
 inline float balance_weight(float pdf, float other) { return pdf > 0 ? pdf / (pdf + other) : 0.0f; }
 
 /// Returns the weight of such a sample by the power heuristic with exponent 2 [Veach97, section 9.2.3].
-/// Squares cannot overflow.
+/// Squares the ratio of the densities instead of the densities, so that large densities do not overflow. If
+/// the square of the ratio overflows, the weight is 0.
 inline float power_weight(float pdf, float other) {
   if (!(pdf > 0)) return 0.0f;
   const float ratio = other / pdf;

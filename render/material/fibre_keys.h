@@ -8,7 +8,8 @@
 namespace pelage {
 
 inline constexpr const char* kColorHelp =
-    "Colour of a dense coat, converted to absorption. Unused if preset, absorption or melanin is given";
+    "Colour of a dense coat, converted to absorption. Unused if a preset, absorption, eumelanin or "
+    "pheomelanin is given";
 
 template <class P>
 void add_color_keys(Schema<P>& s, const char* help) {

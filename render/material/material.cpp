@@ -74,8 +74,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
     s.key("primary_shift", &P::primary_shift,
           {.unit = "fractions of the strand",
            .help = "Shift of the highlight along the strand: negative values move it toward the tip, "
-                   "positive values toward the root. For this, the tangent is taken at a point that is "
-                   "shifted the other way",
+                   "positive values toward the root. To move it toward the tip, shading uses the tangent of "
+                   "a point nearer the root, and vice versa",
            .min = -1,
            .max = 1});
     s.key("primary_jitter", &P::primary_jitter,
@@ -86,8 +86,8 @@ const Schema<ConeShellParams>& ConeShellParams::schema() {
            .max = 1});
     s.key("primary_tilt", &P::primary_tilt,
           {.unit = "degrees",
-           .help = "Tilt of the highlight's cone: positive toward the root, negative toward the tip. It also "
-                   "works on straight strands",
+           .help = "Tilt of the highlight's cone: positive toward the root, negative toward the tip. It "
+                   "works on straight strands too, where primary_shift changes nothing",
            .min = -45,
            .max = 45});
     s.key("secondary", &P::secondary,

@@ -15,9 +15,10 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key(
         "visibility", &GatherParams::visibility,
         {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`. `raster`: "
-                 "strands and skins are drawn tile by tile; fewer than 0.2 % of the samples see another "
-                 "strand. Drawing is faster where a still picture without a lens is full of fur, and slower "
-                 "with a lens or a shutter. Needs `accel: fur` and `curves: flat`"});
+                 "strands and skins are drawn tile by tile. For fewer than 0.2 % of the samples, this finds "
+                 "another strand than `rays`. `raster` is faster than `rays` if fur fills most of the "
+                 "picture and there is neither a lens nor motion blur. With a lens or an open shutter it is "
+                 "slower. Needs `accel: fur` and `curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
                    "as with `integrator: path`. Set it to false to measure what sharing changes"});
@@ -32,13 +33,16 @@ const Schema<GatherParams>& GatherParams::schema() {
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
-               "Mean number of shadow rays per visible sample. Most of them go to lights that would add much "
+               "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "
+               "lights that would add much "
                "to the brightness of the pixel if nothing blocked them, and whose visibility is uncertain. A "
                "sample sends at most one ray to each light",
            .min = 0.05,
            .max = 16});
     s.key("paths", &GatherParams::paths,
-          {.help = "Indirect paths per visible sample; dark surfaces get fewer", .min = 0.05, .max = 1});
+          {.help = "Indirect paths per camera sample that sees a strand or skin; dark surfaces get fewer",
+           .min = 0.05,
+           .max = 1});
     return s;
   }();
   return table;

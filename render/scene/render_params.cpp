@@ -118,8 +118,9 @@ const Schema<RenderParams>& RenderParams::schema() {
                  "strands grow. `none`: no boxes, all strands grow before rendering; `user`: conservative "
                  "boxes scaled "
                  "by `bounds_factor`; `conservative`: boxes from the skin, strand lengths and operators; "
-                 "`exact`: strands grow once beforehand and are measured over the whole interval of the "
-                 "frame; `exact-shutter`: as `exact`, but measured only while the shutter is open; `linear`: "
+                 "`exact`: strands grow once beforehand and are measured over the whole time from half a "
+                 "frame before to half a frame after the frame; `exact-shutter`: as `exact`, but measured "
+                 "only while the shutter is open; `linear`: "
                  "as `exact-shutter`, with boxes that move with the strands"});
     s.key("bounds_factor", &RenderParams::bounds_factor,
           {.help = "Size of the boxes of `bounds: user` relative to the conservative ones. Below 1, strands "

@@ -7,8 +7,8 @@
 
 namespace pelage {
 
-/// Passes the segments of all blocks whose boxes may meet the beam to the sink, roughly front to back. Boxes
-/// contain their segments at all times of the shutter.
+/// Finds all blocks whose boxes may meet the beam, and passes their segments to `sink`, roughly front to
+/// back. Boxes contain their segments at all times of the shutter.
 void visit_segments(const FurTreeView& tree, const Beam& beam, PrimitiveSink& sink);
 
 }  // namespace pelage

@@ -38,10 +38,9 @@ struct FurPageTable {
   std::vector<FurPagedTree> trees;
   std::vector<FurTreelet> treelets;
   int box_keys = 1;  ///< number of boxes per treelet: 1, or 2 if any tree moves
-  /// Boxes of the treelets, by treelet and key, in scene units. The box of a treelet is aligned to the frame
-  /// of the treelet's tree: it contains the results of the frame's operator() for the points of the scene
-  /// that the treelet covers. With one key, a box holds for the whole shutter. With two keys, the boxes are
-  /// at shutter open and close.
+  /// Boxes of the treelets, by treelet and key, in scene units and in the axes of the frame of the treelet's
+  /// tree. To compare a point of the scene with a box, first apply the frame's operator() to the point. With
+  /// one key, a box holds for the whole shutter. With two keys, the boxes are at shutter open and close.
   std::vector<Box3f> boxes;
   std::vector<uint32_t> page_bytes;
 
