@@ -60,6 +60,14 @@ float radius_error(const TileSegment& s, float u0, float u1) {
   return std::abs(radius(s.r, 0.5f * (u0 + u1)) - 0.5f * (radius(s.r, u0) + radius(s.r, u1)));
 }
 
+/// Returns how far beyond the ends of a piece, as a fraction of its length, the parameter of its nearest
+/// point may be computed. `centre`: of the piece. `r`: max radius.
+float beyond_ends(const RasterPiece::Curve& curve, const V3f& centre, float r) {
+  const float length = seen(curve.d, centre).length();
+  if (seen(curve.q, centre).length() > 2 * kMaxBend * length) return std::numeric_limits<float>::infinity();
+  return kBeyondEnd * r / std::max(length, 1e-30f) + 1e-5f;
+}
+
 }  // namespace
 
 FlatPieces::FlatPieces(const TileSegment& from, const TileSegment& to, float wider) {
@@ -88,11 +96,12 @@ FlatPieces::FlatPieces(const TileSegment& from, const TileSegment& to, float wid
     }
     piece.r = (r0 + slack) * (1 + wider);
     piece.dr = (r1 + slack) * (1 + wider) - piece.r;
-    const V3f centre = 0.5f * (begin + end);
-    const float length = seen(piece.at.d, centre).length();
-    const bool folds = seen(piece.at.q, centre).length() > 2 * kMaxBend * length;
-    const float beyond = folds ? std::numeric_limits<float>::infinity()
-                               : kBeyondEnd * std::max(r0, r1) / std::max(length, 1e-30f) + 1e-5f;
+    float beyond = beyond_ends(piece.at, 0.5f * (begin + end), std::max(r0, r1));
+    if (moves) {
+      const RasterPiece::Curve after{piece.at.p + piece.motion.p, piece.at.d + piece.motion.d,
+                                     piece.at.q + piece.motion.q};
+      beyond = std::max(beyond, beyond_ends(after, 0.5f * (begin_to + end_to), std::max(r0, r1)));
+    }
     piece.low = first ? -beyond : -std::numeric_limits<float>::infinity();
     piece.high = last ? 1 + beyond : std::numeric_limits<float>::infinity();
     piece.segment_u = u0;

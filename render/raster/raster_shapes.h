@@ -34,8 +34,8 @@ struct RasterPiece {
 
 /// A triangle in a tile's frame.
 struct RasterTriangle {
-  V3f corners[3];
-  V3f motion[3];
+  V3f corners[3] = {V3f(0), V3f(0), V3f(0)};
+  V3f motion[3] = {V3f(0), V3f(0), V3f(0)};  ///< until the second motion key: differences
   bool moves = false;
 };
 

@@ -141,7 +141,7 @@ void TileDrawing::draw_segment(uint32_t number, size_t lane) {
   target_.filter = nullptr;
 }
 
-void TileDrawing::triangle(uint32_t number, std::span<const V3f> corners) {
+void TileDrawing::triangle(uint32_t /*number*/, std::span<const V3f> corners) {
   const size_t count = corners.size() / 3;
   corners_.resize(corners.size());
   Range depths;
@@ -153,7 +153,6 @@ void TileDrawing::triangle(uint32_t number, std::span<const V3f> corners) {
   if (is_hidden(depths)) return;
   if (depths.low <= starts_.high && starts_.size() > 0) possible_ = false;
   target_.primitive = 0;  // the ray finds the triangle itself
-  static_cast<void>(number);
   for (size_t key = 0; key + 1 < std::max<size_t>(count, 2); ++key) {
     RasterTriangle triangle;
     triangle.moves = count > 1;

@@ -119,12 +119,13 @@ void TileRaster::find_candidates(bool skins, const Beam& beam, float far, const 
   std::sort_heap(candidates.begin(), candidates.end());
 }
 
-/// Whether the beam meets the boxes of a chunk before `far`: its fine boxes, if it would have to be grown.
+/// Whether the beam meets the boxes of a chunk before `far`: its fine boxes, if it has any.
 bool TileRaster::may_be_seen(uint32_t chunk, const Beam& beam, float far) const {
   const ChunkBoxes& boxes = chunks_.boxes();
   float entry = 0;
   if (!beam.meets(boxes.whole(chunk), far, entry)) return false;
-  if (chunks_.is_resident(chunk) || !boxes.has_fine(chunk)) return true;
+  // Not only for chunks that would have to be grown: the result must not depend on which are resident.
+  if (!boxes.has_fine(chunk)) return true;
   const FineBoxes& fine = boxes.fine(chunk);
   const V3f margin(boxes.margin(chunk));
   for (size_t b = 0; b < fine.count(); ++b) {
@@ -142,6 +143,7 @@ Hit TileRaster::closest(uint32_t pixel, uint32_t sample, const Ray& ray, TraceTh
   if (winner.chunk != TileWinner::kTraced) {
     NearestSoFar nearest;
     FurRays rays;
+    if (!chunks_.is_resident(winner.chunk)) ++thread.counts.absent_visits;
     const bool found = chunks_.visit(winner.chunk, thread.worker, [&](const ChunkGeometry& geometry) {
       if (!geometry.closest_at(ray, winner.primitive, rays, nearest, thread.met)) return false;
       if (const StrandHandle strand = nearest.hit.handle()) {
