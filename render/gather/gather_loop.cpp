@@ -27,7 +27,7 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
   return {tiles, reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles,
-                         "the samples of the tiles that are rendered at once")};
+                         "the sample buffer of the tiles that are rendered at once")};
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
