@@ -8,8 +8,8 @@
 
 namespace pelage {
 
-/// A regular file that is open for reading, with its size and owner. Size and owner are those of the open
-/// file, even if another file has this path later.
+/// A regular file that is open for reading, with its size and owner. Both describe the open file, even if
+/// another file has this path later.
 class OpenFile {
  public:
   enum class Links { kFollow, kRefuse };

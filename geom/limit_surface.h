@@ -139,9 +139,10 @@ class LimitSurface {
   /// Returns the surface at (u, v). Clamps (u, v) to the face. `face` must exist. Holes are evaluated like
   /// other faces.
   SurfacePoint evaluate(uint32_t face, float u, float v) const;
-  /// Returns an orthonormal frame. Its normal is that of du x dv, on flat triangles the smooth normal; its
-  /// tangent is du made orthogonal to the normal. Where du x dv vanishes (poles, collapsed faces), takes the
-  /// frame at a point slightly nearer to the middle of the face. The frame is always finite and orthonormal.
+  /// Returns an orthonormal frame. Its normal is the direction of du x dv, or the smooth normal on flat
+  /// triangles; its tangent is du made orthogonal to the normal. Where du x dv vanishes (poles, collapsed
+  /// faces), takes the frame at a point slightly nearer to the middle of the face. The frame is always finite
+  /// and orthonormal.
   Frame frame(uint32_t face, float u, float v) const { return frame(evaluate(face, u, v), face, u, v); }
   /// Returns the same frame for a known `point`, which must be evaluate(face, u, v).
   Frame frame(const SurfacePoint& point, uint32_t face, float u, float v) const;

@@ -93,8 +93,7 @@ class SkinLattice {
   static size_t bytes_bound(size_t around, size_t vertices);
 
  private:
-  /// A side of a ptex face, counterclockwise. Its points are those of a line with the indices base,
-  /// base + step, ...
+  /// A side of a ptex face, counterclockwise. Its points have the indices base, base + step, ...
   struct Rail {
     const Line* line = nullptr;
     uint32_t base = 0;

@@ -13,8 +13,8 @@ struct StrandPoint {
   V3f tangent{0};  ///< unit, root to tip
 };
 
-/// Returns the point at parameter t of a segment, at shutter time `time` in [0, 1]. The curve is the same as
-/// that of bezier_segment_at(), but is evaluated directly from the strand's points. This is faster for
+/// Returns the point at parameter t of a segment, at shutter time `time` in [0, 1]. It lies on the curve that
+/// bezier_segment_at() returns, but is evaluated directly from the strand's points. This is faster for
 /// renderers, which need one point at a time.
 StrandPoint strand_point(const Strands& strands, size_t strand, uint32_t segment, float t, float time);
 

@@ -27,8 +27,8 @@ class StrandWriter {
   /// is written, or 0 if none of them is written.
   size_t needed(size_t first, size_t count) const;
 
-  /// expect() sets the number of points of the next strand to write, expect_all() that of all strands. Call
-  /// before write().
+  /// expect() sets the number of points of the next strand to write. expect_all() sets the number of points
+  /// of every strand. Call before write().
   void expect(int points);
   void expect_all(int points);
   /// Returns the number of colour rows that a batch of strands with `points` points must have.

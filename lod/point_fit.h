@@ -7,7 +7,7 @@
 
 namespace pelage {
 
-/// A linear map from the control points of a pinned B-spline to those of a pinned B-spline with fewer points.
+/// A linear map from the control points of a pinned B-spline to the control points of one with fewer points.
 /// The new curve has the smallest mean squared distance from the old curve at equal parameters. Memory and
 /// construction time are linear in `from`. Immutable.
 class PointFit {

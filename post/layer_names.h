@@ -61,8 +61,8 @@ class LayerFinder {
   /// Returns the channel of the depth: the user's choice, or a channel with a usual name; empty if there is
   /// none.
   std::optional<size_t> depth() const { return depth_; }
-  /// Returns the alpha channel without a layer or, if there is none, that of a layer "combined", "beauty" or
-  /// "rgba".
+  /// Returns the alpha channel that belongs to no layer or, if there is none, the alpha channel of a layer
+  /// "combined", "beauty" or "rgba".
   std::optional<size_t> alpha() const;
   LayerRole role(size_t channel) const;
   /// Returns the Cryptomattes that the attributes of the file declare.

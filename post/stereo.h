@@ -40,7 +40,7 @@ inline constexpr int kStripRows = 16;
 enum class StereoFilter { kLanczos, kBox };
 
 /// Rows of the other eye's picture to make, and their input. The vectors of the field are the parallax, so
-/// the picture at time 1 is that of the other eye.
+/// the picture at time 1 is the picture of the other eye.
 struct StereoJob {
   const FlowField* field = nullptr;
   WarpTarget target{6, 0, 0};

@@ -22,7 +22,7 @@ struct StereoFileParams {
 };
 
 /// Processes one file as `pelage stereo` does: reads the view of one eye and makes the picture for the other
-/// eye. The names of the parts are those of the other eye. The part with the colours gets a layer `invented`,
+/// eye. The parts get the names of the other eye. The part with the colours gets a layer `invented`,
 /// whose channels are the filled fraction (`mask`) and the empty fraction (`hole`) of each pixel. Camera
 /// matrices of the header, if any, are converted to the other eye. Throws Error (kInput) when the view, its
 /// depth or a camera is missing. Passes on the errors of BandJob.

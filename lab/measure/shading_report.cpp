@@ -81,7 +81,7 @@ std::string method_text(const ShadingPlan& plan) {
       "own. relMSE of a picture x is the mean over pixels with fur (layer tangent not 0) and channels of "
       "(x - a)(x - b) / (t^2 + 0.01 m^2), where t is the mean of (a + b) / 2 over 9 x 9 pixels and m the "
       "mean of t; the noise of the references cancels. relMSE of 4 x 4 is the same of means of 4 x 4 "
-      "pixels. Mean off is the error of the mean luminance of fur. CPU seconds are those of the whole "
+      "pixels. Mean off is the error of the mean luminance of fur. CPU seconds count the whole "
       "process, growth included; caches of boxes and operators are warm. Where sampling is adaptive, its "
       "noise budget is the noise of path with the stated number of samples, and a pixel may get 16 times "
       "as many.",
@@ -134,7 +134,7 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
        {table(is_last,
               {"curve", "cpu_s_to_5", "cpu_s_to_2", "cpu_s_to_1", "gain_at_5", "gain_at_2", "gain_at_1"},
               "CPU seconds to 5, 2 and 1 % relMSE, interpolated between the runs in logarithms of both; "
-              "nothing is extrapolated. Gain: the time of path, divided by that of the variant."),
+              "nothing is extrapolated. Gain: the time of path, divided by the time of the variant."),
         plot_of(all, &PictureError::rel_mse, "relMSE", "Error of pixels with fur over CPU time."),
         plot_of(all, &PictureError::block_rel_mse, "relMSE of 4 x 4",
                 "Error of means of 4 x 4 pixels over CPU time.")}});

@@ -10,25 +10,26 @@
 
 namespace pelage {
 
-/// A plane that divides space; a point is inside where normal . p + offset >= 0.
+/// A plane. A point p is on the inside if normal . p + offset >= 0.
 struct BeamPlane {
   V3f normal{0};
   float offset = 0;
 
   float at(const V3f& p) const { return normal.dot(p) + offset; }
-  /// Half of the difference between the largest and the smallest value in a box of this half size.
+  /// Returns half of the difference between the max and the min of at() in a box of this half size.
   float spread(const V3f& half) const {
     return std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z;
   }
 };
 
-/// A convex region that contains a bundle of rays: inside four sides, and at depths above `near`.
+/// A convex region that contains a bundle of rays: the inside of four planes, at depths above `near`.
 struct Beam {
   std::array<BeamPlane, 4> sides;
-  BeamPlane depth;  ///< its value is the depth of a point along the beam
+  BeamPlane depth;  ///< at(p) is the depth of p along the beam
   float near = 0;
 
-  /// Whether a box may have points inside at depths below `far`; `entry` is a lower bound of their depths.
+  /// Returns whether a box may have points in the beam at depths below `far`. Stores a lower bound of the
+  /// depths of such points in `entry`.
   bool meets(const V3f& centre, const V3f& half, float far, float& entry) const {
     for (const BeamPlane& side : sides) {
       if (side.at(centre) + side.spread(half) < 0) return false;

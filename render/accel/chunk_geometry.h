@@ -47,8 +47,8 @@ class ChunkGeometry : public Resident {
   /// possibly others. Returns false if the chunk does not support this; then the sink got nothing.
   virtual bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const = 0;
   /// closest() for a ray whose primitive is known. `primitive`: the number that was passed to the sink.
-  /// Considers only this segment, or all triangles of a skin. The result is that of closest() if no other
-  /// segment is nearer, except that strands are not stored in `met`: call strand().
+  /// Considers only this segment, or all triangles of a skin. If no other segment is nearer, the result is
+  /// the same as for closest(), except that strands are not stored in `met`: call strand().
   virtual bool closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
                           HitGeometry& met) const = 0;
   /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks

@@ -28,8 +28,8 @@ class FurChunkFile {
   class Writer {
    public:
     Writer(const ContentStore& store, const ContentHash& key);
-    /// Adds the next chunk. Null stands for a chunk that is not fur. Such a chunk is stored without data, and
-    /// so is a chunk in which rays can hit hardly any segment.
+    /// Adds the next chunk. Pass null for a chunk that is not fur. It is stored without data, like a chunk in
+    /// which rays can hit hardly any segment.
     void add(const FurChunk* chunk);
     /// Whether writing has failed.
     bool failed() const { return entry_.failed(); }

@@ -21,7 +21,7 @@ struct FrameStatistics {
   StoredReads reads;  ///< chunks that were read from render.bvh.file
   TraceCounts trace;
   RayStatistics rays;
-  RenderSeconds cpu_s;                     ///< CPU seconds of the tiles; `residency` has those of growth
+  RenderSeconds cpu_s;                     ///< CPU seconds of tiles; `residency` counts growth
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
   std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage
   KnotStatistics knots;

@@ -8,7 +8,7 @@
 #include "render/accel/accel.h"
 #include "render/film/film.h"
 #include "render/film/indirect_clamp.h"
-#include "render/frame/render_seconds.h"
+#include "render/frame/tile_costs.h"
 
 namespace pelage {
 

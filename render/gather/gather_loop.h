@@ -72,7 +72,7 @@ class GatherLoop {
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_
   std::mutex idle_mutex_;
-  std::vector<GatherTile::Scratch*> idle_;  // those of scratch_ that no thread uses now
+  std::vector<GatherTile::Scratch*> idle_;  // elements of scratch_ that no thread uses now
   std::atomic<int64_t> rejected_{0};
   std::atomic<double> first_tile_s_{0};
   double sample_s_ = 0;  // wall-clock seconds of the last pass / its samples per pixel

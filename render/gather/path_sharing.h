@@ -15,7 +15,7 @@ namespace pelage {
 /// knot_keys.h.) The indirect light that a point scatters to the camera is this radiance times the weight of
 /// the point, rho / pdf.
 ///
-/// The estimate uses paths from some of the points. Its formula is that of LightSharing, with two
+/// The estimate uses paths from some of the points. It uses the formula of LightSharing, with two
 /// substitutions: the sum of the weights of all points of a knot takes the place of the unoccluded light U,
 /// and radiance takes the place of the fraction that arrives.
 class PathSharing {

@@ -13,9 +13,10 @@ namespace pelage {
 
 /// The positions at which light leaves a fibre: a circle around `center`, perpendicular to the unit vector
 /// `tangent`. Light leaves along straight lines whose distance from the axis is |h| * radius. A smooth
-/// cylinder preserves this distance through any number of internal reflections. The sign of h is that of
-/// FibreFrame. The direction of a line therefore determines the position on the circle where it starts. This
-/// is the hit itself for the mirror direction, and a point on the far side for transmitted light.
+/// cylinder preserves this distance through any number of internal reflections. h has the sign that
+/// FibreFrame defines. The direction of a line therefore determines the position on the circle where it
+/// starts. This is the hit itself for the mirror direction, and a point on the far side for transmitted
+/// light.
 ///
 /// A nearby light is sampled from the position on the circle, not from the axis. The two directions to the
 /// light differ by about radius / distance.

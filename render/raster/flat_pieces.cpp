@@ -11,13 +11,13 @@ namespace {
 
 /// Max distance of the parabolas from the segment, relative to its radius.
 constexpr float kTolerance = 0.02f;
-/// Max distance relative to that of a cubic from the parabola through its ends and its middle, where the
-/// difference is D u (u - 1/2) (u - 1) for the third difference D.
+/// A cubic with the third difference D differs from the parabola through its ends and its middle by D u (u -
+/// 1/2) (u - 1). This is the max of |u (u - 1/2) (u - 1)| in [0, 1].
 constexpr float kCubicError = 0.0482f;
 /// Max bulge of a piece relative to its length: then one step of Newton's method finds its nearest point.
 constexpr float kMaxBend = 0.35f;
-/// How far beyond the ends of a segment its nearest point may lie, relative to the radius: segments meet at
-/// a small angle, because pieces have slightly other tangents than the segment.
+/// Max distance, relative to the radius, of the nearest point beyond the end of a segment. Pieces have
+/// slightly different tangents than their segment, so the pieces of two segments meet at a small angle.
 constexpr float kBeyondEnd = 0.05f;
 
 /// A vector as it is seen from the origin beside the point `at`.

@@ -8,20 +8,20 @@
 
 namespace pelage {
 
-/// A segment in a tile's frame: Bezier points, radii.
+/// A segment in a tile's frame: its four Bezier points and their radii.
 struct TileSegment {
   std::array<V3f, 4> p;
   std::array<float, 4> r{};
 };
 
-/// Pieces of a segment that are parabolas, close enough to decide which lines meet it.
+/// Divides a segment into parabolas. They are close enough to the segment to decide which lines meet it.
 class FlatPieces {
  public:
   static constexpr size_t kMaxPieces = 8;
 
-  /// Divides a segment that moves from `from` to `to`, which may be the same object. Radii are enlarged by
-  /// the max distance between pieces and segment, and by the fraction `wider`: a line that misses all pieces
-  /// misses the segment.
+  /// Divides a segment that moves from `from` to `to`. Pass the same object twice for a segment at rest.
+  /// Radii are enlarged by the max distance between pieces and segment, and by the fraction `wider`. A line
+  /// that misses all pieces therefore misses the segment.
   FlatPieces(const TileSegment& from, const TileSegment& to, float wider);
 
   const RasterPiece* begin() const { return pieces_.data(); }

@@ -12,13 +12,13 @@
 
 namespace pelage {
 
-/// The strands that a thread copied last: samples of neighbouring pixels often see the same ones. One of them
-/// at a time is lent to the thread's HitGeometry.
+/// Keeps the strands that a thread copied last, because samples of neighbouring pixels often see the same
+/// strands. One strand at a time is lent to the thread's HitGeometry.
 class HeldStrands {
  public:
   static constexpr size_t kCount = 32;
 
-  /// Makes `met` the strand of a handle; calls copy(Strands&) if it is not held.
+  /// Stores the strand of a handle in `met`. Calls copy(Strands&) if the strand is not kept here.
   template <class Copy>
   void lend(const StrandHandle& handle, Strands& met, const Copy& copy) {
     Held& held = held_[hash64(handle.chunk, handle.index) % kCount];
@@ -32,7 +32,7 @@ class HeldStrands {
     copy(met);
     held.handle = handle;
   }
-  /// Call before something else uses `met`, with the strand that was lent.
+  /// Takes back the strand that was lent, if any. Call before other code uses `met`.
   void take_back(Strands& met) {
     if (lent_) std::swap(lent_->strand, met);
     lent_ = nullptr;

@@ -21,8 +21,8 @@ Range key_fractions(const TileLines::Group& group, const KeySpan& keys) {
 }
 
 /// Lines may be anywhere where a shape is beside the origin or behind.
-bool LineRuns::all_if_near(float least_depth, float reach) {
-  if (least_depth > std::max(near_, 0.0f) + kNear * reach) return false;
+bool LineRuns::all_if_near(float min_depth, float reach) {
+  if (min_depth > std::max(near_, 0.0f) + kNear * reach) return false;
   runs_[0] = {0, static_cast<uint32_t>(lines_.size())};
   count_ = 1;
   return true;
@@ -40,15 +40,15 @@ void LineRuns::add(const TileLines::Run& run) {
 
 /// A line with its a in the middle of the group passes through `p` at this position; others pass beside it.
 LineRuns::Point LineRuns::project(const TileLines::Group& group, const V3f& p, float reach,
-                                  float least_depth) const {
-  const float inverse = 1 / std::max(p.z, least_depth), shift = inverse - lines_.inverse_reference();
-  Point result{{p.x * inverse, p.y * inverse}, kRounding * reach / least_depth};
+                                  float min_depth) const {
+  const float inverse = 1 / std::max(p.z, min_depth), shift = inverse - lines_.inverse_reference();
+  Point result{{p.x * inverse, p.y * inverse}, kRounding * reach / min_depth};
   if (lines_.has_lens()) {
     const V2f middle(0.5f * (group.a[0].low + group.a[0].high), 0.5f * (group.a[1].low + group.a[1].high));
     const V2f half(0.5f * group.a[0].size(), 0.5f * group.a[1].size());
     result.at -= shift * middle;
     // The depth of the meeting point differs by less than `reach`.
-    const float farther = reach / least_depth * inverse;
+    const float farther = reach / min_depth * inverse;
     result.width += kRounding * std::max(half.x, half.y) * (std::abs(shift) + farther) +
                     farther * std::max(std::abs(middle.x), std::abs(middle.y));
   }
@@ -91,22 +91,22 @@ void LineRuns::find(const RasterPiece& piece, const KeySpan& keys) {
   const V3f bend = piece.at.q + piece.motion.q;
   const float bulge = std::max(piece.at.bulge(), 0.25f * bend.length());
   const float reach = std::max(piece.r, piece.r + piece.dr) + 1.5f * bulge;
-  float least = std::min(from.z, to.z);
-  if (piece.moves) least = std::min({least, from.z + motion_from.z, to.z + motion_to.z});
-  least -= bulge;
-  if (all_if_near(least, reach)) return;
+  float min_depth = std::min(from.z, to.z);
+  if (piece.moves) min_depth = std::min({min_depth, from.z + motion_from.z, to.z + motion_to.z});
+  min_depth -= bulge;
+  if (all_if_near(min_depth, reach)) return;
   for (const TileLines::Group& group : lines_.groups()) {
     if (group.time.is_empty()) continue;
     if (!piece.moves) {
-      add_capsule(group, project(group, from, reach, least), project(group, to, reach, least));
+      add_capsule(group, project(group, from, reach, min_depth), project(group, to, reach, min_depth));
       continue;
     }
     const Range times = key_fractions(group, keys);
     if (times.is_empty()) continue;
     Box box;
     for (const float f : {times.low, times.high}) {
-      box.add(project(group, from + f * motion_from, reach, least));
-      box.add(project(group, to + f * motion_to, reach, least));
+      box.add(project(group, from + f * motion_from, reach, min_depth));
+      box.add(project(group, to + f * motion_to, reach, min_depth));
     }
     add_box(group, box);
   }
@@ -114,16 +114,16 @@ void LineRuns::find(const RasterPiece& piece, const KeySpan& keys) {
 
 void LineRuns::find(const RasterTriangle& triangle, const KeySpan& keys) {
   count_ = 0;
-  float least = std::min({triangle.corners[0].z, triangle.corners[1].z, triangle.corners[2].z});
+  float min_depth = std::min({triangle.corners[0].z, triangle.corners[1].z, triangle.corners[2].z});
   for (size_t i = 0; triangle.moves && i < 3; ++i)
-    least = std::min(least, triangle.corners[i].z + triangle.motion[i].z);
+    min_depth = std::min(min_depth, triangle.corners[i].z + triangle.motion[i].z);
   const float reach = (triangle.corners[1] - triangle.corners[0]).length();
-  if (all_if_near(least, reach)) return;
+  if (all_if_near(min_depth, reach)) return;
   for (const TileLines::Group& group : lines_.groups()) {
     if (group.time.is_empty()) continue;
     Box box;
     if (!triangle.moves) {
-      for (const V3f& p : triangle.corners) box.add(project(group, p, 0, least));
+      for (const V3f& p : triangle.corners) box.add(project(group, p, 0, min_depth));
       add_box(group, box);
       continue;
     }
@@ -131,7 +131,7 @@ void LineRuns::find(const RasterTriangle& triangle, const KeySpan& keys) {
     if (times.is_empty()) continue;
     for (const float f : {times.low, times.high}) {
       for (size_t i = 0; i < 3; ++i)
-        box.add(project(group, triangle.corners[i] + f * triangle.motion[i], 0, least));
+        box.add(project(group, triangle.corners[i] + f * triangle.motion[i], 0, min_depth));
     }
     add_box(group, box);
   }

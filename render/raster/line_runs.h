@@ -10,13 +10,13 @@
 
 namespace pelage {
 
-/// The lines of a tile that a shape may meet, as runs.
+/// Finds the lines of a tile that a shape may meet, as runs of consecutive lines.
 class LineRuns {
  public:
-  /// `lines` outlives it. No line starts beyond depth `near`.
+  /// Keeps a reference to `lines`. `near`: max depth at which a line starts.
   LineRuns(const TileLines& lines, float near) : lines_(lines), near_(near) {}
 
-  /// Collects the runs for a piece. `keys` as for draw().
+  /// Finds the runs for a shape, which replace those of the last shape. `keys`: see draw().
   void find(const RasterPiece& piece, const KeySpan& keys);
   void find(const RasterTriangle& triangle, const KeySpan& keys);
   std::span<const TileLines::Run> runs() const { return {runs_.data(), count_}; }
@@ -24,7 +24,7 @@ class LineRuns {
  private:
   struct Point {
     V2f at{0};
-    float width = 0;  ///< how far lines that pass beside it may be
+    float width = 0;  ///< max distance of lines that may pass through the point
   };
   struct Box {
     Range x, y;
@@ -33,8 +33,8 @@ class LineRuns {
       y.extend(Range{p.at.y - p.width, p.at.y + p.width});
     }
   };
-  bool all_if_near(float least_depth, float reach);
-  Point project(const TileLines::Group& group, const V3f& p, float reach, float least_depth) const;
+  bool all_if_near(float min_depth, float reach);
+  Point project(const TileLines::Group& group, const V3f& p, float reach, float min_depth) const;
   void add_capsule(const TileLines::Group& group, const Point& from, const Point& to);
   void add_box(const TileLines::Group& group, const Box& box);
   void add(const TileLines::Run& run);
@@ -45,8 +45,8 @@ class LineRuns {
   size_t count_ = 0;
 };
 
-/// The fractions of the way between two motion keys that the lines of a group take; empty where they are at
-/// other times.
+/// Returns the range of KeySpan's f over the lines of a group; empty if the times of all lines are outside
+/// the span.
 Range key_fractions(const TileLines::Group& group, const KeySpan& keys);
 
 }  // namespace pelage

@@ -2,21 +2,17 @@
 // Tested in tests/render/raster/tile_raster_test.cpp.
 // Compiled once per instruction set. Lanes are independent, and products and sums are never fused, so that
 // every instruction set gives the same bits.
+#include "render/accel/highway_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/raster/raster_kernels.cpp"
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
-#else
-#define HWY_DISABLED_TARGETS HWY_SSSE3
-#endif
-#define HWY_BROKEN_EMU128 0
-#include "render/raster/raster_kernels.h"
-
 #include <bit>
 #include <cmath>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "render/raster/raster_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace pelage {

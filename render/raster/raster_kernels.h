@@ -8,26 +8,27 @@
 
 namespace pelage {
 
-/// Decides at which semi-transparent shapes a line stops.
+/// Decides whether a line stops at a semi-transparent shape.
 class RasterFilter {
  public:
   virtual ~RasterFilter() = default;
-  /// `u`: of the segment.
+  /// `random`: TileLine::random. `u`: parameter in the segment.
   virtual bool stops(uint32_t random, float u) const = 0;
 };
 
-/// What the kernels draw to, and who is drawn.
+/// The lines that kernels draw to, and the primitive that they draw.
 struct RasterTarget {
   TileLines::Arrays lines;
   bool has_lens = false;
-  float near = 0;  ///< nothing is met at depths up to this
+  float near = 0;  ///< primitives up to this depth are not met
   uint32_t chunk = 0, primitive = 0;
-  const RasterFilter* filter = nullptr;  ///< null: all lines stop
+  const RasterFilter* filter = nullptr;  ///< null: the primitive is opaque
 };
 
-/// Makes the piece the winner of those lines of the runs that meet it before all others. Of two primitives at
-/// the same depth none wins: TileWinner::kTraced. Returns whether anything changed. `keys`: for shapes that
-/// move; lines of other times are left alone.
+/// Draws a shape to the lines of some runs. The shape becomes the winner of each line that meets it before
+/// all other shapes. If two primitives are at the same depth, the winner becomes TileWinner::kTraced. `keys`:
+/// the part of the shutter for which a moving shape is given; lines of other times are not changed. Returns
+/// whether any line was changed.
 bool draw(const RasterTarget& target, std::span<const TileLines::Run> runs, const RasterPiece& piece,
           const KeySpan& keys);
 bool draw(const RasterTarget& target, std::span<const TileLines::Run> runs, const RasterTriangle& triangle,

@@ -11,7 +11,7 @@ namespace pelage {
 /// a + f (b - a), where f = t * scale - first.
 struct KeySpan {
   float scale = 0, first = 0;
-  bool is_last = true;  ///< includes its end
+  bool is_last = true;  ///< whether the span includes its end
 };
 
 /// A piece of a strand in a tile's frame: p + u d + u (1 - u) q for u in [0, 1], with radius r + u dr.
@@ -23,8 +23,8 @@ struct RasterPiece {
     /// Max distance from the chord.
     float bulge() const { return 0.25f * q.length(); }
   };
-  Curve at;      ///< at the first motion key
-  Curve motion;  ///< until the second: differences
+  Curve at;      ///< the curve at the first motion key
+  Curve motion;  ///< the curve at the second motion key, minus `at`
   float r = 0, dr = 0;
   /// Range of u in which the nearest point of the piece must lie. It is clamped to [0, 1] afterwards.
   float low = 0, high = 0;
@@ -34,8 +34,9 @@ struct RasterPiece {
 
 /// A triangle in a tile's frame.
 struct RasterTriangle {
+  /// Corners at the first motion key.
   V3f corners[3] = {V3f(0), V3f(0), V3f(0)};
-  V3f motion[3] = {V3f(0), V3f(0), V3f(0)};  ///< until the second motion key: differences
+  V3f motion[3] = {V3f(0), V3f(0), V3f(0)};  ///< corners at the second motion key, minus `corners`
   bool moves = false;
 };
 

@@ -24,8 +24,8 @@ class TriangleKernel {
     // Twice the areas that the line and two corners span. The same edge of two triangles has opposite areas.
     const V wa = cross(bx, by, cx, cy), wb = cross(cx, cy, ax, ay), wc = cross(ax, ay, bx, by);
     const V zero = hn::Zero(kFloats);
-    const V least = hn::Min(wa, hn::Min(wb, wc)), most = hn::Max(wa, hn::Max(wb, wc));
-    M hit = hn::And(inside, hn::Or(hn::Ge(least, zero), hn::Le(most, zero)));
+    const V min = hn::Min(wa, hn::Min(wb, wc)), max = hn::Max(wa, hn::Max(wb, wc));
+    M hit = hn::And(inside, hn::Or(hn::Ge(min, zero), hn::Le(max, zero)));
     if (hn::AllFalse(kFloats, hit)) return false;
     const V sum = hn::Add(hn::Add(wa, wb), wc);
     const V z = hn::Div(hn::Add(hn::Add(hn::Mul(wa, a.z), hn::Mul(wb, b.z)), hn::Mul(wc, c.z)), sum);

@@ -10,15 +10,15 @@
 
 namespace pelage {
 
-/// Where the lines of a tile are between two depths: between planes on four sides.
+/// The region that contains all lines of a tile between two depths, bounded by planes on four sides.
 class TileBeam {
  public:
-  /// `first` <= `last`. Lines start at `near` or behind.
+  /// The region contains the lines at depths `first` <= `last`. `near`: min depth at which lines start.
   TileBeam(const TileFrame& frame, const TileLines& lines, float near, float first, float last);
 
   const Beam& beam() const { return beam_; }
-  /// For each side, makes `largest` the distance by which points are inside, if it is larger; negative
-  /// outside.
+  /// For each side, computes how far each of four points is inside (negative: outside), and replaces
+  /// `largest` if the distance is larger.
   void add_insides(const FourVectors& p, Four (&largest)[4]) const {
     for (size_t i = 0; i < 4; ++i) {
       const Side& side = sides_[i];
@@ -26,7 +26,8 @@ class TileBeam {
       largest[i] = larger(largest[i], four(side.sign) * (along - four(side.offset) - four(side.slope) * p.z));
     }
   }
-  /// Whether spheres around points of the tile's frame are all outside the same side.
+  /// Returns whether the spheres with this radius around all points are outside the same side. Points are in
+  /// the frame of the tile.
   template <class Points>
   bool misses(const Points& points, float radius) const {
     for (const Side& side : sides_) {
@@ -40,7 +41,7 @@ class TileBeam {
  private:
   struct Side {
     int axis = 0;
-    float sign = 1;  ///< 1: inside is where the coordinate is larger
+    float sign = 1;  ///< 1 if the inside has larger coordinates than the plane, else -1
     float offset = 0, slope = 0;
     float at(float z) const { return offset + slope * z; }
   };

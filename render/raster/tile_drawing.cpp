@@ -35,7 +35,8 @@ TileDrawing::TileDrawing(const TileFrame& frame, const Range& starts, TileLines&
   target_.lines = lines.arrays();
   target_.has_lens = lines.has_lens();
   target_.near = starts.high;
-  // Distances are measured across the frame's axis, those of rays across the ray.
+  // The kernels measure distances perpendicular to the frame's axis; rays measure them perpendicular to the
+  // ray.
   const std::array<Range, 2> from = lines.extent(0), to = lines.extent(1);
   float slope2 = 0;
   for (size_t axis = 0; axis < 2; ++axis) {
@@ -74,8 +75,8 @@ bool TileDrawing::is_possible(const RasterPiece& piece) const {
   for (const float f : {0.0f, 1.0f}) {
     const V3f ends[2] = {piece.at.p + f * piece.motion.p, piece.at.end() + f * piece.motion.end()};
     const float reach = std::max(piece.r, piece.r + piece.dr) + (piece.at.q + f * piece.motion.q).length();
-    const float least = std::min(ends[0].z, ends[1].z);
-    if (least <= starts_.high + kNear * reach && !beam_->misses(ends, reach)) return false;
+    const float min_depth = std::min(ends[0].z, ends[1].z);
+    if (min_depth <= starts_.high + kNear * reach && !beam_->misses(ends, reach)) return false;
     if (!piece.moves) break;
   }
   return true;

@@ -7,6 +7,7 @@
 
 #include "render/accel/chunk_geometry.h"
 #include "render/raster/flat_pieces.h"
+#include "render/raster/grid_to_tile.h"
 #include "render/raster/line_runs.h"
 #include "render/raster/raster_kernels.h"
 #include "render/raster/tile_beam.h"
@@ -18,19 +19,19 @@ namespace pelage {
 /// Draws the primitives of chunks to the lines of a tile.
 class TileDrawing final : public PrimitiveSink {
  public:
-  /// `starts`: range of the depths at which lines start. `lines` outlives it.
+  /// `starts`: range of the depths at which lines start. Keeps a reference to `lines`.
   TileDrawing(const TileFrame& frame, const Range& starts, TileLines& lines);
 
-  /// Draws a chunk whose depths are in a range. Returns false when a primitive cannot be drawn: then all rays
-  /// of the tile must be traced.
+  /// Draws a chunk. `depths`: range that contains the chunk. Returns false if a primitive cannot be drawn.
+  /// The caller must then trace the rays of all samples of the tile.
   bool draw(const ChunkGeometry& geometry, uint32_t chunk, const Range& depths);
-  /// The region of the lines in a range of depths.
+  /// Returns the region that contains the lines in a range of depths.
   TileBeam beam(const Range& depths) const {
     return {frame_, lines_, starts_.low, std::max(depths.low, starts_.low), depths.high};
   }
-  /// Depth beyond which nothing can be seen.
+  /// Returns the depth beyond which nothing can be seen.
   float far() const override { return far_; }
-  /// Finds far() again, if anything was drawn.
+  /// Updates far() if anything was drawn since the last call.
   void update_far();
 
   void begin_segments(const SegmentGrid& grid) override;

@@ -17,21 +17,21 @@
 namespace pelage {
 
 /// Finds what the camera samples of a tile see, by drawing strands and skins instead of tracing a ray per
-/// sample. Drawing decides which primitive a sample sees; closest() then intersects the sample's ray with
-/// this primitive alone. Where they disagree the ray is traced, so that a hit is always one of the ray, and
-/// nearly always the nearest.
+/// sample. Drawing decides which primitive each sample sees. closest() then intersects the sample's ray with
+/// this primitive only. If the ray misses it, closest() traces the ray. So every result is a hit of the ray,
+/// and nearly always the nearest.
 ///
-/// The result depends on the scene, the tile and the numbers of its samples only: not on chunks, on which of
-/// them are resident, or on threads. Thread safety: const members from any thread, each with its own scratch,
-/// inside a FlushDenormals scope.
+/// The result depends only on the scene, the tile and the indices of its samples. It does not depend on which
+/// chunks are resident, or on threads. Thread safety: const members may be called from any thread, each with
+/// its own scratch, inside a FlushDenormals scope.
 class TileRaster {
  public:
-  /// References are kept. `chunks`: those of `accel`, with strands in fur trees only.
+  /// Keeps references to its arguments. `chunks`: the chunks of `accel`; all strands must be in fur trees.
   TileRaster(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const CameraSamples& camera)
       : scene_(scene), accel_(accel), chunks_(chunks), camera_(camera) {}
 
-  /// Memory and the result of one thread.
+  /// Memory and result of one thread.
   struct Scratch {
     struct Candidate {
       float entry = 0;
@@ -48,15 +48,15 @@ class TileRaster {
     HeldStrands held;
     int64_t traced = 0;  ///< samples whose ray was traced
   };
-  /// Max memory of a scratch.
+  /// Returns the max memory of a scratch for this count of samples, in bytes.
   static size_t scratch_bytes(size_t samples);
 
-  /// Draws what samples first .. first + count - 1 of all pixels of a tile see. Returns false when `job` was
+  /// Draws the tile for samples first .. first + count - 1 of each pixel. Returns false when `job` was
   /// cancelled.
   bool find(const Tile& tile, uint32_t first, uint32_t count, const Job& job, int worker,
             Scratch& scratch) const;
-  /// What sample first + `sample` of a pixel sees; `ray`: its camera ray. As Accel::closest(): stores the
-  /// geometry in `thread.met`. Call end() before something else uses that.
+  /// Returns what sample first + `sample` of a pixel sees. `ray`: camera ray of the sample. Like
+  /// Accel::closest(), stores the geometry in `thread.met`. Call end() before other code uses `thread.met`.
   Hit closest(uint32_t pixel, uint32_t sample, const Ray& ray, TraceThread& thread, Scratch& scratch) const;
   static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
 

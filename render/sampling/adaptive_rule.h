@@ -41,7 +41,7 @@ struct Pilot {
 /// surrounding 5 x 5 pixels: up to 12.
 std::vector<uint8_t> needs_full_pilot(const Pilot& probe);
 
-/// Returns the count of samples, including those of the pilot, that each pixel needs to meet the noise
+/// Returns the count of samples, including the pilot samples, that each pixel needs to meet the noise
 /// budget. Counts are real numbers; they are neither rounded nor limited to `max`.
 ///
 /// The count of a pixel follows from the luminances that pixels of the other colour have in the pilot.

@@ -2,20 +2,16 @@
 // Tested in tests/render/accel/fur/fur_intersection_test.cpp.
 // Compiled once per instruction set. Lanes are independent, products and sums are never fused, and no
 // approximations are used, so that every instruction set gives the same bits.
+#include "render/accel/highway_targets.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/accel/fur/fur_kernels.cpp"
+// Under sanitizers, functions are not inlined: sixteen copies of all of them would take minutes to compile.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-// The smallest set and AVX2 suffice to find invalid accesses. Functions are not inlined: sixteen sanitized
-// copies of all of them would take minutes to compile.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | HWY_AVX3_DL)
 #define PELAGE_FUR_INLINE HWY_NOINLINE
 #else
-#define HWY_DISABLED_TARGETS HWY_SSSE3
 #define PELAGE_FUR_INLINE HWY_INLINE
 #endif
-// The scalar fallback also has four lanes. It avoids operations that g++ before 12.3 compiles wrongly (high
-// halves of 16-bit products).
-#define HWY_BROKEN_EMU128 0
 #include <algorithm>
 #include <bit>
 #include <cmath>

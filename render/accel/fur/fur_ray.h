@@ -91,7 +91,8 @@ struct FurSegmentPlace {
   bool wide = false;
   uint32_t number = FurHit::kNone;
 };
-/// The first hit with one segment: the same as that of closest_fur() where no other segment is hit before.
+/// Returns the first hit with one segment. closest_fur() returns the same hit if the ray hits no other
+/// segment before.
 FurHit closest_fur_at(const FurTreeView& tree, const FurRay& ray, const FurSegmentPlace& at,
                       FurFilter* filter);
 bool fur_occludes(const FurTreeView& tree, const FurRay& ray, FurFilter* filter, FurTests* tests = nullptr);

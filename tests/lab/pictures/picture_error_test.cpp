@@ -45,7 +45,8 @@ TEST(PictureError, IsRelativeToTheTruthOnSurfaces) {
 constexpr int kWidth = 303, kHeight = 202;
 constexpr double kVariance = 0.25;  // of a pixel of grey 1
 
-/// Grey whose noise is as skewed as that of few samples: four exponential numbers per pixel. Fur in a disc.
+/// A grey picture with fur in a disc. Each pixel is the mean of four exponential random numbers, so its noise
+/// is as skewed as the noise of a picture with few samples.
 ExrImage noisy(uint64_t seed, float grey) {
   ExrImage image;
   image.width = kWidth;

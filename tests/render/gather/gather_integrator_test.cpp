@@ -159,7 +159,7 @@ TEST(GatherIntegrator, CountsKnotsAndTheirSamples) {
   scene.render.gather.reuse = false;
   const KnotStatistics alone = scene.run({}, 1).statistics.knots;
   EXPECT_GT(alone.samples, 0);
-  EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "at most those of the second pass";
+  EXPECT_LE(alone.samples, scene.render.samples * 40 * 30) << "no more samples than the second pass takes";
   EXPECT_EQ(alone.knots, alone.samples);
   scene.render.gather.reuse = true;
   const KnotStatistics shared = scene.run({}, 1).statistics.knots;
@@ -172,11 +172,11 @@ TEST(GatherIntegrator, CountsKnotsAndTheirSamples) {
 TEST(GatherIntegrator, MorePassesThanOneAddUp) {
   GatherScene scene;
   scene.image.width = scene.image.height = 20;
-  const uint32_t most = GatherTile::max_samples(scene.lights.size());
-  scene.render.samples = static_cast<int>(most + 3);
+  const uint32_t max = GatherTile::max_samples(scene.lights.size());
+  scene.render.samples = static_cast<int>(max + 3);
   const FrameResult result = scene.run();
-  EXPECT_EQ(result.samples, most + 3);
-  EXPECT_EQ(result.mean_samples, most + 3);
+  EXPECT_EQ(result.samples, max + 3);
+  EXPECT_EQ(result.mean_samples, max + 3);
 }
 
 TEST(GatherIntegrator, ATimeLimitEndsWithAValidPicture) {

@@ -7,9 +7,9 @@
 namespace pelage {
 namespace {
 
-void expect_agreement(RasterScene& scene, double least = 0.998) {
+void expect_agreement(RasterScene& scene, double min_share = 0.998) {
   const RasterScene::Agreement seen = scene.compare(8);
-  EXPECT_GE(static_cast<double>(seen.same), least * static_cast<double>(seen.samples))
+  EXPECT_GE(static_cast<double>(seen.same), min_share * static_cast<double>(seen.samples))
       << seen.hits << " hits, " << seen.drawn_hits << " drawn, " << seen.traced << " traced";
   EXPECT_TRUE(seen.not_nearer);
 }
