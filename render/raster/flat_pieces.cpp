@@ -70,6 +70,17 @@ float beyond_ends(const RasterPiece::Curve& curve, const V3f& centre, float r) {
 
 }  // namespace
 
+Four FlatPieces::max_error(const FourSegments& s) {
+  const auto size = [](Four x) { return larger(x, -x); };
+  const FourVectors third = s.p[3] - s.p[0] + (s.p[1] - s.p[2]) * four(3);
+  const Four radius = larger(larger(s.r[0], s.r[1]), larger(s.r[2], s.r[3]));
+  const Four radius_bend =
+      larger(size(s.r[0] - four(2) * s.r[1] + s.r[2]), size(s.r[1] - four(2) * s.r[2] + s.r[3]));
+  constexpr float kLeast = 1.01f * kCubicError / (kMaxPieces * kMaxPieces * kMaxPieces);
+  return four(1.01f * kTolerance) * radius + four(kLeast) * (size(third.x) + size(third.y) + size(third.z)) +
+         four(0.76f) * radius_bend;
+}
+
 FlatPieces::FlatPieces(const TileSegment& from, const TileSegment& to, float wider) {
   const bool moves = &from != &to;
   count_ = std::max(count_of(from), moves ? count_of(to) : 1);

@@ -23,10 +23,17 @@ class PieceKernel {
     const float bulge = std::max(piece.at.bulge(), (piece.at.q + piece.motion.q).length() * 0.25f);
     const float reach = std::max(piece.r, piece.r + piece.dr) + 1.5f * bulge;
     reach2_ = all(reach * reach);
+    const float bulge_z = 0.25f * (std::abs(piece.at.q.z) + std::abs(piece.motion.q.z));
+    const V3f from = piece.at.p, to = piece.at.end();
+    float nearest = std::min(from.z, to.z);
+    if (kMoving) nearest = std::min({nearest, from.z + piece.motion.p.z, to.z + piece.motion.end().z});
+    nearest_ = all(nearest - bulge_z - 1e-5f * std::abs(nearest));
   }
 
   /// Draws to the lines `inside` of those that begin at `i`. Returns whether anything changed.
   HWY_INLINE bool draw(size_t i, M inside) const {
+    inside = hn::And(inside, hn::Ge(at(target_.lines.depth, i), nearest_));
+    if (hn::AllFalse(kFloats, inside)) return false;
     const Lines<kLens> lines(target_.lines, i);
     Vector p = p_, d = d_, q = q_;
     if constexpr (kMoving) {
@@ -64,5 +71,5 @@ class PieceKernel {
   const RasterTarget& target_;
   const KeySpan& keys_;
   Vector p_, d_, q_, p_motion_, d_motion_, q_motion_;
-  V r_, dr_, low_, high_, first_u_, du_, near_, reach2_;
+  V r_, dr_, low_, high_, first_u_, du_, near_, reach2_, nearest_;
 };
