@@ -54,6 +54,7 @@ bool TileDrawing::draw(const ChunkGeometry& geometry, uint32_t chunk, const Rang
   const TileBeam region = beam(depths);
   geometry_ = &geometry;
   target_.chunk = chunk;
+  passed_.clear();
   const bool visited = geometry.visit_primitives(region.beam(), *this);
   geometry_ = nullptr;
   return visited;
@@ -92,7 +93,7 @@ KeySpan TileDrawing::key_span(size_t key, size_t keys) {
 bool TileDrawing::is_possible(const RasterPiece& piece) const {
   for (const float f : {0.0f, 1.0f}) {
     const V3f ends[2] = {piece.at.p + f * piece.motion.p, piece.at.end() + f * piece.motion.end()};
-    const float reach = std::max(piece.r, piece.r + piece.dr) + (piece.at.q + f * piece.motion.q).length();
+    const float reach = std::max(piece.r, piece.r + piece.dr) + 4 * std::max(piece.at.bulge(), piece.after().bulge());
     const float min_depth = std::min(ends[0].z, ends[1].z);
     if (min_depth <= starts_.high + kNear * reach) return false;
     if (!piece.moves) break;
@@ -111,6 +112,16 @@ void TileDrawing::begin_segments(const SegmentGrid& grid) {
   segments_.resize(static_cast<size_t>(grid.motion_keys));
 }
 
+/// Whether a segment was passed before; long segments are in several leaves of a tree.
+bool TileDrawing::was_passed(uint32_t number) {
+  const size_t word = number / 64;
+  const uint64_t bit = uint64_t{1} << number % 64;
+  if (word >= passed_.size()) passed_.resize(word + 1, 0);
+  const bool before = (passed_[word] & bit) != 0;
+  passed_[word] |= bit;
+  return before;
+}
+
 void TileDrawing::segments(const uint32_t (&numbers)[4], std::span<const FourSegments> keys) {
   TileProjection::Hulls hulls(projection_);
   Four radius = four(0), error = four(0);
@@ -125,9 +136,11 @@ void TileDrawing::segments(const uint32_t (&numbers)[4], std::span<const FourSeg
     error = larger(error, FlatPieces::max_error(here));
   }
   ViewFootprint footprints[4];
-  hulls.find((radius + error) * four(1 + wider_), error, footprints);
+  hulls.find((radius + error) * four(1 + wider_), four(0), footprints);
   for (size_t lane = 0; lane < 4; ++lane) {
-    if (numbers[lane] == kNone || footprints[lane].is_empty() || hides(footprints[lane])) continue;
+    if (numbers[lane] == kNone || footprints[lane].is_empty() || was_passed(numbers[lane]) ||
+        hides(footprints[lane]))
+      continue;
     draw_segment(numbers[lane], lane, footprints[lane]);
   }
 }

@@ -47,6 +47,7 @@ class TileDrawing final : public PrimitiveSink {
  private:
   class Opacity;
 
+  bool was_passed(uint32_t number);
   void draw_segment(uint32_t number, size_t lane, const ViewFootprint& footprint);
   bool is_possible(const RasterPiece& piece) const;
   template <class Shape>
@@ -63,6 +64,7 @@ class TileDrawing final : public PrimitiveSink {
   GridToTile grid_;
   std::vector<FourSegments> segments_;  // in the tile's frame, by motion key
   std::vector<V3f> corners_;
+  std::vector<uint64_t> passed_;  // a bit per segment of the chunk
   float wider_ = 0;
   int changes_ = 0;  // since the grid was updated
   const int changes_per_update_;

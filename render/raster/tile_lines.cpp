@@ -37,7 +37,7 @@ int part_of(float x, const Range& range, int parts) {
 int TileLines::cell(float position, size_t axis) const {
   const float at = (position - low_[axis]) * inverse_size_[axis];
   const int count = axis == 0 ? columns_ : rows_;
-  return static_cast<int>(std::floor(std::clamp(at, -1.0f, static_cast<float>(count))));
+  return static_cast<int>(std::clamp(at + 1, 0.0f, static_cast<float>(count + 1))) - 1;
 }
 
 void TileLines::assign(std::span<const TileLine> lines, float reference) {
