@@ -58,7 +58,8 @@ float radius_error(const TileSegment& s, float u0, float u1) {
 /// point may be computed. `centre`: of the piece. `r`: max radius.
 float beyond_ends(const RasterPiece::Curve& curve, const V3f& centre, float r) {
   const float length = seen(curve.d, centre).length();
-  if (seen(curve.q, centre).length() + seen(curve.c, centre).length() > 2 * kMaxBend * length) return std::numeric_limits<float>::infinity();
+  if (seen(curve.q, centre).length() + seen(curve.c, centre).length() > 2 * kMaxBend * length)
+    return std::numeric_limits<float>::infinity();
   return kBeyondEnd * r / std::max(length, 1e-30f) + 1e-5f;
 }
 

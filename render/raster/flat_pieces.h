@@ -15,8 +15,8 @@ struct TileSegment {
   std::array<float, 4> r{};
 };
 
-/// Divides a segment into pieces that bend so little that a few steps of Newton's method find which lines meet
-/// them.
+/// Divides a segment into pieces that bend so little that a few steps of Newton's method find which lines
+/// meet them.
 class FlatPieces {
  public:
   static constexpr size_t kMaxPieces = 8;

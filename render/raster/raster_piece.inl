@@ -32,26 +32,41 @@ class PieceKernel {
     nearest_ = all(nearest - bulge_z - 1e-5f * std::abs(nearest));
   }
 
-  /// Draws to the lines `inside` of those that begin at `i`. Returns whether anything changed.
-  HWY_INLINE bool draw(size_t i, M inside) const {
+  /// Which of the lines that begin at `i` may meet the piece: lines beside the piece that do not end before
+  /// it.
+  HWY_INLINE M may_meet(size_t i, M inside) const {
     inside = hn::And(inside, hn::Ge(at(target_.lines.depth, i), nearest_));
-    if (hn::AllFalse(kFloats, inside)) return false;
+    if (hn::AllFalse(kFloats, inside)) return inside;
+    const Lines<kLens> lines(target_.lines, i);
+    Vector p = p_, d = d_;
+    if constexpr (kMoving) {
+      const V f = key_fraction(target_.lines, i, keys_, inside);
+      p = p.moved(p_motion_, f), d = d.moved(d_motion_, f);
+    }
+    const V px = lines.beside_x(p), py = lines.beside_y(p), ex = lines.seen_x(d), ey = lines.seen_y(d);
+    const V ee = dot(ex, ey, ex, ey), beside = cross(ex, ey, px, py), along = dot(px, py, ex, ey);
+    inside = hn::And(inside, hn::Le(hn::Mul(beside, beside), hn::Mul(reach2_, ee)));
+    // Before the beginning or after the end.
+    const V before = hn::Max(along, hn::Neg(hn::Add(along, ee)));
+    const V outside = hn::Max(before, hn::Zero(kFloats));
+    return hn::And(inside, hn::Le(hn::Mul(outside, outside), hn::Mul(reach2_, ee)));
+  }
+  /// Draws to the first `count` lines of these. Returns whether anything changed.
+  HWY_INLINE bool draw(const uint32_t* numbers, size_t count) const {
+    const Indices i = hn::LoadU(kIndices, reinterpret_cast<const int32_t*>(numbers));
+    M inside = hn::FirstN(kFloats, count);
     const Lines<kLens> lines(target_.lines, i);
     Vector p = p_, d = d_, q = q_, c = c_;
     if constexpr (kMoving) {
       const V f = key_fraction(target_.lines, i, keys_, inside);
-      p = p.moved(p_motion_, f), d = d.moved(d_motion_, f), q = q.moved(q_motion_, f), c = c.moved(c_motion_, f);
+      p = p.moved(p_motion_, f), d = d.moved(d_motion_, f), q = q.moved(q_motion_, f),
+      c = c.moved(c_motion_, f);
     }
     const V px = lines.beside_x(p), py = lines.beside_y(p), ex = lines.seen_x(d), ey = lines.seen_y(d);
-    const V tiny = all(1e-30f), zero = hn::Zero(kFloats), one = all(1);
-    const V ee = dot(ex, ey, ex, ey), beside = cross(ex, ey, px, py);
-    inside = hn::And(inside, hn::Le(hn::Mul(beside, beside), hn::Mul(reach2_, ee)));
-    if (hn::AllFalse(kFloats, inside)) return false;
-
+    const V tiny = all(1e-30f), zero = hn::Zero(kFloats), one = all(1), half = all(0.5f);
     // The nearest point of the chord, and two steps of Newton's method along the curve.
     const V qx = lines.seen_x(q), qy = lines.seen_y(q), cx = lines.seen_x(c), cy = lines.seen_y(c);
-    const V half = all(0.5f), along = hn::Div(hn::Neg(dot(px, py, ex, ey)), hn::Max(ee, tiny));
-    V u = along;
+    V u = hn::Div(hn::Neg(dot(px, py, ex, ey)), hn::Max(dot(ex, ey, ex, ey), tiny));
     for (int step = 0; step < 2; ++step) {
       u = hn::Min(hn::Max(u, all(-0.25f)), all(1.25f));
       const V s = hn::Sub(one, u), us = hn::Mul(u, s), w = hn::Sub(half, u), w2 = hn::Add(w, w);
@@ -70,8 +85,17 @@ class PieceKernel {
     const V radius = hn::Add(r_, hn::Mul(v, dr_));
     M hit = hn::And(inside, hn::Lt(dot(x, y, x, y), hn::Mul(radius, radius)));
     hit = hn::And(hit, hn::And(hn::Gt(z, near_), hn::Le(z, at(target_.lines.depth, i))));
-    if (hn::AllFalse(kFloats, hit)) return false;
-    return store(target_, i, hit, z, hn::Add(first_u_, hn::Mul(v, du_)));
+    uint32_t lanes = bits_of(hit);
+    if (lanes == 0) return false;
+    float us[TileLines::kPadding], zs[TileLines::kPadding];
+    hn::StoreU(hn::Add(first_u_, hn::Mul(v, du_)), kFloats, us);
+    hn::StoreU(z, kFloats, zs);
+    bool changed = false;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(lanes));
+      changed |= store_line(target_, numbers[lane], zs[lane], us[lane]);
+    }
+    return changed;
   }
 
  private:

@@ -14,8 +14,8 @@ struct KeySpan {
   bool is_last = true;  ///< whether the span includes its end
 };
 
-/// A piece of a strand in a tile's frame: the cubic p + u d + u (1 - u) (q + (1/2 - u) c) for u in [0, 1], with
-/// radius r + u dr.
+/// A piece of a strand in a tile's frame: the cubic p + u d + u (1 - u) (q + (1/2 - u) c) for u in [0, 1],
+/// with radius r + u dr.
 struct RasterPiece {
   struct Curve {
     V3f p{0}, d{0}, q{0}, c{0};

@@ -93,7 +93,8 @@ KeySpan TileDrawing::key_span(size_t key, size_t keys) {
 bool TileDrawing::is_possible(const RasterPiece& piece) const {
   for (const float f : {0.0f, 1.0f}) {
     const V3f ends[2] = {piece.at.p + f * piece.motion.p, piece.at.end() + f * piece.motion.end()};
-    const float reach = std::max(piece.r, piece.r + piece.dr) + 4 * std::max(piece.at.bulge(), piece.after().bulge());
+    const float reach =
+        std::max(piece.r, piece.r + piece.dr) + 4 * std::max(piece.at.bulge(), piece.after().bulge());
     const float min_depth = std::min(ends[0].z, ends[1].z);
     if (min_depth <= starts_.high + kNear * reach) return false;
     if (!piece.moves) break;
