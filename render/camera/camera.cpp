@@ -88,6 +88,24 @@ std::optional<V3f> Camera::project(const Pose& pose, const V3f& world) const {
              0.5f * static_cast<float>(height_) - scale * local.dot(pose.up), depth);
 }
 
+float Camera::projected_length(std::span<const float> points, float time) const {
+  const Pose pose = pose_at(time);
+  V2f from(0);
+  bool from_visible = false;
+  float length = 0;  // in units of the plane at distance 1
+  for (size_t i = 0; i + 3 < points.size(); i += 4) {
+    const V3f local = V3f(points[i], points[i + 1], points[i + 2]) - pose.position;
+    const float depth = local.dot(pose.forward);
+    const bool visible = depth > 0;
+    const float scale = 1 / depth;
+    const V2f to(scale * local.dot(pose.right), scale * local.dot(pose.up));
+    if (visible && from_visible) length += std::sqrt((to - from).dot(to - from));
+    from = to;
+    from_visible = visible;
+  }
+  return length * static_cast<float>(height_) / (2 * pose.tan_half);
+}
+
 bool Camera::may_see(const Box3f& box) const {
   if (box.isEmpty()) return false;
   const float aspect = static_cast<float>(width_) / static_cast<float>(height_);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/keyed.h"
@@ -53,6 +54,9 @@ class Camera {
   /// Projects a world point at a shutter time. Returns the raster position as x and y, and the depth along
   /// the view axis as z. Empty if the point is behind the camera.
   std::optional<V3f> project(const V3f& world, float time) const { return project(pose_at(time), world); }
+  /// Returns the length in the picture, in pixels, of a line through world points at a shutter time.
+  /// `points`: (x, y, z, radius) of each point. Parts of the line with an end behind the camera do not count.
+  float projected_length(std::span<const float> points, float time) const;
   /// Projects a world point at the time of the frame itself if `frames_ahead` is 0, or at the time of the
   /// next frame if it is 1.
   std::optional<V3f> project_at_frame(const V3f& world, int frames_ahead) const {

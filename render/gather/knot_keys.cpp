@@ -41,21 +41,10 @@ KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random) 
                                       : on_skin(hit, met.triangle, random);
 }
 
-/// Length of the control polygon in the picture when the shutter opens, in pixels. Edges with an end behind
-/// the camera do not count.
-float KnotKeys::length_in_picture(const Strands& strand) const {
-  float length = 0;
-  auto from = camera_.project(strand.point(0), 0);
-  for (uint32_t i = 1; i < strand.strand_points(0); ++i) {
-    const auto to = camera_.project(strand.point(i), 0);
-    length += distance(from, to);
-    from = to;
-  }
-  return length;
-}
-
 KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, float random) const {
-  const int level = level_of(length_in_picture(strand), params_.spacing);
+  // Of the control polygon when the shutter opens.
+  const float length = camera_.projected_length(strand.points(), 0);
+  const int level = level_of(length, params_.spacing);
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
   const uint32_t knot = knot_near(place, level, random);

@@ -43,7 +43,6 @@ class KnotKeys {
  private:
   KnotKey on_strand(const Hit& hit, const Strands& strand, float random) const;
   KnotKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
-  float length_in_picture(const Strands& strand) const;
 
   const Camera& camera_;
   const GatherParams& params_;

@@ -40,6 +40,30 @@ TEST(Camera, ProjectUndoesRay) {
   }
 }
 
+TEST(Camera, ProjectedLengthIsTheSumOfTheProjectedEdgesBeforeTheCamera) {
+  const Camera camera(moving_camera(), 1.5, kWidth, kHeight);
+  int behind = 0;
+  for (uint64_t i = 0; i < 100; ++i) {
+    const float time = random(i, 0);
+    std::vector<float> points;
+    double expected = 0;
+    std::optional<V3f> from;
+    for (uint64_t k = 0; k < 8; ++k) {
+      const float distance = 20 * random(i, 3 * k + 1) - (i % 2 == 0 ? 4 : 0);
+      const CameraRay ray =
+          camera.ray(random(i, 3 * k + 2) * kWidth, random(i, 3 * k + 3) * kHeight, V2f(0.5f), time);
+      const V3f p = ray.origin + distance * ray.direction;
+      points.insert(points.end(), {p.x, p.y, p.z, 0.01f});
+      const auto to = camera.project(p, time);
+      if (to && from) expected += std::hypot(to->x - from->x, to->y - from->y);
+      if (!to) ++behind;
+      from = to;
+    }
+    EXPECT_NEAR(camera.projected_length(points, time), expected, 1e-4 * expected);
+  }
+  EXPECT_GT(behind, 20);
+}
+
 TEST(Camera, LooksAlongMinusZWithYDown) {
   const Camera camera(CameraParams{}, 1, kWidth, kHeight);
   const auto middle = camera.project({0, 0, 0}, 0), right = camera.project({1, 0, 0}, 0),
