@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/cli/options_test.cpp and tests/cli/picture_flags_test.py.
+// Tested in tests/cli/picture_flags_test.py.
 #include "cli/picture_flags.h"
 
 #include <algorithm>

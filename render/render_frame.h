@@ -2,23 +2,15 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "base/job.h"
-#include "render/frame/frame_geometry.h"
 #include "render/frame/frame_result.h"
-#include "render/frame/frame_watch.h"
-#include "render/path/path_tracer.h"
+#include "render/frame_options.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
 
-/// How to render a frame, apart from the values of its scene.
-struct FrameOptions {
-  PathOptions path = {};
-  std::optional<PixelBox> region = {};  ///< the only pixels to compute; empty: the whole picture
-  FrameWatch* watch = nullptr;          ///< sees the film between passes; null: nobody
-};
+class FrameGeometry;
 
 /// Throws Error (kArguments) when a region is empty or not within the picture, or when the pixels of the
 /// picture depend on each other, so that a region would have other pixels than the whole picture. This is so

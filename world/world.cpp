@@ -35,9 +35,12 @@ DisplayImage display_image(const FrameResult& result) {
 
 }  // namespace
 
-void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
-                 double seconds, const Job& job) {
-  if (is_display_image(path)) return write_display_image(path, display_image(result));
+FrameResult render(const World& world, const Job& job, const FrameOptions& options,
+                   std::unique_ptr<const FrameGeometry>& geometry) {
+  return render_frame(world.scene, job, options, geometry);
+}
+
+FrameHeader finished_header(const World& world, const FrameResult& result, double seconds) {
   FrameHeader header = world.header;
   header.samples = result.samples;
   header.mean_samples = result.mean_samples;
@@ -45,11 +48,22 @@ void write_frame(const std::filesystem::path& path, const World& world, const Fr
   header.partial = result.partial;
   header.render_seconds = seconds;
   header.peak_memory_bytes = peak_rss_bytes();
+  return header;
+}
+
+void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
+                 double seconds, const Job& job) {
+  write_frame(path, finished_header(world, result, seconds), world.scene.camera, result, job);
+}
+
+void write_frame(const std::filesystem::path& path, const FrameHeader& header, const Camera& camera,
+                 const FrameResult& result, const Job& job) {
+  if (is_display_image(path)) return write_display_image(path, display_image(result));
   const Film& film = result.film;
   const auto& [picture, region, traced, stored] = result.window;
   const int left = region.x0 - stored.x0, top = region.y0 - stored.y0, right = left + region.width();
   write_exr(
-      path, region, picture, exr_attributes(header, world.scene.camera),
+      path, region, picture, exr_attributes(header, camera),
       [&](int y0, int y1) {
         return film.exr_pixels({left, top + y0, right, top + y1});
       },

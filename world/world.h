@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "base/job.h"
-#include "render/render_frame.h"
+#include "render/frame/frame_result.h"
+#include "render/frame_options.h"
 #include "world/assets.h"
 #include "world/compose.h"
 #include "world/scene_schema.h"
@@ -28,8 +30,17 @@
 
 namespace pelage {
 
+class FrameGeometry;
+
 /// Renders a composed frame with the integrator that the scene selects. See render_frame().
 FrameResult render(const World& world, const Job& job, const FrameOptions& options = {});
+
+/// Does the same with geometry that is kept between calls. See render_frame() and recompose_sampling().
+FrameResult render(const World& world, const Job& job, const FrameOptions& options,
+                   std::unique_ptr<const FrameGeometry>& geometry);
+
+/// Returns the header of a rendered frame. `seconds`: duration of the render.
+FrameHeader finished_header(const World& world, const FrameResult& result, double seconds);
 
 /// Writes a rendered frame, completely or not at all. As an EXR file, the display window is the whole
 /// picture, and the data window is the region that was rendered. If the extension of the path is .png, .jpg
@@ -37,6 +48,10 @@ FrameResult render(const World& world, const Job& job, const FrameOptions& optio
 /// render, for the header of the file. Throws Error (kFailed) when the file cannot be written.
 void write_frame(const std::filesystem::path& path, const World& world, const FrameResult& result,
                  double seconds, const Job& job);
+
+/// Does the same when the world may have changed since the render. `header`: from finished_header().
+void write_frame(const std::filesystem::path& path, const FrameHeader& header, const Camera& camera,
+                 const FrameResult& result, const Job& job);
 
 /// Sets the limit of the ledger to `render.memory` and charges the memory of a frame's film. Throws Error
 /// (kMemory) when the film does not fit. While the caller keeps this charge, load_assets() fails early if the

@@ -95,7 +95,8 @@ Rgb Film::indirect(int x, int y, size_t light, int group) const {
   return {rest_of(all.x, direct.x), rest_of(all.y, direct.y), rest_of(all.z, direct.z)};
 }
 
-std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box) const {
+std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box,
+                                         const std::function<bool(const std::string&)>& wanted) const {
   std::vector<size_t> indices;  // of the pixels of the box
   indices.reserve(static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()));
   for (int y = box.y0; y < box.y1; ++y) {
@@ -105,6 +106,7 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box) const {
   std::vector<ExrChannel> channels;
   const auto add_channel = [&](std::string name, ChannelType type,
                                const std::function<float(size_t)>& value) {
+    if (wanted && !wanted(name)) return;
     ExrChannel channel{std::move(name), type, std::vector<float>(pixels), {}};
     for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(indices[p]);
     channels.push_back(std::move(channel));
@@ -131,6 +133,13 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box) const {
     add_channel(std::move(name), ChannelType::kFloat, [&](size_t p) { return value(surfaces_[p].surface); });
   };
 
+  const auto add_counts = [&](std::string name, auto value) {
+    if (wanted && !wanted(name)) return;
+    ExrChannel channel{std::move(name), ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
+    for (size_t p = 0; p < pixels; ++p) channel.ids[p] = value(indices[p]);
+    channels.push_back(std::move(channel));
+  };
+
   add_color("", 0);
   add_channel("A", ChannelType::kHalf, [&](size_t p) { return mean(p, 3); });
   for (size_t i = 0; i < layers_.size(); ++i) add_color(layers_.names[i] + ".", first_channel(i));
@@ -148,16 +157,12 @@ std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box) const {
     add_data("forward." + axis, [c](const VisibleSurface& s) { return s.forward[c]; });
     add_data("root." + axis, [c](const VisibleSurface& s) { return s.root_uv[c]; });
   }
-  ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
-  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[indices[p]].surface.id;
-  channels.push_back(std::move(id));
+  add_counts("id", [&](size_t p) { return surfaces_[p].surface.id; });
   if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {
     add_channel("noise", ChannelType::kFloat,
                 [&](size_t p) { return static_cast<float>(moments_[p].error()); });
-    ExrChannel counts{"samples", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
-    for (size_t p = 0; p < pixels; ++p) counts.ids[p] = counts_[indices[p]];
-    channels.push_back(std::move(counts));
+    add_counts("samples", [&](size_t p) { return counts_[p]; });
   }
   return channels;
 }
