@@ -49,7 +49,8 @@ HWY_INLINE bool store(const RasterTarget& target, size_t i, M hit, V z, V u) {
   const TileLines::Arrays& lines = target.lines;
   const V depth = at(lines.depth, i);
   const M nearer = hn::Lt(z, depth);
-  if (target.filter || !hn::AllTrue(kFloats, hn::Or(hn::Not(hit), nearer))) {
+  const M usual = hn::And(nearer, hn::Gt(z, all(target.certain)));
+  if (target.filter || !hn::AllTrue(kFloats, hn::Or(hn::Not(hit), usual))) {
     float us[TileLines::kPadding], zs[TileLines::kPadding];
     uint8_t bits[8] = {};
     hn::StoreU(u, kFloats, us);
@@ -64,7 +65,7 @@ HWY_INLINE bool store(const RasterTarget& target, size_t i, M hit, V z, V u) {
       const bool tie = zs[lane] == lines.depth[line];
       if (tie && same) continue;
       lines.depth[line] = zs[lane];
-      lines.chunk[line] = tie ? TileWinner::kTraced : target.chunk;
+      lines.chunk[line] = tie || !(zs[lane] > target.certain) ? TileWinner::kTraced : target.chunk;
       lines.primitive[line] = target.primitive;
       changed = true;
     }
