@@ -79,6 +79,7 @@ class Composer {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
+      fur.scale = posed->scale();
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
