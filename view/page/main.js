@@ -41,7 +41,7 @@ function showState() {
   const samples = `${Number(state.samples.toFixed(1))} of ${state.wanted_samples} samples`;
   const memory = `${(state.memory_bytes / 2 ** 20).toFixed(0)} MiB`;
   const what = state.done ? `done in ${state.render_s.toFixed(1)} s` : state.error ? "waiting for an edit" : state.stage;
-  element("status").textContent = `${state.width} × ${state.height}   ${what}   ${samples}   ${memory}`;
+  element("status").textContent = `${state.width} × ${state.height} · ${what} · ${samples} · ${memory}`;
   element("progress").hidden = state.done;
   element("progress").value = state.progress;
 }
