@@ -38,47 +38,60 @@ size_t TileRaster::scratch_bytes(size_t samples) {
          (kCandidates + 1) * sizeof(Scratch::Candidate);
 }
 
-/// Sorts the lines of all samples. Returns false where they diverge too much to be drawn.
-bool TileRaster::place_lines(const Tile& tile, uint32_t first, uint32_t count, TileFrame& frame,
-                             Range& starts, Scratch& scratch) const {
+TileRaster::View TileRaster::make_lines(const Tile& tile, uint32_t first, uint32_t count,
+                                        Scratch& scratch) const {
   const CameraRay axis = scene_.camera.ray(0.5f * static_cast<float>(tile.x0 + tile.x1),
                                            0.5f * static_cast<float>(tile.y0 + tile.y1), V2f(0.5f), 0.5f);
-  frame = TileFrame::along(axis.origin, axis.direction);
+  View view;
+  view.frame = TileFrame::along(axis.origin, axis.direction);
   scratch.drawn.clear();
-  bool possible = true;
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
       for (uint32_t i = 0; i < count; ++i) {
         SampleStream stream = camera_.stream(x, y, first + i);
         const Ray ray = camera_.draw(x, y, first + i, stream).ray;
-        const V3f from = frame.local(ray.origin), along = frame.rotated(ray.direction);
+        const V3f from = view.frame.local(ray.origin), along = view.frame.rotated(ray.direction);
         TileLine line;
         line.b = V2f(along.x, along.y) * (1 / std::max(along.z, 1e-6f));
         line.a = V2f(from.x, from.y) - from.z * line.b;
         line.time = ray.time;
         line.random = ray.random;
-        possible = possible && along.z > 0 && std::max(std::abs(line.b.x), std::abs(line.b.y)) <= kMaxSlope;
-        starts.extend(from.z);
+        view.possible =
+            view.possible && along.z > 0 && std::max(std::abs(line.b.x), std::abs(line.b.y)) <= kMaxSlope;
+        view.starts.extend(from.z);
         scratch.drawn.push_back(line);
       }
     }
   }
   const float focus = scene_.camera.lod_view().focus_distance * axis.direction.dot(scene_.camera.axis(0.5f));
-  scratch.lines.assign(scratch.drawn, reference_depth(scene_, accel_, frame, focus));
-  return possible;
+  view.reference = reference_depth(scene_, accel_, view.frame, focus);
+  return view;
+}
+
+/// Sorts the lines. `depths`: of everything that may be seen.
+void TileRaster::sort_lines(const View& view, const Range& depths, Scratch& scratch) const {
+  scratch.lines.assign(scratch.drawn, view.reference);
+  if (!scratch.lines.has_lens()) return;
+  const TileBeam beam(view.frame, scratch.lines, view.starts.low, view.starts.low, depths.high);
+  find_candidates(false, beam.beam(), depths.high, {-std::numeric_limits<float>::infinity(), 0}, scratch);
+  if (scratch.candidates.empty()) return;
+  const Box3f& nearest = chunks_.boxes().whole(scratch.candidates.front().chunk);
+  const int parts = scratch.lines.lens_parts(depths_of(view.frame, nearest));
+  if (parts > 1) scratch.lines.assign(scratch.drawn, view.reference, parts);
 }
 
 bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Job& job, int worker,
                       Scratch& scratch) const {
   scratch.samples_per_pixel = count;
-  TileFrame frame;
-  Range starts;
-  bool possible = place_lines(tile, first, count, frame, starts, scratch);
+  const View view = make_lines(tile, first, count, scratch);
   const ChunkBoxes& boxes = chunks_.boxes();
   const Box3f bounds = accel_.bounds();
+  const Range all = bounds.isEmpty() ? Range{0, 0} : depths_of(view.frame, bounds);
+  sort_lines(view, all, scratch);
   if (bounds.isEmpty()) return true;
-  TileDrawing drawing(frame, starts, scratch.lines);
-  const TileBeam beam = drawing.beam(depths_of(frame, bounds));
+  bool possible = view.possible;
+  TileDrawing drawing(view.frame, view.starts, scratch.lines);
+  const TileBeam beam = drawing.beam(all);
   // Skins hide what is behind them, and are quickly drawn.
   for (const bool skins : {true, false}) {
     Scratch::Candidate done{-std::numeric_limits<float>::infinity(), 0};
@@ -89,7 +102,7 @@ bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Jo
         done = next;
         drawing.update();
         if (!possible || !may_be_seen(next.chunk, drawing)) continue;
-        const Range depths = depths_of(frame, boxes.whole(next.chunk));
+        const Range depths = depths_of(view.frame, boxes.whole(next.chunk));
         possible = chunks_.visit(next.chunk, worker, [&](const ChunkGeometry& geometry) {
           return drawing.draw(geometry, next.chunk, depths);
         });

@@ -63,8 +63,15 @@ class TileRaster {
   static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
 
  private:
-  bool place_lines(const Tile& tile, uint32_t first, uint32_t count, TileFrame& frame, Range& starts,
-                   Scratch& scratch) const;
+  /// The frame and the start depths of the lines of a tile.
+  struct View {
+    TileFrame frame;
+    Range starts;
+    float reference = 0;   ///< see TileLines::assign()
+    bool possible = true;  ///< false: the lines diverge too much to be drawn
+  };
+  View make_lines(const Tile& tile, uint32_t first, uint32_t count, Scratch& scratch) const;
+  void sort_lines(const View& view, const Range& depths, Scratch& scratch) const;
 
   void find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
                        Scratch& scratch) const;
