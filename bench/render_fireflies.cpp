@@ -139,7 +139,8 @@ void fireflies(benchmark::State& state) {
   const auto picture = [&](uint32_t samples, int64_t seed) {
     scene.render.seed = seed;
     auto film = std::make_unique<Film>(kSize, kSize, layers, ledger);
-    FrameLoop loop(tracer, {workers, ledger, progress}, *film, clock);
+    FrameLoop loop(tracer, {workers, ledger, progress}, *film, frame_window(kSize, kSize, {}, layers.splat),
+                   clock);
     loop.pass([samples](size_t, uint32_t) { return samples; }, false);
     return film;
   };

@@ -27,6 +27,7 @@ struct Texts {
   std::vector<std::string> section;  // its words
   bool quiet = false;
   PostTexts post;
+  PictureTexts picture;
 };
 
 constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
@@ -73,13 +74,15 @@ void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
 }
 
 void add_render(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* render = app.add_subcommand("render", "Render a scene to EXR files");
+  CLI::App* render = app.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
   add_scene_flags(*render, options, texts);
   render
       ->add_option("-o,--output", options.output,
-                   "Output file (default: the scene's name); %04d is the frame number")
+                   "Output file (default: the scene's name and .exr); .png and .jpg hold the beauty as a "
+                   "screen shows it; %04d is the frame number")
       ->type_name("FILE.%04d.exr");
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
+  add_picture_flags(*render, options.picture, texts.picture);
   add_run_flags(*render, options, texts);
 }
 
@@ -314,6 +317,7 @@ void interpret(const Texts& texts, Options& options) {
     parse_frames(texts.frames);  // throws here, where the flag can be named
     options.overrides.push_back({"frames", "'" + texts.frames + "'"});
   }
+  interpret_picture(texts.picture, options);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/picture_flags.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
 #include "post/stereo_file.h"
@@ -53,6 +54,8 @@ struct Options {
   std::optional<double> sample_memory_s;  ///< --sample-memory: seconds between samples
   int threads = 0;                        ///< --threads; 0: as many as are available to the process
   ProgressStyle progress = ProgressStyle::kAuto;
+
+  PictureOptions picture;  ///< render: flags of the picture
 
   Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant

@@ -7,9 +7,11 @@
 #include "base/heap.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
+#include "cli/picture_flags.h"
 #include "cli/progress_display.h"
-#include "cli/read_scene.h"
 #include "cli/run.h"
+#include "image/display_image.h"
+#include "image/exr_file.h"
 #include "world/world.h"
 
 namespace pelage {
@@ -49,16 +51,49 @@ void note_no_output(const std::string& path, Run& run) {
 std::string place_of(const FrameResult& result, const std::string& path) {
   std::error_code ignored;
   if (result.samples > 0 || !std::filesystem::exists(path, ignored)) return path;
-  return std::filesystem::path(path).replace_extension(".partial.exr").string();
+  const std::filesystem::path named(path);
+  return std::filesystem::path(named).replace_extension(".partial" + named.extension().string()).string();
+}
+
+// Whether a file holds a complete picture: it exists, and its header does not say that it is partial. An EXR
+// file that cannot be read is not complete.
+bool is_complete(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return false;
+  if (is_display_image(path)) return true;
+  try {
+    const ExrAttributes attributes = ExrReader(path).parts().front().attributes;
+    const auto partial = attributes.find("pelage:partial");
+    const int* flag = partial == attributes.end() ? nullptr : std::get_if<int>(&partial->second);
+    return !flag || *flag == 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// The frames to render, without those that --skip-existing skips.
+std::vector<int> missing_frames(const Options& options, const FrameList& list, const std::string& output,
+                                Run& run) {
+  std::vector<int> missing;
+  for (const int frame : list.frames) {
+    const std::string path = frame_file_name(output, frame);
+    if (options.picture.skip_existing && is_complete(path)) {
+      run.display().note(path + "  exists, skipped");
+    } else {
+      missing.push_back(frame);
+    }
+  }
+  return missing;
 }
 
 // Renders and writes one frame; returns whether it is complete.
-bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path, Run& run) {
+bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path,
+                const FrameOptions& how, Run& run) {
   const double began = run.seconds();
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
   run.statistics().world += world.counts;
   const double posed = run.seconds();
-  const FrameResult result = render(world, run.job());
+  const FrameResult result = render(world, run.job(), how);
   run.statistics().add(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()));
   if (result.mean_samples == 0) {
     note_no_output(path, run);
@@ -74,9 +109,9 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
       scene.render.clamp_indirect > 0
           ? fmt::format(", {:.2g} % of the indirect light clamped", 100 * result.clamped_fraction)
           : "";
-  run.display().note(fmt::format("{}  {} x {}, {}{}{}, {}", place, scene.image.width, scene.image.height,
-                                 samples_text(result), result.partial ? " (partial)" : "", clamped,
-                                 duration_text(seconds)));
+  run.display().note(fmt::format("{}  {} x {}, {}{}{}, {}", place, result.window.region.width(),
+                                 result.window.region.height(), samples_text(result),
+                                 result.partial ? " (partial)" : "", clamped, duration_text(seconds)));
   return !result.partial;
 }
 
@@ -84,25 +119,33 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
 
 int run_render(const Options& options) {
   Run run(options);
-  const SceneDescription scene = read_scene(options, run.display());
+  SceneDescription scene = read_picture_scene(options, run.display());
   const std::string output = output_name(options, scene.frames);
-  if (std::filesystem::path(output).extension() != ".exr") {
-    throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr");
+  if (std::filesystem::path(output).extension() != ".exr" && !is_display_image(output)) {
+    throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr, .png or .jpg");
   }
   check_output_pattern(output, scene.frames);
   check_files(options, scene, output);
 
+  scene.frames.frames = missing_frames(options, scene.frames, output, run);
+  if (scene.frames.frames.empty()) {
+    run.finish(options);
+    return 0;
+  }
+  FrameOptions how;
+  how.region = options.picture.region;
+
   bool complete = true;
   std::string path = frame_file_name(output, scene.frames.frames.front());
   try {
-    MemoryCharge film = reserve_film(scene, run.job());
+    MemoryCharge film = reserve_film(scene, run.job(), how.region);
     const auto assets = run.stage("read", [&] { return load_assets(scene, run.job()); });
     for (const auto& [name, groom] : assets->grooms) run.statistics().repairs += groom->repairs();
     film = {};  // each frame makes its own
     for (size_t i = 0; i < scene.frames.frames.size() && complete; ++i) {
       path = frame_file_name(output, scene.frames.frames[i]);
       run.display().frame(scene.frames.frames[i], i + 1, scene.frames.frames.size());
-      complete = render_one(scene, *assets, scene.frames.frames[i], path, run);
+      complete = render_one(scene, *assets, scene.frames.frames[i], path, how, run);
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kStopped) throw;

@@ -102,12 +102,13 @@ const ExrChannel* ExrImage::find(std::string_view name) const {
   return nullptr;
 }
 
-void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows, const Workers& workers, MemoryLedger& ledger) {
+void write_exr(const std::filesystem::path& path, const PixelBox& data, const PixelBox& display,
+               const ExrAttributes& attributes, const ExrRowSource& rows, const Workers& workers,
+               MemoryLedger& ledger) {
+  const int width = data.width(), height = data.height();
   const int threads = workers.thread_count(), step = kRowsPerThread * threads;
   std::vector<ExrChannel> channels = rows(0, 0);
-  const PixelBox frame{0, 0, width, height};
-  ExrWriter writer(path, {{}, {}, frame, frame, described(channels), attributes, {}}, threads);
+  ExrWriter writer(path, {{}, {}, data, display, described(channels), attributes, {}}, threads);
   const MemoryCharge charge(
       ledger, MemoryTag::kFilm,
       writer.buffer_bytes() + bytes_of_pixel(channels) * width * std::min(step, height));
@@ -138,7 +139,8 @@ void write_exr(const std::filesystem::path& path, const ExrImage& image) {
     PELAGE_CHECK((channel.type == ChannelType::kUint ? channel.ids.size() : channel.pixels.size()) == pixels);
   }
   MemoryLedger none;  // the picture is already in memory
-  write_exr(path, image.width, image.height, image.attributes, rows, Workers::alone(), none);
+  const PixelBox frame{0, 0, image.width, image.height};
+  write_exr(path, frame, frame, image.attributes, rows, Workers::alone(), none);
 }
 
 ExrImage read_exr(const std::filesystem::path& path) {

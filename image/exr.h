@@ -13,6 +13,14 @@
 
 namespace pelage {
 
+/// Pixels x0 <= x < x1, y0 <= y < y1, in the pixel space of a file: x right, y down.
+struct PixelBox {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  bool operator==(const PixelBox&) const = default;
+};
+
 class MemoryLedger;
 class Workers;
 
@@ -31,8 +39,8 @@ using ExrAttribute = std::variant<int, float, std::string, V2f, V3f, M44f>;
 
 using ExrAttributes = std::map<std::string, ExrAttribute>;
 
-/// Returns rows y0 .. y1-1 of a picture; none if y0 == y1. Every call must return the same channels in the
-/// same order.
+/// Returns rows y0 .. y1-1 of a picture, counted from the top of its data window; none if y0 == y1. Every
+/// call must return the same channels in the same order.
 using ExrRowSource = std::function<std::vector<ExrChannel>(int y0, int y1)>;
 
 /// All pixels and attributes of an EXR file with a single part.
@@ -46,11 +54,13 @@ struct ExrImage {
   const ExrChannel* find(std::string_view name) const;
 };
 
-/// Writes a picture with an ExrWriter. First calls rows(0, 0) to learn the channels, then calls `rows` for a
-/// few rows at a time, from the top. Charges the memory of these rows and of the writer as film until the
-/// call returns. Throws Error (kFailed) naming the path.
-void write_exr(const std::filesystem::path& path, int width, int height, const ExrAttributes& attributes,
-               const ExrRowSource& rows, const Workers& workers, MemoryLedger& ledger);
+/// Writes a picture with an ExrWriter. `data`: data window, the pixels that `rows` provides. `display`:
+/// display window, the frame of the picture. First calls rows(0, 0) to learn the channels, then calls `rows`
+/// for a few rows at a time, from the top. Charges the memory of these rows and of the writer as film until
+/// the call returns. Throws Error (kFailed) naming the path.
+void write_exr(const std::filesystem::path& path, const PixelBox& data, const PixelBox& display,
+               const ExrAttributes& attributes, const ExrRowSource& rows, const Workers& workers,
+               MemoryLedger& ledger);
 /// Writes a picture that is already in memory, on the calling thread. Throws Error (kFailed) naming the path.
 void write_exr(const std::filesystem::path& path, const ExrImage& image);
 

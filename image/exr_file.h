@@ -13,14 +13,6 @@
 
 namespace pelage {
 
-/// Pixels x0 <= x < x1, y0 <= y < y1, in the pixel space of a file: x right, y down.
-struct PixelBox {
-  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-  int width() const { return x1 - x0; }
-  int height() const { return y1 - y0; }
-  bool operator==(const PixelBox&) const = default;
-};
-
 /// Max length of the name of a channel or attribute, in bytes.
 inline constexpr size_t kLongestExrName = 255;
 

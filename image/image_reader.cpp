@@ -48,6 +48,7 @@ ImageReader::ImageReader() : module_("pelage_image_reader") {
     throw Error(ErrorKind::kFailed, "module pelage_image_reader belongs to another version of Pelage");
   }
   find(read_, "pelage_read_image");
+  find(write_, "pelage_write_image");
 }
 
 std::string ImageReader::read(const std::filesystem::path& file, ImageSink& sink) const {
@@ -58,6 +59,13 @@ std::string ImageReader::read(const std::filesystem::path& file, ImageSink& sink
   if (guarded.error) std::rethrow_exception(guarded.error);
   if (!failed) return {};
   return message[0] ? message : "cannot be decoded";
+}
+
+std::string ImageReader::write(const std::filesystem::path& file, const DisplayImage& image) const {
+  char message[512] = "";
+  if (!write_(file.c_str(), image.width, image.height, image.pixels.data(), message, sizeof message))
+    return {};
+  return message[0] ? message : "cannot be encoded";
 }
 
 /// Keeps the cache and its file alive.

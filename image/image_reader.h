@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/module.h"
+#include "image/display_image.h"
 #include "image/reader_module.h"
 #include "image/texel_store.h"
 #include "image/tile_file.h"
@@ -29,8 +30,8 @@ class ImageSink {
   virtual void rows(const std::byte* rows, int count) = 0;
 };
 
-/// Reads image files through the module of image/reader_module.h, which contains OpenImageIO. Thread safety:
-/// const members may be called from any thread.
+/// Reads and writes image files through the module of image/reader_module.h, which contains OpenImageIO.
+/// Thread safety: const members may be called from any thread.
 class ImageReader {
  public:
   /// Loads the module. Throws Error (kFailed) when the module cannot be loaded or has another version.
@@ -39,6 +40,10 @@ class ImageReader {
   /// Passes the first image of a file to `sink`. Returns an empty string on success, otherwise a description
   /// of the problem with the file. Exceptions of the sink propagate.
   std::string read(const std::filesystem::path& file, ImageSink& sink) const;
+
+  /// Writes a picture in the format that the extension of `file` states. Returns an empty string on success,
+  /// otherwise a description of the problem.
+  std::string write(const std::filesystem::path& file, const DisplayImage& image) const;
 
  private:
   friend class TileCache;
@@ -49,6 +54,7 @@ class ImageReader {
 
   Module module_;
   decltype(&pelage_read_image) read_ = nullptr;
+  decltype(&pelage_write_image) write_ = nullptr;
 };
 
 /// A cache of tiles of images. Keeps the most recently used tiles within a fixed amount of memory. Thread

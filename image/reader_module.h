@@ -5,10 +5,10 @@
 #include <stdint.h>
 
 /* The C interface between the texture library and the module that contains OpenImageIO
- * (image/reader_module.cpp, image/tile_cache_module.cpp). Its functions throw no exceptions and
- * have no C++ types. */
+ * (image/reader_module.cpp, image/writer_module.cpp, image/tile_cache_module.cpp). Its functions throw no
+ * exceptions and have no C++ types. */
 
-#define PELAGE_IMAGE_READER_VERSION 2
+#define PELAGE_IMAGE_READER_VERSION 3
 #define PELAGE_EXPORT __attribute__((visibility("default")))
 
 #ifdef __cplusplus
@@ -42,6 +42,12 @@ PELAGE_EXPORT int pelage_image_reader_version(void);
  * `message` receives one line of text. */
 PELAGE_EXPORT int pelage_read_image(const char* path, const PelageImageSink* sink, char* message,
                                     size_t message_size);
+
+/* Writes an image with 8 bits for each of the channels R, G and B, which are adjacent; rows from the top. The
+ * extension of the path states the format. JPEG files have quality 95. Returns 0 on success and 1 on failure;
+ * `message` then receives one line of text. */
+PELAGE_EXPORT int pelage_write_image(const char* path, int width, int height, const uint8_t* rgb,
+                                     char* message, size_t message_size);
 
 /* A cache of tiles with a limit on memory. Reads the tiles from files (see PelageTiles). Thread safe. */
 typedef struct PelageTileCache PelageTileCache;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/memory_budget.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_geometry.h"
@@ -26,11 +29,12 @@ FilmLayers film_layers(const RenderScene& scene) {
 }
 
 /// Renders with one path after another.
-TileCosts trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
+TileCosts trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const FrameOptions& options,
                       const Job& job, const Stopwatch& clock, FrameResult& result) {
-  const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options);
-  FrameLoop loop(tracer, job, result.film, clock);
-  const ScheduleEnd end = SampleSchedule(loop, scene.render, job, clock, geometry.fits()).run();
+  const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options.path);
+  FrameLoop loop(tracer, job, result.film, result.window, clock);
+  const ScheduleEnd end =
+      SampleSchedule(loop, scene.render, job, clock, geometry.fits(), options.watch).run();
   result.partial = end.partial;
   result.time_limited = end.time_limited;
   result.samples = loop.min_samples();
@@ -52,22 +56,46 @@ TileCosts gather(const RenderScene& scene, const FrameGeometry& geometry, const 
 
 }  // namespace
 
-FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOptions& options) {
+void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error(ErrorKind::kArguments,
+                fmt::format("region {},{},{},{}: {}", region.x0, region.y0, region.x1, region.y1, why));
+  };
+  const bool inside =
+      region.x0 >= 0 && region.y0 >= 0 && region.x1 <= image.width && region.y1 <= image.height;
+  if (region.x0 >= region.x1 || region.y0 >= region.y1)
+    refuse("it has no pixels; X1 must be greater than X0, and Y1 greater than Y0");
+  if (!inside) refuse(fmt::format("the picture has {} x {} pixels", image.width, image.height));
+  if (render.adaptive) refuse("`adaptive` sampling needs the whole picture");
+  if (render.integrator == Integrator::kGather)
+    refuse("`integrator: gather` needs the whole picture, because its samples share light");
+}
+
+FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options) {
+  std::unique_ptr<const FrameGeometry> geometry;
+  return render_frame(scene, job, options, geometry);
+}
+
+FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options,
+                         std::unique_ptr<const FrameGeometry>& geometry) {
   const Stopwatch clock;
+  if (options.region) check_region(scene.image, scene.render, *options.region);
   const FilmLayers layers = film_layers(scene);
   job.ledger.set_limit(scene.render.memory.bytes);
-  require_room(job.ledger, Film::bytes_needed(scene.image.width, scene.image.height, layers),
-               "the frame buffer");
+  const FrameWindow window =
+      frame_window(scene.image.width, scene.image.height, options.region, layers.splat);
+  const int width = window.film.width(), height = window.film.height();
+  require_room(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
   const bool gathers = scene.render.integrator == Integrator::kGather;
-  FrameResult result{Film(scene.image.width, scene.image.height, layers, job.ledger)};
+  FrameResult result{Film(width, height, layers, job.ledger), window};
   const GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
-  const auto geometry = FrameGeometry::make(scene, job, result.statistics);
+  if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
   const double prepared_cpu_s = geometry->growth_cpu_s();
-  const TileCosts costs = gathers ? gather(scene, *geometry, options, tiles, job, clock, result)
+  const TileCosts costs = gathers ? gather(scene, *geometry, options.path, tiles, job, clock, result)
                                   : trace_paths(scene, *geometry, options, job, clock, result);
   result.statistics.cpu_s += render_seconds(costs, geometry->growth_cpu_s() - prepared_cpu_s);
   geometry->add_to(result.statistics);

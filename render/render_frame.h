@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "base/job.h"
 #include "render/frame/frame_result.h"
-#include "render/path/path_tracer.h"
+#include "render/frame_options.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
+
+class FrameGeometry;
+
+/// Throws Error (kArguments) when a region is empty or not within the picture, or when the pixels of the
+/// picture depend on each other, so that a region would have other pixels than the whole picture. This is so
+/// with adaptive sampling and with `integrator: gather`.
+void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region);
 
 /// Renders one frame with the integrator of the scene (render.integrator). First bounds all chunks. Then
 /// takes samples in passes over the whole picture (SampleSchedule, or GatherLoop for `gather`). A picture
@@ -14,6 +23,14 @@ namespace pelage {
 ///
 /// The same scene gives the same film for any number of threads, unless the time limit is reached. Throws
 /// Error. An error in a render thread reaches the caller after all threads have stopped.
-FrameResult render_frame(const RenderScene& scene, const Job& job, const PathOptions& options = {});
+FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options = {});
+
+/// Does the same with geometry that is kept from an earlier call. If `geometry` is null, makes the geometry
+/// and stores it there, unless the job is cancelled. Otherwise, `geometry` must come from the same
+/// RenderScene object. Since that call, only the lights, the pixels of the picture (`image`, except its size)
+/// and the members of `render` that concern sampling may have changed, and the materials, except for the
+/// opacity of fibres. The statistics of growth and residency count from when the geometry was made.
+FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options,
+                         std::unique_ptr<const FrameGeometry>& geometry);
 
 }  // namespace pelage

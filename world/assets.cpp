@@ -153,11 +153,18 @@ std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& jo
     const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
     assets->grooms[name] = make_groom(name, position, params, rest, assets->textures, job);
   }
+  assets->materials = load_materials(scene, assets->textures, job);
+  return assets;
+}
+
+std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,
+                                           const Job& job) {
+  std::vector<MaterialParams> materials;
   for (const auto& [name, position, params] : scene.materials.items) {
     job.check_stop();
-    assets->materials.push_back(with_tables(with_textures(params, assets->textures), job));
+    materials.push_back(with_tables(with_textures(params, textures), job));
   }
-  return assets;
+  return materials;
 }
 
 }  // namespace pelage

@@ -46,4 +46,9 @@ struct Assets {
 /// stopped.
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
 
+/// Returns the materials of a scene, in its order, with their textures and tables. Throws Error: kInput for
+/// missing or damaged images, kStopped when the job is stopped.
+std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,
+                                           const Job& job);
+
 }  // namespace pelage

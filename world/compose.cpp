@@ -79,6 +79,7 @@ class Composer {
       const auto& coat = assets_.grooms.at(groom.name);
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
+      fur.scale = posed->scale();
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;
@@ -137,17 +138,21 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   return header;
 }
 
-}  // namespace
-
-World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
+LightSet make_lights(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
   std::vector<std::unique_ptr<Light>> lights;
   for (const auto& [name, position, params] : scene.lights.items) {
     lights.push_back(make_light(name, params, frame, assets.textures, job.ledger));
   }
+  return LightSet(std::move(lights));
+}
+
+}  // namespace
+
+World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job) {
   World world{{{},
                {},
                assets.materials,
-               LightSet(std::move(lights)),
+               make_lights(scene, assets, frame, job),
                Camera(scene.camera, frame, scene.image.width, scene.image.height),
                scene.image,
                scene.render},
@@ -159,6 +164,18 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               {}};
   Composer(scene, assets, frame, job, world).add_all();
   return world;
+}
+
+void recompose_sampling(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
+                        World& world) {
+  LightSet lights = make_lights(scene, assets, frame, job);
+  std::vector<MaterialParams> materials = load_materials(scene, assets.textures, job);
+  world.header = header_of(scene, frame);
+  assets.materials = std::move(materials);
+  world.scene.materials = assets.materials;
+  world.scene.lights = std::move(lights);
+  world.scene.image = scene.image;
+  world.scene.render = scene.render;
 }
 
 }  // namespace pelage

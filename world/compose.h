@@ -41,4 +41,10 @@ struct World {
 /// not suffice, kStopped when the job is stopped.
 World compose(const SceneDescription& scene, Assets& assets, double frame, const Job& job);
 
+/// Replaces everything in a world that does not concern geometry: lights, materials, sampling and layers of
+/// the picture, and the header. `scene`: a scene that differs from the scene of the world by Redo::kSampling
+/// at most. Throws the same errors as compose(); the world is then unchanged.
+void recompose_sampling(const SceneDescription& scene, Assets& assets, double frame, const Job& job,
+                        World& world);
+
 }  // namespace pelage

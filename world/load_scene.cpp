@@ -195,6 +195,7 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   RenamedKeys renamed{SceneDescription::schema()};
   if (const std::optional<Value> document = load_document(path, overrides, problems, &renamed)) {
     const ContentHash hash = document_hash(*document);
+    scene.parts = scene_parts(*document);
     scene.files = files_of(*document, path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // If a block could not be read, references to its names would be reported as unknown too.

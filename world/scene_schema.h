@@ -18,6 +18,7 @@
 #include "render/scene/render_params.h"
 #include "scene/document.h"
 #include "world/frames.h"
+#include "world/scene_changes.h"
 
 namespace pelage {
 
@@ -105,6 +106,7 @@ struct SceneDescription {
   /// All files from which the document was read: the scene file and its included files. asset_files() returns
   /// the assets.
   std::vector<std::filesystem::path> files;
+  SceneParts parts;               ///< hashes of the parts of the document, to compare scenes
   std::vector<Problem> warnings;  ///< one per use of an old name of a key, with the current name
   static const Schema<SceneDescription>& schema();
 };

@@ -39,6 +39,7 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
                                    gather_with("reuse", "false"),
                                    gather_with("spacing", fmt::format("{:g}", 2 * own.spacing)),
                                    gather_with("skin_spacing", fmt::format("{:g}", 2 * own.skin_spacing)),
+                                   gather_with("cells", own.cells ? "false" : "true"),
                                    gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
                                    gather_with("paths", fmt::format("{:g}", own.paths / 2)),
                                    gather("drawn", "gather, drawn")};

@@ -25,7 +25,8 @@ struct BeamPlane {
 /// A convex region that contains a bundle of rays: the inside of four planes, at depths above `near`.
 struct Beam {
   std::array<BeamPlane, 4> sides;
-  BeamPlane depth;  ///< at(p) is the depth of p along the beam
+  BeamPlane across[2];  ///< at(p) is the position of p across the beam, by axis
+  BeamPlane depth;      ///< at(p) is the depth of p along the beam
   float near = 0;
 
   /// Returns whether a box may have points in the beam at depths below `far`. Stores a lower bound of the

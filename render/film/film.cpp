@@ -89,23 +89,29 @@ Rgb Film::indirect(int x, int y, size_t light, int group) const {
   return {rest_of(all.x, direct.x), rest_of(all.y, direct.y), rest_of(all.z, direct.z)};
 }
 
-std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
-  const size_t first_pixel = index(0, y0), pixels = index(0, y1) - first_pixel;
+std::vector<ExrChannel> Film::exr_pixels(const PixelBox& box,
+                                         const std::function<bool(const std::string&)>& wanted) const {
+  std::vector<size_t> indices;  // of the pixels of the box
+  indices.reserve(static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()));
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) indices.push_back(index(x, y));
+  }
+  const size_t pixels = indices.size();
   std::vector<ExrChannel> channels;
   const auto add_channel = [&](std::string name, ChannelType type,
                                const std::function<float(size_t)>& value) {
+    if (wanted && !wanted(name)) return;
     ExrChannel channel{std::move(name), type, std::vector<float>(pixels), {}};
-    for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(first_pixel + p);
+    for (size_t p = 0; p < pixels; ++p) channel.pixels[p] = value(indices[p]);
     channels.push_back(std::move(channel));
   };
-  const auto mean = [&](size_t p, size_t channel) {
-    const size_t pixel = first_pixel + p, columns = static_cast<size_t>(width_);
+  const auto mean = [&](size_t pixel, size_t channel) {
+    const size_t columns = static_cast<size_t>(width_);
     return sums_.mean(static_cast<int>(pixel % columns), static_cast<int>(pixel / columns), channel);
   };
   const auto add_color = [&](const std::string& prefix, size_t first) {
     for (size_t c = 0; c < 3; ++c) {
-      add_channel(prefix + "RGB"[c], ChannelType::kHalf,
-                  [&, c](size_t p) { return mean(p - first_pixel, first + c); });
+      add_channel(prefix + "RGB"[c], ChannelType::kHalf, [&, c](size_t p) { return mean(p, first + c); });
     }
   };
   const auto add_indirect = [&](size_t light, int group) {
@@ -113,17 +119,23 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
     const size_t all = first_channel(layers_.scattered(light, group));
     const size_t direct = first_channel(layers_.direct(light, group));
     for (size_t c = 0; c < 3; ++c) {
-      add_channel(prefix + "RGB"[c], ChannelType::kHalf, [&, c](size_t p) {
-        return rest_of(mean(p - first_pixel, all + c), mean(p - first_pixel, direct + c));
-      });
+      add_channel(prefix + "RGB"[c], ChannelType::kHalf,
+                  [&, c](size_t p) { return rest_of(mean(p, all + c), mean(p, direct + c)); });
     }
   };
   const auto add_data = [&](std::string name, auto value) {
     add_channel(std::move(name), ChannelType::kFloat, [&](size_t p) { return value(surfaces_[p].surface); });
   };
 
+  const auto add_counts = [&](std::string name, auto value) {
+    if (wanted && !wanted(name)) return;
+    ExrChannel channel{std::move(name), ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
+    for (size_t p = 0; p < pixels; ++p) channel.ids[p] = value(indices[p]);
+    channels.push_back(std::move(channel));
+  };
+
   add_color("", 0);
-  add_channel("A", ChannelType::kHalf, [&](size_t p) { return mean(p - first_pixel, 3); });
+  add_channel("A", ChannelType::kHalf, [&](size_t p) { return mean(p, 3); });
   for (size_t i = 0; i < layers_.size(); ++i) add_color(layers_.names[i] + ".", first_channel(i));
   for (size_t i = 0; layers_.events && i < layers_.lights(); ++i) {
     for (int g = 0; g < layers_.groups; ++g) add_indirect(i, g);
@@ -139,16 +151,12 @@ std::vector<ExrChannel> Film::exr_rows(int y0, int y1) const {
     add_data("forward." + axis, [c](const VisibleSurface& s) { return s.forward[c]; });
     add_data("root." + axis, [c](const VisibleSurface& s) { return s.root_uv[c]; });
   }
-  ExrChannel id{"id", ChannelType::kUint, {}, std::vector<uint32_t>(pixels)};
-  for (size_t p = 0; p < pixels; ++p) id.ids[p] = surfaces_[first_pixel + p].surface.id;
-  channels.push_back(std::move(id));
+  add_counts("id", [&](size_t p) { return surfaces_[p].surface.id; });
   if (layers_.lod) add_data("lod", [](const VisibleSurface& s) { return s.left_out; });
   if (!moments_.empty()) {
     add_channel("noise", ChannelType::kFloat,
                 [&](size_t p) { return static_cast<float>(moments_[p].error()); });
-    const auto begin = counts_.begin() + static_cast<std::ptrdiff_t>(first_pixel);
-    channels.push_back(
-        {"samples", ChannelType::kUint, {}, {begin, begin + static_cast<std::ptrdiff_t>(pixels)}});
+    add_counts("samples", [&](size_t p) { return counts_[p]; });
   }
   return channels;
 }

@@ -50,6 +50,7 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job) : scene_(scen
       scales_.push_back(procedural->scale());
     }
   }
+  was_grown_ = std::make_unique<std::atomic<bool>[]>(leaves_.size());
   divide_skins(job);
 }
 
@@ -115,7 +116,10 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
   const FibreParams& fibre = fibre_material(scene_, part);
   FurContents fur;
   fur.strands = leaves_[chunk]->generate();
-  strands_grown_.fetch_add(static_cast<int64_t>(fur.strands.strand_count()), std::memory_order_relaxed);
+  const auto count = static_cast<int64_t>(fur.strands.strand_count());
+  strands_grown_.fetch_add(count, std::memory_order_relaxed);
+  if (was_grown_[chunk].exchange(true, std::memory_order_relaxed))
+    strands_regrown_.fetch_add(count, std::memory_order_relaxed);
   if (fur.strands.strand_count() > 0) {
     find_attributes(fibre.color, fur.strands, part.name);  // throws if one is missing
     fur.opacity = point_opacities(fibre.opacity, fur.strands, part);
@@ -165,7 +169,8 @@ size_t FrameChunks::bytes() const {
   constexpr size_t kHeap = 16;  // per block: overhead and rounding of the heap
   size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
-               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]);
+               scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]) +
+               leaves_.size();
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
   for (const SkinChunk& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
   return sum;

@@ -50,6 +50,8 @@ class FrameChunks final : public ChunkGrower {
   bool opaque() const;
   /// Returns the count of strands that grow() has made so far. A strand that is grown again counts again.
   int64_t strands_grown() const { return strands_grown_.load(std::memory_order_relaxed); }
+  /// Returns the count of those that had been grown before.
+  int64_t strands_regrown() const { return strands_regrown_.load(std::memory_order_relaxed); }
 
  private:
   struct SkinChunk {
@@ -75,7 +77,8 @@ class FrameChunks final : public ChunkGrower {
   std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;
-  mutable std::atomic<int64_t> strands_grown_{0};
+  mutable std::atomic<int64_t> strands_grown_{0}, strands_regrown_{0};
+  std::unique_ptr<std::atomic<bool>[]> was_grown_;  // by leaf
 };
 
 }  // namespace pelage

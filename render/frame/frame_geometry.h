@@ -27,6 +27,9 @@ class FrameGeometry {
   bool fits() const { return chunks().fits(); }
   /// Returns the CPU seconds spent on growing and evicting chunks so far.
   double growth_cpu_s() const { return chunks().counts().cpu_s; }
+  // Of FrameChunks.
+  int64_t strands_grown() const { return chunks_->strands_grown(); }
+  int64_t strands_regrown() const { return chunks_->strands_regrown(); }
   /// Adds the counts of strands grown, of chunks grown and evicted, and of reads from `render.bvh.file`.
   void add_to(FrameStatistics& statistics) const;
 

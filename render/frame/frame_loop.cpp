@@ -14,14 +14,31 @@ constexpr int kTileSide = FilmSums::kTileSide;
 
 int tile_count(int pixels) { return (pixels + kTileSide - 1) / kTileSide; }
 
+PixelBox moved(const PixelBox& box, int x, int y) { return {box.x0 + x, box.y0 + y, box.x1 + x, box.y1 + y}; }
+
+/// The tiles of a film, cut off at the border of the traced pixels.
+std::vector<Tile> tiles_within(const PixelBox& traced, const Film& film) {
+  std::vector<Tile> tiles;
+  for (const Tile& tile : tiles_along_curve(film.width(), film.height(), kTileSide)) {
+    const Tile part{std::max(tile.x0, traced.x0), std::max(tile.y0, traced.y0), std::min(tile.x1, traced.x1),
+                    std::min(tile.y1, traced.y1)};
+    if (part.x0 < part.x1 && part.y0 < part.y1) tiles.push_back(part);
+  }
+  return tiles;
+}
+
 }  // namespace
 
-FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock)
+FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film,
+                     const FrameWindow& window, const Stopwatch& clock)
     : integrator_(integrator),
       job_(job),
       film_(film),
+      left_(window.film.x0),
+      top_(window.film.y0),
+      traced_(moved(window.traced, -left_, -top_)),
       clock_(clock),
-      tiles_(tiles_along_curve(film.width(), film.height(), kTileSide)),
+      tiles_(tiles_within(traced_, film)),
       costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
       sample_counts_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())) {
   for (int worker = 0; worker < job.workers.thread_count(); ++worker) {
@@ -31,12 +48,16 @@ FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& f
 }
 
 uint32_t FrameLoop::min_samples() const {
-  return *std::min_element(sample_counts_.begin(), sample_counts_.end());
+  uint32_t min = std::numeric_limits<uint32_t>::max();
+  for (int y = traced_.y0; y < traced_.y1; ++y) {
+    for (int x = traced_.x0; x < traced_.x1; ++x) min = std::min(min, sample_counts_[pixel_of(x, y)]);
+  }
+  return min;
 }
 
 double FrameLoop::mean_samples() const {
   return std::accumulate(sample_counts_.begin(), sample_counts_.end(), 0.0) /
-         static_cast<double>(sample_counts_.size());
+         static_cast<double>(traced_count());
 }
 
 PassEnd FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
@@ -56,8 +77,7 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
   bool stopped = false;
   for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
     for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
-      uint32_t& given =
-          sample_counts_[static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x)];
+      uint32_t& given = sample_counts_[pixel_of(x, y)];
       const uint32_t before = given;
       stopped = !trace_pixel(x, y, goal, given, scratch);
       traced += given - before;
@@ -72,11 +92,11 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
 
 bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch) {
   constexpr uint32_t kSamplesPerCheck = 16;  // samples: a tile of many takes minutes
-  const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+  const size_t pixel = pixel_of(x, y);
   for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
     for (; given < until; ++given) {
       if (given % kSamplesPerCheck == 0 && job_.progress.cancelled()) return false;
-      integrator_.trace(x, y, given, scratch);
+      integrator_.trace(left_ + x, top_ + y, given, scratch);
       if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
     }
   }

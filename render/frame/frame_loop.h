@@ -12,6 +12,7 @@
 #include "base/stopwatch.h"
 #include "render/film/film.h"
 #include "render/frame/frame_statistics.h"
+#include "render/frame/frame_window.h"
 #include "render/frame/sample_integrator.h"
 #include "render/frame/tile_order.h"
 #include "render/frame/tile_pass.h"
@@ -26,16 +27,22 @@ class FrameLoop {
   /// the result is not greater than `given`.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
 
-  /// `clock`: deadlines are in seconds on this clock.
-  FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const Stopwatch& clock);
+  /// `film`: stores the pixels window.film. `clock`: deadlines are in seconds on this clock.
+  FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const FrameWindow& window,
+            const Stopwatch& clock);
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
+  /// Returns the count of pixels of the film, including those that are not traced.
   size_t pixel_count() const { return sample_counts_.size(); }
+  /// Returns the count of pixels that are traced.
+  size_t traced_count() const {
+    return static_cast<size_t>(traced_.width()) * static_cast<size_t>(traced_.height());
+  }
   const Film& film() const { return film_; }
-  /// Returns the count of samples traced for a pixel so far.
+  /// Returns the count of samples traced for a pixel of the film so far.
   uint32_t sample_count(size_t pixel) const { return sample_counts_[pixel]; }
-  // Min and mean of sample_count() over all pixels.
+  // Min and mean of sample_count() over the traced pixels.
   uint32_t min_samples() const;
   double mean_samples() const;
 
@@ -64,10 +71,15 @@ class FrameLoop {
   bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
   bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch);
   size_t tile_of(int x, int y) const;
+  size_t pixel_of(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
+  }
 
   const SampleIntegrator& integrator_;
   Job job_;
   Film& film_;
+  const int left_, top_;   // pixel (0, 0) of the film, in the picture
+  const PixelBox traced_;  // in pixels of the film, like all pixels of this class
   const Stopwatch& clock_;
   std::vector<Tile> tiles_;
   std::vector<TileCost> costs_;                          // by tile, row by row

@@ -36,8 +36,36 @@ Pilot pilot_of(const Film& film) {
 }  // namespace
 
 SampleSchedule::SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job,
-                               const Stopwatch& clock, bool stays)
-    : loop_(loop), params_(params), job_(job), clock_(clock), in_passes_(stays || params.time_limit > 0) {}
+                               const Stopwatch& clock, bool stays, FrameWatch* watch)
+    : loop_(loop),
+      params_(params),
+      job_(job),
+      clock_(clock),
+      watch_(watch),
+      refines_(watch && !loop.film().layers().splat),
+      in_passes_(stays || params.time_limit > 0 || refines_) {}
+
+SampleSchedule::End SampleSchedule::pass(const FrameLoop::Goal& goal, bool scattered, double deadline_s,
+                                         int grid) {
+  const End end = loop_.pass(goal, scattered, deadline_s);
+  if (watch_ && end != End::kCancelled)
+    watch_->passed(loop_.film(), {loop_.min_samples(), loop_.mean_samples(), grid});
+  return end;
+}
+
+SampleSchedule::End SampleSchedule::coarse_passes() {
+  const auto columns = static_cast<size_t>(loop_.width());
+  End end = End::kDone;
+  for (int grid = 8; grid > 1 && end == End::kDone; grid /= 2) {
+    const auto step = static_cast<size_t>(grid);
+    const auto goal = [=](size_t pixel, uint32_t given) {
+      const bool chosen = pixel % columns % step == 0 && pixel / columns % step == 0;
+      return chosen ? std::max(given, 1u) : given;
+    };
+    end = pass(goal, true, std::numeric_limits<double>::infinity(), grid);
+  }
+  return end;
+}
 
 double SampleSchedule::deadline() const {
   const bool limited = params_.time_limit > 0 && loop_.min_samples() > 0;
@@ -47,12 +75,12 @@ double SampleSchedule::deadline() const {
 ScheduleEnd SampleSchedule::run() {
   End end = End::kDone;
   if (!params_.adaptive) {
-    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * max_samples());
+    job_.progress.begin("render", static_cast<double>(loop_.traced_count()) * max_samples());
     end = uniform(max_samples());
   } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
     end = two_stage();
   } else {
-    job_.progress.begin("render", static_cast<double>(loop_.pixel_count()) * max_samples());
+    job_.progress.begin("render", static_cast<double>(loop_.traced_count()) * max_samples());
     end = seed();
   }
   job_.progress.end();
@@ -60,19 +88,22 @@ ScheduleEnd SampleSchedule::run() {
 }
 
 SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
-  End end = End::kDone;
+  constexpr double kWatched_s = 1;  // max duration of a pass that is watched, if it can be that short
+  End end = refines_ && loop_.mean_samples() == 0 ? coarse_passes() : End::kDone;
   double last_pass_s = 0;  // per sample and pixel
   for (uint32_t given = 0; given < samples && end == End::kDone;) {
     uint32_t next = in_passes_ ? std::min(samples, std::max(1u, 2 * given)) : samples;
     if (params_.time_limit > 0 && given > 0) {
       const double fits = std::max(0.0, (params_.time_limit - clock_.seconds()) / last_pass_s);
-      job_.progress.expect(static_cast<double>(loop_.pixel_count()) *
+      job_.progress.expect(static_cast<double>(loop_.traced_count()) *
                            std::min(static_cast<double>(samples), given + fits));
       if (fits < 1) return End::kOutOfTime;
       if (fits < next - given) next = given + static_cast<uint32_t>(fits);
     }
+    if (refines_ && given > 0)
+      next = std::min(next, given + limited(kWatched_s / last_pass_s, 1, samples - given));
     const double began = clock_.seconds();
-    end = loop_.pass([next](size_t, uint32_t) { return next; }, in_passes_ && given == 0, deadline());
+    end = pass([next](size_t, uint32_t) { return next; }, in_passes_ && given == 0, deadline());
     last_pass_s = std::max(1e-9, (clock_.seconds() - began) / (next - given));
     given = next;
   }
@@ -90,7 +121,7 @@ SampleSchedule::End SampleSchedule::pilot() {
     double expected = 0;
     for (size_t i = 0; i < worth.size(); ++i) expected += goal(i, 0);
     job_.progress.expect(expected);
-    end = loop_.pass(goal, false, deadline());
+    end = pass(goal, false, deadline());
   }
   job_.progress.end();
   return end;
@@ -110,7 +141,7 @@ SampleSchedule::End SampleSchedule::two_stage() {
     const auto goal = [&](size_t pixel, uint32_t) {
       return before[pixel] + (counts[pixel] - before[pixel] + share - 1) / share;
     };
-    end = loop_.pass(goal, false, deadline());
+    end = pass(goal, false, deadline());
   }
   return end;
 }
@@ -156,7 +187,7 @@ SampleSchedule::End SampleSchedule::seed() {
       if (given > 0 && looks_converged(moments[pixel], noise)) return given;
       return std::min(cap, given + batch);
     };
-    end = loop_.pass(goal, loop_.sample_count(0) == 0 && in_passes_, deadline());
+    end = pass(goal, loop_.sample_count(0) == 0 && in_passes_, deadline());
     // Samples that the remaining pixels will need if their variance stays the same.
     double expected = 0;
     bool done = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/frame/frame_loop.h"
+#include "render/frame/frame_watch.h"
 #include "render/scene/render_params.h"
 
 namespace pelage {
@@ -27,6 +28,7 @@ struct ScheduleEnd {
 ///
 /// Several passes give an early preview of the whole picture. But when `stays` is false and there is no time
 /// limit, each stage is a single pass instead, so that a tile is finished while its chunks are in memory.
+/// With a watch, there are more passes, see FrameWatch.
 ///
 /// Unless the time limit reduces the counts, every count depends only on the samples of the frame, not on
 /// threads or the clock. The time limit starts with `clock`. Every pixel gets at least one sample, even if
@@ -34,14 +36,18 @@ struct ScheduleEnd {
 /// counts down to fit the limit.
 class SampleSchedule {
  public:
-  /// `stays`: whether all chunks together fit `render.memory`, so that none is evicted.
+  /// `stays`: whether all chunks together fit `render.memory`, so that none is evicted. `watch`: may be null.
   SampleSchedule(FrameLoop& loop, const RenderParams& params, const Job& job, const Stopwatch& clock,
-                 bool stays);
+                 bool stays, FrameWatch* watch = nullptr);
   /// Takes all samples of the frame.
   ScheduleEnd run();
 
  private:
   using End = PassEnd;
+  /// Makes one pass and tells the watch, unless the pass is cancelled. `grid`: see PassState.
+  End pass(const FrameLoop::Goal& goal, bool scattered, double deadline_s, int grid = 1);
+  /// Takes the first sample of the pixels on grids of 8, 4 and 2 pixels.
+  End coarse_passes();
   /// Takes samples until every pixel has `samples`.
   End uniform(uint32_t samples);
   /// Takes a quarter of the pilot in every pixel, and the rest of the pilot where needs_full_pilot() says so.
@@ -57,6 +63,8 @@ class SampleSchedule {
   const RenderParams& params_;
   Job job_;
   const Stopwatch& clock_;
+  FrameWatch* watch_;
+  bool refines_;      // whether to make additional passes for the watch
   bool in_passes_;    // whether a stage has several passes
   bool cut_ = false;  // counts were scaled down to fit the time limit
 };

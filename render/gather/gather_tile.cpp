@@ -25,7 +25,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
       layers_(layers),
       shading_(scene),
       camera_(scene, accel, layers.splat.has_value()),
-      points_(scene, shading_, camera_),
+      points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
       indirect_paths_(scene, accel, shading_, camera_, options) {
   if (scene.render.gather.visibility == GatherVisibility::kRaster)
@@ -37,6 +37,10 @@ std::unique_ptr<GatherTile::Scratch> GatherTile::make_scratch() const { return s
 uint32_t GatherTile::max_samples(size_t lights) {
   const size_t fits = kSampleBytes / (kPixels * TileSamples::bytes_per_sample(lights));
   return static_cast<uint32_t>(std::clamp<size_t>(fits, 1, kMaxSamples));
+}
+
+uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
+  return std::min(max_samples(scene.lights.size()), static_cast<uint32_t>(scene.render.samples));
 }
 
 size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather) {

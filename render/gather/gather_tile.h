@@ -36,6 +36,8 @@ class GatherTile {
   /// Returns the max count of samples per pixel in one call of trace(), for a scene with this count of
   /// lights. The max limits the memory of a scratch.
   static uint32_t max_samples(size_t lights);
+  /// Returns the count of samples per pixel that one call of trace() takes at most when it renders a scene.
+  static uint32_t samples_at_once(const RenderScene& scene);
   /// Returns the max memory of a scratch, in bytes, if trace() takes up to `samples` samples per pixel at
   /// once.
   static size_t scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather);

@@ -2,33 +2,20 @@
 #include "render/gather/knot_keys.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
 #include "base/hash.h"
 #include "render/frame/skin_point.h"
+#include "render/gather/knot_level.h"
 
 namespace pelage {
 namespace {
 
-constexpr int kMaxLevel = 16;
 constexpr uint32_t kZones = 8;
-
-/// The smallest level at which 2^level parts of `length` are no longer than `spacing`.
-int level_of(float length, float spacing) {
-  if (!(length > spacing)) return 0;
-  return std::min(static_cast<int>(std::ceil(std::log2(length / spacing))), kMaxLevel);
-}
-
-/// Chooses one of the two knots around `place`, of 2^level + 1 knots in [0, 1]; the nearer one is more
-/// likely.
-uint32_t knot_near(float place, int level, float random) {
-  const float scaled = std::clamp(place, 0.0f, 1.0f) * static_cast<float>(1 << level);
-  const float before = std::floor(scaled);
-  return static_cast<uint32_t>(before) + (random < scaled - before ? 1 : 0);
-}
-
-uint64_t pack(int level, uint32_t knot) { return static_cast<uint64_t>(level) << 32 | knot; }
+/// A strand whose knots are seen by fewer samples uses the cells of its coat.
+constexpr float kFewest = 4;
 
 float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
   return a && b ? V2f(b->x - a->x, b->y - a->y).length() : 0;
@@ -36,21 +23,30 @@ float distance(const std::optional<V3f>& a, const std::optional<V3f>& b) {
 
 }  // namespace
 
+KnotKeys::KnotKeys(const RenderScene& scene, uint32_t samples)
+    : camera_(scene.camera),
+      params_(scene.render.gather),
+      cells_(scene.camera, scene.fur, static_cast<float>(samples)) {}
+
 KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random) const {
-  return hit.kind == HitKind::kStrand ? on_strand(hit, met.strand, random.x)
+  return hit.kind == HitKind::kStrand ? on_strand(hit, met.strand, random)
                                       : on_skin(hit, met.triangle, random);
 }
 
-KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, float random) const {
+KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, const V2f& random) const {
   // Of the control polygon when the shutter opens.
   const float length = camera_.projected_length(strand.points(), 0);
   const int level = level_of(length, params_.spacing);
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
-  const uint32_t knot = knot_near(place, level, random);
+  const uint32_t knot = knot_near(place, level, random.x);
   const uint32_t zone = std::min(kZones * knot >> level, kZones - 1);
-  return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)),
-          hash64(random_use("zone of a coat"), hit.part, zone)};
+  const uint64_t zone_key = hash64(random_use("zone of a coat"), hit.part, zone);
+  if (params_.cells && cells_.samples_on(strand, std::ldexp(length, -level)) < kFewest) {
+    const uint64_t bits = std::bit_cast<uint32_t>(random.y);
+    return {cells_.key(hit, strand, length, place, bits), zone_key};
+  }
+  return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)), zone_key};
 }
 
 KnotKey KnotKeys::on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const {

@@ -7,12 +7,14 @@
 #include "geom/tessellation.h"
 #include "render/accel/accel.h"
 #include "render/camera/camera.h"
-#include "render/scene/gather_params.h"
+#include "render/gather/coat_cells.h"
+#include "render/scene/render_scene.h"
 
 namespace pelage {
 
-/// Identifies a knot and its zone. A knot is a position on a strand or skin. Samples that see the
-/// surroundings of the same knot share light. A zone is one of eight depth ranges of a coat, or a whole skin.
+/// Identifies a knot and its zone. A knot is a position on a strand or skin, or a cell of a coat (see
+/// CoatCells). Samples that see the surroundings of the same knot share light. A zone is one of eight depth
+/// ranges of a coat, or a whole skin.
 struct KnotKey {
   uint64_t knot = 0;
   uint64_t zone = 0;  ///< the zone that contains the knot
@@ -24,7 +26,8 @@ struct KnotKey {
 /// the strand in the picture when the shutter opens. Each face of a skin has a grid of knots; the levels
 /// along its two parameters follow from the size of the face in the picture. A hit between knots is assigned
 /// at random to one of the knots around it. The probability of a knot is its linear interpolation weight. On
-/// average, light is therefore interpolated linearly between knots.
+/// average, light is therefore interpolated linearly between knots. Strands so thin that a knot would be
+/// seen by less than one sample are assigned to the cells of their coat instead.
 ///
 /// Each coat has eight zones, from the roots to the tips. Each skin is one zone. At the knots of one zone
 /// within the same tile of the picture, about the same fraction of a light arrives.
@@ -33,19 +36,20 @@ struct KnotKey {
 /// called from any thread.
 class KnotKeys {
  public:
-  /// Keeps references to its arguments.
-  KnotKeys(const Camera& camera, const GatherParams& params) : camera_(camera), params_(params) {}
+  /// Keeps a reference to `scene`. `samples`: max samples per pixel that are rendered at once.
+  KnotKeys(const RenderScene& scene, uint32_t samples);
 
   /// Returns the knot that a hit is assigned to. `random`: two random numbers in [0, 1), which select one of
   /// the knots around the hit.
   KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random) const;
 
  private:
-  KnotKey on_strand(const Hit& hit, const Strands& strand, float random) const;
+  KnotKey on_strand(const Hit& hit, const Strands& strand, const V2f& random) const;
   KnotKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
 
   const Camera& camera_;
   const GatherParams& params_;
+  CoatCells cells_;
 };
 
 }  // namespace pelage

@@ -31,11 +31,11 @@ uint32_t index_of(std::unordered_map<uint64_t, uint32_t>& indices, uint64_t key)
 }  // namespace
 
 VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
-                             const CameraSamples& camera)
+                             const CameraSamples& camera, uint32_t samples)
     : scene_(scene),
       shading_(shading),
       camera_(camera),
-      keys_(scene.camera, scene.render.gather),
+      keys_(scene, samples),
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth) {}
 
 uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {

@@ -21,8 +21,9 @@ namespace pelage {
 /// safety: const members may be called from any thread, each with its own scratch.
 class VisiblePoints {
  public:
-  /// Keeps references to its arguments.
-  VisiblePoints(const RenderScene& scene, const FrameShading& shading, const CameraSamples& camera);
+  /// Keeps references to its arguments. `samples`: max samples per pixel that share light.
+  VisiblePoints(const RenderScene& scene, const FrameShading& shading, const CameraSamples& camera,
+                uint32_t samples);
 
   /// Returns what a camera ray sees, as Accel::closest() does. Stores the geometry in the thread's
   /// HitGeometry.

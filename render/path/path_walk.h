@@ -10,14 +10,10 @@
 #include "render/frame/frame_shading.h"
 #include "render/frame/sample_integrator.h"
 #include "render/light/direct_light.h"
+#include "render/path/path_options.h"
 #include "render/sampling/sample_stream.h"
 
 namespace pelage {
-
-struct PathOptions {
-  DirectTechniques direct = DirectTechniques::kBoth;
-  bool roulette = true;  ///< whether roulette may end paths early
-};
 
 /// The state of a path at its current vertex.
 struct PathState {

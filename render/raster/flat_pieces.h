@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "render/accel/primitive_sink.h"
 #include "render/raster/raster_shapes.h"
 
 namespace pelage {
@@ -14,7 +15,8 @@ struct TileSegment {
   std::array<float, 4> r{};
 };
 
-/// Divides a segment into parabolas. They are close enough to the segment to decide which lines meet it.
+/// Divides a segment into pieces that bend so little that a few steps of Newton's method find which lines
+/// meet them.
 class FlatPieces {
  public:
   static constexpr size_t kMaxPieces = 8;
@@ -23,6 +25,10 @@ class FlatPieces {
   /// Radii are enlarged by the max distance between pieces and segment, and by the fraction `wider`. A line
   /// that misses all pieces therefore misses the segment.
   FlatPieces(const TileSegment& from, const TileSegment& to, float wider);
+
+  /// Returns the max distance by which pieces of four segments may extend beyond them, before they are
+  /// enlarged by `wider`.
+  static Four max_error(const FourSegments& segments);
 
   const RasterPiece* begin() const { return pieces_.data(); }
   const RasterPiece* end() const { return pieces_.data() + count_; }

@@ -16,7 +16,7 @@ namespace pelage {
 /// strands. One strand at a time is lent to the thread's HitGeometry.
 class HeldStrands {
  public:
-  static constexpr size_t kCount = 32;
+  static constexpr size_t kCount = 1024;
 
   /// Stores the strand of a handle in `met`. Calls copy(Strands&) if the strand is not kept here.
   template <class Copy>

@@ -88,8 +88,7 @@ void LineRuns::find(const RasterPiece& piece, const KeySpan& keys) {
   count_ = 0;
   const V3f from = piece.at.p, to = piece.at.end();
   const V3f motion_from = piece.motion.p, motion_to = piece.motion.end();
-  const V3f bend = piece.at.q + piece.motion.q;
-  const float bulge = std::max(piece.at.bulge(), 0.25f * bend.length());
+  const float bulge = std::max(piece.at.bulge(), piece.moves ? piece.after().bulge() : 0);
   const float reach = std::max(piece.r, piece.r + piece.dr) + 1.5f * bulge;
   float min_depth = std::min(from.z, to.z);
   if (piece.moves) min_depth = std::min({min_depth, from.z + motion_from.z, to.z + motion_to.z});

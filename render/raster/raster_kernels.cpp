@@ -27,6 +27,8 @@ using V = hn::Vec<Floats>;
 using M = hn::Mask<Floats>;
 constexpr Floats kFloats;
 constexpr Words kWords;
+constexpr hn::Rebind<int32_t, Floats> kIndices;
+using Indices = hn::Vec<hn::Rebind<int32_t, Floats>>;
 
 #include "render/raster/raster_lanes.inl"
 //
@@ -34,10 +36,42 @@ constexpr Words kWords;
 //
 #include "render/raster/raster_triangle.inl"
 
-template <class Shape, class Kernel>
-HWY_INLINE bool draw_shape(const RasterTarget& target, std::span<const TileLines::Run> runs,
-                           const Shape& shape, const KeySpan& keys) {
-  const Kernel kernel(target, shape, keys);
+/// Collects the lines that a piece may meet, because runs contain many others, and draws to them side by
+/// side.
+template <class Kernel>
+HWY_INLINE bool draw_piece_with(const RasterTarget& target, std::span<const TileLines::Run> runs,
+                                const RasterPiece& piece, const KeySpan& keys) {
+  const Kernel kernel(target, piece, keys);
+  const size_t lanes = hn::Lanes(kFloats);
+  bool changed = false;
+  uint32_t lines[3 * TileLines::kPadding] = {};
+  size_t count = 0;
+  for (const TileLines::Run& run : runs) {
+    for (size_t i = run.begin; i < run.end; i += lanes) {
+      const M met = kernel.may_meet(i, hn::FirstN(kFloats, run.end - i));
+      if (hn::AllFalse(kFloats, met)) continue;
+      const auto numbers = hn::Iota(kWords, static_cast<uint32_t>(i));
+      count += hn::CompressStore(numbers, hn::RebindMask(kWords, met), kWords, lines + count);
+      if (count < lanes) continue;
+      changed |= kernel.draw(lines, lanes);
+      count -= lanes;
+      hn::StoreU(hn::LoadU(kWords, lines + lanes), kWords, lines);
+    }
+  }
+  return count > 0 && kernel.draw(lines, count) ? true : changed;
+}
+
+bool draw_piece(const RasterTarget& target, std::span<const TileLines::Run> runs, const RasterPiece& piece,
+                const KeySpan& keys) {
+  if (piece.moves) return draw_piece_with<PieceKernel<true, true>>(target, runs, piece, keys);
+  if (target.has_lens) return draw_piece_with<PieceKernel<true, false>>(target, runs, piece, keys);
+  return draw_piece_with<PieceKernel<false, false>>(target, runs, piece, keys);
+}
+
+template <class Kernel>
+HWY_INLINE bool draw_triangle_with(const RasterTarget& target, std::span<const TileLines::Run> runs,
+                                   const RasterTriangle& triangle, const KeySpan& keys) {
+  const Kernel kernel(target, triangle, keys);
   bool changed = false;
   for (const TileLines::Run& run : runs) {
     for (size_t i = run.begin; i < run.end; i += hn::Lanes(kFloats)) {
@@ -47,20 +81,11 @@ HWY_INLINE bool draw_shape(const RasterTarget& target, std::span<const TileLines
   return changed;
 }
 
-bool draw_piece(const RasterTarget& target, std::span<const TileLines::Run> runs, const RasterPiece& piece,
-                const KeySpan& keys) {
-  if (piece.moves) return draw_shape<RasterPiece, PieceKernel<true, true>>(target, runs, piece, keys);
-  if (target.has_lens) return draw_shape<RasterPiece, PieceKernel<true, false>>(target, runs, piece, keys);
-  return draw_shape<RasterPiece, PieceKernel<false, false>>(target, runs, piece, keys);
-}
-
 bool draw_triangle(const RasterTarget& target, std::span<const TileLines::Run> runs,
                    const RasterTriangle& triangle, const KeySpan& keys) {
-  if (triangle.moves)
-    return draw_shape<RasterTriangle, TriangleKernel<true, true>>(target, runs, triangle, keys);
-  if (target.has_lens)
-    return draw_shape<RasterTriangle, TriangleKernel<true, false>>(target, runs, triangle, keys);
-  return draw_shape<RasterTriangle, TriangleKernel<false, false>>(target, runs, triangle, keys);
+  if (triangle.moves) return draw_triangle_with<TriangleKernel<true, true>>(target, runs, triangle, keys);
+  if (target.has_lens) return draw_triangle_with<TriangleKernel<true, false>>(target, runs, triangle, keys);
+  return draw_triangle_with<TriangleKernel<false, false>>(target, runs, triangle, keys);
 }
 
 }  // namespace

@@ -3,6 +3,12 @@
 
 HWY_INLINE V all(float x) { return hn::Set(kFloats, x); }
 HWY_INLINE V at(const float* values, size_t i) { return hn::LoadU(kFloats, values + i); }
+HWY_INLINE V at(const float* values, Indices i) { return hn::GatherIndex(kFloats, values, i); }
+HWY_INLINE uint32_t bits_of(M mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(kFloats, mask, bits);
+  return bits[0] | uint32_t{bits[1]} << 8;
+}
 HWY_INLINE V dot(V ax, V ay, V bx, V by) { return hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)); }
 HWY_INLINE V cross(V ax, V ay, V bx, V by) { return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx)); }
 
@@ -23,7 +29,12 @@ struct Vector {
 template <bool kLens>
 struct Lines {
   V ax, ay, bx, by;
+  /// Consecutive lines.
   HWY_INLINE Lines(const TileLines::Arrays& lines, size_t i) : bx(at(lines.bx, i)), by(at(lines.by, i)) {
+    ax = kLens ? at(lines.ax, i) : hn::Zero(kFloats);
+    ay = kLens ? at(lines.ay, i) : hn::Zero(kFloats);
+  }
+  HWY_INLINE Lines(const TileLines::Arrays& lines, Indices i) : bx(at(lines.bx, i)), by(at(lines.by, i)) {
     ax = kLens ? at(lines.ax, i) : hn::Zero(kFloats);
     ay = kLens ? at(lines.ay, i) : hn::Zero(kFloats);
   }
@@ -36,37 +47,40 @@ struct Lines {
 };
 
 /// Fractions of the way between two motion keys; sets `inside` to lines of these times.
-HWY_INLINE V key_fraction(const TileLines::Arrays& lines, size_t i, const KeySpan& keys, M& inside) {
+/// `i`: index of the first line, or the indices of all.
+template <class Index>
+HWY_INLINE V key_fraction(const TileLines::Arrays& lines, Index i, const KeySpan& keys, M& inside) {
   const V f = hn::Sub(hn::Mul(at(lines.time, i), all(keys.scale)), all(keys.first));
   inside = hn::And(inside, hn::Ge(f, hn::Zero(kFloats)));
   if (!keys.is_last) inside = hn::And(inside, hn::Lt(f, all(1)));
   return f;
 }
 
-/// Stores the depths of the lines `hit`, which is not empty, and their winner. `u`: of the segment, for the
-/// filter.
-HWY_INLINE bool store(const RasterTarget& target, size_t i, M hit, V z, V u) {
+/// Makes the primitive the winner of a line, unless a filter rejects it. `u`: of the segment, for the filter.
+HWY_INLINE bool store_line(const RasterTarget& target, size_t line, float z, float u) {
+  const TileLines::Arrays& lines = target.lines;
+  if (target.filter && !target.filter->stops(lines.random[line], u)) return false;
+  const bool same = lines.chunk[line] == target.chunk && lines.primitive[line] == target.primitive;
+  const bool tie = z == lines.depth[line];
+  if (tie && same) return false;
+  lines.depth[line] = z;
+  lines.chunk[line] = tie || !(z > target.certain) ? TileWinner::kTraced : target.chunk;
+  lines.primitive[line] = target.primitive;
+  return true;
+}
+
+/// Stores the depths of the lines `hit`, which is not empty, and their winner. `i`: index of the first line.
+HWY_INLINE bool store(const RasterTarget& target, size_t i, M hit, V z) {
   const TileLines::Arrays& lines = target.lines;
   const V depth = at(lines.depth, i);
-  const M nearer = hn::Lt(z, depth);
-  if (target.filter || !hn::AllTrue(kFloats, hn::Or(hn::Not(hit), nearer))) {
-    float us[TileLines::kPadding], zs[TileLines::kPadding];
-    uint8_t bits[8] = {};
-    hn::StoreU(u, kFloats, us);
+  const M usual = hn::And(hn::Lt(z, depth), hn::Gt(z, all(target.certain)));
+  if (!hn::AllTrue(kFloats, hn::Or(hn::Not(hit), usual))) {
+    float zs[TileLines::kPadding];
     hn::StoreU(z, kFloats, zs);
-    hn::StoreMaskBits(kFloats, hit, bits);
     bool changed = false;
-    for (uint32_t lanes = bits[0] | uint32_t{bits[1]} << 8; lanes != 0; lanes &= lanes - 1) {
+    for (uint32_t lanes = bits_of(hit); lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(lanes));
-      const size_t line = i + lane;
-      if (target.filter && !target.filter->stops(lines.random[line], us[lane])) continue;
-      const bool same = lines.chunk[line] == target.chunk && lines.primitive[line] == target.primitive;
-      const bool tie = zs[lane] == lines.depth[line];
-      if (tie && same) continue;
-      lines.depth[line] = zs[lane];
-      lines.chunk[line] = tie ? TileWinner::kTraced : target.chunk;
-      lines.primitive[line] = target.primitive;
-      changed = true;
+      changed |= store_line(target, i + lane, zs[lane], 0);
     }
     return changed;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cmath>
 
 #include "base/vector.h"
 
@@ -14,15 +14,22 @@ struct KeySpan {
   bool is_last = true;  ///< whether the span includes its end
 };
 
-/// A piece of a strand in a tile's frame: p + u d + u (1 - u) q for u in [0, 1], with radius r + u dr.
+/// A piece of a strand in a tile's frame: the cubic p + u d + u (1 - u) (q + (1/2 - u) c) for u in [0, 1],
+/// with radius r + u dr.
 struct RasterPiece {
   struct Curve {
-    V3f p{0}, d{0}, q{0};
+    V3f p{0}, d{0}, q{0}, c{0};
 
     V3f end() const { return p + d; }
-    /// Max distance from the chord.
-    float bulge() const { return 0.25f * q.length(); }
+    /// Max distance from the chord. kCubic is the max of |u (1 - u) (1/2 - u)|.
+    float bulge() const { return 0.25f * q.length() + kCubic * c.length(); }
+    /// Max difference of depths from those of the chord.
+    float depth_bulge() const { return 0.25f * std::abs(q.z) + kCubic * std::abs(c.z); }
+    static constexpr float kCubic = 0.0482f;
   };
+  /// Returns the curve at the second motion key.
+  Curve after() const { return {at.p + motion.p, at.d + motion.d, at.q + motion.q, at.c + motion.c}; }
+
   Curve at;      ///< the curve at the first motion key
   Curve motion;  ///< the curve at the second motion key, minus `at`
   float r = 0, dr = 0;

@@ -32,7 +32,7 @@ class TriangleKernel {
     // False for a triangle that is seen from the side, whose areas are all zero.
     hit = hn::And(hit, hn::And(hn::Gt(z, near_), hn::Le(z, at(target_.lines.depth, i))));
     if (hn::AllFalse(kFloats, hit)) return false;
-    return store(target_, i, hit, z, zero);
+    return store(target_, i, hit, z);
   }
 
  private:

@@ -30,6 +30,8 @@ TileBeam::TileBeam(const TileFrame& frame, const TileLines& lines, float near, f
     const V3f normal = sign * (frame.axes[axis] - side.slope * frame.axes[2]);
     beam_.sides[i] = {normal, -sign * side.offset - normal.dot(frame.origin)};
   }
+  for (size_t axis = 0; axis < 2; ++axis)
+    beam_.across[axis] = {frame.axes[axis], -frame.axes[axis].dot(frame.origin)};
   beam_.depth = {frame.axes[2], -frame.axes[2].dot(frame.origin)};
   beam_.near = near - kRounding * reach;
 }

@@ -9,9 +9,10 @@
 namespace pelage {
 namespace {
 
-constexpr int kChangesPerUpdate = 64;
-constexpr float kRounding = 1e-5f;
-constexpr float kNear = 4;  // times the reach of a piece
+/// Lines per primitive that is drawn before the grid of depths is updated.
+constexpr int kLinesPerChange = 64, kMinChanges = 32;
+constexpr float kNear = 4;       // times the reach of a piece
+constexpr float kWider = 1e-4f;  // of the size of a box
 
 }  // namespace
 
@@ -30,11 +31,13 @@ TileDrawing::TileDrawing(const TileFrame& frame, const Range& starts, TileLines&
     : frame_(frame),
       starts_(starts),
       lines_(lines),
+      projection_(lines, starts),
       runs_(lines, starts.high),
-      far_(std::numeric_limits<float>::infinity()) {
+      changes_per_update_(std::max(kMinChanges, static_cast<int>(lines.size()) / kLinesPerChange)) {
   target_.lines = lines.arrays();
   target_.has_lens = lines.has_lens();
-  target_.near = starts.high;
+  target_.near = starts.low;
+  target_.certain = starts.high;
   // The kernels measure distances perpendicular to the frame's axis; rays measure them perpendicular to the
   // ray.
   const std::array<Range, 2> from = lines.extent(0), to = lines.extent(1);
@@ -50,19 +53,35 @@ TileDrawing::TileDrawing(const TileFrame& frame, const Range& starts, TileLines&
 bool TileDrawing::draw(const ChunkGeometry& geometry, uint32_t chunk, const Range& depths) {
   const TileBeam region = beam(depths);
   geometry_ = &geometry;
-  beam_ = &region;
   target_.chunk = chunk;
-  possible_ = true;
+  passed_.clear();
   const bool visited = geometry.visit_primitives(region.beam(), *this);
-  beam_ = nullptr;
   geometry_ = nullptr;
-  return visited && possible_;
+  return visited;
 }
 
-void TileDrawing::update_far() {
+bool TileDrawing::may_see(const Box3f& box) const {
+  if (box.isEmpty()) return false;
+  const V3f half = 0.5f * box.size(), centre = frame_.local(box.center());
+  if (!std::isfinite(half.x + half.y + half.z)) return true;
+  FourViewBoxes boxes;
+  Four* low[3] = {&boxes.low.x, &boxes.low.y, &boxes.low.z};
+  Four* high[3] = {&boxes.high.x, &boxes.high.y, &boxes.high.z};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<int>(axis);
+    const float spread = (1 + kWider) * BeamPlane{frame_.axes[axis], 0}.spread(half);
+    *low[axis] = four(centre[a] - spread);
+    *high[axis] = four(centre[a] + spread);
+  }
+  ViewFootprint footprints[4];
+  projection_.find(boxes, footprints);
+  return !footprints[0].is_empty() && !hides(footprints[0]);
+}
+
+void TileDrawing::update() {
   if (changes_ == 0) return;
   changes_ = 0;
-  far_ = lines_.max_depth() * (1 + kRounding);
+  lines_.update_grid();
 }
 
 KeySpan TileDrawing::key_span(size_t key, size_t keys) {
@@ -74,9 +93,10 @@ KeySpan TileDrawing::key_span(size_t key, size_t keys) {
 bool TileDrawing::is_possible(const RasterPiece& piece) const {
   for (const float f : {0.0f, 1.0f}) {
     const V3f ends[2] = {piece.at.p + f * piece.motion.p, piece.at.end() + f * piece.motion.end()};
-    const float reach = std::max(piece.r, piece.r + piece.dr) + (piece.at.q + f * piece.motion.q).length();
+    const float reach =
+        std::max(piece.r, piece.r + piece.dr) + 4 * std::max(piece.at.bulge(), piece.after().bulge());
     const float min_depth = std::min(ends[0].z, ends[1].z);
-    if (min_depth <= starts_.high + kNear * reach && !beam_->misses(ends, reach)) return false;
+    if (min_depth <= starts_.high + kNear * reach) return false;
     if (!piece.moves) break;
   }
   return true;
@@ -85,7 +105,7 @@ bool TileDrawing::is_possible(const RasterPiece& piece) const {
 template <class Shape>
 void TileDrawing::draw_shape(const Shape& shape, const KeySpan& keys) {
   runs_.find(shape, keys);
-  if (pelage::draw(target_, runs_.runs(), shape, keys) && ++changes_ >= kChangesPerUpdate) update_far();
+  if (pelage::draw(target_, runs_.runs(), shape, keys) && ++changes_ >= changes_per_update_) update();
 }
 
 void TileDrawing::begin_segments(const SegmentGrid& grid) {
@@ -93,30 +113,40 @@ void TileDrawing::begin_segments(const SegmentGrid& grid) {
   segments_.resize(static_cast<size_t>(grid.motion_keys));
 }
 
+/// Whether a segment was passed before; long segments are in several leaves of a tree.
+bool TileDrawing::was_passed(uint32_t number) {
+  const size_t word = number / 64;
+  const uint64_t bit = uint64_t{1} << number % 64;
+  if (word >= passed_.size()) passed_.resize(word + 1, 0);
+  const bool before = (passed_[word] & bit) != 0;
+  passed_[word] |= bit;
+  return before;
+}
+
 void TileDrawing::segments(const uint32_t (&numbers)[4], std::span<const FourSegments> keys) {
-  Four largest[4], low = four(std::numeric_limits<float>::infinity()), high = -low, radius = four(0);
-  std::fill_n(largest, 4, high);
+  TileProjection::Hulls hulls(projection_);
+  Four radius = four(0), error = four(0);
   for (size_t key = 0; key < keys.size(); ++key) {
     FourSegments& here = segments_[key];
     for (size_t i = 0; i < 4; ++i) {
       here.p[i] = grid_(keys[key].p[i]);
       here.r[i] = four(grid_.step()) * keys[key].r[i];
-      beam_->add_insides(here.p[i], largest);
+      hulls.add(here.p[i]);
       radius = larger(radius, here.r[i]);
-      low = smaller(low, here.p[i].z);
-      high = larger(high, here.p[i].z);
     }
+    error = larger(error, FlatPieces::max_error(here));
   }
-  const Four inside = smaller(smaller(largest[0], largest[1]), smaller(largest[2], largest[3])) + radius;
+  ViewFootprint footprints[4];
+  hulls.find((radius + error) * four(1 + wider_), four(0), footprints);
   for (size_t lane = 0; lane < 4; ++lane) {
-    if (numbers[lane] == kNone || !(inside[lane] >= 0) ||
-        is_hidden({low[lane] - radius[lane], high[lane] + radius[lane]}))
+    if (numbers[lane] == kNone || footprints[lane].is_empty() || was_passed(numbers[lane]) ||
+        hides(footprints[lane]))
       continue;
-    draw_segment(numbers[lane], lane);
+    draw_segment(numbers[lane], lane, footprints[lane]);
   }
 }
 
-void TileDrawing::draw_segment(uint32_t number, size_t lane) {
+void TileDrawing::draw_segment(uint32_t number, size_t lane, const ViewFootprint& footprint) {
   const Opacity opacity(*geometry_, number);
   target_.filter = geometry_->opaque() ? nullptr : &opacity;
   target_.primitive = number;
@@ -131,13 +161,18 @@ void TileDrawing::draw_segment(uint32_t number, size_t lane) {
     return segment;
   };
   TileSegment from = at_key(0), to;
+  bool possible = true;
   for (size_t key = 0; key + 1 < std::max<size_t>(count, 2); ++key) {
     if (count > 1) to = at_key(key + 1);
     for (const RasterPiece& piece : FlatPieces(from, count > 1 ? to : from, wider_)) {
-      possible_ = possible_ && is_possible(piece);
+      possible = possible && is_possible(piece);
       draw_shape(piece, key_span(key, count));
     }
     from = to;
+  }
+  if (!possible) {
+    lines_.trace(footprint);
+    ++changes_;
   }
   target_.filter = nullptr;
 }
@@ -145,14 +180,9 @@ void TileDrawing::draw_segment(uint32_t number, size_t lane) {
 void TileDrawing::triangle(uint32_t /*number*/, std::span<const V3f> corners) {
   const size_t count = corners.size() / 3;
   corners_.resize(corners.size());
-  Range depths;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    corners_[i] = frame_.local(corners[i]);
-    depths.extend(corners_[i].z);
-  }
-  if (count == 1 && beam_->misses(corners_, 0)) return;
-  if (is_hidden(depths)) return;
-  if (depths.low <= starts_.high && starts_.size() > 0) possible_ = false;
+  for (size_t i = 0; i < corners.size(); ++i) corners_[i] = frame_.local(corners[i]);
+  const ViewFootprint footprint = projection_.find(corners_);
+  if (footprint.is_empty() || hides(footprint)) return;
   target_.primitive = 0;  // the ray finds the triangle itself
   for (size_t key = 0; key + 1 < std::max<size_t>(count, 2); ++key) {
     RasterTriangle triangle;

@@ -13,6 +13,7 @@
 #include "render/raster/tile_beam.h"
 #include "render/raster/tile_frame.h"
 #include "render/raster/tile_lines.h"
+#include "render/raster/tile_projection.h"
 
 namespace pelage {
 
@@ -22,17 +23,22 @@ class TileDrawing final : public PrimitiveSink {
   /// `starts`: range of the depths at which lines start. Keeps a reference to `lines`.
   TileDrawing(const TileFrame& frame, const Range& starts, TileLines& lines);
 
-  /// Draws a chunk. `depths`: range that contains the chunk. Returns false if a primitive cannot be drawn.
-  /// The caller must then trace the rays of all samples of the tile.
+  /// Draws a chunk. `depths`: range that contains the chunk. Returns false if the chunk does not support
+  /// this. Lines that may meet a primitive that cannot be drawn become lines to be traced.
   bool draw(const ChunkGeometry& geometry, uint32_t chunk, const Range& depths);
   /// Returns the region that contains the lines in a range of depths.
   TileBeam beam(const Range& depths) const {
     return {frame_, lines_, starts_.low, std::max(depths.low, starts_.low), depths.high};
   }
-  /// Returns the depth beyond which nothing can be seen.
-  float far() const override { return far_; }
-  /// Updates far() if anything was drawn since the last call.
-  void update_far();
+  /// Updates far() and hides() if anything was drawn since the last call.
+  void update();
+  /// Whether a box may have points that the lines see.
+  bool may_see(const Box3f& box) const;
+  float far() const override { return lines_.grid().far(); }
+  void find_footprints(const FourViewBoxes& boxes, ViewFootprint (&footprints)[4]) const override {
+    projection_.find(boxes, footprints);
+  }
+  bool hides(const ViewFootprint& footprint) const override { return lines_.grid().hides(footprint); }
 
   void begin_segments(const SegmentGrid& grid) override;
   void segments(const uint32_t (&numbers)[4], std::span<const FourSegments> keys) override;
@@ -41,8 +47,8 @@ class TileDrawing final : public PrimitiveSink {
  private:
   class Opacity;
 
-  void draw_segment(uint32_t number, size_t lane);
-  bool is_hidden(const Range& depths) const { return depths.low > far_ || depths.high < starts_.low; }
+  bool was_passed(uint32_t number);
+  void draw_segment(uint32_t number, size_t lane, const ViewFootprint& footprint);
   bool is_possible(const RasterPiece& piece) const;
   template <class Shape>
   void draw_shape(const Shape& shape, const KeySpan& keys);
@@ -51,17 +57,17 @@ class TileDrawing final : public PrimitiveSink {
   const TileFrame frame_;
   const Range starts_;
   TileLines& lines_;
+  const TileProjection projection_;
   LineRuns runs_;
   RasterTarget target_;
   const ChunkGeometry* geometry_ = nullptr;
-  const TileBeam* beam_ = nullptr;
   GridToTile grid_;
   std::vector<FourSegments> segments_;  // in the tile's frame, by motion key
   std::vector<V3f> corners_;
+  std::vector<uint64_t> passed_;  // a bit per segment of the chunk
   float wider_ = 0;
-  float far_;
-  int changes_ = 0;  // since far_ was found
-  bool possible_ = true;
+  int changes_ = 0;  // since the grid was updated
+  const int changes_per_update_;
 };
 
 }  // namespace pelage

@@ -37,7 +37,7 @@ int part_of(float x, const Range& range, int parts) {
 int TileLines::cell(float position, size_t axis) const {
   const float at = (position - low_[axis]) * inverse_size_[axis];
   const int count = axis == 0 ? columns_ : rows_;
-  return static_cast<int>(std::floor(std::clamp(at, -1.0f, static_cast<float>(count))));
+  return static_cast<int>(std::clamp(at + 1, 0.0f, static_cast<float>(count + 1))) - 1;
 }
 
 void TileLines::assign(std::span<const TileLine> lines, float reference) {
@@ -45,6 +45,7 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
   const auto position = [&](const TileLine& line) { return line.b + inverse_reference_ * line.a; };
   Range at[2], a[2], time;
   slopes_[0] = slopes_[1] = {};
+  offsets_[0] = offsets_[1] = {};
   for (const TileLine& line : lines) {
     slopes_[0].extend(line.b.x), slopes_[1].extend(line.b.y);
     const V2f c = position(line);
@@ -53,6 +54,8 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
     time.extend(line.time);
   }
   has_lens_ = a[0].size() > 0 || a[1].size() > 0 || a[0].low != 0 || a[1].low != 0;
+  offsets_[0] = a[0], offsets_[1] = a[1];
+  grid_.begin(lines.size(), at);
   const Division parts = divide(lines.size(), has_lens_, time.size() > 0);
   const auto group_count = static_cast<size_t>(parts.lens * parts.lens * parts.time);
   const float per_group = static_cast<float>(lines.size()) / static_cast<float>(group_count);
@@ -102,6 +105,7 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
     bx_[to] = line.b.x, by_[to] = line.b.y;
     time_[to] = line.time;
     random_[to] = line.random;
+    grid_.place(to, position(line));
   }
 }
 
@@ -126,18 +130,20 @@ std::array<Range, 2> TileLines::extent(float depth) const {
   return result;
 }
 
-float TileLines::max_depth() const {
-  float max = 0;
-  for (size_t i = 0; i < size(); ++i) max = std::max(max, depth_[i]);
-  return max;
-}
-
 void TileLines::trace_all() { std::fill(chunk_.begin(), chunk_.end(), TileWinner::kTraced); }
+
+void TileLines::trace(const ViewFootprint& footprint) {
+  for (size_t i = 0; i < size(); ++i) {
+    if (footprint.depth > depth_[i] || !grid_.contains(footprint, i)) continue;
+    depth_[i] = footprint.depth;
+    chunk_[i] = TileWinner::kTraced;
+  }
+}
 
 size_t TileLines::bytes(size_t lines) {
   const size_t starts = lines / static_cast<size_t>(kPerCell) * 2 + kMaxGroups * 2 + 1;
   return (lines + kPadding) * (9 * sizeof(float)) + lines * 2 * sizeof(uint32_t) + starts * sizeof(uint32_t) +
-         kMaxGroups * sizeof(Group);
+         kMaxGroups * sizeof(Group) + DepthGrid::bytes(lines);
 }
 
 }  // namespace pelage

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "render/raster/depth_grid.h"
 #include "render/raster/range.h"
 #include "render/raster/tile_line.h"
 
@@ -72,14 +73,20 @@ class TileLines {
   float inverse_reference() const { return inverse_reference_; }
   /// Returns the range of x and the range of y of all lines at a depth.
   std::array<Range, 2> extent(float depth) const;
-  /// Returns the max depth, over all lines, of the first primitive that was drawn; infinity while a line has
-  /// met nothing.
-  float max_depth() const;
+  /// Returns the range, by axis, of TileLine::a or b of all lines.
+  const Range& offsets(size_t axis) const { return offsets_[axis]; }
+  const Range& slopes(size_t axis) const { return slopes_[axis]; }
+  /// Depths beyond which lines are occluded.
+  const DepthGrid& grid() const { return grid_; }
+  /// Updates grid().
+  void update_grid() { grid_.update(depth_.data()); }
 
   /// Returns the primitive that the line of a slot meets first.
   TileWinner winner(size_t slot) const { return {chunk_[place_[slot]], primitive_[place_[slot]]}; }
   /// Makes every line a line that drawing cannot decide.
   void trace_all();
+  /// Makes lines in this footprint lines that drawing cannot decide, unless they end before it.
+  void trace(const ViewFootprint& footprint);
 
   /// Returns the max memory for this count of lines, in bytes.
   static size_t bytes(size_t lines);
@@ -96,7 +103,8 @@ class TileLines {
   float inverse_reference_ = 0;
   int rows_ = 1, columns_ = 1;
   bool has_lens_ = false;
-  Range slopes_[2];  // of all lines
+  Range offsets_[2], slopes_[2];  // of all lines
+  DepthGrid grid_;
 };
 
 }  // namespace pelage

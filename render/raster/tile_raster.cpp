@@ -87,9 +87,9 @@ bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Jo
       for (const Scratch::Candidate& next : scratch.candidates) {
         if (job.progress.cancelled()) return false;
         done = next;
-        drawing.update_far();
+        drawing.update();
+        if (!possible || !may_be_seen(next.chunk, drawing)) continue;
         const Range depths = depths_of(frame, boxes.whole(next.chunk));
-        if (!possible || !may_be_seen(next.chunk, drawing.beam(depths).beam(), drawing.far())) continue;
         possible = chunks_.visit(next.chunk, worker, [&](const ChunkGeometry& geometry) {
           return drawing.draw(geometry, next.chunk, depths);
         });
@@ -119,19 +119,18 @@ void TileRaster::find_candidates(bool skins, const Beam& beam, float far, const 
   std::sort_heap(candidates.begin(), candidates.end());
 }
 
-/// Whether the beam meets the boxes of a chunk before `far`: its fine boxes, if it has any.
-bool TileRaster::may_be_seen(uint32_t chunk, const Beam& beam, float far) const {
+/// Whether lines may see the chunk.
+bool TileRaster::may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
   const ChunkBoxes& boxes = chunks_.boxes();
-  float entry = 0;
-  if (!beam.meets(boxes.whole(chunk), far, entry)) return false;
-  // Not only for chunks that would have to be grown: the result must not depend on which are resident.
-  if (!boxes.has_fine(chunk)) return true;
+  if (!drawing.may_see(boxes.whole(chunk))) return false;
+  // The tree of a resident chunk is faster than its fine boxes.
+  if (chunks_.is_resident(chunk) || !boxes.has_fine(chunk)) return true;
   const FineBoxes& fine = boxes.fine(chunk);
   const V3f margin(boxes.margin(chunk));
   for (size_t b = 0; b < fine.count(); ++b) {
     Box3f box = fine.box(b, 0);
     box.extendBy(fine.box(b, 1));
-    if (beam.meets({box.min - margin, box.max + margin}, far, entry)) return true;
+    if (drawing.may_see({box.min - margin, box.max + margin})) return true;
   }
   return false;
 }

@@ -16,6 +16,8 @@
 
 namespace pelage {
 
+class TileDrawing;
+
 /// Finds what the camera samples of a tile see, by drawing strands and skins instead of tracing a ray per
 /// sample. Drawing decides which primitive each sample sees. closest() then intersects the sample's ray with
 /// this primitive only. If the ray misses it, closest() traces the ray. So every result is a hit of the ray,
@@ -66,7 +68,7 @@ class TileRaster {
 
   void find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
                        Scratch& scratch) const;
-  bool may_be_seen(uint32_t chunk, const Beam& beam, float far) const;
+  bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
   const RenderScene& scene_;
   const Accel& accel_;

@@ -31,6 +31,10 @@ const Schema<GatherParams>& GatherParams::schema() {
            .max = 64});
     s.key("skin_spacing", &GatherParams::skin_spacing,
           {.unit = "pixels", .help = "Maximum distance between knots on a skin", .min = 0.25, .max = 64});
+    s.key(
+        "cells", &GatherParams::cells,
+        {.help = "true: strands so thin that few samples see a knot share light with their neighbours on the "
+                 "skin, over about 2 pixels"});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "

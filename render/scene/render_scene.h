@@ -27,6 +27,7 @@ struct FurPart {
   std::shared_ptr<const LimitSurface> rest;
   Rgb tint{1};                             ///< multiplies the colour of the strands
   std::optional<Simplification> lod = {};  ///< reduction of detail; empty: not reduced
+  float scale = 1;                         ///< size of the posed skin relative to `rest`
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.

@@ -53,6 +53,25 @@ TEST(Options, OfRender) {
   EXPECT_EQ(options.overrides[3].value, "'1-48x2'");
 }
 
+TEST(Options, OfThePicture) {
+  const Options options = parsed({"render", "rat.yaml", "--samples", "12", "--time-limit", "2.5", "--scale",
+                                  "0.5", "--region", "1,2,30,40", "--preview", "--skip-existing"});
+  ASSERT_EQ(options.overrides.size(), 2u);
+  EXPECT_EQ(options.overrides[0].key, "render.samples");
+  EXPECT_EQ(options.overrides[0].value, "12");
+  EXPECT_EQ(options.overrides[1].key, "render.time_limit");
+  EXPECT_EQ(options.overrides[1].value, "2.5");
+  EXPECT_EQ(options.picture.scale, 0.5);
+  EXPECT_EQ(options.picture.region, (PixelBox{1, 2, 30, 40}));
+  EXPECT_TRUE(options.picture.preview);
+  EXPECT_TRUE(options.picture.skip_existing);
+  EXPECT_FALSE(parsed({"render", "rat.yaml"}).picture.region);
+
+  EXPECT_NE(problem({"render", "s", "--samples", "0"}).find("--samples"), std::string::npos);
+  EXPECT_NE(problem({"render", "s", "--scale", "-1"}).find("--scale"), std::string::npos);
+  EXPECT_NE(problem({"render", "s", "--region", "1,2,3"}).find("--region"), std::string::npos);
+}
+
 TEST(Options, SetTakesOneValueOnly) {
   const Options options = parsed({"render", "--set", "a=1", "rat.yaml", "--set", "b=2"});
   EXPECT_EQ(options.input, "rat.yaml");

@@ -167,10 +167,10 @@ TEST_F(RenderCommandTest, AStrandFileOfAnUnknownKindIsReportedWhereItIsNamed) {
   }
 }
 
-TEST_F(RenderCommandTest, PicturesAreExr) {
+TEST_F(RenderCommandTest, PicturesAreExrPngOrJpeg) {
   try {
-    run_render(options("x.png"));
-    FAIL() << "wrote an EXR named .png";
+    run_render(options("x.tif"));
+    FAIL() << "wrote a picture named .tif";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kArguments);
   }

@@ -17,6 +17,9 @@ namespace {
 
 constexpr float kRounding = 0x1p-19f;  // of a plane in the tree's frame, relative to the largest term
 constexpr size_t kStack = 512;         // as in fur_walk.inl: more than three entries per level
+/// Boxes are enlarged by this many steps of the grid when they are compared with what is already seen: sinks
+/// may draw strands wider by this length.
+constexpr float kWider = 8;
 
 template <class T>
 T get(const std::byte* place) {
@@ -91,11 +94,16 @@ class Visit {
  public:
   Visit(const FurTreeView& tree, const Beam& beam, PrimitiveSink& sink)
       : tree_(tree),
+        view_{in_frame(tree, beam.across[0], 0), in_frame(tree, beam.across[1], 0),
+              in_frame(tree, beam.depth, 0)},
         depth_(in_frame(tree, beam.depth, -1)),
         near_(beam.near - 2 * (in_frame(tree, beam.depth, 0).offset - depth_.offset)),
         sink_(sink),
         keys_(static_cast<size_t>(tree.motion_keys)) {
     for (size_t i = 0; i < sides_.size(); ++i) sides_[i] = in_frame(tree, beam.sides[i], 1);
+    const BeamPlane* axes[3] = {&beam.across[0], &beam.across[1], &beam.depth};
+    for (size_t i = 0; i < 3; ++i)
+      outward_[i] = in_frame(tree, *axes[i], 1).offset - view_[i].offset + kWider * tree.step;
   }
 
   void run() {
@@ -103,7 +111,7 @@ class Visit {
     size_t count = open(tree_.nodes, stack);
     while (count > 0) {
       const Entry next = stack[--count];
-      if (next.depth > sink_.far()) continue;
+      if (sink_.hides(next.footprint)) continue;
       if (next.child.is_leaf()) {
         visit_leaf(next.child);
       } else {
@@ -114,7 +122,7 @@ class Visit {
 
  private:
   struct Entry {
-    float depth;
+    ViewFootprint footprint;
     FurReference child;
   };
 
@@ -139,16 +147,19 @@ class Visit {
     Four inside = extreme(sides_[0], true);
     for (size_t i = 1; i < sides_.size(); ++i) inside = smaller(inside, extreme(sides_[i], true));
     inside = smaller(inside, extreme(depth_, true) - four(near_));
-    const Four entry = extreme(depth_, false);
-    const float far = sink_.far();
+    const auto low = [&](size_t i) { return extreme(view_[i], false) - four(outward_[i]); };
+    const auto high = [&](size_t i) { return extreme(view_[i], true) + four(outward_[i]); };
+    ViewFootprint footprints[4];
+    sink_.find_footprints({{low(0), low(1), low(2)}, {high(0), high(1), high(2)}}, footprints);
     size_t count = 0;
     for (size_t i = 0; i < 4; ++i) {
-      if (!(inside[i] >= 0) || entry[i] > far) continue;
+      if (!(inside[i] >= 0) || footprints[i].is_empty()) continue;
       const FurReference child = child_reference(tree_.layout, tree_.motion_keys, node, i);
       if (child.is_none()) continue;
+      const float depth = footprints[i].depth;
       size_t at = count++;
-      for (; at > 0 && out[at - 1].depth < entry[i]; --at) out[at] = out[at - 1];
-      out[at] = {entry[i], child};
+      for (; at > 0 && out[at - 1].footprint.depth < depth; --at) out[at] = out[at - 1];
+      out[at] = {footprints[i], child};
     }
     return count;
   }
@@ -166,6 +177,8 @@ class Visit {
 
   const FurTreeView& tree_;
   std::array<FramePlane, 4> sides_;
+  const FramePlane view_[3];  // the axes of the view
+  float outward_[3] = {0, 0, 0};
   const FramePlane depth_;  // rounded down
   const float near_;
   PrimitiveSink& sink_;

@@ -6,21 +6,15 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
-#include "tests/render/path/path_scene.h"
+#include "tests/render/gather/key_scene.h"
 
 namespace pelage {
 namespace {
 
-constexpr int kSize = 100;
+using key_scene::hit_on;
 
-/// A camera at z = 10 that shows 4 units in 100 pixels at the origin.
-Camera camera() {
-  CameraParams params;
-  params.position = V3f(0, 0, 10);
-  params.look_at = V3f(0);
-  params.fov = 2 * std::atan(0.2f) * 57.29578f;
-  return {params, 1, kSize, kSize};
-}
+/// Samples per pixel: so many that strands are not too thin for knots.
+constexpr uint32_t kSamples = 64;
 
 /// A straight strand of `length` across the view.
 HitGeometry strand(float length) {
@@ -29,55 +23,42 @@ HitGeometry strand(float length) {
   return met;
 }
 
-Hit on_strand(float place) {  // of two segments
-  Hit hit;
-  hit.kind = HitKind::kStrand;
-  hit.part = 3;
-  hit.strand_id = 7;
-  hit.segment = place < 0.5f ? 0 : 1;
-  hit.u = 2 * place - static_cast<float>(hit.segment);
-  return hit;
-}
-
 /// Knots that a strand has within the given part of its length, and how often each is chosen.
 std::map<uint64_t, int> knots(const KnotKeys& keys, const HitGeometry& met, float from, float to) {
   std::map<uint64_t, int> result;
   for (uint64_t i = 0; i < 4000; ++i) {
     const float place = from + (to - from) * unit_float(hash64(i, 1));
-    ++result[keys.of(on_strand(place), met, {unit_float(hash64(i, 2)), 0}).knot];
+    ++result[keys.of(hit_on(place), met, {unit_float(hash64(i, 2)), 0}).knot];
   }
   return result;
 }
 
 TEST(KnotKeys, AreAsFarApartAsTheSpacingAtMost) {
-  const Camera view = camera();
-  GatherParams params;
-  const KnotKeys keys(view, params);
+  RenderScene scene = key_scene::make({});
+  const KnotKeys keys(scene, kSamples);
   // 2 units are 50 pixels: 16 parts of 3.1 pixels.
   EXPECT_EQ(knots(keys, strand(2), 0, 1).size(), 17u);
   EXPECT_EQ(knots(keys, strand(0.5f), 0, 1).size(), 5u) << "12.5 pixels";
   EXPECT_EQ(knots(keys, strand(0.05f), 0, 1).size(), 2u) << "shorter than the spacing";
-  params.spacing = 8;
+  scene.render.gather.spacing = 8;
   EXPECT_EQ(knots(keys, strand(2), 0, 1).size(), 9u);
 }
 
 TEST(KnotKeys, InterpolateLinearlyOnAverage) {
-  const Camera view = camera();
-  const GatherParams params;
-  const KnotKeys keys(view, params);
+  const RenderScene scene = key_scene::make({});
+  const KnotKeys keys(scene, kSamples);
   const HitGeometry met = strand(0.5f);  // knots at 0, 1/4, 1/2, 3/4, 1
   const auto around = knots(keys, met, 0.299f, 0.301f);
   ASSERT_EQ(around.size(), 2u);
-  const uint64_t before = keys.of(on_strand(0.25f), met, {0, 0}).knot;
+  const uint64_t before = keys.of(hit_on(0.25f), met, {0, 0}).knot;
   EXPECT_NEAR(around.at(before) / 4000.0, 0.8, 0.03) << "a fifth of the way";
 }
 
 TEST(KnotKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
-  const Camera view = camera();
-  const GatherParams params;
-  const KnotKeys keys(view, params);
+  const RenderScene scene = key_scene::make({});
+  const KnotKeys keys(scene, kSamples);
   const HitGeometry met = strand(2);
-  const Hit hit = on_strand(0.4f);
+  const Hit hit = hit_on(0.4f);
   const KnotKey key = keys.of(hit, met, {0.3f, 0});
   Hit elsewhere = hit;
   elsewhere.start = {12, 34, 2, 0.8f};
@@ -106,9 +87,8 @@ HitGeometry skin_triangle() {
 }
 
 TEST(KnotKeys, AFaceOfASkinHasAGridOfKnots) {
-  const Camera view = camera();
-  const GatherParams params;
-  const KnotKeys keys(view, params);
+  const RenderScene scene = key_scene::make({});
+  const KnotKeys keys(scene, kSamples);
   const HitGeometry met = skin_triangle();
   std::map<uint64_t, int> found;
   Hit hit;

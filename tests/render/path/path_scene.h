@@ -59,8 +59,11 @@ class PathScene {
     NoProgress progress;
     return run(options, threads, progress);
   }
-  /// The fur is used up: a scene with fur renders once per call by growing the same strands again.
   FrameResult run(const PathOptions& options, int threads, Progress& progress) {
+    return run_frame({options}, threads, progress);
+  }
+  /// The fur is used up: a scene with fur renders once per call by growing the same strands again.
+  FrameResult run_frame(const FrameOptions& options, int threads, Progress& progress) {
     const Workers workers(threads);
     TextureLibrary textures(ledger);
     std::vector<std::unique_ptr<Light>> made;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image/display_image.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/image_reader.h"
+
+namespace pelage {
+
+bool is_display_image(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
+}
+
+void write_display_image(const std::filesystem::path& path, const DisplayImage& image) {
+  const ImageReader module;
+  AtomicFile file(path);
+  if (const std::string problem = module.write(file.temporary_path(), image); !problem.empty())
+    throw Error(ErrorKind::kFailed, path.string() + ": cannot write: " + problem);
+  file.commit();
+}
+
+}  // namespace pelage

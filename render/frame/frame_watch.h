@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "render/film/film.h"
+
+namespace pelage {
+
+/// How far a frame has come when a pass over its pixels ends.
+struct PassState {
+  uint32_t samples = 0;     ///< min sample count over the traced pixels
+  double mean_samples = 0;  ///< mean sample count over the traced pixels
+  int grid = 1;  ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
+                 ///< samples
+};
+
+/// Sees a frame while it is rendered. The calls are made on the thread that renders, between two passes, when
+/// no other thread writes the film. A slow watch delays the render.
+///
+/// With a watch, the passes are shorter, and the first sample of every pixel is taken on grids of 8, 4 and 2
+/// pixels first. The film is the same in the end. With splatted samples, the passes are those of an unwatched
+/// render, because the order of the samples decides how their sums are rounded.
+class FrameWatch {
+ public:
+  virtual ~FrameWatch() = default;
+  virtual void passed(const Film& film, const PassState& state) = 0;
+};
+
+}  // namespace pelage

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "image/exr.h"
+#include "render/path/path_options.h"
+
+namespace pelage {
+
+class FrameWatch;
+
+/// How to render a frame, apart from the values of its scene.
+struct FrameOptions {
+  PathOptions path = {};
+  std::optional<PixelBox> region = {};  ///< the only pixels to compute; empty: the whole picture
+  FrameWatch* watch = nullptr;          ///< sees the film between passes; null: nobody
+};
+
+}  // namespace pelage

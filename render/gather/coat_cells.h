@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lod/lod_view.h"
+#include "render/accel/accel.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Assigns hits on thin strands to cells, in which neighbouring strands share light.
+///
+/// A cell belongs to one coat. It is a cube of a grid over the skin at rest, which contains the roots of the
+/// strands, for one of six directions of the skin's normal, and a part of the length of these strands. In the
+/// rest pose, parts of a skin that touch when posed are far apart, and the two sides of an ear have opposite
+/// normals. So cells do not join strands that are close in space but not on the skin.
+///
+/// The side of a cube is a power of two, and so is the number of parts of a strand. Cubes and parts are at
+/// most kPixels pixels long in the picture. Like knots, cells overlap by half: a hit is assigned at random to
+/// one of the cells around it, so that on average, light is interpolated linearly.
+///
+/// A key depends only on the camera, the hit and the random number. Thread safety: const members may be
+/// called from any thread.
+class CoatCells {
+ public:
+  static constexpr float kPixels = 2;
+
+  /// Keeps a reference to `fur`. `samples`: samples per pixel that share light.
+  CoatCells(const Camera& camera, const std::vector<FurPart>& fur, float samples);
+
+  /// Returns the expected number of samples that would see a part of the strand, `length` pixels long, if
+  /// nothing hid it. Uses the mean width of the strand.
+  float samples_on(const Strands& strand, float length) const;
+  /// Returns the key of a cell. `length`: of the strand in the picture, in pixels. `place`: of the hit on the
+  /// strand, in [0, 1].
+  uint64_t key(const Hit& hit, const Strands& strand, float length, float place, uint64_t random) const;
+
+ private:
+  const std::vector<FurPart>& fur_;
+  LodView view_;
+  float samples_;
+};
+
+}  // namespace pelage

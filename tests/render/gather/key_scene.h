@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "render/gather/knot_keys.h"
+#include "tests/render/path/path_scene.h"
+
+/// Scenes in which hits are assigned to knots.
+namespace pelage::key_scene {
+
+constexpr int kSize = 100;
+
+/// A camera at z = 10 that shows 4 units in 100 pixels at the origin.
+inline Camera camera() {
+  CameraParams params;
+  params.position = V3f(0, 0, 10);
+  params.look_at = V3f(0);
+  params.fov = 2 * std::atan(0.2f) * 57.29578f;
+  return {params, 1, kSize, kSize};
+}
+
+/// Four coats without strands, seen by camera().
+inline RenderScene make(const GatherParams& gather) {
+  RenderScene scene{{}, {}, {}, LightSet({}), camera(), {}, {}};
+  scene.fur.resize(4);
+  scene.render.gather = gather;
+  return scene;
+}
+
+/// A hit on a strand of two segments, at `place` in [0, 1].
+inline Hit hit_on(float place) {
+  Hit hit;
+  hit.kind = HitKind::kStrand;
+  hit.part = 3;
+  hit.strand_id = 7;
+  hit.segment = place < 0.5f ? 0 : 1;
+  hit.u = 2 * place - static_cast<float>(hit.segment);
+  return hit;
+}
+
+}  // namespace pelage::key_scene

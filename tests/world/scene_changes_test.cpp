@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/scene_changes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/world/small_scene.h"
+#include "world/scene_schema.h"
+
+namespace pelage {
+namespace {
+
+class SceneChanges : public testing::Test {
+ protected:
+  Redo redo(const std::vector<Override>& before, const std::vector<Override>& after) const {
+    const std::string path = scene_.path("scene.yaml");
+    return compare_scenes(load_scene(path, before).parts, load_scene(path, after).parts);
+  }
+  Redo redo_after(const std::string& key, const std::string& value) const { return redo({}, {{key, value}}); }
+  SmallScene scene_;
+};
+
+TEST_F(SceneChanges, LightsMaterialsAndSamplesKeepGeometry) {
+  EXPECT_EQ(redo({}, {}), Redo::kNothing);
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"lights.key.intensity", "31"},
+                                                        {"lights.extra", "{type: environment, radiance: 1}"},
+                                                        {"materials.fur.color", "[0.5, 0.4, 0.2]"},
+                                                        {"materials.fur.diffuse", "0.2"},
+                                                        {"materials.hide.color", "0.1"},
+                                                        {"render.samples", "9"},
+                                                        {"render.bounces", "0"},
+                                                        {"render.integrator", "gather"},
+                                                        {"image.light_layers", "false"}})
+    EXPECT_EQ(redo_after(key, value), Redo::kSampling) << key;
+}
+
+TEST_F(SceneChanges, TheCameraKeepsAssets) {
+  EXPECT_EQ(redo_after("camera.position", "[3, 2, 9]"), Redo::kGeometry);
+  EXPECT_EQ(redo_after("camera.lens", "{f_stop: 4}"), Redo::kGeometry);
+}
+
+TEST_F(SceneChanges, EverythingElseStartsAnew) {
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"grooms.coat.strands", "500"},
+                                                        {"grooms.coat.operators.length.value", "0.5"},
+                                                        {"characters.walker.transform.scale", "1"},
+                                                        {"skins.still.scheme", "none"},
+                                                        {"materials.fur.opacity", "0.5"},
+                                                        {"materials.fur.color", "{attribute: color}"},
+                                                        {"materials.fur", "{model: kajiya-kay}"},
+                                                        {"render.memory", "1G"},
+                                                        {"render.lod.enabled", "true"},
+                                                        {"render.bounds", "none"},
+                                                        {"image.width", "32"},
+                                                        {"frames", "2"}})
+    EXPECT_EQ(redo_after(key, value), Redo::kAssets) << key;
+}
+
+TEST_F(SceneChanges, WhatIsRemovedCountsToo) {
+  EXPECT_EQ(redo({{"render.light_samples", "2"}}, {}), Redo::kSampling);
+  EXPECT_EQ(redo({{"materials.fur.opacity", "0.5"}}, {}), Redo::kAssets);
+  EXPECT_EQ(redo({{"render.light_samples", "2"}, {"grooms.coat.seed", "3"}}, {}), Redo::kAssets);
+}
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/scene_changes.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "base/value.h"
+#include "scene/document_hash.h"
+
+namespace pelage {
+namespace {
+
+constexpr std::array<std::string_view, 14> kSamplingKeys = {
+    "image.filter",       "image.filter_samples", "image.light_layers", "image.event_layers",
+    "image.noise_layers", "image.lod_layer",      "render.samples",     "render.adaptive",
+    "render.time_limit",  "render.light_samples", "render.bounces",     "render.clamp_indirect",
+    "render.seed",        "render.integrator"};
+
+/// Whether a value contains a map with the key `attribute`: geometry checks that strands have the attribute.
+bool names_attribute(const Value& value) {
+  if (value.find("attribute")) return true;
+  const auto& items = value.is_list() ? value.items() : std::vector<Value>();
+  const auto& entries = value.is_map() ? value.entries() : std::vector<Value::Entry>();
+  return std::any_of(items.begin(), items.end(), names_attribute) ||
+         std::any_of(entries.begin(), entries.end(),
+                     [](const Value::Entry& entry) { return names_attribute(entry.value); });
+}
+
+void add_material(const std::string& path, const Value& material, SceneParts& parts) {
+  if (!material.is_map()) {
+    parts[path + ".model"] = document_hash(material);
+    return;
+  }
+  for (const Value::Entry& entry : material.entries()) {
+    const bool checked = entry.key == "color" && names_attribute(entry.value);
+    parts[path + "." + (checked ? "color_attribute" : entry.key)] = document_hash(entry.value);
+  }
+}
+
+bool starts_with(const std::string& text, std::string_view prefix) { return text.starts_with(prefix); }
+
+Redo redo_of(const std::string& part) {
+  if (std::find(kSamplingKeys.begin(), kSamplingKeys.end(), part) != kSamplingKeys.end())
+    return Redo::kSampling;
+  if (starts_with(part, "lights.")) return Redo::kSampling;
+  if (starts_with(part, "camera")) return Redo::kGeometry;
+  if (!starts_with(part, "materials.")) return Redo::kAssets;
+  const std::string_view key = std::string_view(part).substr(part.rfind('.') + 1);
+  const bool grows = key == "model" || key == "opacity" || key == "color_attribute" || key == "tables";
+  return grows ? Redo::kAssets : Redo::kSampling;
+}
+
+}  // namespace
+
+SceneParts scene_parts(const Value& document) {
+  SceneParts parts;
+  for (const Value::Entry& block : document.entries()) {
+    if (!block.value.is_map()) {
+      parts[block.key] = document_hash(block.value);
+      continue;
+    }
+    for (const Value::Entry& item : block.value.entries()) {
+      const std::string path = block.key + "." + item.key;
+      if (block.key == "materials") {
+        add_material(path, item.value, parts);
+      } else {
+        parts[path] = document_hash(item.value);
+      }
+    }
+  }
+  return parts;
+}
+
+Redo compare_scenes(const SceneParts& before, const SceneParts& after) {
+  Redo redo = Redo::kNothing;
+  const auto compare = [&](const SceneParts& some, const SceneParts& others) {
+    for (const auto& [part, hash] : some) {
+      const auto other = others.find(part);
+      if (other == others.end() || other->second != hash) redo = std::max(redo, redo_of(part));
+    }
+  };
+  compare(before, after);
+  compare(after, before);
+  return redo;
+}
+
+}  // namespace pelage
