@@ -15,6 +15,10 @@ bool is_finite(const Rgb& c) { return std::isfinite(c.x + c.y + c.z); }
 
 bool all_finite(std::span<const Rgb> colors) { return std::all_of(colors.begin(), colors.end(), is_finite); }
 
+bool all_zero(std::span<const float> values) {
+  return std::all_of(values.begin(), values.end(), [](float v) { return v == 0; });
+}
+
 /// The channels of light layers, one after the other.
 std::span<const float> channels_of(std::span<const Rgb> by_layer) {
   static_assert(sizeof(Rgb) == 3 * sizeof(float));
@@ -54,8 +58,11 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
   if (!is_finite(sample.radiance) || !std::isfinite(sample.alpha) || !all_finite(by_layer)) return false;
   const float light[] = {sample.radiance.x, sample.radiance.y, sample.radiance.z, sample.alpha};
   const FilmSums::Footprint footprint = sums_.footprint(sample.offset);
-  sums_.add(x, y, footprint, 0, light);
-  sums_.add(x, y, footprint, 4, channels_of(by_layer));
+  const std::span<const float> layers = channels_of(by_layer);
+  if (!all_zero(light) || !all_zero(layers)) {
+    sums_.add(x, y, footprint, 0, light);
+    sums_.add(x, y, footprint, 4, layers);
+  }
   sums_.add_weight(x, y, footprint);
   const size_t pixel = index(x, y);
   ++counts_[pixel];
@@ -63,19 +70,6 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
 
   surfaces_[pixel].offer(sample.surface, sample.inside_pixel());
   return true;
-}
-
-void Film::clear_tile(int x, int y) {
-  sums_.clear_tile(x, y);
-  const int x0 = x - x % FilmSums::kTileSide, y0 = y - y % FilmSums::kTileSide;
-  for (int row = y0; row < std::min(height_, y0 + FilmSums::kTileSide); ++row) {
-    for (int column = x0; column < std::min(width_, x0 + FilmSums::kTileSide); ++column) {
-      const size_t pixel = index(column, row);
-      counts_[pixel] = 0;
-      surfaces_[pixel] = {};
-      if (!moments_.empty()) moments_[pixel] = {};
-    }
-  }
 }
 
 Rgb Film::radiance(int x, int y) const {

@@ -53,8 +53,6 @@ class Film {
   /// Adds a sample of pixel (x, y). `by_layer`: the sample's radiance divided among layers(), one entry per
   /// layer. Returns false and leaves the film unchanged when the radiance, alpha or an entry is not finite.
   bool add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_layer);
-  /// Removes all samples of the tile that contains pixel (x, y).
-  void clear_tile(int x, int y);
 
   /// Returns the count of samples of the pixel.
   uint32_t samples(int x, int y) const { return counts_[index(x, y)]; }

@@ -45,9 +45,10 @@ FilmSums::Footprint FilmSums::footprint(const V2f& offset) const {
   const auto fill = [&](float from_centre, Footprint::Axis& axis) {
     axis.first = -reach_;
     axis.count = 2 * reach_ + 1;
-    for (int i = 0; i < axis.count; ++i) {
-      axis.weights[static_cast<size_t>(i)] =
-          filter_value(*splat_, static_cast<float>(axis.first + i) - from_centre);
+    if (axis.count == 1) {
+      axis.weights[0] = filter_value(*splat_, from_centre);
+    } else {
+      axis.weights = filter_around(*splat_, from_centre);
     }
   };
   fill(offset.x, result.across);
@@ -80,12 +81,6 @@ void FilmSums::add(int x, int y, const Footprint& footprint, size_t first, std::
 
 void FilmSums::add_weight(int x, int y, const Footprint& footprint) {
   for_each_pixel(x, y, footprint, [&](float* pixel, float weight) { pixel[stride_ - 1] += weight; });
-}
-
-void FilmSums::clear_tile(int x, int y) {
-  const auto side = static_cast<size_t>(buffer_side_);
-  const auto first = sums_.begin() + static_cast<ptrdiff_t>(tile_offset(x / kTileSide, y / kTileSide));
-  std::fill(first, first + static_cast<ptrdiff_t>(side * side * stride_), 0.0f);
 }
 
 float FilmSums::mean(int x, int y, size_t channel) const {

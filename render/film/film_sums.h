@@ -50,9 +50,6 @@ class FilmSums {
   /// Call once per sample.
   void add_weight(int x, int y, const Footprint& footprint);
 
-  /// Removes all samples of the tile that contains pixel (x, y).
-  void clear_tile(int x, int y);
-
   /// Returns the weighted mean of a channel of pixel (x, y); 0 where nothing was added.
   float mean(int x, int y, size_t channel) const;
 

@@ -13,6 +13,14 @@ constexpr float kBlackmanHarrisRadius = 1.5f;
 
 // Minimum 4-term window [Harris78, table I]; its integral over [-radius, radius] is 2 radius kTerms[0].
 constexpr double kTerms[4] = {0.35875, 0.48829, 0.14128, 0.01168};
+constexpr float kFrequency = std::numbers::pi_v<float> / kBlackmanHarrisRadius;
+
+/// The window at angle x. `c`: cos x. cos 2x and cos 3x are polynomials of cos x.
+float window(float c) {
+  return static_cast<float>(kTerms[0]) + static_cast<float>(kTerms[1]) * c +
+         static_cast<float>(kTerms[2]) * (2 * c * c - 1) +
+         static_cast<float>(kTerms[3]) * c * (4 * c * c - 3);
+}
 
 }  // namespace
 
@@ -21,11 +29,17 @@ float filter_radius(PixelFilter filter) { return filter == PixelFilter::kBox ? 0
 float filter_value(PixelFilter filter, float distance) {
   if (std::abs(distance) > filter_radius(filter)) return 0;
   if (filter == PixelFilter::kBox) return 1;
-  // cos 2x and cos 3x are polynomials of cos x.
-  const float c = std::cos(std::numbers::pi_v<float> / kBlackmanHarrisRadius * distance);
-  return static_cast<float>(kTerms[0]) + static_cast<float>(kTerms[1]) * c +
-         static_cast<float>(kTerms[2]) * (2 * c * c - 1) +
-         static_cast<float>(kTerms[3]) * c * (4 * c * c - 3);
+  return window(std::cos(kFrequency * distance));
+}
+
+std::array<float, 3> filter_around(PixelFilter filter, float from_centre) {
+  if (filter == PixelFilter::kBox) return {0, 1, 0};
+  // Neighbouring pixels are a third of the period apart: cos(x +- 2/3 pi) = -cos(x) / 2 -+ sin(x) sqrt(3)
+  // / 2.
+  const float x = kFrequency * from_centre, c = std::cos(x);
+  const float s = std::copysign(std::sqrt(std::max(0.0f, 1 - c * c)), x);
+  constexpr float kHalfRoot3 = 0.5f * std::numbers::sqrt3_v<float>;
+  return {window(-0.5f * c - kHalfRoot3 * s), window(c), window(-0.5f * c + kHalfRoot3 * s)};
 }
 
 double filter_integral(PixelFilter filter, double x) {

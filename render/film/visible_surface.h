@@ -33,12 +33,16 @@ struct FrontSurface {
   /// Replaces the surface by `other` if the sample that sees `other` takes precedence. Returns whether it was
   /// replaced. `inside`: whether that sample is inside the pixel.
   bool offer(const VisibleSurface& other, bool inside) {
-    const bool first_inside = inside && !inside_pixel;
-    const bool nearer = inside == inside_pixel && other.depth < surface.depth;
-    if (!first_inside && !nearer) return false;
+    if (!yields_to(other.depth, inside)) return false;
     surface = other;
     inside_pixel = inside;
     return true;
+  }
+  /// Returns whether offer() would replace the surface by one at `depth`.
+  bool yields_to(float depth, bool inside) const {
+    const bool first_inside = inside && !inside_pixel;
+    const bool nearer = inside == inside_pixel && depth < surface.depth;
+    return first_inside || nearer;
   }
 };
 

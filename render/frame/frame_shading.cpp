@@ -237,11 +237,15 @@ V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion
   return {to->x - from->x, to->y - from->y};
 }
 
+float FrameShading::depth(const Ray& ray, const Hit& hit) const {
+  const V3f position = ray.origin + hit.distance * ray.direction;
+  return (position - scene_.camera.position(ray.time)).dot(scene_.camera.axis(ray.time));
+}
+
 VisibleSurface FrameShading::visible_surface(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
   VisibleSurface surface;
   const V3f position = ray.origin + hit.distance * ray.direction;
-  const Camera& camera = scene_.camera;
-  surface.depth = (position - camera.position(ray.time)).dot(camera.axis(ray.time));
+  surface.depth = depth(ray, hit);
   if (hit.kind == HitKind::kSkin) {
     const SkinPart& part = scene_.skins[hit.part];
     const SkinPoint point = pelage::skin_point(met.triangle, ray, hit);

@@ -11,7 +11,7 @@
 namespace pelage {
 namespace {
 
-/// With so few samples, a first pass of one would take a large part of the time.
+/// With so few samples, a first pass of one would find too few points that share light.
 constexpr uint32_t kFew = 4;
 /// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
 constexpr int64_t kMemoryShare = 8;
@@ -58,16 +58,16 @@ void GatherLoop::run() {
   const bool limited = scene_.render.time_limit > 0;
   const bool previews = limited || samples > kFew;
   const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
-  job_.progress.begin("render", pixels * (samples + (previews ? 1 : 0)));
+  job_.progress.begin("render", pixels * samples);
   PassEnd end =
       previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : PassEnd::kDone;
   const double deadline =
       limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
-  for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
+  for (uint32_t given = previews ? 1 : 0; given < samples && end == PassEnd::kDone;) {
     const uint32_t wanted = std::min(GatherTile::max_samples(scene_.lights.size()), samples - given);
-    const uint32_t count = fitting(wanted, given + (previews ? 1 : 0));
+    const uint32_t count = fitting(wanted, given);
     if (count == 0) end = PassEnd::kOutOfTime;
-    if (end == PassEnd::kDone) end = trace({given, count, given == 0, false}, deadline);
+    if (end == PassEnd::kDone) end = trace({given, count, false}, deadline);
     given += count;
     if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
@@ -121,14 +121,9 @@ bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
 }
 
 void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch) {
-  for (int y = tile.y0; pass.replaces && y < tile.y1; y += FilmSums::kTileSide) {
-    for (int x = tile.x0; x < tile.x1; x += FilmSums::kTileSide) result_.film.clear_tile(x, y);
-  }
   rejected_ += tile_.add_to(result_.film, scratch);
-  if (!pass.scattered) {
-    scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
-                      .samples = static_cast<int64_t>(scratch.samples.points.size())};
-  }
+  scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
+                    .samples = static_cast<int64_t>(scratch.samples.points.size())};
   job_.progress.advance(static_cast<double>(pass.count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
   double none = 0;
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());

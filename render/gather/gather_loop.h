@@ -20,10 +20,8 @@ namespace pelage {
 /// Renders a frame with GatherTile, in passes over all tiles.
 ///
 /// A first pass takes one sample of every pixel, so that a frame that is cancelled or runs out of time is
-/// valid. (A frame with very few samples and no time limit has no such pass.) The next pass replaces the
-/// first sample, tile by tile, by up to GatherTile::max_samples() samples per pixel. Further passes add more
-/// samples. The picture does not depend on the number of threads. Only a frame that ends early shows samples
-/// of the first pass.
+/// valid. (A frame with very few samples and no time limit has no such pass.) Each further pass adds up to
+/// GatherTile::max_samples() samples per pixel. The picture does not depend on the number of threads.
 class GatherLoop {
  public:
   /// Memory of the tiles that are traced at the same time.
@@ -52,7 +50,6 @@ class GatherLoop {
   class Lease;
   struct Pass {
     uint32_t first = 0, count = 1;  ///< samples first .. first + count - 1 of each pixel
-    bool replaces = false;          ///< whether the samples replace all earlier ones
     bool scattered = false;         ///< whether consecutive tiles are far apart
   };
   PassEnd trace(const Pass& pass, double deadline_s);

@@ -45,7 +45,7 @@ uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
 
 size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather) {
   constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
-  const size_t ordered = (lights + 1) * sizeof(KnotItem) + lights * sizeof(float);
+  const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(lights, lights) + lights * sizeof(float);
   // At worst, each sample has a knot of its own.
   const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;

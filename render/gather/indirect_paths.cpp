@@ -3,6 +3,7 @@
 #include "render/gather/indirect_paths.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/hash.h"
 #include "render/sampling/systematic_choice.h"
@@ -39,17 +40,17 @@ class IndirectPaths::ArrivingLight {
 bool IndirectPaths::trace(const TileSamples& samples, const Job& job, Scratch& scratch, SampleScratch& thread,
                           PathSharing& light) const {
   if (scene_.render.bounces == 0) return true;
-  const auto item = [&](size_t i) { return KnotItem{samples.points[i].knot, 0, static_cast<uint32_t>(i)}; };
-  sort_by_knot(0, samples.points.size(), item, scratch.order);
+  scratch.order.sort(0, samples.points.size(), samples.zone_of_knot.size(),
+                     [&](size_t i) { return samples.points[i].knot; });
   const double step = scene_.render.gather.reuse ? 1 / double{scene_.render.gather.paths} : 1;
   SystematicChoice choice(step, 0);
   size_t traced = 0;
-  for (size_t i = 0; i < scratch.order.size(); ++i) {
-    const uint32_t knot = scratch.order[i].knot;
-    if (i == 0 || knot != scratch.order[i - 1].knot) {
+  uint32_t last = TileSamples::kNoPoint;
+  for (const uint32_t index : scratch.order.items()) {
+    const VisiblePoint& point = samples.points[index];
+    const uint32_t knot = point.knot;
+    if (knot != std::exchange(last, knot))
       choice = SystematicChoice(step, unit_float(hash64(random_use("paths"), samples.random_key, knot)));
-    }
-    const VisiblePoint& point = samples.points[scratch.order[i].index];
     light.add_weights(knot, point.weights);
     const float mass = options_.roulette ? PathWalk<ArrivingLight>::survival(point.weight()) : 1.0f;
     const uint32_t times = choice.times(mass);

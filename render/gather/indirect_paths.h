@@ -22,8 +22,8 @@ class IndirectPaths {
 
   struct Scratch {
     DirectLightScratch direct;
-    std::vector<KnotItem> order;  // visible points, sorted by knot
-    std::vector<Rgb> arriving;    // radiance that arrives at the visible point along a path, by light
+    KnotOrder order;            // visible points, sorted by knot
+    std::vector<Rgb> arriving;  // radiance that arrives at the visible point along a path, by light
   };
 
   /// Traces the paths, and adds their light to `light`. Also adds the weights of all visible points to

@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/gather/gather_integrator_test.cpp.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace pelage {
 
-/// Sort key of an item (a ray or a visible point) that belongs to a knot.
-struct KnotItem {
-  uint32_t knot = 0, light = 0;
-  uint32_t index = 0;  ///< of the item in its own list
+/// Sorts items (rays or visible points of a tile) by the group that they belong to: a knot, or a knot and a
+/// light. Items of the same group keep their order. Takes time proportional to the count of items and groups
+/// (counting sort). Reuses its memory.
+class KnotOrder {
+ public:
+  /// Sorts items first .. first + count - 1. `group(i)` must return the group of item i, less than `groups`.
+  template <class Group>
+  void sort(size_t first, size_t count, size_t groups, const Group& group) {
+    ends_.assign(groups + 1, 0);
+    items_.resize(count);
+    for (size_t i = first; i < first + count; ++i) ++ends_[group(i) + 1];
+    for (size_t g = 1; g <= groups; ++g) ends_[g] += ends_[g - 1];
+    // ends_[g] is now the begin of group g; placing its items moves it to the end.
+    for (size_t i = first; i < first + count; ++i) items_[ends_[group(i)]++] = static_cast<uint32_t>(i);
+  }
 
-  friend auto operator<=>(const KnotItem&, const KnotItem&) = default;
+  /// Returns the items, sorted by group.
+  std::span<const uint32_t> items() const { return items_; }
+  /// Returns the items of consecutive groups: `count` groups from `first` on.
+  std::span<const uint32_t> groups(size_t first, size_t count) const {
+    const uint32_t begin = first == 0 ? 0 : ends_[first - 1];
+    return items().subspan(begin, ends_[first + count - 1] - begin);
+  }
+  /// Returns the max memory, in bytes, for these counts.
+  static size_t bytes(size_t items, size_t groups) { return (items + groups + 1) * sizeof(uint32_t); }
+
+ private:
+  std::vector<uint32_t> ends_;   // by group
+  std::vector<uint32_t> items_;  // sorted
 };
-
-/// Fills `order` with the keys of items first .. count - 1, sorted by knot, then by light, then by index.
-/// `item(i)` must return the KnotItem of item i. Reuses the memory of `order`.
-template <class Item>
-void sort_by_knot(size_t first, size_t count, const Item& item, std::vector<KnotItem>& order) {
-  order.clear();
-  for (size_t i = first; i < count; ++i) order.push_back(item(i));
-  std::sort(order.begin(), order.end());
-}
 
 }  // namespace pelage

@@ -16,15 +16,16 @@ namespace pelage {
 
 /// Chooses and traces shadow rays from the visible points of a tile: on average, about `gather.light_rays`
 /// per point. A point gets more rays if its unoccluded direct light is bright compared to the light of its
-/// pixel, and the visibility of this direct light is uncertain. Thread safety: const members may be called
-/// from any thread, each with its own scratch.
+/// pixel, and the visibility of this direct light is uncertain. Without reuse, each point gets
+/// `render.light_samples` + 1 rays, as with `path`: these rays and the one that is drawn from the lobes.
+/// Thread safety: const members may be called from any thread, each with its own scratch.
 class ShadowRays {
  public:
   /// Keeps references to its arguments.
   ShadowRays(const RenderScene& scene, const Accel& accel) : scene_(scene), accel_(accel) {}
 
   struct Scratch {
-    std::vector<KnotItem> order;      // candidate rays, sorted by knot
+    KnotOrder order;                  // candidate rays, sorted by knot and light
     std::vector<float> masses;        // masses for SystematicChoice of the rays in `order`
     std::vector<double> pixel_light;  // direct luminance that is expected to reach the camera, by pixel
   };

@@ -39,14 +39,12 @@ VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shadi
       direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth) {}
 
 uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
-  const uint32_t zone = index_of(scratch.zones, key.zone);
+  // Without reuse, each point has a knot of its own.
+  const auto count = static_cast<uint32_t>(tile.zone_of_knot.size());
+  const uint32_t knot = scene_.render.gather.reuse ? index_of(scratch.knots, key.knot) : count;
+  if (knot < count) return knot;
+  tile.zone_of_knot.push_back(index_of(scratch.zones, key.zone));
   tile.zones = static_cast<uint32_t>(scratch.zones.size());
-  if (!scene_.render.gather.reuse) {  // each point has a knot of its own
-    tile.zone_of_knot.push_back(zone);
-    return static_cast<uint32_t>(tile.zone_of_knot.size() - 1);
-  }
-  const uint32_t knot = index_of(scratch.knots, key.knot);
-  if (knot == tile.zone_of_knot.size()) tile.zone_of_knot.push_back(zone);
   return knot;
 }
 
@@ -66,9 +64,12 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const FindHit& find, S
   tile.samples.back().point = static_cast<uint32_t>(tile.points.size());
   FilmSample film_sample;
   film_sample.offset = from.offset;
-  film_sample.surface = shading_.visible_surface(from.ray, hit, thread.thread.met);
   TileSamples::Front& front = tile.fronts[pixel];
-  if (front.of_pixel.offer(film_sample.surface, film_sample.inside_pixel())) front.sample = index;
+  if (front.of_pixel.yields_to(shading_.depth(from.ray, hit), film_sample.inside_pixel())) {
+    const VisibleSurface surface = shading_.visible_surface(from.ray, hit, thread.thread.met);
+    front.of_pixel.offer(surface, film_sample.inside_pixel());
+    front.sample = index;
+  }
 
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);

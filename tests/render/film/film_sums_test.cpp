@@ -51,6 +51,20 @@ TEST(PixelFilter, IntegralIsThatOfTheValue) {
   }
 }
 
+TEST(PixelFilter, ValuesAroundASampleAreThoseOfEachPixel) {
+  for (PixelFilter filter : {PixelFilter::kBox, PixelFilter::kBlackmanHarris}) {
+    for (int i = -50; i <= 50; ++i) {
+      const float at = 0.00999f * static_cast<float>(i);
+      const auto around = filter_around(filter, at);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(around[static_cast<size_t>(k)], filter_value(filter, static_cast<float>(k - 1) - at),
+                    1e-6f)
+            << at << ", pixel " << k - 1;
+      }
+    }
+  }
+}
+
 TEST(FilmSums, SplattedPixelsAreFilteredMeansOfAllSamplesAround) {
   for (const PixelFilter filter : {PixelFilter::kBox, PixelFilter::kBlackmanHarris}) {
     FilmSums sums(kWidth, kHeight, kChannels, filter);

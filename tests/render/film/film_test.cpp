@@ -86,37 +86,6 @@ TEST(Film, AveragesSamplesAndDropsWhatIsNotFinite) {
   EXPECT_EQ(film.radiance(0, 0), Rgb(0));
 }
 
-/// Tiles overlap by the reach of the filter: clearing one must not take light from its neighbour's samples.
-TEST(Film, ClearingATileRemovesItsSamplesAlone) {
-  constexpr int kSize = 2 * FilmSums::kTileSide;
-  FilmLayers layers;
-  layers.splat = PixelFilter::kBlackmanHarris;
-  layers.noise = true;
-  MemoryLedger ledger;
-  Film film(kSize, kSize, layers, ledger), expected(kSize, kSize, layers, ledger);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
-      FilmSample sample;
-      sample.radiance = Rgb(1 + static_cast<float>(x), static_cast<float>(y), 1);
-      sample.alpha = 1;
-      sample.surface.id = static_cast<uint32_t>(x * kSize + y);
-      sample.surface.depth = 1;
-      film.add(x, y, sample, {});
-      if (x < kSize / 2 || y < kSize / 2) expected.add(x, y, sample, {});
-    }
-  }
-  film.clear_tile(kSize - 1, kSize / 2 + 3);
-  for (int y = 0; y < kSize; ++y) {
-    for (int x = 0; x < kSize; ++x) {
-      EXPECT_EQ(film.samples(x, y), expected.samples(x, y)) << x << ", " << y;
-      EXPECT_EQ(film.radiance(x, y), expected.radiance(x, y)) << x << ", " << y;
-      EXPECT_EQ(film.surface(x, y).id, expected.surface(x, y).id);
-    }
-  }
-  EXPECT_EQ(film.moments().back().count, 0u);
-  EXPECT_EQ(film.moments().front().count, 1u);
-}
-
 TEST(Film, KeepsTheDataOfTheFrontMostSampleWithinThePixel) {
   MemoryLedger ledger;
   Film film(1, 1, {}, ledger);
