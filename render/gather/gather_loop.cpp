@@ -30,13 +30,14 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-                       const PathOptions& options, const Memory& memory, const Job& job,
+                       const PathOptions& options, const Memory& memory, bool fits, const Job& job,
                        const Stopwatch& clock, FrameResult& result)
     : scene_(scene),
       tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
+      in_passes_(fits || scene.render.time_limit > 0),
       tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
@@ -56,7 +57,7 @@ uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
 void GatherLoop::run() {
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
   const bool limited = scene_.render.time_limit > 0;
-  const bool previews = limited || samples > kFew;
+  const bool previews = in_passes_ && (limited || samples > kFew);
   const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
   job_.progress.begin("render", pixels * (samples + (previews ? 1 : 0)));
   PassEnd end =
@@ -64,7 +65,8 @@ void GatherLoop::run() {
   const double deadline =
       limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
   for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
-    const uint32_t wanted = std::min(GatherTile::max_samples(scene_.lights.size()), samples - given);
+    const uint32_t at_once = in_passes_ ? GatherTile::max_samples(scene_.lights.size()) : samples;
+    const uint32_t wanted = std::min(at_once, samples - given);
     const uint32_t count = fitting(wanted, given + (previews ? 1 : 0));
     if (count == 0) end = PassEnd::kOutOfTime;
     if (end == PassEnd::kDone) end = trace({given, count, given == 0, false}, deadline);
@@ -115,8 +117,13 @@ bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
   Lease lease(*this);
   const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
-  if (!tile_.trace(tile, pass.first, pass.count, job_, lease.scratch())) return false;
-  land(pass, tile, lease.scratch());
+  const uint32_t max = GatherTile::max_samples(scene_.lights.size());
+  for (uint32_t done = 0; done < pass.count; done += max) {
+    const Pass part{pass.first + done, std::min(max, pass.count - done), pass.replaces && done == 0,
+                    pass.scattered};
+    if (!tile_.trace(tile, part.first, part.count, job_, lease.scratch())) return false;
+    land(part, tile, lease.scratch());
+  }
   return true;
 }
 

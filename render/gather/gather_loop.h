@@ -22,8 +22,9 @@ namespace pelage {
 /// A first pass takes one sample of every pixel, so that a frame that is cancelled or runs out of time is
 /// valid. (A frame with very few samples and no time limit has no such pass.) The next pass replaces the
 /// first sample, tile by tile, by up to GatherTile::max_samples() samples per pixel. Further passes add more
-/// samples. The picture does not depend on the number of threads. Only a frame that ends early shows samples
-/// of the first pass.
+/// samples. If the chunks do not all fit into memory and there is no time limit, there is only one pass,
+/// which takes all samples of a tile before the next tile. More passes would grow chunks again. The picture
+/// does not depend on the number of threads. Only a frame that ends early shows samples of the first pass.
 class GatherLoop {
  public:
   /// Memory of the tiles that are traced at the same time.
@@ -38,10 +39,10 @@ class GatherLoop {
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
-  /// `clock`: the time limit starts with it.
+  /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-             const PathOptions& options, const Memory& memory, const Job& job, const Stopwatch& clock,
-             FrameResult& result);
+             const PathOptions& options, const Memory& memory, bool fits, const Job& job,
+             const Stopwatch& clock, FrameResult& result);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -68,6 +69,7 @@ class GatherLoop {
   const Job job_;
   const Stopwatch& clock_;
   FrameResult& result_;
+  const bool in_passes_;
   std::vector<Tile> tiles_;
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_
