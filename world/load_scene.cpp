@@ -168,6 +168,10 @@ void check_gather(const SceneDescription& scene, const Value& document, Problems
     problems.add(document.find("render")->find("gather")->position(),
                  "`visibility: raster` needs `accel: fur` and `curves: flat`");
   }
+  if (scene.render.gather.min_width > 0 && !draws) {
+    problems.add(document.find("render")->find("gather")->position(),
+                 "`min_width` needs `visibility: raster`");
+  }
 }
 
 void collect_files(const Value& value, std::set<std::string>& files) {

@@ -102,7 +102,7 @@ bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Jo
         done = next;
         drawing.update();
         if (!possible || !may_be_seen(next.chunk, drawing)) continue;
-        const Range depths = depths_of(view.frame, boxes.whole(next.chunk));
+        const Range depths = depths_of(view.frame, seen_box(boxes.whole(next.chunk)));
         possible = chunks_.visit(next.chunk, worker, [&](const ChunkGeometry& geometry) {
           return drawing.draw(geometry, next.chunk, depths);
         });
@@ -120,8 +120,8 @@ void TileRaster::find_candidates(bool skins, const Beam& beam, float far, const 
   candidates.clear();
   for (uint32_t chunk = 0; chunk < chunks_.size(); ++chunk) {
     Scratch::Candidate candidate{0, chunk};
-    if (chunks_.is_skin(chunk) != skins || !beam.meets(chunks_.boxes().whole(chunk), far, candidate.entry) ||
-        !(after < candidate))
+    if (chunks_.is_skin(chunk) != skins ||
+        !beam.meets(seen_box(chunks_.boxes().whole(chunk)), far, candidate.entry) || !(after < candidate))
       continue;
     candidates.push_back(candidate);
     std::push_heap(candidates.begin(), candidates.end());
@@ -135,7 +135,7 @@ void TileRaster::find_candidates(bool skins, const Beam& beam, float far, const 
 /// Whether lines may see the chunk.
 bool TileRaster::may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
   const ChunkBoxes& boxes = chunks_.boxes();
-  if (!drawing.may_see(boxes.whole(chunk))) return false;
+  if (!drawing.may_see(seen_box(boxes.whole(chunk)))) return false;
   // The tree of a resident chunk is faster than its fine boxes.
   if (chunks_.is_resident(chunk) || !boxes.has_fine(chunk)) return true;
   const FineBoxes& fine = boxes.fine(chunk);
@@ -143,7 +143,7 @@ bool TileRaster::may_be_seen(uint32_t chunk, const TileDrawing& drawing) const {
   for (size_t b = 0; b < fine.count(); ++b) {
     Box3f box = fine.box(b, 0);
     box.extendBy(fine.box(b, 1));
-    if (drawing.may_see({box.min - margin, box.max + margin})) return true;
+    if (drawing.may_see(seen_box({box.min - margin, box.max + margin}))) return true;
   }
   return false;
 }

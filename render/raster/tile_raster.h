@@ -6,6 +6,7 @@
 
 #include "base/job.h"
 #include "render/accel/accel.h"
+#include "render/accel/min_width.h"
 #include "render/accel/resident_chunks.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/tile_order.h"
@@ -31,7 +32,11 @@ class TileRaster {
   /// Keeps references to its arguments. `chunks`: the chunks of `accel`; all strands must be in fur trees.
   TileRaster(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const CameraSamples& camera)
-      : scene_(scene), accel_(accel), chunks_(chunks), camera_(camera) {}
+      : scene_(scene),
+        accel_(accel),
+        chunks_(chunks),
+        camera_(camera),
+        min_width_{scene.camera.lod_view(), scene.render.min_width()} {}
 
   /// Memory and result of one thread.
   struct Scratch {
@@ -75,12 +80,14 @@ class TileRaster {
 
   void find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
                        Scratch& scratch) const;
+  Box3f seen_box(const Box3f& box) const { return min_width_.pixels > 0 ? min_width_.around(box) : box; }
   bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
   const RenderScene& scene_;
   const Accel& accel_;
   const ResidentChunks& chunks_;
   const CameraSamples& camera_;
+  const MinWidth min_width_;
 };
 
 }  // namespace pelage

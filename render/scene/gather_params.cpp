@@ -35,6 +35,14 @@ const Schema<GatherParams>& GatherParams::schema() {
         "cells", &GatherParams::cells,
         {.help = "true: strands so thin that few samples see a knot share light with their neighbours on the "
                  "skin, over about 2 pixels"});
+    s.key(
+        "min_width", &GatherParams::min_width,
+        {.unit = "pixels",
+         .help = "The camera sees thinner strands with this width, and as much more transparent, so that the "
+                 "picture is the same on average but less noisy. Strands that level of detail has widened "
+                 "keep their width. Needs `visibility: raster`",
+         .min = 0,
+         .max = 4});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "

@@ -84,6 +84,12 @@ struct RenderParams {
   float bounds_factor = 1;  ///< scale of boxes with BoundingStrategy::kUser
   LodParams lod;
   bool shared_topology = true;  ///< characters with the same cage share its refinement and patches
+  /// Returns the width, in pixels, at which the camera sees thinner strands; 0: strands keep their widths.
+  float min_width() const {
+    const bool draws = integrator == Integrator::kGather && gather.visibility == GatherVisibility::kRaster;
+    return draws ? gather.min_width : 0;
+  }
+
   static const Schema<RenderParams>& schema();
 };
 

@@ -165,6 +165,8 @@ TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
     EXPECT_EQ(problems(kScene, {gather, raster, other}),
               Lines{"--set render.gather: `visibility: raster` needs `accel: fur` and `curves: flat`"});
   }
+  EXPECT_EQ(problems(kScene, {gather, {"render.gather", "{min_width: 1, visibility: rays}"}}),
+            Lines{"--set render.gather: `min_width` needs `visibility: raster`"});
   EXPECT_EQ(problems(kScene, {gather, {"render.gather.spacng", "2"}}),
             Lines{"--set render.gather.spacng: unknown key 'spacng' in gather; did you mean 'spacing'?"});
 }
