@@ -105,7 +105,8 @@ struct SceneDescription {
   /// All files from which the document was read: the scene file and its included files. asset_files() returns
   /// the assets.
   std::vector<std::filesystem::path> files;
-  std::vector<Problem> warnings;  ///< one per use of an old name of a key, with the current name
+  /// One per use of an old name of a key, with the current name, and per setting without effect.
+  std::vector<Problem> warnings;
   static const Schema<SceneDescription>& schema();
 };
 

@@ -22,7 +22,8 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   const size_t lights = scene.lights.size();
   const uint32_t samples =
       std::min(GatherTile::max_samples(lights), static_cast<uint32_t>(scene.render.samples));
-  const auto tile = static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples, scene.render.gather));
+  const auto tile =
+      static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples, scene.render.draws_visible()));
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));

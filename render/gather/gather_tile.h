@@ -37,8 +37,8 @@ class GatherTile {
   /// lights. The max limits the memory of a scratch.
   static uint32_t max_samples(size_t lights);
   /// Returns the max memory of a scratch, in bytes, if trace() takes up to `samples` samples per pixel at
-  /// once.
-  static size_t scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather);
+  /// once. `draws`: RenderParams::draws_visible().
+  static size_t scratch_bytes(size_t lights, uint32_t samples, bool draws);
 
   /// Traces samples first .. first + count - 1 of each pixel. Stores the result in `scratch`. Returns false
   /// when `job` was cancelled.

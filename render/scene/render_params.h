@@ -84,6 +84,12 @@ struct RenderParams {
   float bounds_factor = 1;  ///< scale of boxes with BoundingStrategy::kUser
   LodParams lod;
   bool shared_topology = true;  ///< characters with the same cage share its refinement and patches
+
+  /// Whether the gather integrator draws what the camera sees, instead of tracing camera rays.
+  bool draws_visible() const {
+    return gather.visibility.value_or(GatherVisibility::kRaster) == GatherVisibility::kRaster &&
+           in_fur_trees(accel, curves);
+  }
   static const Schema<RenderParams>& schema();
 };
 
