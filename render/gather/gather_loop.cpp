@@ -20,8 +20,9 @@ constexpr int64_t kMemoryShare = 8;
 
 GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
   const size_t lights = scene.lights.size();
-  const auto tile = static_cast<int64_t>(
-      GatherTile::scratch_bytes(lights, GatherTile::samples_at_once(scene), scene.render.gather));
+  const uint32_t samples = GatherTile::samples_at_once(scene);
+  const auto tile =
+      static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples, scene.render.draws_visible()));
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/process_usage.h"
 #include "render/raster/tile_drawing.h"
 
 namespace pelage {
@@ -34,7 +35,7 @@ float reference_depth(const RenderScene& scene, const Accel& accel, const TileFr
 }  // namespace
 
 size_t TileRaster::scratch_bytes(size_t samples) {
-  return samples * sizeof(TileLine) + TileLines::bytes(samples) +
+  return HeldStrands::bytes_bound() + samples * sizeof(TileLine) + TileLines::bytes(samples) +
          (kCandidates + 1) * sizeof(Scratch::Candidate);
 }
 
@@ -83,6 +84,7 @@ void TileRaster::sort_lines(const View& view, const Range& depths, Scratch& scra
 bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Job& job, int worker,
                       Scratch& scratch) const {
   scratch.samples_per_pixel = count;
+  scratch.growth_s = 0;
   const View view = make_lines(tile, first, count, scratch);
   const ChunkBoxes& boxes = chunks_.boxes();
   const Box3f bounds = accel_.bounds();
@@ -103,6 +105,11 @@ bool TileRaster::find(const Tile& tile, uint32_t first, uint32_t count, const Jo
         drawing.update();
         if (!possible || !may_be_seen(next.chunk, drawing)) continue;
         const Range depths = depths_of(view.frame, seen_box(boxes.whole(next.chunk)));
+        if (!chunks_.is_resident(next.chunk)) {
+          const double before_s = thread_cpu_seconds();
+          chunks_.visit(next.chunk, worker, [](const ChunkGeometry&) {});
+          scratch.growth_s += thread_cpu_seconds() - before_s;
+        }
         possible = chunks_.visit(next.chunk, worker, [&](const ChunkGeometry& geometry) {
           return drawing.draw(geometry, next.chunk, depths);
         });

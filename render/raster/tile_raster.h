@@ -53,7 +53,8 @@ class TileRaster {
     std::vector<Candidate> candidates;
     uint32_t samples_per_pixel = 0;
     HeldStrands held;
-    int64_t traced = 0;  ///< samples whose ray was traced
+    int64_t traced = 0;   ///< samples whose ray was traced
+    double growth_s = 0;  ///< CPU seconds of the last find() in which chunks were grown
   };
   /// Returns the max memory of a scratch for this count of samples, in bytes.
   static size_t scratch_bytes(size_t samples);
