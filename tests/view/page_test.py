@@ -117,7 +117,7 @@ class Page(ViewTest):
         self.until(lambda: "(60, 40)" in self.text(browser, "values") or "(59, 39)" in self.text(browser, "values"))
         self.assertRegex(self.text(browser, "values"), r"R [0-9.]+.*A ")
         browser.execute_script("document.getElementById('canvas').dispatchEvent(new WheelEvent('wheel', "
-                               "{deltaY: -1000, offsetX: 400, offsetY: 250, cancelable: true}))")
+                               "{deltaY: -1000, clientX: 450, clientY: 300, cancelable: true}))")
         self.shoot(browser, "zoomed")
         bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(bad, [])
