@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of `pelage view` in a real browser, driven by Selenium. Skipped where Debian's chromium, chromium-driver or
-python3-selenium is missing. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
+python3-selenium is missing; `./dev setup --browser` installs them. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
 import os
 import pathlib
 import shutil
