@@ -12,7 +12,7 @@
 namespace pelage {
 
 int run_view(const Options& options) {
-  const SignalGuard signals;
+  const SignalGuard signals("\n");
   ViewOptions view;
   view.scene = options.input;
   view.overrides = options.overrides;

@@ -2,6 +2,7 @@
 // Tested in tests/view/live_renderer_test.cpp.
 #include "view/scene_follower.h"
 
+#include <exception>
 #include <utility>
 
 namespace pelage {
@@ -69,7 +70,7 @@ void SceneFollower::read_again() {
     if (same) return;
     last_ = edit;
     renderer_.submit(std::move(edit));
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // an Error, or a failure of the system
     stamps_ = stamps_of(files_);
     desk_.update([&](ViewStatus& status) { status.scene_error = error.what(); });
   }

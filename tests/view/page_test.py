@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of `pelage view` in a real browser, driven by Selenium. Skipped where Debian's chromium, chromium-driver or
-python3-selenium is missing. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
+python3-selenium is missing; `./dev setup --browser` installs them. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
 import os
 import pathlib
 import shutil
@@ -117,7 +117,7 @@ class Page(ViewTest):
         self.until(lambda: "(60, 40)" in self.text(browser, "values") or "(59, 39)" in self.text(browser, "values"))
         self.assertRegex(self.text(browser, "values"), r"R [0-9.]+.*A ")
         browser.execute_script("document.getElementById('canvas').dispatchEvent(new WheelEvent('wheel', "
-                               "{deltaY: -1000, offsetX: 400, offsetY: 250, cancelable: true}))")
+                               "{deltaY: -1000, clientX: 450, clientY: 300, cancelable: true}))")
         self.shoot(browser, "zoomed")
         bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(bad, [])

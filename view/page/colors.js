@@ -36,7 +36,7 @@ function turbo(t) {
 
 // A colour for each number, such that neighbouring numbers differ.
 function idColor(id) {
-  if (id === 0) return [0, 0, 0];
+  if (id === 0xffffffff) return [0, 0, 0];  // no strand
   let h = Math.imul(id, 0x9e3779b1) >>> 0;
   h = Math.imul(h ^ (h >>> 15), 0x85ebca6b) >>> 0;
   return [64 + (h & 127), 64 + ((h >>> 8) & 127), 64 + ((h >>> 16) & 127)];
