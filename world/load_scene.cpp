@@ -168,7 +168,7 @@ void check_gather(const SceneDescription& scene, const Value& document, Problems
     problems.add(document.find("render")->find("gather")->position(),
                  "`visibility: raster` needs `accel: fur` and `curves: flat`");
   }
-  if (scene.render.gather.min_width > 0 && !draws) {
+  if (scene.render.gather.min_width > 0 && !scene.render.draws_visible()) {
     problems.add(document.find("render")->find("gather")->position(),
                  "`min_width` needs `visibility: raster`");
   }

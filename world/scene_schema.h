@@ -106,7 +106,7 @@ struct SceneDescription {
   /// All files from which the document was read: the scene file and its included files. asset_files() returns
   /// the assets.
   std::vector<std::filesystem::path> files;
-  SceneParts parts;               ///< hashes of the parts of the document, to compare scenes
+  SceneParts parts;  ///< hashes of the parts of the document, to compare scenes
   /// One per use of an old name of a key, with the current name, and per setting without effect.
   std::vector<Problem> warnings;
   static const Schema<SceneDescription>& schema();

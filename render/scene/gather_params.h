@@ -21,8 +21,8 @@ struct GatherParams {
   bool reuse = true;                           ///< false: samples share no light
   float spacing = 4;                           ///< max distance between knots along a strand, pixels
   float skin_spacing = 2;                      ///< max distance between knots on a skin, pixels
-  bool cells = true;       ///< whether neighbouring thin strands share light
-  float min_width = 0;     ///< width at which the camera sees thinner strands, pixels
+  bool cells = true;                           ///< whether neighbouring thin strands share light
+  float min_width = 0;                         ///< width at which the camera sees thinner strands, pixels
   float light_rays = 3;                        ///< mean count of shadow rays per visible sample
   float paths = 1;  ///< mean count of indirect paths per visible sample, before roulette
   static const Schema<GatherParams>& schema();
