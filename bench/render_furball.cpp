@@ -73,7 +73,8 @@ void furball(benchmark::State& state) {
     scene.render.seed = seed;
     auto film = std::make_unique<Film>(kWidth, kHeight, layers, ledger);
     const PathTracer tracer(scene, geometry->accel(), layers, {});
-    FrameLoop loop(tracer, {workers, ledger, progress}, *film, clock);
+    FrameLoop loop(tracer, {workers, ledger, progress}, *film,
+                   frame_window(kWidth, kHeight, {}, layers.splat), clock);
     const double start = cpu_seconds();
     loop.pass([samples](size_t, uint32_t) { return samples; }, false);
     cpu_s = cpu_seconds() - start;

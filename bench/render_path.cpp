@@ -13,6 +13,7 @@
 #include "render/accel/embree_scene.h"
 #include "render/accel/flush_denormals.h"
 #include "render/frame/frame_geometry.h"
+#include "render/path/path_tracer.h"
 #include "render/render_frame.h"
 
 namespace pelage {

@@ -62,9 +62,8 @@ void add_experiment_flags(CLI::App& measure, Options& options) {
       .add_option(
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "
-          "beside path (of splatted, adaptive, gather, reuse, spacing, skin_spacing, cells, light_rays, "
-          "paths, "
-          "drawn)")
+          "beside path (of splatted, adaptive, gather, visibility, reuse, spacing, skin_spacing, cells, "
+          "light_rays, paths, drawn)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");

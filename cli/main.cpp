@@ -36,6 +36,8 @@ int run(const pelage::Options& options) {
       return pelage::run_motion_blur(options);
     case Command::kStereo:
       return pelage::run_stereo(options);
+    case Command::kView:
+      return pelage::run_view(options);
     case Command::kManual:
       return pelage::run_manual(options);
   }

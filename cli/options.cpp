@@ -86,6 +86,22 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
   add_run_flags(*render, options, texts);
 }
 
+void add_view(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* view = app.add_subcommand(
+      "view", "Show a picture in the browser that refines while you look and follows the scene's files");
+  add_scene_flags(*view, options, texts);
+  view->add_option("--port", options.port, "Port of the page (default: any free port)")
+      ->check(CLI::Range(1, 65535))
+      ->type_name("N");
+  view->add_option("--bind", options.bind,
+                   "Address of the page (default: 127.0.0.1, which only this machine can reach)")
+      ->type_name("ADDRESS");
+  view->add_option("--threads", options.threads, "Number of threads (default: all available)")
+      ->check(CLI::Range(0, 4096))
+      ->type_name("N");
+  view->add_option("--memory", texts.memory, kMemoryHelp)->type_name("BYTES");
+}
+
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
@@ -209,6 +225,7 @@ void add_manual(CLI::App& app, Options& options, Texts& texts) {
 
 void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_render(app, options, texts);
+  add_view(app, options, texts);
   add_grow(app, options, texts);
   add_measure(app, options, texts);
   add_trace(app, options, texts);
@@ -221,10 +238,9 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
 const std::map<std::string, Command>& command_names() {
   static const std::map<std::string, Command> names{
-      {"render", Command::kRender},   {"grow", Command::kGrow},
-      {"measure", Command::kMeasure}, {"trace", Command::kTrace},
-      {"compare", Command::kCompare}, {"info", Command::kInfo},
-      {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"render", Command::kRender},   {"view", Command::kView},       {"grow", Command::kGrow},
+      {"measure", Command::kMeasure}, {"trace", Command::kTrace},     {"compare", Command::kCompare},
+      {"info", Command::kInfo},       {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
       {"stereo", Command::kStereo},   {"manual", Command::kManual}};
   return names;
 }

@@ -17,6 +17,7 @@ namespace pelage {
 
 enum class Command {
   kRender,
+  kView,
   kGrow,
   kMeasure,
   kTrace,
@@ -56,6 +57,9 @@ struct Options {
   ProgressStyle progress = ProgressStyle::kAuto;
 
   PictureOptions picture;  ///< render: flags of the picture
+
+  int port = 0;      ///< view: port of the server; 0: any free port
+  std::string bind;  ///< view: address of the server; empty: 127.0.0.1
 
   Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant

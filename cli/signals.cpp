@@ -15,6 +15,7 @@ namespace {
 // A signal handler can access only statics.
 std::atomic<int> g_signal{0};  // the first one; 0: none yet
 std::atomic<int64_t> g_heard_ms{0};
+std::string_view g_note;  // changes only while no handler is installed
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
 
 int64_t now_ms() {
@@ -31,8 +32,7 @@ void on_signal(int signal) {
   int none = 0;
   if (g_signal.compare_exchange_strong(none, signal)) {
     g_heard_ms.store(now_ms());
-    constexpr std::string_view kNote = "\npelage: stopping after this pass; press Ctrl-C again to quit now\n";
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kNote.data(), kNote.size());
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, g_note.data(), g_note.size());
     return;
   }
   if (signal != SIGINT && signal == g_signal.load() && now_ms() - g_heard_ms.load() < kOneRequest_ms) return;
@@ -54,7 +54,8 @@ struct sigaction install(int signal) {
 
 }  // namespace
 
-SignalGuard::SignalGuard() {
+SignalGuard::SignalGuard(std::string_view note) {
+  g_note = note;
   g_signal.store(0);
   for (size_t i = 0; i < kHandled.size(); ++i) old_[i] = install(kHandled[i]);
 }

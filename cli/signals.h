@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 
 #include <signal.h>
 
@@ -14,7 +15,8 @@ namespace pelage {
 /// may exist at a time.
 class SignalGuard {
  public:
-  SignalGuard();
+  /// `note`: what the first signal writes to standard error. It must outlive the guard.
+  explicit SignalGuard(std::string_view note = kPassNote);
   ~SignalGuard();
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
@@ -25,6 +27,8 @@ class SignalGuard {
   /// is 130 for SIGINT, 143 for SIGTERM and 129 for SIGHUP. 130 if the guard received no signal.
   static int exit_code();
 
+  static constexpr std::string_view kPassNote =
+      "\npelage: stopping after this pass; press Ctrl-C again to quit now\n";
   static constexpr std::array kHandled{SIGINT, SIGTERM, SIGHUP};
 
  private:

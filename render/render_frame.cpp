@@ -49,7 +49,8 @@ TileCosts trace_paths(const RenderScene& scene, const FrameGeometry& geometry, c
 TileCosts gather(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
                  const GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock,
                  FrameResult& result) {
-  GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options, tiles, job, clock, result);
+  GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options, tiles, geometry.fits(), job, clock,
+                  result);
   loop.run();
   return loop.costs();
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -37,19 +38,24 @@ struct FinishedFrame {
 
 /// Progress of the current render, as state.json reports it.
 struct ViewStatus {
-  bool done = false;                  ///< the finished picture is that of the files, and these have no error
-  std::string error;                  ///< the problems of the last edit; empty if there are none
-  std::string stage;                  ///< "read", "pose", "bound", "render" ...; empty at rest
-  double progress = 0;                ///< fraction of the stage
-  double mean_samples = 0;            ///< mean sample count of a pixel
-  int wanted_samples = 0;             ///< sample count of a pixel when done
-  int64_t strands_regrown = 0;        ///< strands grown again since the last edit
-  double first_pixels_s = 0;          ///< seconds from the edit to its first picture; 0 before
-  double render_s = 0;                ///< seconds from the edit to the end of the render; 0 before
-  int64_t memory_bytes = 0;           ///< memory in use, as the ledger counts it
-  int edits = 0;                      ///< edits that were rendered so far; the first picture is no edit
+  bool at_rest = false;         ///< the render of the last edit without an error is complete
+  std::string scene_error;      ///< problems of the scene file; empty if there are none
+  std::string render_error;     ///< problems of reading the assets or of rendering; empty if there are none
+  std::string stage;            ///< "read", "pose", "bound", "render" ...; empty at rest
+  double progress = 0;          ///< fraction of the stage
+  double mean_samples = 0;      ///< mean sample count of a pixel
+  int wanted_samples = 0;       ///< sample count of a pixel when done
+  int64_t strands_regrown = 0;  ///< strands grown again since the last edit
+  double first_pixels_s = 0;    ///< seconds from the edit to its first picture; 0 before
+  double render_s = 0;          ///< seconds from the edit to the end of the render; 0 before
+  int64_t memory_bytes = 0;     ///< memory in use, as the ledger counts it
+  int edits = 0;                ///< edits that were rendered so far; the first picture is no edit
   std::vector<std::string> layers;    ///< names of all layers of the picture
   std::vector<std::string> warnings;  ///< the last few warnings
+
+  const std::string& error() const { return scene_error.empty() ? render_error : scene_error; }
+  /// Returns whether the finished picture is that of the files as they are now.
+  bool done() const { return at_rest && error().empty(); }
 };
 
 /// What the thread that renders hands to the threads of the server. Thread safety: all members may be called

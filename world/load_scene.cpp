@@ -163,11 +163,23 @@ void check_gather(const SceneDescription& scene, const Value& document, Problems
   };
   if (scene.render.adaptive) refuse("render", "adaptive");
   if (scene.image.noise_layers) refuse("image", "noise_layers");
-  const bool draws = scene.render.gather.visibility == GatherVisibility::kRaster;
-  if (draws && !in_fur_trees(scene.render.accel, scene.render.curves)) {
+  const bool asks = scene.render.gather.visibility == GatherVisibility::kRaster;
+  if (asks && !scene.render.draws_visible()) {
     problems.add(document.find("render")->find("gather")->position(),
                  "`visibility: raster` needs `accel: fur` and `curves: flat`");
   }
+  if (scene.render.gather.min_width > 0 && !draws) {
+    problems.add(document.find("render")->find("gather")->position(),
+                 "`min_width` needs `visibility: raster`");
+  }
+}
+
+void warn_of_visibility(const SceneDescription& scene, const Value& document,
+                        std::vector<Problem>& warnings) {
+  const bool asks = scene.render.gather.visibility == GatherVisibility::kRaster;
+  if (!asks || scene.render.integrator == Integrator::kGather) return;
+  warnings.push_back({document.find("render")->find("gather")->position(),
+                      "`visibility: raster` has no effect without `integrator: gather`"});
 }
 
 void collect_files(const Value& value, std::set<std::string>& files) {
@@ -205,12 +217,13 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
       check_filter_samples(scene, *document, problems);
       check_event_layers(scene, *document, problems);
       check_gather(scene, *document, problems);
+      warn_of_visibility(scene, *document, scene.warnings);
     }
   }
   if (!problems.empty()) throw Error(ErrorKind::kInput, in_file_order(problems.list()));
   const std::vector<std::filesystem::path> assets = asset_files(scene);
   scene.files.insert(scene.files.end(), assets.begin(), assets.end());
-  scene.warnings = std::move(renamed.warnings);
+  scene.warnings.insert(scene.warnings.begin(), renamed.warnings.begin(), renamed.warnings.end());
   choose_leaf_sizes(scene);
   return scene;
 }

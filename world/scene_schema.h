@@ -107,7 +107,8 @@ struct SceneDescription {
   /// the assets.
   std::vector<std::filesystem::path> files;
   SceneParts parts;               ///< hashes of the parts of the document, to compare scenes
-  std::vector<Problem> warnings;  ///< one per use of an old name of a key, with the current name
+  /// One per use of an old name of a key, with the current name, and per setting without effect.
+  std::vector<Problem> warnings;
   static const Schema<SceneDescription>& schema();
 };
 

@@ -32,17 +32,19 @@ ShadingCurve gather_with(const char* key, const std::string& value) {
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
                                          const std::vector<std::string>& parts) {
   const GatherParams& own = scene.render.gather;
-  std::vector<ShadingCurve> curves{path("path", "path", "drawn"),
-                                   path("splatted", "path, splatted", "splatted"),
-                                   path("adaptive", "path, adaptive", "drawn"),
-                                   gather("gather", "gather"),
-                                   gather_with("reuse", "false"),
-                                   gather_with("spacing", fmt::format("{:g}", 2 * own.spacing)),
-                                   gather_with("skin_spacing", fmt::format("{:g}", 2 * own.skin_spacing)),
-                                   gather_with("cells", own.cells ? "false" : "true"),
-                                   gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
-                                   gather_with("paths", fmt::format("{:g}", own.paths / 2)),
-                                   gather("drawn", "gather, drawn")};
+  std::vector<ShadingCurve> curves{
+      path("path", "path", "drawn"),
+      path("splatted", "path, splatted", "splatted"),
+      path("adaptive", "path, adaptive", "drawn"),
+      gather("gather", "gather"),
+      gather_with("visibility", scene.render.draws_visible() ? "rays" : "raster"),
+      gather_with("reuse", "false"),
+      gather_with("spacing", fmt::format("{:g}", 2 * own.spacing)),
+      gather_with("skin_spacing", fmt::format("{:g}", 2 * own.skin_spacing)),
+      gather_with("cells", own.cells ? "false" : "true"),
+      gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
+      gather_with("paths", fmt::format("{:g}", own.paths / 2)),
+      gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
   curves.back().settings.back().second = "drawn";
   std::erase_if(curves, [&](const ShadingCurve& curve) {

@@ -43,8 +43,9 @@ class ChunkGeometry : public Resident {
   /// stores the hit in `nearest` and its geometry in `met`, and returns true. Otherwise changes neither and
   /// returns false. Pass the same `rays` for all chunks that one ray visits.
   virtual bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const = 0;
-  /// Passes to the sink all primitives that may lie inside the beam at depths below `sink.far()`, and
-  /// possibly others. Returns false if the chunk does not support this; then the sink got nothing.
+  /// Passes to the sink, as the camera sees them, all primitives that may lie inside the beam at depths below
+  /// `sink.far()`, and possibly others. Returns false if the chunk does not support this; then the sink got
+  /// nothing.
   virtual bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const = 0;
   /// closest() for a ray whose primitive is known. `primitive`: the number that was passed to the sink.
   /// Considers only this segment, or all triangles of a skin. If no other segment is nearer, the result is
@@ -54,9 +55,9 @@ class ChunkGeometry : public Resident {
   /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
   /// the ray.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;
-  /// Whether a ray with the random number `random` stops at a hit with a segment at the parameter `u`.
+  /// Whether a camera ray with the random number `random` stops at a hit with a segment at the parameter `u`.
   virtual bool stops(uint32_t random, uint32_t primitive, float u) const = 0;
-  /// Whether every primitive stops every ray.
+  /// Whether every primitive stops every camera ray.
   virtual bool opaque() const = 0;
 
   /// Number of strands with at least one segment; 0 for a skin.

@@ -30,11 +30,17 @@ size_t bytes_of(const FurContents& grown) {
 /// Accepts the crossings at which a ray stops.
 class FurChunk::StoppingFilter final : public FurFilter {
  public:
-  StoppingFilter(const FurChunk& chunk, uint32_t random) : chunk_(chunk), random_(random) {}
-  bool accepts(const FurHit& hit) override { return chunk_.stops(random_, hit.number, hit.u); }
+  /// `widened`: whether strands have the widths at which the camera sees them.
+  StoppingFilter(const FurChunk& chunk, bool widened, uint32_t random)
+      : chunk_(chunk), widened_(widened), random_(random) {}
+  bool accepts(const FurHit& hit) override {
+    return widened_ ? chunk_.stops(random_, hit.number, hit.u)
+                    : chunk_.stops_unwidened(random_, hit.number, hit.u);
+  }
 
  private:
   const FurChunk& chunk_;
+  const bool widened_;
   const uint32_t random_;
 };
 
@@ -83,6 +89,12 @@ FurChunk::FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTre
   build_peak_ = bytes_;
 }
 
+void FurChunk::widen(const MinWidth& min) {
+  widened_ = std::make_unique<const WidenedFur>(min, strands_);
+  bytes_ += widened_->bytes();
+  build_peak_ += widened_->bytes();
+}
+
 ChunkBounds FurChunk::part_bounds(size_t parts) const {
   ChunkBounds bounds = subtree_bounds(tree_.view(), parts);
   if (!tree_.view().frame.turned) return bounds;
@@ -115,7 +127,7 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   const FurTreeView& tree = tree_.view();
   const FurRay* prepared = tree.nodes ? rays.prepare(tree, here, start_of(ray)) : nullptr;
   if (!prepared) return false;
-  StoppingFilter filter(*this, ray.random);
+  StoppingFilter filter(*this, false, ray.random);
   const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
   if (!found || !keep(found, nearest)) return false;
   strand(nearest.hit.strand_index, met.strand);
@@ -123,7 +135,11 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
 }
 
 bool FurChunk::visit_primitives(const Beam& beam, PrimitiveSink& sink) const {
-  visit_segments(tree_.view(), beam, sink);
+  if (widened_) {
+    widened_->visit(tree_.view(), strands_, beam, sink);
+  } else {
+    visit_segments(tree_.view(), beam, sink);
+  }
   return true;
 }
 
@@ -133,13 +149,30 @@ bool FurChunk::closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, Nea
   const FurSegmentLookup::Place place = places_.find(tree, primitive);
   const FurRay* prepared = place.block ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
   if (!prepared) return false;
-  StoppingFilter filter(*this, ray.random);
-  const FurHit found = closest_fur_at(tree, *prepared, {place.block, place.wide, primitive},
-                                      strands_.opaque() ? nullptr : &filter);
+  StoppingFilter filter(*this, true, ray.random);
+  FurSegmentPlace at{place.block, place.wide, primitive};
+  std::vector<Four> memory;
+  if (widened_) {
+    const WidenedFur::Segment segment =
+        widened_->segment(tree, place.block, place.wide, place.lane, strands_.locate(primitive).strand);
+    at = {segment.write(primitive, memory), true, primitive};
+  }
+  const FurHit found = closest_fur_at(tree, *prepared, at, opaque() ? nullptr : &filter);
   return found && keep(found, nearest);
 }
 
 bool FurChunk::stops(uint32_t random, uint32_t primitive, float u) const {
+  if (!stops_unwidened(random, primitive, u)) return false;
+  const FurTreeView& tree = tree_.view();
+  const FurSegmentLookup::Place at = places_.find(tree, primitive);
+  if (!widened_ || !at.block) return true;
+  const PackedStrands::Place place = strands_.locate(primitive);
+  const float share = widened_->segment(tree, at.block, at.wide, at.lane, place.strand).share(u);
+  const CrossingPlace crossed = crossing(place, u);
+  return MinWidth::stops(random, hash64(crossed.strand_id, crossed.part, crossed.joint), share);
+}
+
+bool FurChunk::stops_unwidened(uint32_t random, uint32_t primitive, float u) const {
   const PackedStrands::Place place = strands_.locate(primitive);
   return stops_at(random, crossing(place, u), strands_.opacity(place, u));
 }
@@ -217,8 +250,10 @@ size_t FurChunk::bytes_bound(const ChunkCounts& n, const FurChunkOptions& option
   const size_t segments = n.segments;
   const size_t packed = PackedStrands::bytes_bound(n, PackedPoints::kInFurTree);
   const size_t tree = FurTree::build_bytes_bound(segments, n.motion_keys, options.tree);
-  return bytes_bound(n, sizeof(FurChunk) + grown_bytes_bound(n) + packed + SnappedStrands::bytes(n.strands) +
-                            tree + FurSegmentLookup::bytes_bound(segments));
+  const size_t widened = options.min_width ? WidenedFur::bytes_bound(n.strands) : 0;
+  return bytes_bound(n, sizeof(FurChunk) + widened + grown_bytes_bound(n) + packed +
+                            SnappedStrands::bytes(n.strands) + tree +
+                            FurSegmentLookup::bytes_bound(segments));
 }
 
 size_t FurChunk::bytes_bound(const ChunkCounts& n, size_t build_peak) {

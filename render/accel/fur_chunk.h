@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "render/accel/chunk_geometry.h"
 #include "render/accel/chunk_grower.h"
 #include "render/accel/fur/fur_parts.h"
 #include "render/accel/fur/fur_segment_lookup.h"
 #include "render/accel/fur/fur_tree.h"
 #include "render/accel/packed_strands.h"
+#include "render/accel/widened_fur.h"
 
 namespace pelage {
 
@@ -15,6 +19,8 @@ struct FurChunkOptions {
 
   FurTreeOptions tree;
   bool compact_attributes = true;
+  /// The min width at which the camera sees strands; empty: strands keep their widths.
+  std::optional<MinWidth> min_width = {};
 };
 
 /// A chunk of fur: a fur tree, which has the only copy of the points, and the strands' data for shading (ids,
@@ -29,13 +35,17 @@ class FurChunk final : public ChunkGeometry {
   /// Makes a chunk from data that was read from a file.
   FurChunk(uint32_t part, uint32_t number, PackedStrands strands, FurTree tree);
 
+  /// From now on, the camera sees strands with a min width. Affects visit_primitives(), closest_at(), stops()
+  /// and opaque(), but no other member. Call before other threads use the chunk.
+  void widen(const MinWidth& min);
+
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
   bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
   bool closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
                   HitGeometry& met) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
   bool stops(uint32_t random, uint32_t primitive, float u) const override;
-  bool opaque() const override { return strands_.opaque(); }
+  bool opaque() const override { return strands_.opaque() && !widened_; }
 
   size_t strand_count() const override { return strands_.strand_count(); }
   StrandKey strand_key(uint32_t index) const override { return {part_, strands_.id(index)}; }
@@ -70,12 +80,14 @@ class FurChunk final : public ChunkGeometry {
            const FurChunkOptions& options);
   FurStart start_of(const Ray& ray) const;
   bool keep(const FurHit& found, NearestSoFar& nearest) const;
+  bool stops_unwidened(uint32_t random, uint32_t primitive, float u) const;
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
 
   uint32_t part_, number_;
   PackedStrands strands_;
   FurTree tree_;
   FurSegmentLookup places_;
+  std::unique_ptr<const WidenedFur> widened_;
   size_t bytes_ = 0, build_peak_ = 0;
 };
 

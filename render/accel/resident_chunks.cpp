@@ -63,8 +63,10 @@ void ResidentChunks::find_whether_all_fit(const MemoryLedger& ledger) {
 }
 
 size_t ResidentChunks::reserve_bytes(uint32_t chunk) const {
-  if (is_stored(chunk)) return options_.file->bytes_bound(chunk);
   ChunkCounts counts = grower_.counts(chunk);
+  if (is_stored(chunk)) {
+    return options_.file->bytes_bound(chunk) + (fur_.min_width ? WidenedFur::bytes_bound(counts.strands) : 0);
+  }
   const size_t build_peak = kPage * size_t(build_pages_[chunk].load(std::memory_order_relaxed));
   const bool fur = boxes_.in_fur_tree(chunk);
   if (build_peak > 0)
@@ -82,6 +84,7 @@ Grower::Grown ResidentChunks::grow(uint32_t chunk) {
     const auto warn = [this](const std::string& line) { progress_.warn(line); };
     if (std::unique_ptr<FurChunk> fur = options_.file->read(chunk, warn, &pool_)) {
       if (learns) boxes_.learn(chunk, fur->part_bounds(ChunkBoxes::learned_parts(fur->segment_count())));
+      if (fur_.min_width) fur->widen(*fur_.min_width);
       const size_t bytes = fur->bytes();
       return {std::move(fur), bytes};
     }
@@ -109,6 +112,7 @@ Grower::Grown ResidentChunks::grow(uint32_t chunk) {
 
 std::unique_ptr<FurChunk> ResidentChunks::grow_fur(uint32_t chunk, ChunkContents contents, bool learns) {
   auto fur = std::make_unique<FurChunk>(std::move(contents), chunk, FurGrid(grower_.scale(chunk)), fur_);
+  if (fur_.min_width) fur->widen(*fur_.min_width);
   if (learns) {
     const size_t parts = options_.eager ? 1 : ChunkBoxes::learned_parts(fur->segment_count());
     boxes_.learn(chunk, fur->part_bounds(parts));

@@ -3,11 +3,15 @@
 #include "render/frame/camera_samples.h"
 
 #include "base/hash.h"
+#include "render/accel/min_width.h"
 
 namespace pelage {
 
 CameraSamples::CameraSamples(const RenderScene& scene, const Accel& accel, bool splatted)
-    : scene_(scene), opaque_(accel.opaque()), place_(splatted ? PixelFilter::kBox : scene.image.filter) {}
+    : scene_(scene),
+      opaque_(accel.opaque()),
+      widens_(scene.render.min_width() > 0),
+      place_(splatted ? PixelFilter::kBox : scene.image.filter) {}
 
 SampleStream CameraSamples::stream(int x, int y, uint32_t sample) const {
   return {static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x), static_cast<uint32_t>(y),
@@ -33,7 +37,12 @@ CameraSample CameraSamples::draw(int x, int y, uint32_t sample, SampleStream& st
   result.ray.origin = from.origin;
   result.ray.direction = from.direction;
   result.ray.time = from.time;
-  if (!opaque_) {
+  if (widens_) {
+    const uint64_t pixel =
+        hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+               sample / MinWidth::kSamples, random_use("crossings"));
+    result.ray.random = MinWidth::random_of(pixel, sample);
+  } else if (!opaque_) {
     result.ray.random =
         static_cast<uint32_t>(hash64(static_cast<uint64_t>(scene_.render.seed), static_cast<uint32_t>(x),
                                      static_cast<uint32_t>(y), sample, random_use("crossings")));

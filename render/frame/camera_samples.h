@@ -35,7 +35,7 @@ class CameraSamples {
 
  private:
   const RenderScene& scene_;
-  const bool opaque_;
+  const bool opaque_, widens_;
   const FilterSampler place_;
 };
 

@@ -35,6 +35,8 @@ std::unique_ptr<const FrameGeometry> FrameGeometry::make(const RenderScene& scen
   options.kind = scene.render.accel;
   options.chunk.shape = scene.render.curves;
   options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
+  if (const float width = scene.render.min_width(); width > 0)
+    options.fur.min_width = MinWidth{scene.camera.lod_view(), width};
   options.eager = scene.render.bounds == BoundingStrategy::kNone;
   options.memory_limit = scene.render.memory.bytes;
   options.threads = job.workers.thread_count();

@@ -10,7 +10,7 @@ namespace pelage {
 /// A rendered frame.
 struct FrameResult {
   Film film;                ///< pixel (x, y) of the film is pixel (window.film.x0 + x, window.film.y0 + y)
-  FrameWindow window;       ///< the part of the picture that was rendered
+  FrameWindow window = {};  ///< the part of the picture that was rendered
   uint32_t samples = 0;     ///< min sample count over the traced pixels
   double mean_samples = 0;  ///< mean sample count over the traced pixels
   double clamped_fraction = 0;  ///< fraction of the indirect light that render.clamp_indirect removed

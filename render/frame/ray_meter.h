@@ -61,6 +61,9 @@ class RayMeterOf {
     return result;
   }
 
+  /// Adds time that was spent for many rays of a kind together.
+  void add(RayKind kind, double seconds) { kinds_[static_cast<size_t>(kind)].together_s += seconds; }
+
   RayStatistics counts() const {
     return {rays(RayKind::kCamera), rays(RayKind::kShadow), rays(RayKind::kIndirect)};
   }
@@ -68,7 +71,7 @@ class RayMeterOf {
   double seconds(RayKind kind) const {
     const Kind& of = kinds_[static_cast<size_t>(kind)];
     const double mean_s = of.measured > 0 ? of.measured_s / static_cast<double>(of.measured) : 0;
-    return of.slow_s + mean_s * static_cast<double>(of.rays - of.slow);
+    return of.together_s + of.slow_s + mean_s * static_cast<double>(of.rays - of.slow);
   }
 
   /// Adds the rays of another thread.
@@ -81,7 +84,7 @@ class RayMeterOf {
   struct Kind {
     int64_t rays = 0, next = 0;  // next: number of the ray that is measured next
     int64_t measured = 0, slow = 0;
-    double measured_s = 0, slow_s = 0;
+    double measured_s = 0, slow_s = 0, together_s = 0;
 
     Kind& operator+=(const Kind& other) {
       rays += other.rays;
@@ -89,6 +92,7 @@ class RayMeterOf {
       slow += other.slow;
       measured_s += other.measured_s;
       slow_s += other.slow_s;
+      together_s += other.together_s;
       return *this;
     }
   };

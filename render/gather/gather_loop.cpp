@@ -12,7 +12,7 @@ namespace pelage {
 namespace {
 
 /// With so few samples, a first pass of one would find too few points that share light.
-constexpr uint32_t kFew = 4;
+constexpr int kFew = 4;
 /// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
 constexpr int64_t kMemoryShare = 8;
 
@@ -20,8 +20,9 @@ constexpr int64_t kMemoryShare = 8;
 
 GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
   const size_t lights = scene.lights.size();
-  const auto tile = static_cast<int64_t>(
-      GatherTile::scratch_bytes(lights, GatherTile::samples_at_once(scene), scene.render.gather));
+  const uint32_t samples = GatherTile::samples_at_once(scene);
+  const auto tile =
+      static_cast<int64_t>(GatherTile::scratch_bytes(lights, samples, scene.render.draws_visible()));
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
@@ -30,13 +31,15 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-                       const PathOptions& options, const Memory& memory, const Job& job,
+                       const PathOptions& options, const Memory& memory, bool fits, const Job& job,
                        const Stopwatch& clock, FrameResult& result)
     : scene_(scene),
       tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
+      in_passes_(fits || scene.render.time_limit > 0),
+      first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
       tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
@@ -45,7 +48,6 @@ GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const Resid
   }
 }
 
-/// Samples per pixel that fit into the time limit, at most `count`.
 uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
   const float limit = scene_.render.time_limit;
   if (!(limit > 0) || given == 0) return count;
@@ -53,21 +55,24 @@ uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
   return static_cast<uint32_t>(std::min<double>(fits, count));
 }
 
+uint32_t GatherLoop::portion(uint32_t first, uint32_t end) const {
+  const uint32_t max = first == 0 && first_alone_ ? 1 : GatherTile::max_samples(scene_.lights.size());
+  return std::min(max, end - first);
+}
+
 void GatherLoop::run() {
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
-  const bool limited = scene_.render.time_limit > 0;
-  const bool previews = limited || samples > kFew;
   const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double limit_s = scene_.render.time_limit > 0 ? double{scene_.render.time_limit} : kNever;
   job_.progress.begin("render", pixels * samples);
-  PassEnd end =
-      previews ? trace({.scattered = true}, std::numeric_limits<double>::infinity()) : PassEnd::kDone;
-  const double deadline =
-      limited ? double{scene_.render.time_limit} : std::numeric_limits<double>::infinity();
-  for (uint32_t given = previews ? 1 : 0; given < samples && end == PassEnd::kDone;) {
-    const uint32_t wanted = std::min(GatherTile::max_samples(scene_.lights.size()), samples - given);
+  PassEnd end = PassEnd::kDone;
+  for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
+    const bool is_first = given == 0 && first_alone_ && in_passes_;
+    const uint32_t wanted = in_passes_ ? portion(given, samples) : samples;
     const uint32_t count = fitting(wanted, given);
     if (count == 0) end = PassEnd::kOutOfTime;
-    if (end == PassEnd::kDone) end = trace({given, count, false}, deadline);
+    if (end == PassEnd::kDone) end = trace({given, count, is_first}, is_first ? kNever : limit_s);
     given += count;
     if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
@@ -115,16 +120,21 @@ bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
   Lease lease(*this);
   const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
-  if (!tile_.trace(tile, pass.first, pass.count, job_, lease.scratch())) return false;
-  land(pass, tile, lease.scratch());
+  const uint32_t end = pass.first + pass.count;
+  for (uint32_t first = pass.first; first < end;) {
+    const uint32_t count = portion(first, end);
+    if (!tile_.trace(tile, first, count, job_, lease.scratch())) return false;
+    land(count, tile, lease.scratch());
+    first += count;
+  }
   return true;
 }
 
-void GatherLoop::land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch) {
+void GatherLoop::land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch) {
   rejected_ += tile_.add_to(result_.film, scratch);
   scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
                     .samples = static_cast<int64_t>(scratch.samples.points.size())};
-  job_.progress.advance(static_cast<double>(pass.count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
+  job_.progress.advance(static_cast<double>(count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));
   double none = 0;
   if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
 }

@@ -21,7 +21,10 @@ namespace pelage {
 ///
 /// A first pass takes one sample of every pixel, so that a frame that is cancelled or runs out of time is
 /// valid. (A frame with very few samples and no time limit has no such pass.) Each further pass adds up to
-/// GatherTile::max_samples() samples per pixel. The picture does not depend on the number of threads.
+/// GatherTile::max_samples() samples per pixel. If the chunks do not all fit into memory and there is no time
+/// limit, there is only one pass, which takes all samples of a tile, in the same portions, before the next
+/// tile: more passes would grow chunks again. The picture depends neither on the number of threads nor on
+/// the number of passes.
 class GatherLoop {
  public:
   /// Memory of the tiles that are traced at the same time.
@@ -36,10 +39,10 @@ class GatherLoop {
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
-  /// `clock`: the time limit starts with it.
+  /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-             const PathOptions& options, const Memory& memory, const Job& job, const Stopwatch& clock,
-             FrameResult& result);
+             const PathOptions& options, const Memory& memory, bool fits, const Job& job,
+             const Stopwatch& clock, FrameResult& result);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -57,7 +60,9 @@ class GatherLoop {
   /// `given`: samples per pixel so far.
   uint32_t fitting(uint32_t count, uint32_t given) const;
   bool trace_tile(const Pass& pass, const Tile& tile, int worker);
-  void land(const Pass& pass, const Tile& tile, GatherTile::Scratch& scratch);
+  /// Returns how many of the samples first .. end - 1 share light with sample `first`.
+  uint32_t portion(uint32_t first, uint32_t end) const;
+  void land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch);
   void report(PassEnd end);
 
   const RenderScene& scene_;
@@ -65,6 +70,8 @@ class GatherLoop {
   const Job job_;
   const Stopwatch& clock_;
   FrameResult& result_;
+  const bool in_passes_;    // otherwise, a tile gets all its samples before the next tile
+  const bool first_alone_;  // whether the first sample of a pixel shares no light with further samples
   std::vector<Tile> tiles_;
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_

@@ -28,8 +28,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
       indirect_paths_(scene, accel, shading_, camera_, options) {
-  if (scene.render.gather.visibility == GatherVisibility::kRaster)
-    raster_.emplace(scene, accel, chunks, camera_);
+  if (scene.render.draws_visible()) raster_.emplace(scene, accel, chunks, camera_);
 }
 
 std::unique_ptr<GatherTile::Scratch> GatherTile::make_scratch() const { return std::make_unique<Scratch>(); }
@@ -43,13 +42,12 @@ uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
   return std::min(max_samples(scene.lights.size()), static_cast<uint32_t>(scene.render.samples));
 }
 
-size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather) {
+size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
   constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
   const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(lights, lights) + lights * sizeof(float);
   // At worst, each sample has a knot of its own.
   const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
-  const bool draws = gather.visibility == GatherVisibility::kRaster;
   return kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
@@ -65,7 +63,11 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.look.clear();
   scratch.lights.begin(lights, reuse);
-  if (raster_ && !raster_->find(tile, first, count, job, scratch.thread.worker, scratch.raster)) return false;
+  if (raster_) {
+    const double began_s = thread_cpu_seconds();
+    if (!raster_->find(tile, first, count, job, scratch.thread.worker, scratch.raster)) return false;
+    scratch.costs.rays.add(RayKind::kCamera, thread_cpu_seconds() - began_s - scratch.raster.growth_s);
+  }
   scratch.first_sample = first;
   const uint32_t pilot = (count + kPilotShare - 1) / kPilotShare;
   if (!look(first, pilot, job, scratch)) return false;

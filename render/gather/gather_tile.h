@@ -39,8 +39,8 @@ class GatherTile {
   /// Returns the count of samples per pixel that one call of trace() takes at most when it renders a scene.
   static uint32_t samples_at_once(const RenderScene& scene);
   /// Returns the max memory of a scratch, in bytes, if trace() takes up to `samples` samples per pixel at
-  /// once.
-  static size_t scratch_bytes(size_t lights, uint32_t samples, const GatherParams& gather);
+  /// once. `draws`: RenderParams::draws_visible().
+  static size_t scratch_bytes(size_t lights, uint32_t samples, bool draws);
 
   /// Traces samples first .. first + count - 1 of each pixel. Stores the result in `scratch`. Returns false
   /// when `job` was cancelled.

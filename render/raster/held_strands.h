@@ -2,9 +2,10 @@
 // Tested in tests/render/raster/tile_raster_test.cpp.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "base/hash.h"
 #include "geom/strands.h"
@@ -17,6 +18,8 @@ namespace pelage {
 class HeldStrands {
  public:
   static constexpr size_t kCount = 1024;
+  /// Max memory of the strands that are kept. If they need more, all but the last are dropped.
+  static constexpr size_t kMaxBytes = size_t{1} << 20;
 
   /// Stores the strand of a handle in `met`. Calls copy(Strands&) if the strand is not kept here.
   template <class Copy>
@@ -29,9 +32,14 @@ class HeldStrands {
     }
     if (held.handle == handle) return;
     held.handle = {};
+    bytes_ -= std::min(bytes_, met.bytes());
     copy(met);
     held.handle = handle;
+    bytes_ += met.bytes();
+    if (bytes_ > kMaxBytes) drop_others(held, met.bytes());
   }
+  /// Returns the max memory, in bytes.
+  static size_t bytes_bound() { return kCount * sizeof(Held) + kMaxBytes; }
   /// Takes back the strand that was lent, if any. Call before other code uses `met`.
   void take_back(Strands& met) {
     if (lent_) std::swap(lent_->strand, met);
@@ -43,8 +51,16 @@ class HeldStrands {
     StrandHandle handle;
     Strands strand;
   };
-  std::array<Held, kCount> held_;
+  void drop_others(const Held& keep, size_t bytes) {
+    for (Held& held : held_) {
+      if (&held != &keep) held = {};
+    }
+    bytes_ = bytes;
+  }
+
+  std::vector<Held> held_ = std::vector<Held>(kCount);
   Held* lent_ = nullptr;
+  size_t bytes_ = 0;  // of all strands
 };
 
 }  // namespace pelage

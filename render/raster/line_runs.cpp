@@ -102,12 +102,14 @@ void LineRuns::find(const RasterPiece& piece, const KeySpan& keys) {
     }
     const Range times = key_fractions(group, keys);
     if (times.is_empty()) continue;
-    Box box;
-    for (const float f : {times.low, times.high}) {
-      box.add(project(group, from + f * motion_from, reach, min_depth));
-      box.add(project(group, to + f * motion_to, reach, min_depth));
-    }
-    add_box(group, box);
+    // An end moves along a straight line in the picture, between its positions at the first and last time.
+    const auto path = [&](const V3f& at, const V3f& motion) {
+      const Point first = project(group, at + times.low * motion, reach, min_depth);
+      const Point last = project(group, at + times.high * motion, reach, min_depth);
+      return Point{0.5f * (first.at + last.at),
+                   std::max(first.width, last.width) + 0.5f * kRounding * (last.at - first.at).length()};
+    };
+    add_capsule(group, path(from, motion_from), path(to, motion_to));
   }
 }
 

@@ -10,21 +10,6 @@ namespace {
 
 constexpr float kPerCell = 8;     // lines in a row's height of cells, on average
 constexpr size_t kPerGroup = 64;  // lines, at least
-constexpr size_t kMaxGroups = 64;
-
-/// The number of groups along each axis of the lens, and in time.
-struct Division {
-  int lens = 1, time = 1;
-};
-Division divide(size_t lines, bool has_lens, bool has_time) {
-  const size_t groups = std::clamp<size_t>(lines / kPerGroup, 1, kMaxGroups);
-  Division d;
-  const size_t for_lens = has_time ? groups / 4 : groups;
-  if (has_lens)
-    while (static_cast<size_t>((d.lens + 1) * (d.lens + 1)) <= for_lens) ++d.lens;
-  if (has_time) d.time = std::clamp<int>(static_cast<int>(groups) / (d.lens * d.lens), 1, 8);
-  return d;
-}
 
 int part_of(float x, const Range& range, int parts) {
   if (parts == 1 || !(range.size() > 0)) return 0;
@@ -40,7 +25,7 @@ int TileLines::cell(float position, size_t axis) const {
   return static_cast<int>(std::clamp(at + 1, 0.0f, static_cast<float>(count + 1))) - 1;
 }
 
-void TileLines::assign(std::span<const TileLine> lines, float reference) {
+void TileLines::assign(std::span<const TileLine> lines, float reference, int lens_parts) {
   inverse_reference_ = std::isfinite(reference) && reference > 0 ? 1 / reference : 0;
   const auto position = [&](const TileLine& line) { return line.b + inverse_reference_ * line.a; };
   Range at[2], a[2], time;
@@ -56,8 +41,11 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
   has_lens_ = a[0].size() > 0 || a[1].size() > 0 || a[0].low != 0 || a[1].low != 0;
   offsets_[0] = a[0], offsets_[1] = a[1];
   grid_.begin(lines.size(), at);
-  const Division parts = divide(lines.size(), has_lens_, time.size() > 0);
-  const auto group_count = static_cast<size_t>(parts.lens * parts.lens * parts.time);
+  int parts = 1;
+  while (has_lens_ && parts < std::min(lens_parts, kMaxLensParts) &&
+         lines.size() >= kPerGroup * static_cast<size_t>((parts + 1) * (parts + 1)))
+    ++parts;
+  const auto group_count = static_cast<size_t>(parts * parts);
   const float per_group = static_cast<float>(lines.size()) / static_cast<float>(group_count);
   rows_ = std::clamp(static_cast<int>(std::sqrt(per_group / kPerCell)), 1, kMaxRows);
   columns_ = 2 * rows_;
@@ -75,9 +63,7 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
   keys_.resize(lines.size());
   for (size_t i = 0; i < lines.size(); ++i) {
     const TileLine& line = lines[i];
-    const int g = (part_of(line.time, time, parts.time) * parts.lens + part_of(line.a.y, a[1], parts.lens)) *
-                      parts.lens +
-                  part_of(line.a.x, a[0], parts.lens);
+    const int g = part_of(line.a.y, a[1], parts) * parts + part_of(line.a.x, a[0], parts);
     Group& group = groups_[static_cast<size_t>(g)];
     group.a[0].extend(line.a.x), group.a[1].extend(line.a.y);
     group.time.extend(line.time);
@@ -107,6 +93,17 @@ void TileLines::assign(std::span<const TileLine> lines, float reference) {
     random_[to] = line.random;
     grid_.place(to, position(line));
   }
+}
+
+int TileLines::lens_parts(const Range& depths) const {
+  if (!has_lens_) return 1;
+  float shift = 0;
+  for (const float depth : {depths.low, depths.high})
+    shift = std::max(shift, std::abs(1 / std::max(depth, 1e-18f) - inverse_reference_));
+  const float radius = 0.5f * std::max(offsets_[0].size(), offsets_[1].size());
+  const float blur = shift * radius * std::min(grid_.inverse_size(0), grid_.inverse_size(1));  // in cells
+  // The cells of a group are larger by the number of its parts.
+  return static_cast<int>(std::clamp(std::sqrt(blur), 1.0f, float{kMaxLensParts}));
 }
 
 TileLines::Arrays TileLines::arrays() {
@@ -141,9 +138,9 @@ void TileLines::trace(const ViewFootprint& footprint) {
 }
 
 size_t TileLines::bytes(size_t lines) {
-  const size_t starts = lines / static_cast<size_t>(kPerCell) * 2 + kMaxGroups * 2 + 1;
+  const size_t starts = lines / static_cast<size_t>(kPerCell) * 2 + kMaxLensParts * kMaxLensParts * 2 + 1;
   return (lines + kPadding) * (9 * sizeof(float)) + lines * 2 * sizeof(uint32_t) + starts * sizeof(uint32_t) +
-         kMaxGroups * sizeof(Group) + DepthGrid::bytes(lines);
+         kMaxLensParts * kMaxLensParts * sizeof(Group) + DepthGrid::bytes(lines);
 }
 
 }  // namespace pelage

@@ -17,12 +17,12 @@ namespace pelage {
 /// The lines of sight of all camera samples of a tile, sorted for rasterising, each with the primitive that
 /// it meets first, as far as drawn.
 ///
-/// Lines are sorted into groups of similar time and lens position. Within a group, they are sorted into a
+/// Lines are sorted into groups of similar lens position. Within a group, they are sorted into a
 /// grid of cells, row by row. The lines that a shape may meet are therefore a few runs of consecutive lines.
 /// The cell of a line follows from the position of the line at the reference depth, divided by this depth.
 class TileLines {
  public:
-  /// Lines of similar time and lens position.
+  /// Lines of similar lens position.
   struct Group {
     Range a[2];                ///< range of TileLine::a, by axis
     Range time;                ///< range of TileLine::time
@@ -41,9 +41,13 @@ class TileLines {
   static constexpr int kMaxRows = 48, kMaxColumns = 2 * kMaxRows;
 
   /// Sorts lines. A slot is the index of a line in `lines`. `reference`: a depth at which the lines of a
-  /// pixel are close together; may be infinity. Lines of different times or with different `a` get several
-  /// groups.
-  void assign(std::span<const TileLine> lines, float reference);
+  /// pixel are close together; may be infinity. `lens_parts`: how often the range of `a` is divided along
+  /// each axis. Each part has a group. Much fewer lines may get fewer groups.
+  void assign(std::span<const TileLine> lines, float reference, int lens_parts = 1);
+  static constexpr int kMaxLensParts = 8;
+  /// Returns in how many parts to divide the range of `a` for shapes in this range of depths. More parts find
+  /// fewer lines for a shape that is out of focus, but each part takes time.
+  int lens_parts(const Range& depths) const;
 
   size_t size() const { return place_.size(); }
   std::span<const Group> groups() const { return groups_; }

@@ -6,6 +6,7 @@
 
 #include "base/job.h"
 #include "render/accel/accel.h"
+#include "render/accel/min_width.h"
 #include "render/accel/resident_chunks.h"
 #include "render/frame/camera_samples.h"
 #include "render/frame/tile_order.h"
@@ -31,7 +32,11 @@ class TileRaster {
   /// Keeps references to its arguments. `chunks`: the chunks of `accel`; all strands must be in fur trees.
   TileRaster(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const CameraSamples& camera)
-      : scene_(scene), accel_(accel), chunks_(chunks), camera_(camera) {}
+      : scene_(scene),
+        accel_(accel),
+        chunks_(chunks),
+        camera_(camera),
+        min_width_{scene.camera.lod_view(), scene.render.min_width()} {}
 
   /// Memory and result of one thread.
   struct Scratch {
@@ -48,7 +53,8 @@ class TileRaster {
     std::vector<Candidate> candidates;
     uint32_t samples_per_pixel = 0;
     HeldStrands held;
-    int64_t traced = 0;  ///< samples whose ray was traced
+    int64_t traced = 0;   ///< samples whose ray was traced
+    double growth_s = 0;  ///< CPU seconds of the last find() in which chunks were grown
   };
   /// Returns the max memory of a scratch for this count of samples, in bytes.
   static size_t scratch_bytes(size_t samples);
@@ -63,17 +69,26 @@ class TileRaster {
   static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
 
  private:
-  bool place_lines(const Tile& tile, uint32_t first, uint32_t count, TileFrame& frame, Range& starts,
-                   Scratch& scratch) const;
+  /// The frame and the start depths of the lines of a tile.
+  struct View {
+    TileFrame frame;
+    Range starts;
+    float reference = 0;   ///< see TileLines::assign()
+    bool possible = true;  ///< false: the lines diverge too much to be drawn
+  };
+  View make_lines(const Tile& tile, uint32_t first, uint32_t count, Scratch& scratch) const;
+  void sort_lines(const View& view, const Range& depths, Scratch& scratch) const;
 
   void find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
                        Scratch& scratch) const;
+  Box3f seen_box(const Box3f& box) const { return min_width_.pixels > 0 ? min_width_.around(box) : box; }
   bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
   const RenderScene& scene_;
   const Accel& accel_;
   const ResidentChunks& chunks_;
   const CameraSamples& camera_;
+  const MinWidth min_width_;
 };
 
 }  // namespace pelage

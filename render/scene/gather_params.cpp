@@ -12,13 +12,12 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.set_example(R"(render:
   integrator: gather
   gather: {spacing: 4, light_rays: 3})");
-    s.key(
-        "visibility", &GatherParams::visibility,
-        {.help = "How visible strands are found. `rays`: by the camera rays of `integrator: path`. `raster`: "
-                 "strands and skins are drawn tile by tile. For fewer than 0.2 % of the samples, this finds "
-                 "another strand than `rays`. `raster` is faster than `rays` if fur fills most of the "
-                 "picture and there is neither a lens nor motion blur. With a lens or an open shutter it is "
-                 "slower. Needs `accel: fur` and `curves: flat`"});
+    s.key("visibility", &GatherParams::visibility,
+          {.help =
+               "How visible strands are found. `raster`: strands and skins are drawn tile by tile. For fewer "
+               "than 0.2 % of the samples, this finds another strand than `rays`. Needs `accel: fur` and "
+               "`curves: flat`. `rays`: by the camera rays of `integrator: path`",
+           .default_text = "raster; rays without `accel: fur` or `curves: flat`"});
     s.key("reuse", &GatherParams::reuse,
           {.help = "false: samples share nothing. Then nothing is approximated, but the picture is as noisy "
                    "as with `integrator: path`. Set it to false to measure what sharing changes"});
@@ -35,6 +34,14 @@ const Schema<GatherParams>& GatherParams::schema() {
         "cells", &GatherParams::cells,
         {.help = "true: strands so thin that few samples see a knot share light with their neighbours on the "
                  "skin, over about 2 pixels"});
+    s.key(
+        "min_width", &GatherParams::min_width,
+        {.unit = "pixels",
+         .help = "The camera sees thinner strands with this width, and as much more transparent, so that the "
+                 "picture is the same on average but less noisy. Strands that level of detail has widened "
+                 "keep their width. Needs `visibility: raster`",
+         .min = 0,
+         .max = 4});
     s.key("light_rays", &GatherParams::light_rays,
           {.help =
                "Mean number of shadow rays per camera sample that sees a strand or skin. Most of them go to "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "base/schema.h"
 #include "base/value_readers.h"
 
@@ -15,13 +17,14 @@ struct EnumNames<GatherVisibility> {
 
 /// `gather:` of `render:`.
 struct GatherParams {
-  GatherVisibility visibility = GatherVisibility::kRays;
-  bool reuse = true;       ///< false: samples share no light
-  float spacing = 4;       ///< max distance between knots along a strand, pixels
-  float skin_spacing = 2;  ///< max distance between knots on a skin, pixels
+  std::optional<GatherVisibility> visibility;  ///< empty: see RenderParams::draws_visible()
+  bool reuse = true;                           ///< false: samples share no light
+  float spacing = 4;                           ///< max distance between knots along a strand, pixels
+  float skin_spacing = 2;                      ///< max distance between knots on a skin, pixels
   bool cells = true;       ///< whether neighbouring thin strands share light
-  float light_rays = 3;    ///< mean count of shadow rays per visible sample
-  float paths = 1;         ///< mean count of indirect paths per visible sample, before roulette
+  float min_width = 0;     ///< width at which the camera sees thinner strands, pixels
+  float light_rays = 3;                        ///< mean count of shadow rays per visible sample
+  float paths = 1;  ///< mean count of indirect paths per visible sample, before roulette
   static const Schema<GatherParams>& schema();
 };
 

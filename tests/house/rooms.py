@@ -22,10 +22,11 @@ LIBRARY_HEADERS = {
     "Highway": r"hwy/",
     "CLI11": r"CLI/",
     "JSON": r"nlohmann/",
+    "cpp-httplib": r"httplib\.h",
     "libpng": r"png\.h",
 }
 # Anything else in angle brackets is the C++ library (no dot, no slash), the C library or the system.
-SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys|linux)/[a-z]+\.h|[a-z]+\.h)$")
+SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys|linux|arpa|netinet)/[a-z]+\.h|[a-z]+\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

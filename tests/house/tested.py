@@ -90,11 +90,12 @@ class Tree:
     def uses(self, test, source):
         """A test of another room includes the header; one of the same room may reach it through others.
 
-        Those of cli/ run whole commands, and so all of lab/ too.
+        Those of cli/ run whole commands, and so all of lab/ too. Those in Python run the program: those of view/ also
+        run its command.
         """
         where, room = test.split("/")[1], source.split("/")[0]
-        if where == "cli" and test.endswith(".py"):  # runs the program
-            return room in ("cli", "lab")
+        if test.endswith(".py"):
+            return (where, room) in (("cli", "cli"), ("cli", "lab"), ("view", "view"), ("view", "cli"))
         headers = self.headers_of(source)
         if headers & self.included_by_test(test):
             return True

@@ -165,6 +165,17 @@ TEST_F(SceneSchema, SamplesThatShareLightAreNeitherAdaptiveNorIndependent) {
     EXPECT_EQ(problems(kScene, {gather, raster, other}),
               Lines{"--set render.gather: `visibility: raster` needs `accel: fur` and `curves: flat`"});
   }
+  EXPECT_EQ(problems(kScene, {gather, {"render.gather", "{min_width: 1, visibility: rays}"}}),
+            Lines{"--set render.gather: `min_width` needs `visibility: raster`"});
+  EXPECT_TRUE(load(kScene, {gather, raster}).warnings.empty());
+  const std::vector<Problem> warnings = load(kScene, {raster}).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].message, "`visibility: raster` has no effect without `integrator: gather`");
+  // Without a request, curves that cannot be drawn are traced.
+  EXPECT_TRUE(load(kScene, {gather}).render.draws_visible());
+  const SceneDescription round = load(kScene, {gather, {"render.curves", "round"}});
+  EXPECT_FALSE(round.render.draws_visible());
+  EXPECT_TRUE(round.warnings.empty());
   EXPECT_EQ(problems(kScene, {gather, {"render.gather.spacng", "2"}}),
             Lines{"--set render.gather.spacng: unknown key 'spacng' in gather; did you mean 'spacing'?"});
 }

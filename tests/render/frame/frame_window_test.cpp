@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/frame/frame_watch.h"
 #include "tests/geom/random_strands.h"
 #include "tests/render/path/path_scene.h"
 

@@ -33,6 +33,7 @@ TEST(GatherIntegrator, OneAndManyThreadsGiveTheSameFilm) {
 TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) {
   GatherScene scene;
   scene.image.filter_samples = FilterSamples::kSplatted;
+  scene.render.gather.visibility = GatherVisibility::kRays;
   const FrameResult traced = scene.run({}, 1);
   scene.render.gather.visibility = GatherVisibility::kRaster;
   const FrameResult drawn = scene.run({}, 1);
@@ -52,7 +53,7 @@ TEST(GatherIntegrator, DrawingGivesTheSameFilmWithAnyThreadsAndSeesWhatRaysSee) 
 TEST(GatherIntegrator, ThreadsThatWaitForMemoryGiveTheSameFilm) {
   GatherScene scene;
   const FrameResult free = scene.run({}, 3);
-  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.gather);
+  const size_t tile = GatherTile::scratch_bytes(scene.lights.size(), 8, scene.render.draws_visible());
   scene.render.memory.bytes = 16 * tile;  // two tiles at once
   expect_same(free.film, scene.run({}, 3).film);
   EXPECT_LE(scene.ledger.peak(MemoryTag::kReflectionCache), static_cast<int64_t>(3 * tile));
@@ -85,6 +86,7 @@ TEST(GatherIntegrator, LayersAddUpToThePicture) {
 TEST(GatherIntegrator, SurfaceDataAndCoverageAreThoseOfPaths) {
   GatherScene scene;
   scene.image.filter_samples = FilterSamples::kSplatted;
+  scene.render.gather.visibility = GatherVisibility::kRays;
   const FrameResult gathered = scene.run();
   scene.render.integrator = Integrator::kPath;
   const FrameResult traced = scene.run();

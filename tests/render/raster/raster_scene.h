@@ -26,6 +26,7 @@ struct RasterScene : PathScene {
     int64_t drawn_hits = 0;         ///< of drawing
     int64_t same = 0;               ///< samples with bit-identical hits, or without any
     int64_t traced = 0;             ///< drawn samples whose ray was traced after all
+    size_t chunks = 0;              ///< count of chunks of the scene
     bool not_nearer = true;         ///< no drawn hit is nearer than that of the ray
 
     double coverage() const { return static_cast<double>(hits) / static_cast<double>(samples); }
@@ -59,6 +60,7 @@ struct RasterScene : PathScene {
     TileRaster::Scratch scratch;
     TraceThread drawing, tracing;
     Agreement result;
+    result.chunks = geometry->chunks().size();
     for (const Tile& tile : tiles_along_curve(scene.image.width, scene.image.height, 16)) {
       EXPECT_TRUE(raster.find(tile, 0, count, job, 0, scratch));
       uint32_t pixel = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/raster/tile_raster.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "procedurals/fur.h"
@@ -27,33 +29,42 @@ TEST(TileRaster, SeesTheStrandsAndSkinsThatRaysMeet) {
   }
 }
 
+/// A moving coat in leaves of this size, from a camera at this distance in sizes of the coat.
+void see_coat(int leaf_strands, float distance, std::vector<Hit>& hits, size_t& chunks) {
+  const RandomCoat coat(1, {.leaf_strands = leaf_strands, .cage_levels = 3});
+  RasterScene scene(48, 48);
+  const Box3f box = coat.skin->bound(BoundSpan::kShutter);
+  scene.camera.look_at = box.center();
+  scene.camera.position = box.center() + distance * V3f(0.1f, 0.2f, 1) * box.size().length();
+  scene.camera.fov = 30.0f;
+  scene.fur.resize(1);
+  scene.fur[0].name = "ball.coat";
+  scene.fur[0].procedurals.push_back(std::make_unique<FurProcedural>(coat.groom, coat.skin));
+  scene.fur[0].material = scene.add_material(diffuse_fibre(Rgb(0.5f)));
+  SkinPart skin;
+  skin.name = "ball.skin";
+  skin.skin = coat.skin;
+  skin.rest = coat.rest;
+  skin.material = scene.add_material(LambertParams{});
+  scene.skins.push_back(skin);
+  const RasterScene::Agreement seen =
+      scene.compare(4, [&](int, int, const Hit&, const Hit& drawn) { hits.push_back(drawn); });
+  EXPECT_GT(seen.hits, seen.samples / 20);
+  chunks = seen.chunks;
+}
+
 TEST(TileRaster, TheDivisionIntoChunksChangesNothing) {
-  const RandomCoat coat(1, {.cage_levels = 3});
-  std::vector<Hit> hits[2];
-  for (const bool small : {false, true}) {
-    RasterScene scene(48, 48);
-    const Box3f box = coat.skin->bound(BoundSpan::kShutter);
-    scene.camera.look_at = box.center();
-    scene.camera.position = box.center() + V3f(0.2f, 0.4f, 2) * box.size().length();
-    scene.camera.fov = 30.0f;
-    scene.render.memory.bytes = uint64_t(small ? 16 : 1024) << 20;
-    scene.fur.resize(1);
-    scene.fur[0].name = "ball.coat";
-    scene.fur[0].procedurals.push_back(std::make_unique<FurProcedural>(coat.groom, coat.skin));
-    scene.fur[0].material = scene.add_material(diffuse_fibre(Rgb(0.5f)));
-    SkinPart skin;
-    skin.name = "ball.skin";
-    skin.skin = coat.skin;
-    skin.rest = coat.rest;
-    skin.material = scene.add_material(LambertParams{});
-    scene.skins.push_back(skin);
-    const RasterScene::Agreement seen = scene.compare(
-        4, [&](int, int, const Hit&, const Hit& drawn) { hits[small ? 1 : 0].push_back(drawn); });
-    EXPECT_GT(seen.hits, seen.samples / 20);
-    EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
+  // From outside, and from among the strands, where some are too near to be drawn.
+  for (const float distance : {2.0f, 0.35f}) {
+    std::vector<Hit> hits[2];
+    size_t chunks[2] = {0, 0};
+    see_coat(300, distance, hits[0], chunks[0]);
+    see_coat(70, distance, hits[1], chunks[1]);
+    EXPECT_NE(chunks[0], chunks[1]);
+    ASSERT_EQ(hits[0].size(), hits[1].size());
+    for (size_t i = 0; i < hits[0].size(); ++i)
+      EXPECT_TRUE(RasterScene::is_same(hits[0][i], hits[1][i])) << distance << ' ' << i;
   }
-  ASSERT_EQ(hits[0].size(), hits[1].size());
-  for (size_t i = 0; i < hits[0].size(); ++i) EXPECT_TRUE(RasterScene::is_same(hits[0][i], hits[1][i])) << i;
 }
 
 RandomStrandOptions many(int motion_keys, float radius = 0.01f) {
@@ -83,9 +94,10 @@ TEST(TileRaster, MotionAndLensAgreeWithRays) {
       scene.add_fur(random_strands(5, many(motion_keys)), diffuse_fibre(Rgb(0.5f)));
       scene.add_skin(sphere_mesh(0.5f), LambertParams{});
       const RasterScene::Agreement seen = scene.compare(16);
-      EXPECT_GE(static_cast<double>(seen.same), 0.99 * static_cast<double>(seen.samples))
+      EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples))
           << lens << motion_keys;
-      EXPECT_NEAR(seen.drawn_coverage(), seen.coverage(), 0.002);
+      const double n = static_cast<double>(seen.samples), p = seen.coverage();
+      EXPECT_NEAR(seen.drawn_coverage(), p, 3 * std::sqrt(p * (1 - p) / n));
       EXPECT_LT(static_cast<double>(seen.traced), 0.2 * static_cast<double>(seen.samples));
     }
   }
@@ -99,7 +111,24 @@ TEST(TileRaster, MovingCamerasAgreeWithRays) {
   scene.add_fur(random_strands(6, many(1)), diffuse_fibre(Rgb(0.5f)));
   scene.add_skin(sphere_mesh(0.5f), LambertParams{});
   const RasterScene::Agreement seen = scene.compare(16);
-  EXPECT_GE(static_cast<double>(seen.same), 0.99 * static_cast<double>(seen.samples));
+  EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
+}
+
+TEST(TileRaster, AGroundBelowTheCameraDoesNotTraceWholeTiles) {
+  RasterScene scene(48, 32);
+  scene.camera.position = V3f(0, 0.3f, 10);
+  scene.camera.lens = LensParams{8, 0.5f, 10};
+  SkinMesh ground;
+  ground.positions = {-30, -0.2f, -30, 30, -0.2f, -30, 30, -0.2f, 30, -30, -0.2f, 30};
+  for (int i = 0; i < 4; ++i) ground.normals.insert(ground.normals.end(), {0, 1, 0});
+  ground.triangles = {0, 2, 1, 0, 3, 2};
+  ground.faces = {0, 0};
+  ground.vertex_uv.resize(6, V2f(0));
+  scene.add_skin(ground, LambertParams{});
+  scene.add_fur(random_strands(5, many(1)), diffuse_fibre(Rgb(0.5f)));
+  const RasterScene::Agreement seen = scene.compare(16);
+  EXPECT_GE(static_cast<double>(seen.same), 0.998 * static_cast<double>(seen.samples));
+  EXPECT_LT(static_cast<double>(seen.traced), 0.05 * static_cast<double>(seen.samples));
 }
 
 }  // namespace

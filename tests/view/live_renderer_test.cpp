@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/live_renderer.h"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "tests/world/small_scene.h"
+#include "view/picture_bytes.h"
+#include "view/scene_follower.h"
+#include "world/world.h"
+
+namespace pelage {
+namespace {
+
+/// A view of the small scene without a server.
+class LiveRendererTest : public testing::Test {
+ protected:
+  std::string path() const { return scene_.path("scene.yaml"); }
+  std::string text() const { return read_file(path()); }
+
+  void replace(const std::string& from, const std::string& to) const {
+    std::string edited = text();
+    const size_t at = edited.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    scene_.write("scene.yaml", edited.replace(at, from.size(), to));
+  }
+
+  bool wait_until(const std::function<bool(const ViewStatus&)>& holds) const {
+    for (int i = 0; i < 6000; ++i) {
+      if (holds(desk_.status())) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  /// Waits until the picture after `edits` edits is finished.
+  bool rests(int edits) const {
+    return wait_until([=](const ViewStatus& status) { return status.done() && status.edits == edits; });
+  }
+
+  /// Compares all channels at rest with those of a render of the files as they are now.
+  void expect_rendered() const {
+    const Workers workers(1);
+    MemoryLedger ledger;
+    NoProgress progress;
+    const Job job{workers, ledger, progress};
+    const SceneDescription scene = load_scene(path());
+    const auto assets = load_assets(scene, job);
+    const World world = compose(scene, *assets, scene.frames.frames.front(), job);
+    const FrameResult truth = render(world, job);
+    const std::vector<ExrChannel> wanted = truth.film.exr_rows(0, truth.film.height());
+    std::vector<ExrChannel> shown;
+    ASSERT_TRUE(desk_.with_frame([&](const FinishedFrame& frame) {
+      shown = frame.result.film.exr_rows(0, frame.result.film.height());
+    }));
+    ASSERT_EQ(shown.size(), wanted.size());
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      EXPECT_EQ(shown[i].name, wanted[i].name);
+      EXPECT_EQ(shown[i].pixels, wanted[i].pixels) << wanted[i].name;
+      EXPECT_EQ(shown[i].ids, wanted[i].ids) << wanted[i].name;
+    }
+  }
+
+  SmallScene scene_;
+  ViewDesk desk_;
+};
+
+TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  ASSERT_TRUE(rests(0));
+  expect_rendered();
+  EXPECT_EQ(desk_.status().strands_regrown, 0);
+  EXPECT_GT(desk_.status().first_pixels_s, 0);
+
+  struct Edit {
+    const char *from, *to;
+    bool regrows;
+  };
+  const Edit edits[] = {{"intensity: 30", "intensity: 60", false},
+                        {"color: [0.6, 0.4, 0.2]", "color: [0.2, 0.4, 0.6]", false},
+                        {"sky: {type", "moon: {type: environment, radiance: 0.1}\n  sky: {type", false},
+                        {"samples: 4", "samples: 7, integrator: gather", false},
+                        {"samples: 7, integrator: gather", "samples: 7", false},
+                        {"position: [3, 2, 8]", "position: [3, 3, 8]", true},
+                        {"length: {value: 0.4}", "length: {value: 0.5}", true},
+                        {"diffuse: 0.7", "diffuse: 0.7, opacity: 0.5", true},
+                        {"width: 24", "width: 30", true}};
+  int count = 0;
+  for (const Edit& edit : edits) {
+    replace(edit.from, edit.to);
+    ASSERT_TRUE(rests(++count)) << edit.to << desk_.status().error();
+    expect_rendered();
+    EXPECT_EQ(desk_.status().strands_regrown > 0, edit.regrows) << edit.to;
+  }
+}
+
+TEST_F(LiveRendererTest, AnAssetIsReadAgain) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  ASSERT_TRUE(rests(0));
+  for (const char* pose : {"cube.0001.obj", "cube.obj"}) {
+    std::string cage = read_file(scene_.path(pose));
+    cage.replace(cage.find("0.5"), 3, "0.9");
+    scene_.write(pose, cage);
+    ASSERT_TRUE(rests(pose == std::string("cube.obj") ? 2 : 1));
+    expect_rendered();
+  }
+}
+
+TEST_F(LiveRendererTest, AWrongEditKeepsThePictureAndSaysWhy) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  ASSERT_TRUE(rests(0));
+  const std::string good = text();
+  const uint64_t version = desk_.picture()->version;
+  const auto shows = [&](const std::string& what) {
+    return wait_until([&](const ViewStatus& s) { return s.error().find(what) != std::string::npos; });
+  };
+  scene_.write("scene.yaml", good + "nonsense: [\n");
+  ASSERT_TRUE(shows("scene.yaml:"));
+  EXPECT_FALSE(desk_.status().done());
+  EXPECT_EQ(desk_.picture()->version, version);
+
+  scene_.write("scene.yaml", good + "# a comment\n");  // nothing to render
+  ASSERT_TRUE(rests(0));
+  EXPECT_EQ(desk_.picture()->version, version);
+  expect_rendered();
+
+  replace("mesh: cube.obj, poses", "mesh: none.obj, poses");
+  ASSERT_TRUE(shows("no such file"));
+  EXPECT_EQ(desk_.picture()->version, version) << "the last good picture stays";
+  EXPECT_FALSE(desk_.status().done());
+  scene_.write("none.obj", read_file(scene_.path("cube.obj")));  // the missing file arrives
+  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << desk_.status().error();
+  expect_rendered();
+
+  replace("render: {", "include: more.yaml\nrender: {");
+  ASSERT_TRUE(shows("more.yaml"));
+  scene_.write("more.yaml", "lights: {more: {type: environment, radiance: 0.2}}\n");
+  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << desk_.status().error();
+  expect_rendered();
+}
+
+TEST_F(LiveRendererTest, ManyEditsAndReadersAtOnce) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  std::atomic<bool> ends{false};
+  std::thread reader([&] {
+    while (!ends) {
+      const ViewStatus status = desk_.status();
+      for (const std::string& layer : status.layers) {
+        const auto picture = desk_.with_layer(layer);
+        if (!picture || !picture->layers.contains(layer)) continue;
+        EXPECT_FALSE(layer_bytes(*picture, layer).empty());
+      }
+      desk_.with_frame([](const FinishedFrame& frame) { EXPECT_EQ(frame.result.film.height(), 16); });
+    }
+  });
+  replace("samples: 4", "samples: 40");
+  for (int i = 0; i < 8; ++i) {
+    replace("intensity: 3", "intensity: 33");
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    replace("value: 0.4", "value: 0.44");
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  }
+  replace("samples: 40", "samples: 3");
+  EXPECT_TRUE(wait_until([](const ViewStatus& s) { return s.done() && s.wanted_samples == 3; }));
+  ends = true;
+  reader.join();
+  expect_rendered();
+}
+
+TEST_F(LiveRendererTest, EndsInTheMiddleOfARender) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {{"render.samples", "1000000"}}, renderer, desk_);
+  ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.first_pixels_s > 0; }));
+  EXPECT_FALSE(desk_.status().done());
+  EXPECT_FALSE(partial_exr(*desk_.picture()).empty());
+}
+
+}  // namespace
+}  // namespace pelage

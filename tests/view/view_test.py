@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pelage view` as its clients see it: what it answers, and what it survives."""
+import random
+import socket
+import struct
+import sys
+import threading
+import time
+import unittest
+
+from program_view import ProgramTest, ViewTest
+
+ProgramTest.PELAGE = sys.argv.pop(1)
+
+
+class View(ViewTest):
+    def test_the_picture_at_rest_is_that_of_render(self):
+        self.view()
+        state = self.rest()
+        self.assertEqual((state["width"], state["height"], state["samples"], state["error"]), (24, 16, 2, ""))
+        self.assertEqual(state["strands_regrown"], 0)
+        self.assertGreater(state["first_pixels_s"], 0)
+        status, shown = self.get("picture.exr")
+        self.assertEqual(status, 200)
+        self.render("-o", "a.exr")
+        rendered = (self.path / "a.exr").read_bytes()
+        # The headers differ in times; the rows are at the end.
+        self.assertEqual(shown[-2000:], rendered[-2000:])
+        self.assertEqual(len(shown), len(rendered))
+
+    def test_the_layers_of_a_picture(self):
+        self.view()
+        layers = self.rest()["layers"]
+        for layer in ("beauty", "Z", "N", "tangent", "forward", "root", "id", "sky.diffuse"):
+            self.assertIn(layer, layers)
+        for layer in layers:
+            status, body = self.get("layer.bin", name=layer)
+            self.assertEqual(status, 200, layer)
+            head = body.index(b"\n") + 1
+            self.assertEqual(head % 8, 0)
+            channels = body[:head].count(b'"type"')
+            self.assertIn(len(body) - head, (24 * 16 * 2 * channels, 24 * 16 * 4 * channels))
+        for layer in ("", "none", "../scene.yaml", "beauty\0"):
+            self.assertEqual(self.get("layer.bin", name=layer)[0], 404)
+
+    def test_a_light_regrows_nothing_and_a_groom_its_coat(self):
+        self.view()
+        self.rest()
+        self.replace("radiance: 0.3", "radiance: 0.6")
+        state = self.wait(lambda state: state["done"] and state["edits"] == 1)
+        self.assertEqual(state["strands_regrown"], 0)
+        self.replace("length: {value: 0.4}", "length: {value: 0.2}")
+        state = self.wait(lambda state: state["done"] and state["edits"] == 2)
+        self.assertGreaterEqual(state["strands_regrown"], 1)
+
+    def test_strangers_are_refused(self):
+        self.view()
+        self.rest()
+        own = f"127.0.0.1:{self.port}"
+        for name in ("", "state.json", "picture.exr", "layer.bin", "main.js", "none"):
+            self.assertEqual(self.get(name, token="")[0], 403)
+            self.assertEqual(self.get(name, token="0" * 32)[0], 403)
+            self.assertEqual(self.get(name, {"Host": "evil.example"})[0], 403)
+            self.assertEqual(self.get(name, {"Origin": "http://evil.example"})[0], 403)
+        self.assertEqual(self.get("", {"Origin": "http://" + own})[0], 200)
+        for name in ("scene.yaml", "../scene.yaml", "..%2fscene.yaml", "/etc/passwd", "%2fetc%2fpasswd", "page/main.js"):
+            self.assertEqual(self.get(name)[0], 404, name)
+        self.assertEqual(self.get("state.json", {"Content-Length": "1000000"})[0], 413)
+        self.assertGreaterEqual(self.get("state.json", {"X": "y" * 100000})[0], 400)
+        self.assertGreaterEqual(self.get("state.json", pad="y" * 100000)[0], 400)
+
+    def test_no_address_of_the_page_leads_elsewhere(self):
+        self.view()
+        for name in ("", "main.js", "server.js", "colors.js", "canvas.js", "page.css"):
+            status, body = self.get(name)
+            self.assertEqual(status, 200, name)
+            self.assertNotIn(b"{{token}}", body)
+            self.assertNotIn(b"//", body.replace(b"// ", b""), name)
+
+    def test_a_port_in_use_is_one_line(self):
+        self.view()
+        _, err = self.run_pelage("view", "scene.yaml", "--port", self.port, code=1)
+        self.assertIn(f"--port {self.port}: cannot be used", err)
+        self.assertEqual(err.count("\n"), 1, err)
+        self.assertEqual(self.get("state.json")[0], 200)
+        _, err = self.run_pelage("view", "scene.yaml", "--bind", "192.0.2.1", code=1)
+        self.assertIn("this machine has no such address", err)
+
+    def test_a_scene_with_mistakes_is_not_begun(self):
+        (self.path / "scene.yaml").write_text("pelage: [")
+        _, err = self.run_pelage("view", "scene.yaml", code=3)
+        self.assertIn("scene.yaml:1:", err)
+
+    def test_ctrl_c_ends_it_within_a_second(self):
+        process = self.view("--set", "render.samples=1000000")
+        self.wait(lambda state: state["first_pixels_s"] > 0)
+        # One client sends nothing, one sends half a request, one does not read its answer.
+        silent = [socket.create_connection(("127.0.0.1", self.port)) for _ in range(3)]
+        silent[1].sendall(b"GET / HT")
+        silent[2].setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1024)
+        silent[2].sendall(f"GET /?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n\r\n".encode())
+        time.sleep(0.1)
+        seconds = self.interrupt(process)
+        print(f"ended after {seconds:.2f} s")
+        for client in silent:
+            client.close()
+
+    def test_clients_that_vanish_do_no_harm(self):
+        process = self.view("--set", "image={width: 240, height: 160}")
+        for _ in range(100):
+            client = socket.create_connection(("127.0.0.1", self.port))
+            # With this option, close() resets the connection.
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            client.sendall(f"GET /layer.bin?name=beauty&token={self.token} HTTP/1.1\r\n"
+                           f"Host: 127.0.0.1:{self.port}\r\n\r\n".encode())
+            client.close()
+        self.rest()
+        self.interrupt(process)
+
+    def test_malformed_requests_do_no_harm(self):
+        process = self.view()
+        self.rest()
+        good = (f"GET /state.json?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n"
+                f"Range: bytes=0-5\r\nContent-Length: 0\r\nContent-Type: multipart/form-data; boundary=x\r\n"
+                f"Accept-Encoding: gzip\r\nTransfer-Encoding: chunked\r\nExpect: 100-continue\r\n\r\n").encode()
+        numbers = random.Random(5)
+
+        def fuzzed():
+            data = bytearray(good)
+            for _ in range(numbers.randint(1, 12)):
+                at = numbers.randrange(len(data))
+                kind = numbers.randrange(5)
+                if kind == 0:
+                    data[at] = numbers.randrange(256)
+                elif kind == 1:
+                    del data[at:at + numbers.randint(1, 20)]
+                elif kind == 2:
+                    data[at:at] = bytes(numbers.randrange(256) for _ in range(numbers.randint(1, 30)))
+                elif kind == 3:
+                    data[at:at] = data[at:at + 40] * numbers.randint(1, 40)
+                else:
+                    data[at:at] = numbers.choice([b"\r\n\r\n", b"%", b"%00", b"../", b"9" * 30, b"-1", b"\0", b":"])
+                if not data:
+                    data = bytearray(b"\r\n")
+            return bytes(data)
+
+        requests = [fuzzed() for _ in range(1000)]
+
+        def send(some):
+            for request in some:
+                try:
+                    with socket.create_connection(("127.0.0.1", self.port), timeout=10) as client:
+                        client.sendall(request)
+                        client.shutdown(socket.SHUT_WR)
+                        answer = client.recv(1 << 16)
+                        if b"nowhere" not in request:
+                            self.assertNotIn(b"root:", answer)
+                except OSError:
+                    pass
+
+        threads = [threading.Thread(target=send, args=(requests[i::8],)) for i in range(8)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertIsNone(process.poll())
+        self.assertTrue(self.state()["done"])
+        self.interrupt(process)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Requests to the server that served this page.
+const token = new URLSearchParams(location.search).get("token");
+
+const address = (name, values = {}) => `${name}?${new URLSearchParams({...values, token})}`;
+
+export async function readState() {
+  const answer = await fetch(address("state.json"));
+  if (!answer.ok) throw new Error(`state.json: ${answer.status}`);
+  return answer.json();
+}
+
+// Half floats as numbers, by their 16 bits.
+export const halfValues = (() => {
+  const values = new Float32Array(1 << 16);
+  for (let bits = 0; bits < 1 << 16; ++bits) {
+    const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;
+    if (exponent === 31) values[bits] = fraction ? NaN : sign * Infinity;
+    else if (exponent === 0) values[bits] = sign * fraction * 2 ** -24;
+    else values[bits] = sign * (1 + fraction / 1024) * 2 ** (exponent - 15);
+  }
+  return values;
+})();
+
+const arrays = {half: Uint16Array, float: Float32Array, uint: Uint32Array};
+
+// A layer: {version, width, height, grid, channels: [{name, type, data}]}; null if there is none yet. The data of
+// half channels are the bits of the values.
+export async function readLayer(name) {
+  const answer = await fetch(address("layer.bin", {name}));
+  if (answer.status === 404) return null;
+  if (!answer.ok) throw new Error(`layer.bin: ${answer.status}`);
+  const bytes = await answer.arrayBuffer();
+  const start = new Uint8Array(bytes).indexOf(10) + 1;
+  const layer = JSON.parse(new TextDecoder().decode(bytes.slice(0, start)));
+  let at = start;
+  for (const channel of layer.channels) {
+    const type = arrays[channel.type], count = layer.width * layer.height;
+    // A copy: the start of a channel need not be a multiple of its element size.
+    channel.data = new type(bytes.slice(at, at + count * type.BYTES_PER_ELEMENT));
+    at += count * type.BYTES_PER_ELEMENT;
+  }
+  return layer;
+}
+
+export const valueAt = (channel, pixel) =>
+  channel.type === "half" ? halfValues[channel.data[pixel]] : channel.data[pixel];

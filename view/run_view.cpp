@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/view/view_test.py.
+#include "view/run_view.h"
+
+#include <chrono>
+#include <thread>
+
+#include "view/live_renderer.h"
+#include "view/scene_follower.h"
+#include "view/view_server.h"
+
+namespace pelage {
+
+void run_live_view(const ViewOptions& options, const std::function<void(const std::string&)>& ready,
+                   const std::function<bool()>& stopped) {
+  ViewDesk desk;
+  const ViewServer server(desk, options.address, options.port);
+  LiveRenderer renderer(desk, options.threads);
+  const SceneFollower follower(options.scene, options.overrides, renderer, desk);
+  ready(server.url());
+  while (!stopped()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+}  // namespace pelage

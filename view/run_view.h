@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/document.h"
+
+namespace pelage {
+
+struct ViewOptions {
+  std::filesystem::path scene;
+  std::vector<Override> overrides;
+  std::string address = "127.0.0.1";  ///< the address that the server is bound to
+  int port = 0;                       ///< 0: any free port
+  int threads = 0;                    ///< of the render; 0: all available
+};
+
+/// Shows a live picture of a scene to browsers, until `stopped` returns true. `stopped` is called 50 times a
+/// second. Calls `ready` with the address of the page once the server answers. Throws Error: that of
+/// load_scene() for a scene with mistakes, kFailed when the port cannot be used.
+void run_live_view(const ViewOptions& options, const std::function<void(const std::string& url)>& ready,
+                   const std::function<bool()>& stopped);
+
+}  // namespace pelage

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <vector>
+
+#include "world/scene_schema.h"
+
+namespace pelage {
+
+/// Tells versions of a file apart. All members are 0 for a file that does not exist.
+struct FileStamp {
+  uint64_t inode = 0;
+  int64_t size = 0;
+  int64_t changed_ns = 0;
+  bool operator==(const FileStamp&) const = default;
+};
+using FileStamps = std::map<std::filesystem::path, FileStamp>;
+
+/// Returns the stamps of files as they are now.
+FileStamps stamps_of(const std::vector<std::filesystem::path>& files);
+
+/// Returns all files on which the picture of a scene depends: the scene file, its included files, and all
+/// assets, including poses.
+std::vector<std::filesystem::path> followed_files(const SceneDescription& scene);
+
+/// A scene as it was read after an edit.
+struct SceneEdit {
+  SceneDescription scene;
+  FileStamps files;  ///< of followed_files()
+  std::chrono::steady_clock::time_point noticed = std::chrono::steady_clock::now();
+
+  /// Returns what must be done again if everything was done for `before`.
+  Redo redo_after(const SceneEdit& before) const;
+};
+
+}  // namespace pelage

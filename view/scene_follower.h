@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "scene/document.h"
+#include "view/file_watch.h"
+#include "view/live_renderer.h"
+
+namespace pelage {
+
+/// Follows the files of a scene on a thread of its own: reads the scene again after each change, and submits
+/// the edit to a renderer unless the change is only one of comments or formatting. A scene with mistakes is
+/// not submitted; its problems are shown on the desk until the next change.
+class SceneFollower {
+ public:
+  /// Reads the scene and submits it. Throws the errors of load_scene().
+  SceneFollower(std::filesystem::path scene, std::vector<Override> overrides, LiveRenderer& renderer,
+                ViewDesk& desk);
+  ~SceneFollower();
+  SceneFollower(const SceneFollower&) = delete;
+  SceneFollower& operator=(const SceneFollower&) = delete;
+
+ private:
+  void run();
+  void wait_for_quiet();
+  void read_again();
+  std::shared_ptr<const SceneEdit> read() const;
+
+  const std::filesystem::path path_;
+  const std::vector<Override> overrides_;
+  LiveRenderer& renderer_;
+  ViewDesk& desk_;
+  FileWatch watch_;
+  std::vector<std::filesystem::path> files_;
+  FileStamps stamps_;                      // of files_, when they were read last
+  std::shared_ptr<const SceneEdit> last_;  // submitted last
+  std::atomic<bool> stopped_{false};
+  std::thread thread_;  // the last member: it uses the others
+};
+
+}  // namespace pelage

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/view/view_test.py.
+#include "view/view_server.h"
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <filesystem>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include "base/error.h"
+#include "view/page_files.h"
+#include "view/picture_bytes.h"
+#include "view/state_json.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kThreads = 16;
+constexpr size_t kPiece = 1 << 16;    // bytes sent at once
+constexpr size_t kMaxBody = 1 << 16;  // bytes; no request has a body yet
+constexpr time_t kRead_s = 2, kWrite_us = 700'000;
+
+std::string mime_type(std::string_view name) {
+  if (name.ends_with(".html")) return "text/html; charset=utf-8";
+  if (name.ends_with(".css")) return "text/css; charset=utf-8";
+  return name.ends_with(".js") ? "text/javascript; charset=utf-8" : "image/svg+xml";
+}
+
+std::string with_token(std::string_view page, const std::string& token) {
+  constexpr std::string_view kPlace = "{{token}}";
+  std::string text;
+  for (size_t at = 0; at < page.size();) {
+    const size_t place = std::min(page.find(kPlace, at), page.size());
+    text += page.substr(at, place - at);
+    if (place < page.size()) text += token;
+    at = place + kPlace.size();
+  }
+  return text;
+}
+
+/// Ends the connections of clients that neither read nor write, for which a thread would wait. All sockets of
+/// this process with the server's port belong to the server.
+void end_connections(int port) {
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", failed)) {
+    const std::string name = entry.path().filename();
+    int descriptor = -1;
+    std::from_chars(name.data(), name.data() + name.size(), descriptor);
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    if (descriptor < 0 || ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+      continue;
+    const auto* own =
+        reinterpret_cast<const sockaddr_in*>(&address);  // the port of IPv6 is at the same place
+    const bool is_net = address.ss_family == AF_INET || address.ss_family == AF_INET6;
+    if (is_net && ntohs(own->sin_port) == port) ::shutdown(descriptor, SHUT_RDWR);
+  }
+}
+
+}  // namespace
+
+struct ViewServer::State {
+  State(ViewDesk& view_desk, RequestRules request_rules) : desk(view_desk), rules(std::move(request_rules)) {}
+
+  void answer(const httplib::Request& request, httplib::Response& response);
+  void send(std::string bytes, const std::string& type, httplib::Response& response);
+  static void refuse(int status, const std::string& why, httplib::Response& response) {
+    response.status = status;
+    response.set_content(why + "\n", "text/plain");
+  }
+  void send_layer(const std::string& name, httplib::Response& response);
+  void send_exr(httplib::Response& response);
+
+  ViewDesk& desk;
+  RequestRules rules;
+  int port = 0;
+  std::atomic<bool> closing{false};
+  httplib::Server server;
+  std::thread thread;
+};
+
+void ViewServer::State::answer(const httplib::Request& request, httplib::Response& response) {
+  response.set_header("Cache-Control", "no-store");
+  response.set_header("X-Content-Type-Options", "nosniff");
+  response.set_header("Referrer-Policy", "no-referrer");
+  response.set_header("Content-Security-Policy",
+                      "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self'; "
+                      "img-src 'self' blob: data:; frame-ancestors 'none'");
+  const int status = rules.status({request.method, request.get_header_value("Host"),
+                                   request.get_header_value("Origin"), request.get_param_value("token")});
+  if (status == 405) return refuse(status, "only GET is answered", response);
+  if (status != 200)
+    return refuse(status, "the address needs its token, as `pelage view` printed it", response);
+  if (request.get_header_value("Content-Length").size() > 4) return refuse(413, "too large", response);
+
+  const std::string& path = request.path;
+  if (path == "/state.json") {
+    const std::shared_ptr<const Picture> picture = desk.picture();
+    return send(state_json(desk.status(), picture.get()), "application/json", response);
+  }
+  if (path == "/layer.bin") return send_layer(request.get_param_value("name"), response);
+  if (path == "/picture.exr") return send_exr(response);
+  const std::string name = path == "/" ? "index.html" : path.substr(std::min<size_t>(1, path.size()));
+  for (const PageFile& file : page_files()) {
+    if (file.name == name) return send(with_token(file.text, rules.token()), mime_type(name), response);
+  }
+  refuse(404, "there is no such page", response);
+}
+
+// In pieces, so that a client that reads slowly is noticed when the server ends.
+void ViewServer::State::send(std::string bytes, const std::string& type, httplib::Response& response) {
+  const auto shared = std::make_shared<const std::string>(std::move(bytes));
+  response.set_content_provider(shared->size(), type,
+                                [this, shared](size_t offset, size_t length, httplib::DataSink& sink) {
+                                  if (closing) return false;
+                                  return sink.write(shared->data() + offset, std::min(length, kPiece));
+                                });
+}
+
+void ViewServer::State::send_layer(const std::string& name, httplib::Response& response) {
+  const std::shared_ptr<const Picture> picture = desk.with_layer(name);
+  if (!picture || !picture->layers.contains(name))
+    return refuse(404, "the picture does not have this layer yet", response);
+  send(layer_bytes(*picture, name), "application/octet-stream", response);
+}
+
+void ViewServer::State::send_exr(httplib::Response& response) {
+  std::string bytes;
+  if (!desk.with_frame([&](const FinishedFrame& frame) { bytes = finished_exr(frame); })) {
+    const std::shared_ptr<const Picture> picture = desk.picture();
+    if (!picture) return refuse(404, "there is no picture yet", response);
+    bytes = partial_exr(*picture);
+  }
+  send(std::move(bytes), "image/x-exr", response);
+}
+
+ViewServer::ViewServer(ViewDesk& desk, const std::string& address, int port) {
+  auto server = std::make_unique<State>(desk, RequestRules(address, port, ""));
+  httplib::Server& http = server->server;
+  // Without SO_REUSEPORT, which the library sets by itself: two servers would share the port.
+  http.set_socket_options([](socket_t socket) {
+    const int on = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  });
+  http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  http.set_keep_alive_max_count(1);
+  http.set_read_timeout(kRead_s);
+  http.set_write_timeout(0, kWrite_us);
+  http.set_payload_max_length(kMaxBody);
+  http.set_pre_routing_handler(
+      [state = server.get()](const httplib::Request& request, httplib::Response& response) {
+        state->answer(request, response);
+        return httplib::Server::HandlerResponse::Handled;
+      });
+  if (port == 0) {
+    server->port = http.bind_to_any_port(address);
+  } else if (http.bind_to_port(address, port)) {
+    server->port = port;
+  }
+  if (server->port <= 0) {
+    throw Error(ErrorKind::kFailed,
+                port == 0 ? fmt::format("--bind {}: this machine has no such address", address)
+                          : fmt::format("--port {}: cannot be used at {}; another program may use it", port,
+                                        address));
+  }
+  server->rules = RequestRules(address, server->port, random_token());
+  url_ = fmt::format("http://{}:{}/?token={}",
+                     address.find(':') == std::string::npos ? address : "[" + address + "]", server->port,
+                     server->rules.token());
+  server->thread = std::thread([state = server.get()] { state->server.listen_after_bind(); });
+  state_ = std::move(server);
+}
+
+ViewServer::~ViewServer() {
+  state_->closing = true;
+  while (!state_->server.is_running()) std::this_thread::yield();
+  state_->server.stop();
+  end_connections(state_->port);
+  state_->thread.join();
+}
+
+}  // namespace pelage
