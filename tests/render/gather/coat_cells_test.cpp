@@ -110,7 +110,9 @@ TEST(KnotKeys, OnlyThinStrandsUseCells) {
   EXPECT_EQ(same_key(1e-4f, 64), 200) << "0.005 pixels wide: 0.8 samples";
   EXPECT_EQ(same_key(1e-2f, 64), 0) << "0.5 pixels wide: 80 samples";
   EXPECT_EQ(same_key(1e-2f, 2), 200) << "2.5 samples";
-  const RenderScene without = key_scene::make({.cells = false});
+  GatherParams apart;
+  apart.cells = false;
+  const RenderScene without = key_scene::make(apart);
   const KnotKeys keys(without, 1);
   HitGeometry met;
   met.strand = one_strand({{0, 0, 0}, {0.1f, 0, 0}}, 1e-4f);
