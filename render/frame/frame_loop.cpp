@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/render/path/path_integrator_test.cpp.
+// Tested in tests/render/frame/frame_loop_test.cpp.
 #include "render/frame/frame_loop.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -74,13 +75,21 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
   const TileTimer timer(scratch.costs);
   const double began = clock_.seconds();
   int64_t traced = 0;
+  // Splatted samples of several pixels enter the same sum. They are traced sample by sample, so that the
+  // order of the sum does not depend on how many samples a pass takes.
+  const bool splatted = film_.layers().splat.has_value();
+  const uint32_t at_once = splatted ? 1 : std::numeric_limits<uint32_t>::max();
   bool stopped = false;
-  for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
-    for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
-      uint32_t& given = sample_counts_[pixel_of(x, y)];
-      const uint32_t before = given;
-      stopped = !trace_pixel(x, y, goal, given, scratch);
-      traced += given - before;
+  for (bool more = true; more && !stopped;) {
+    more = false;
+    for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
+      for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
+        uint32_t& given = sample_counts_[pixel_of(x, y)];
+        const uint32_t before = given;
+        stopped = !trace_pixel(x, y, goal, at_once, given, scratch);
+        traced += given - before;
+        more = more || (splatted && given > before);
+      }
     }
   }
   TileCost& cost = costs_[tile_of(tile.x0, tile.y0)];
@@ -90,11 +99,13 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
   return !stopped;
 }
 
-bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch) {
+bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t at_once, uint32_t& given,
+                            SampleScratch& scratch) {
   constexpr uint32_t kSamplesPerCheck = 16;  // samples: a tile of many takes minutes
   const size_t pixel = pixel_of(x, y);
-  for (uint32_t until = goal(pixel, given); given < until; until = goal(pixel, given)) {
-    for (; given < until; ++given) {
+  uint32_t left = at_once;
+  for (uint32_t until = goal(pixel, given); left > 0 && given < until; until = goal(pixel, given)) {
+    for (; left > 0 && given < until; ++given, --left) {
       if (given % kSamplesPerCheck == 0 && job_.progress.cancelled()) return false;
       integrator_.trace(left_ + x, top_ + y, given, scratch);
       if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;

@@ -69,7 +69,9 @@ class FrameLoop {
   };
   /// Returns false when cancelled before the end of the tile.
   bool trace(const Tile& tile, const Goal& goal, SampleScratch& scratch);
-  bool trace_pixel(int x, int y, const Goal& goal, uint32_t& given, SampleScratch& scratch);
+  /// Adds samples to a pixel, at most `at_once`, until it has as many as `goal` says. Returns false when
+  /// cancelled. `given`: count of its samples.
+  bool trace_pixel(int x, int y, const Goal& goal, uint32_t at_once, uint32_t& given, SampleScratch& scratch);
   size_t tile_of(int x, int y) const;
   size_t pixel_of(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
