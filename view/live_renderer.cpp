@@ -129,6 +129,7 @@ LiveRenderer::~LiveRenderer() {
   }
   changed_.notify_all();
   thread_.join();
+  desk_.discard_frame();  // its film is charged to ledger_
 }
 
 void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {

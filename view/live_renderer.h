@@ -23,7 +23,7 @@ class LiveRenderer {
  public:
   /// `threads`: as in Workers. The desk must outlive the renderer.
   LiveRenderer(ViewDesk& desk, int threads);
-  /// Ends the render.
+  /// Ends the render and frees the finished frame on the desk.
   ~LiveRenderer();
   LiveRenderer(const LiveRenderer&) = delete;
   LiveRenderer& operator=(const LiveRenderer&) = delete;
