@@ -177,14 +177,17 @@ void LiveRenderer::run() {
 
 void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
   desk_.update([&](ViewStatus& status) {
+    status.at_rest = false;
+    status.render_error.clear();
     status.mean_samples = status.first_pixels_s = status.render_s = 0;
     status.strands_regrown = 0;
     status.wanted_samples = edit->scene.render.samples;
-    status.edits += loaded_ != nullptr;
+    status.edits += began_;
     status.warnings.clear();
     for (const Problem& warning : edit->scene.warnings)
       status.warnings.push_back(to_string(warning.position) + ": " + warning.message);
   });
+  began_ = true;
   desk_.discard_frame();
   StageProgress progress(*this);
   const Job job{workers_, ledger_, progress};
@@ -233,10 +236,21 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     params.integrator = Integrator::kPath;
     params.samples = 1;
     image.filter_samples = FilterSamples::kDrawn;
-    const bool partial = trace(job, watch).partial;
+    bool partial = false;
+    try {
+      partial = trace(job, watch).partial;
+    } catch (...) {
+      params = wanted;
+      image = wanted_image;
+      throw;
+    }
     params = wanted;
     image = wanted_image;
     if (partial) return;
+    if (params.min_width() > 0) {  // the geometry of `path` has no widened strands
+      loaded_->geometry = nullptr;
+      keeps_geometry_ = false;
+    }
   }
   FrameResult result = trace(job, watch);
   if (!result.partial) finish(edit, std::move(result));

@@ -51,6 +51,7 @@ class LiveRenderer {
   Workers workers_;
   // Used by thread_ only.
   std::unique_ptr<Loaded> loaded_;
+  bool began_ = false;           // whether an edit was rendered before
   bool keeps_geometry_ = false;  // the geometry is older than the edit
   int64_t regrown_before_ = 0;   // strands regrown before the edit
 

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/value.h"
 #include "scene/document_hash.h"
 
@@ -61,14 +64,18 @@ SceneParts scene_parts(const Value& document) {
       parts[block.key] = document_hash(block.value);
       continue;
     }
+    std::string names;
     for (const Value::Entry& item : block.value.entries()) {
       const std::string path = block.key + "." + item.key;
+      names += item.key + "\n";
       if (block.key == "materials") {
         add_material(path, item.value, parts);
       } else {
         parts[path] = document_hash(item.value);
       }
     }
+    // The world refers to materials by their position.
+    if (block.key == "materials") parts[block.key] = content_hash(std::as_bytes(std::span(names)));
   }
   return parts;
 }
