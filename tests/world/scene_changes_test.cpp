@@ -56,6 +56,12 @@ TEST_F(SceneChanges, EverythingElseStartsAnew) {
     EXPECT_EQ(redo_after(key, value), Redo::kAssets) << key;
 }
 
+TEST_F(SceneChanges, TheOrderOfMaterialsCounts) {
+  const std::vector<Override> ab{{"materials.a", "{model: kajiya-kay}"},
+                                 {"materials.b", "{model: kajiya-kay}"}};
+  EXPECT_EQ(redo(ab, {ab[1], ab[0]}), Redo::kAssets);
+}
+
 TEST_F(SceneChanges, WhatIsRemovedCountsToo) {
   EXPECT_EQ(redo({{"render.light_samples", "2"}}, {}), Redo::kSampling);
   EXPECT_EQ(redo({{"materials.fur.opacity", "0.5"}}, {}), Redo::kAssets);
