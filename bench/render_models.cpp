@@ -61,7 +61,7 @@ class IncoherentRays {
   NoProgress progress_;
   FrameStatistics statistics_;
   RenderScene scene_;
-  std::unique_ptr<const FrameGeometry> geometry_;
+  std::unique_ptr<FrameGeometry> geometry_;
   TraceThread thread_;
   std::vector<Ray> rays_;
 };

@@ -73,13 +73,16 @@ void rays_over_raster(benchmark::State& state) {
       find_s += seconds([&] { raster.find(tile, 0, count, job, 0, scratch); });
       size_t next = 0;
       hits_s += seconds([&] {
-        for_each_sample(tile, [&](uint32_t pixel, uint32_t i, const Ray& ray) {
-          const Hit hit = raster.closest(pixel, i, ray, thread, scratch);
-          const Hit& other = found[next++];
-          same += hit.distance == other.distance && hit.strand_id == other.strand_id ? 1 : 0;
-          hits += hit ? 1 : 0;
-        });
+        for (uint32_t pixel = 0; next < found.size(); ++pixel) {
+          for (uint32_t i = 0; i < count; ++i) {
+            const Hit hit = raster.closest(pixel, i, thread, scratch);
+            const Hit& other = found[next++];
+            same += hit.distance == other.distance && hit.strand_id == other.strand_id ? 1 : 0;
+            hits += hit ? 1 : 0;
+          }
+        }
       });
+      TileRaster::end(thread, scratch);
       all += static_cast<int64_t>(found.size());
     }
   }
@@ -100,6 +103,7 @@ BENCHMARK(rays_over_raster)
     ->Args({100000, 16})
     ->Args({100000, 64})
     ->Args({1000000, 16})
+    ->Args({1000000, 64})
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
 

@@ -23,6 +23,7 @@ ExrAttributes exr_attributes(const FrameHeader& header, const Camera& camera) {
   attributes["pelage:renderSeconds"] = static_cast<float>(header.render_seconds);
   attributes["pelage:peakMemoryBytes"] = std::to_string(header.peak_memory_bytes);
   attributes["pelage:version"] = header.program_version;
+  attributes["pelage:instructions"] = header.instruction_set;
   attributes["pelage:sceneHash"] = header.scene_hash;
   return attributes;
 }

@@ -26,7 +26,8 @@ struct FrameHeader {
   double render_seconds = 0;
   int64_t peak_memory_bytes = 0;
   std::string program_version;
-  std::string scene_hash;  ///< hash of everything that determines the picture
+  std::string instruction_set;  ///< see instruction_set()
+  std::string scene_hash;       ///< hash of everything that determines the picture
 };
 
 /// Returns the EXR attributes of a frame. Standard attributes are worldToCamera, worldToNDC, framesPerSecond
