@@ -14,7 +14,7 @@ class FrameWatch;
 struct FrameOptions {
   PathOptions path = {};
   std::optional<PixelBox> region = {};  ///< the only pixels to compute; empty: the whole picture
-  FrameWatch* watch = nullptr;          ///< sees the film between passes; null: nobody
+  FrameWatch* watch = nullptr;          ///< sees the film between passes; may be null
 };
 
 }  // namespace pelage

@@ -3,6 +3,7 @@
 #include "render/render_frame.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_loop.h"
+#include "render/frame/frame_watch.h"
 #include "render/frame/sample_schedule.h"
 #include "render/gather/gather_loop.h"
 #include "render/path/path_tracer.h"
@@ -28,13 +30,33 @@ FilmLayers film_layers(const RenderScene& scene) {
   return frame_layers(scene.image, scene.render, lights, scene.materials);
 }
 
+/// Uses the boxes of the chunks that grew for the first sample of each pixel.
+class TighteningWatch final : public FrameWatch {
+ public:
+  TighteningWatch(FrameGeometry& geometry, const Job& job, FrameWatch& watch)
+      : geometry_(geometry), job_(job), watch_(watch) {}
+  void passed(const Film& film, const PassState& state) override {
+    watch_.passed(film, state);
+    if (state.samples <= 1) geometry_.tighten(job_);
+  }
+  std::optional<PixelBox> region() const override { return watch_.region(); }
+  uint32_t region_version() const override { return watch_.region_version(); }
+
+ private:
+  FrameGeometry& geometry_;
+  const Job& job_;
+  FrameWatch& watch_;
+};
+
 /// Renders with one path after another.
-TileCosts trace_paths(const RenderScene& scene, const FrameGeometry& geometry, const FrameOptions& options,
+TileCosts trace_paths(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
                       const Job& job, const Stopwatch& clock, FrameResult& result) {
   const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options.path);
   FrameLoop loop(tracer, job, result.film, result.window, clock);
+  std::optional<TighteningWatch> watch;
+  if (options.watch) watch.emplace(geometry, job, *options.watch);
   const ScheduleEnd end =
-      SampleSchedule(loop, scene.render, job, clock, geometry.fits(), options.watch).run();
+      SampleSchedule(loop, scene.render, job, clock, geometry.fits(), watch ? &*watch : nullptr).run();
   result.partial = end.partial;
   result.time_limited = end.time_limited;
   result.samples = loop.min_samples();
@@ -68,17 +90,15 @@ void check_region(const ImageParams& image, const RenderParams& render, const Pi
     refuse("it has no pixels; X1 must be greater than X0, and Y1 greater than Y0");
   if (!inside) refuse(fmt::format("the picture has {} x {} pixels", image.width, image.height));
   if (render.adaptive) refuse("`adaptive` sampling needs the whole picture");
-  if (render.integrator == Integrator::kGather)
-    refuse("`integrator: gather` needs the whole picture, because its samples share light");
 }
 
 FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options) {
-  std::unique_ptr<const FrameGeometry> geometry;
+  std::unique_ptr<FrameGeometry> geometry;
   return render_frame(scene, job, options, geometry);
 }
 
 FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options,
-                         std::unique_ptr<const FrameGeometry>& geometry) {
+                         std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept) {
   const Stopwatch clock;
   if (options.region) check_region(scene.image, scene.render, *options.region);
   const FilmLayers layers = film_layers(scene);
@@ -90,7 +110,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   const bool gathers = scene.render.integrator == Integrator::kGather;
   FrameResult result{Film(width, height, layers, job.ledger), window};
   const GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
-  if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics);
+  if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
   result.partial = geometry == nullptr;
   if (result.partial) return result;
 

@@ -11,10 +11,10 @@
 namespace pelage {
 
 class FrameGeometry;
+class KeptFur;
 
-/// Throws Error (kArguments) when a region is empty or not within the picture, or when the pixels of the
-/// picture depend on each other, so that a region would have other pixels than the whole picture. This is so
-/// with adaptive sampling and with `integrator: gather`.
+/// Throws Error (kArguments) when a region is empty or not within the picture. Also throws it with adaptive
+/// sampling, where the sample count of a pixel depends on the whole picture.
 void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region);
 
 /// Renders one frame with the integrator of the scene (render.integrator). First bounds all chunks. Then
@@ -30,7 +30,9 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
 /// RenderScene object. Since that call, only the lights, the pixels of the picture (`image`, except its size)
 /// and the members of `render` that concern sampling may have changed, and the materials, except for the
 /// opacity of fibres. The statistics of growth and residency count from when the geometry was made.
+///
+/// `kept`, if not null: chunks of the geometry of an earlier scene. See FrameGeometry::make().
 FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options,
-                         std::unique_ptr<const FrameGeometry>& geometry);
+                         std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept = nullptr);
 
 }  // namespace pelage

@@ -45,12 +45,12 @@ struct alignas(64) ChunkAccel::Scratch {
 };
 
 ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
-                       const ResidentChunksOptions& options, const Job& job)
+                       const ResidentChunksOptions& options, const Job& job, std::vector<KeptChunk> kept)
     : scratch_charge_(
           job.ledger, MemoryTag::kChunks,
           static_cast<int64_t>(static_cast<size_t>(options.threads) * bounds.size() * sizeof(uint32_t))),
       scratch_(std::make_unique<Scratch[]>(static_cast<size_t>(options.threads))),
-      chunks_(std::move(bounds), grower, options, job) {
+      chunks_(std::move(bounds), grower, options, job, std::move(kept)) {
   for (int i = 0; i < options.threads; ++i) scratch_[static_cast<size_t>(i)].seen.resize(chunks_.size());
 }
 

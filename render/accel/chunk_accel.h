@@ -31,7 +31,7 @@ class ChunkAccel final : public Accel {
   /// the ResidentChunks. The error for a memory limit that is too small therefore names a limit that
   /// suffices.
   ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower, const ResidentChunksOptions& options,
-             const Job& job);
+             const Job& job, std::vector<KeptChunk> kept = {});
   ~ChunkAccel() override;
 
   Hit closest(const Ray& ray, TraceThread& thread) const override;
@@ -41,6 +41,7 @@ class ChunkAccel final : public Accel {
 
   /// The chunks that rays are traced through.
   const ResidentChunks& chunks() const { return chunks_; }
+  ResidentChunks& chunks() { return chunks_; }
 
  private:
   struct Scratch;

@@ -2,6 +2,7 @@
 #include "render/accel/chunk_boxes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "render/accel/fur/fur_grid.h"
@@ -32,6 +33,7 @@ ChunkBoxes::ChunkBoxes(std::vector<ChunkBounds> given, const ChunkGrower& grower
     KnownBounds& known = known_[chunk];
     known.in_fur_tree = fur_trees && !grower.is_skin(chunk);
     if (known.in_fur_tree) {
+      if (bounds.keys == 1) known.given = bounds.whole();
       known.margin = FurGrid(grower.scale(chunk)).margin(widest_radius(bounds));
       widen(bounds, known.margin);
       bounds = std::move(bounds).in_one_part();
@@ -59,6 +61,31 @@ void ChunkBoxes::build_tree(const Workers& workers) {
   given_ = {};
 }
 
+/// Returns the measured box of a chunk without fine boxes, or else the known one.
+Box3f ChunkBoxes::tight_box(uint32_t chunk) const {
+  const PartBoxes* const measured = learned(chunk);
+  if (!measured || !in_fur_tree(chunk) || has_fine(chunk)) return whole_[chunk];
+  Box3f box = measured->bounds().whole();
+  if (box.isEmpty()) return box;
+  float reach = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  const V3f rounding(1e-6f * reach);  // boxes at shutter close are sums of floats, which round
+  box.min -= rounding;
+  box.max += rounding;
+  return box;
+}
+
+void ChunkBoxes::tighten(const Workers& workers) {
+  if (!has_news_.exchange(false)) return;
+  given_.resize(size());
+  for (uint32_t chunk = 0; chunk < given_.size(); ++chunk) {
+    const Box3f box = tight_box(chunk);
+    if (!box.isEmpty()) given_[chunk].boxes = {box};
+  }
+  build_tree(workers);
+}
+
 void ChunkBoxes::build_tree_of_learned(const Workers& workers) {
   for (uint32_t chunk = 0; chunk < given_.size(); ++chunk) {
     given_[chunk] = learned(chunk)->bounds();
@@ -68,7 +95,23 @@ void ChunkBoxes::build_tree_of_learned(const Workers& workers) {
 }
 
 void ChunkBoxes::learn(uint32_t chunk, const ChunkBounds& measured) {
-  learned_[chunk].store(std::make_unique<const PartBoxes>(measured).release(), std::memory_order_release);
+  learn(chunk, std::make_unique<const PartBoxes>(measured));
+}
+
+void ChunkBoxes::learn(uint32_t chunk, std::unique_ptr<const PartBoxes> measured) {
+  learned_[chunk].store(measured.release(), std::memory_order_release);
+  has_news_.store(true, std::memory_order_relaxed);
+}
+
+ChunkBounds ChunkBoxes::take_given(uint32_t chunk) {
+  KnownBounds& known = known_[chunk];
+  if (known.given.isEmpty()) return {};
+  const bool measured = learned(chunk) && !has_fine(chunk);
+  return {1, {measured ? tight_box(chunk) : known.given}, std::move(known.fine)};
+}
+
+std::unique_ptr<const PartBoxes> ChunkBoxes::take_learned(uint32_t chunk) {
+  return std::unique_ptr<const PartBoxes>(learned_[chunk].exchange(nullptr, std::memory_order_acq_rel));
 }
 
 size_t ChunkBoxes::learned_parts(size_t primitives) {

@@ -35,6 +35,9 @@ class ChunkBoxes {
 
   /// Builds the tree over the given boxes.
   void build_tree(const Workers& workers);
+  /// Builds the tree again, with the measured boxes of those chunks of fur that were grown so far. Does
+  /// nothing if all these boxes are in the tree. All given boxes must be constant in time, one per chunk.
+  void tighten(const Workers& workers);
   /// Builds the tree over the measured boxes. Call learn() for every chunk first.
   void build_tree_of_learned(const Workers& workers);
 
@@ -60,9 +63,18 @@ class ChunkBoxes {
   const PartBoxes* learned(uint32_t chunk) const { return learned_[chunk].load(std::memory_order_acquire); }
   /// Stores measured boxes. Call at most once per chunk.
   void learn(uint32_t chunk, const ChunkBounds& measured);
+  /// Stores boxes that were measured on the same chunk in another frame.
+  void learn(uint32_t chunk, std::unique_ptr<const PartBoxes> measured);
   /// Number of boxes to measure on a chunk with `primitives` segments or triangles.
   static size_t learned_parts(size_t primitives);
   static constexpr size_t kPrimitivesPerPart = 1024, kMaxParts = 64;
+
+  /// Removes the boxes of a chunk of fur, for another frame: the given box, or the measured one if there are
+  /// no fine boxes. Returns no boxes if they are not known any more, because they were linear in time or in
+  /// several parts. The chunk then has no known boxes: call only before this object is destroyed.
+  ChunkBounds take_given(uint32_t chunk);
+  /// Removes the measured boxes; null if there are none. Call only before this object is destroyed.
+  std::unique_ptr<const PartBoxes> take_learned(uint32_t chunk);
 
   /// Upper bound of the memory in bytes, without the tree but with all boxes that may be learned.
   size_t bytes_bound() const { return bytes_bound_; }
@@ -70,10 +82,13 @@ class ChunkBoxes {
  private:
   struct KnownBounds {
     FineBoxes fine;
+    Box3f given;  // before it was enlarged by the margin; only of chunks in fur trees with a constant box
     float margin = 0;
     bool learns = true;
     bool in_fur_tree = false;
   };
+
+  Box3f tight_box(uint32_t chunk) const;
 
   std::vector<ChunkBounds> given_;  // empty once the tree is built
   std::vector<KnownBounds> known_;
@@ -81,6 +96,7 @@ class ChunkBoxes {
   std::vector<Box3f> whole_;
   std::vector<uint32_t> tree_parts_;
   std::unique_ptr<const ChunkTree> tree_;
+  std::atomic<bool> has_news_{false};  // boxes were measured since the tree was built
   size_t bytes_bound_ = 0;
 };
 

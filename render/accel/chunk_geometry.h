@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <tuple>
 
 #include "cache/residency.h"
@@ -47,11 +48,12 @@ class ChunkGeometry : public Resident {
   /// `sink.far()`, and possibly others. Returns false if the chunk does not support this; then the sink got
   /// nothing.
   virtual bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const = 0;
-  /// closest() for a ray whose primitive is known. `primitive`: the number that was passed to the sink.
-  /// Considers only this segment, or all triangles of a skin. If no other segment is nearer, the result is
-  /// the same as for closest(), except that strands are not stored in `met`: call strand().
-  virtual bool closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
-                          HitGeometry& met) const = 0;
+  /// Finds the hits of camera rays that are known to meet one segment first. Stores one hit per ray in
+  /// `hits`; the hit is empty if the ray misses the segment. If the ray meets no other segment before, its
+  /// hit has the same bits as that of closest(). `segment`: the number that was passed to the sink. `rays`:
+  /// at most kMaxRays, which start on no strand.
+  static constexpr size_t kMaxRays = 16;
+  virtual void closest_at(std::span<const Ray* const> rays, uint32_t segment, Hit* hits) const = 0;
   /// Adds the semi-transparent crossings of a ray to `crossings`. Returns false if an opaque crossing blocks
   /// the ray.
   virtual bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const = 0;

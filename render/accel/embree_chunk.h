@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "render/accel/chunk_geometry.h"
@@ -33,9 +34,9 @@ class EmbreeChunk final : public ChunkGeometry {
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
   /// Supports skins only.
   bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
-  bool closest_at(const Ray& ray, uint32_t, FurRays& rays, NearestSoFar& nearest,
-                  HitGeometry& met) const override {
-    return closest(ray, rays, nearest, met);
+  /// Finds nothing: segments of this chunk are not passed to sinks.
+  void closest_at(std::span<const Ray* const> rays, uint32_t, Hit* hits) const override {
+    std::fill_n(hits, rays.size(), Hit());
   }
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
   bool stops(uint32_t random, uint32_t primitive, float u) const override;

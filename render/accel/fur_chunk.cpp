@@ -8,6 +8,7 @@
 
 #include "render/accel/fur/fur_beam.h"
 #include "render/accel/fur/fur_leaf.h"
+#include "render/accel/fur/fur_segment_rays.h"
 
 namespace pelage {
 namespace {
@@ -23,6 +24,12 @@ size_t grown_bytes_bound(const ChunkCounts& n) {
 }
 size_t bytes_of(const FurContents& grown) {
   return grown.strands.bytes() + grown.opacity.capacity() * sizeof(float);
+}
+
+/// Prefetches a narrow block of a chunk at rest.
+void fetch_ahead(const FurSegmentLookup::Place& place) {
+  if (!place.block) return;
+  for (size_t at = 0; at < kNarrowBlock.block(1); at += 64) __builtin_prefetch(place.block + at);
 }
 
 }  // namespace
@@ -95,6 +102,13 @@ void FurChunk::widen(const MinWidth& min) {
   build_peak_ += widened_->bytes();
 }
 
+void FurChunk::unwiden() {
+  if (!widened_) return;
+  bytes_ -= widened_->bytes();
+  build_peak_ -= widened_->bytes();
+  widened_ = nullptr;
+}
+
 ChunkBounds FurChunk::part_bounds(size_t parts) const {
   ChunkBounds bounds = subtree_bounds(tree_.view(), parts);
   if (!tree_.view().frame.turned) return bounds;
@@ -143,22 +157,37 @@ bool FurChunk::visit_primitives(const Beam& beam, PrimitiveSink& sink) const {
   return true;
 }
 
-bool FurChunk::closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
-                          HitGeometry&) const {
+void FurChunk::closest_at(std::span<const Ray* const> rays, uint32_t segment, Hit* hits) const {
+  std::fill_n(hits, rays.size(), Hit());
   const FurTreeView& tree = tree_.view();
-  const FurSegmentLookup::Place place = places_.find(tree, primitive);
-  const FurRay* prepared = place.block ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
-  if (!prepared) return false;
-  StoppingFilter filter(*this, true, ray.random);
-  FurSegmentPlace at{place.block, place.wide, primitive};
+  const FurSegmentLookup::Place place = places_.find(tree, segment);
+  if (!place.block) return;
+  static_assert(kMaxRays == FurSegmentRays::kMax);
+  FurHit found[kMaxRays];
+  uint32_t undecided = (1u << rays.size()) - 1;
+  FurSegmentPlace at{place.block, place.wide, segment};
   std::vector<Four> memory;
   if (widened_) {
-    const WidenedFur::Segment segment =
-        widened_->segment(tree, place.block, place.wide, place.lane, strands_.locate(primitive).strand);
-    at = {segment.write(primitive, memory), true, primitive};
+    const WidenedFur::Segment wider =
+        widened_->segment(tree, place.block, place.wide, place.lane, strands_.locate(segment).strand);
+    at = {wider.write(segment, memory), true, segment};
   }
-  const FurHit found = closest_fur_at(tree, *prepared, at, opaque() ? nullptr : &filter);
-  return found && keep(found, nearest);
+  if (tree.motion_keys == 1) {
+    const SnappedSegment points = read_block(at.block, at.wide, widened_ ? 0 : place.lane, 0);
+    undecided = FurSegmentRays::closest(tree, points, segment, rays, found);
+  }
+  for (size_t i = 0; i < rays.size(); ++i) {
+    StoppingFilter filter(*this, true, rays[i]->random);
+    if ((undecided >> i & 1) != 0) {
+      FurRay prepared;
+      found[i] = prepared.prepare(tree, *rays[i], {})
+                     ? closest_fur_at(tree, prepared, at, opaque() ? nullptr : &filter)
+                     : FurHit();
+    } else if (found[i] && !opaque() && !filter.accepts(found[i])) {
+      found[i] = {};
+    }
+    if (found[i]) hits[i] = hit_of(found[i]);
+  }
 }
 
 bool FurChunk::stops(uint32_t random, uint32_t primitive, float u) const {
@@ -177,11 +206,9 @@ bool FurChunk::stops_unwidened(uint32_t random, uint32_t primitive, float u) con
   return stops_at(random, crossing(place, u), strands_.opacity(place, u));
 }
 
-/// Makes a hit the nearest one if it precedes that.
-bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
+Hit FurChunk::hit_of(const FurHit& found) const {
   const PackedStrands::Place place = strands_.locate(found.number);
-  NearestSoFar candidate;
-  Hit& hit = candidate.hit;
+  Hit hit;
   hit.kind = HitKind::kStrand;
   hit.distance = found.distance;
   hit.part = part_;
@@ -191,6 +218,13 @@ bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
   hit.v = found.h;
   hit.start = start_on(place.strand, static_cast<float>(place.segment) + found.u);
   hit.strand_index = place.strand;
+  return hit;
+}
+
+/// Replaces `nearest` by a hit that precedes it. Returns whether it did.
+bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
+  NearestSoFar candidate;
+  candidate.hit = hit_of(found);
   if (!nearest.comes_after(candidate)) return false;
   nearest = candidate;
   return true;
@@ -212,6 +246,8 @@ void FurChunk::strand(uint32_t index, Strands& out) const {
   const FurTreeView& tree = tree_.view();
   const uint32_t first = strands_.first_segment(index), segments = strands_.strand_segments(index);
   const size_t key_floats = size_t(4) * (3 * segments + 1);
+  // The segments of a strand are in different leaves.
+  for (uint32_t s = 0; s < segments; ++s) fetch_ahead(places_.find(tree, first + s));
   uint32_t not_drawn = 0;  // of the first segments
   for (uint32_t s = 0; s < segments; ++s) {
     const FurSegmentLookup::Place place = places_.find(tree, first + s);

@@ -39,10 +39,18 @@ class FurChunk final : public ChunkGeometry {
   /// and opaque(), but no other member. Call before other threads use the chunk.
   void widen(const MinWidth& min);
 
+  /// Undoes widen().
+  void unwiden();
+  /// Gives the chunk the numbers of another frame (see the constructor and ChunkContents::part). Call before
+  /// other threads use the chunk.
+  void renumber(uint32_t part, uint32_t number) {
+    part_ = part;
+    number_ = number;
+  }
+
   bool closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, HitGeometry& met) const override;
   bool visit_primitives(const Beam& beam, PrimitiveSink& sink) const override;
-  bool closest_at(const Ray& ray, uint32_t primitive, FurRays& rays, NearestSoFar& nearest,
-                  HitGeometry& met) const override;
+  void closest_at(std::span<const Ray* const> rays, uint32_t segment, Hit* hits) const override;
   bool collect(const Ray& ray, FurRays& rays, Crossings& crossings) const override;
   bool stops(uint32_t random, uint32_t primitive, float u) const override;
   bool opaque() const override { return strands_.opaque() && !widened_; }
@@ -80,6 +88,7 @@ class FurChunk final : public ChunkGeometry {
            const FurChunkOptions& options);
   FurStart start_of(const Ray& ray) const;
   bool keep(const FurHit& found, NearestSoFar& nearest) const;
+  Hit hit_of(const FurHit& found) const;
   bool stops_unwidened(uint32_t random, uint32_t primitive, float u) const;
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
 

@@ -44,7 +44,7 @@ class PrimitiveSink {
   virtual float far() const = 0;
   /// Finds the part of the picture that each of four boxes may cover.
   virtual void find_footprints(const FourViewBoxes& boxes, ViewFootprint (&footprints)[4]) const = 0;
-  /// Whether everything with this footprint is hidden by primitives that were passed before.
+  /// Whether the primitives that were passed before hide everything with this footprint.
   virtual bool hides(const ViewFootprint& footprint) const = 0;
   /// Announces the grid of the segments that follow.
   virtual void begin_segments(const SegmentGrid& grid) = 0;

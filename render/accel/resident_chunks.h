@@ -18,6 +18,7 @@
 #include "render/accel/embree_chunk.h"
 #include "render/accel/fur_chunk.h"
 #include "render/accel/fur_chunk_file.h"
+#include "render/accel/kept_fur.h"
 
 namespace pelage {
 
@@ -33,6 +34,8 @@ struct ResidentChunksOptions {
   /// File from which fur chunks are read instead of being grown; null: no file. Not used with `eager`. A
   /// damaged chunk is grown instead.
   std::shared_ptr<const FurChunkFile> file = {};
+  /// Memory for the trees of fur chunks; null: the object makes its own.
+  std::shared_ptr<PagePool> pool = {};
 };
 
 /// The chunks of a frame. A chunk is grown when it is visited, evicted when other chunks would otherwise
@@ -49,13 +52,25 @@ struct ResidentChunksOptions {
 /// time. visit() passes on the exceptions of the grower.
 class ResidentChunks final : private Grower {
  public:
+  /// `kept`: chunks of an earlier frame with the same contents, by the number of the chunk in this frame.
+  /// They are resident from the start, if the memory limit has room for them. Their `bounds` are not used.
+  /// Empty if there are none; items without `fur` are not used either. Their trees must be in the memory of
+  /// `options.pool`.
+  ///
   /// `bounds`: the boxes of each chunk, over the whole shutter. With `eager`, only the length of `bounds` is
   /// used, because boxes are measured on the grown chunks. `grower` and `job.progress`, which receives
   /// warnings of damaged chunks in the file, must outlive this object. If `job.progress` is cancelled during
   /// construction, no chunk may be visited. Throws Error (kMemory) when the limit is too small. With `eager`,
   /// passes on exceptions of the grower.
   ResidentChunks(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
-                 const ResidentChunksOptions& options, const Job& job);
+                 const ResidentChunksOptions& options, const Job& job, std::vector<KeptChunk> kept = {});
+
+  /// ChunkBoxes::tighten(). No visit may be running.
+  void tighten(const Job& job);
+
+  /// Removes a chunk of fur and its boxes, for a later frame. Skins have no such chunks. KeptChunk::grown is
+  /// not set. Call after the last visit and the last ray.
+  KeptChunk release(uint32_t chunk, MemoryLedger& ledger);
 
   size_t size() const { return boxes_.size(); }
   bool is_skin(uint32_t chunk) const { return grower_.is_skin(chunk); }
@@ -99,11 +114,13 @@ class ResidentChunks final : private Grower {
     return options_.file && !options_.eager && options_.file->has(chunk);
   }
   void expect_patterns();
+  void adopt(std::vector<KeptChunk> kept, const MemoryLedger& ledger);
+  MemoryCharge tree_charge(MemoryLedger& ledger) const;
   void find_whether_all_fit(const MemoryLedger& ledger);
 
-  PagePool pool_;  // memory of all fur trees
   const ChunkGrower& grower_;
   const ResidentChunksOptions options_;
+  std::shared_ptr<PagePool> pool_;  // memory of all fur trees
   FurChunkOptions fur_;
   Progress& progress_;
   EmbreeDevice device_;
@@ -111,6 +128,7 @@ class ResidentChunks final : private Grower {
   ChunkBoxes boxes_;
   std::vector<std::atomic<uint32_t>> build_pages_;  // peak memory of each chunk's last build; 0: not built
   std::vector<MemoryCharge> charges_;
+  MemoryCharge tree_charge_;
   mutable std::optional<Residency> residency_;
   bool fits_ = true;
 };

@@ -42,7 +42,8 @@ const FibreParams& fibre_material(const RenderScene& scene, const FurPart& part)
 
 }  // namespace
 
-FrameChunks::FrameChunks(const RenderScene& scene, const Job& job) : scene_(scene) {
+FrameChunks::FrameChunks(const RenderScene& scene, const Job& job)
+    : scene_(scene), bounds_(scene.render.bounds) {
   for (uint32_t part = 0; part < scene.fur.size(); ++part) {
     fibre_material(scene, scene.fur[part]);
     for (const auto& procedural : scene.fur[part].procedurals) {
@@ -209,9 +210,43 @@ FrameChunks::MeasurePlan FrameChunks::measure_plan(const Job& job) const {
   return plan;
 }
 
-std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& counts) const {
+bool FrameChunks::bound_quickly(const Job& job) {
+  if (!in_fur_trees() || !measures_strands(bounds_) || bound_keys(bounds_) != 1) return false;
+  const int64_t limit = job.ledger.limit();
+  int64_t bytes = job.ledger.budgeted();
+  for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    if (leaves_[leaf]->bounds_record()) return false;
+    if (limit == 0) continue;
+    bytes += static_cast<int64_t>(FurChunk::bytes_bound(counts(leaf), FurChunkOptions()));
+    if (bytes > limit) return false;
+  }
+  bounds_ = BoundingStrategy::kConservative;
+  return true;
+}
+
+std::optional<ContentHash> FrameChunks::content(uint32_t leaf) const {
+  const RenderParams& render = scene_.render;
+  const std::optional<ContentHash> strands = leaves_[leaf]->content();
+  // Boxes that are linear in time are not kept (ChunkBoxes::take_given()).
+  if (!strands || !in_fur_trees() || bound_keys(render.bounds) != 1) return {};
+  const FibreParams& fibre = fibre_material(scene_, scene_.fur[parts_[leaf]]);
+  if (!is_opaque(fibre.opacity) && !fibre.opacity.maps().empty()) return {};  // the text names only files
+  const StrandScale scale = this->scale(leaf);
+  ContentHasher hasher;
+  hasher.add("chunk of fur").add(*strands).add(ValueReader<Field>::print(fibre.opacity));
+  hasher.add(scale.width).add(scale.anchor.x).add(scale.anchor.y).add(scale.anchor.z).add(scale.widest);
+  // The boxes of all other strategies contain the leaf.
+  if (render.bounds == BoundingStrategy::kUser) hasher.add(render.bounds).add(render.bounds_factor);
+  hasher.add(render.compact_attributes);
+  for (const std::string& attribute : fibre.color.attribute_names())
+    hasher.add(attribute);  // checked in grow()
+  return hasher.digest();
+}
+
+std::vector<ChunkBounds> FrameChunks::leaf_bounds(const std::vector<const Procedural*>& leaves,
+                                                  const Job& job, BoundingCounts& counts) const {
   BoundingOptions options;
-  options.strategy = scene_.render.bounds;
+  options.strategy = bounds_;
   options.factor = scene_.render.bounds_factor;
   options.in_one_part = in_fur_trees();
   std::optional<Workers> fewer;
@@ -222,17 +257,33 @@ std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& cou
                           static_cast<int64_t>(measure_plan.block) * measure_plan.concurrency);
     if (measure_plan.concurrency < job.workers.thread_count()) fewer.emplace(measure_plan.concurrency);
   }
-  std::vector<ChunkBounds> bounds =
-      bound_chunks(options, leaves_, {fewer ? *fewer : job.workers, job.ledger, job.progress}, &counts);
-  blocks = {};
-  bounds.resize(size());
+  return bound_chunks(options, leaves, {fewer ? *fewer : job.workers, job.ledger, job.progress}, &counts);
+}
+
+std::vector<ChunkBounds> FrameChunks::bounds(const Job& job, BoundingCounts& counts,
+                                             const std::vector<const ChunkBounds*>& known) const {
+  std::vector<ChunkBounds> bounds(size());
+  std::vector<const Procedural*> unknown;
+  std::vector<uint32_t> numbers;
+  for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    if (!known.empty() && known[leaf]) {
+      bounds[leaf] = *known[leaf];
+      counts.area += area_of(bounds[leaf]);
+    } else {
+      unknown.push_back(leaves_[leaf]);
+      numbers.push_back(leaf);
+    }
+  }
+  std::vector<ChunkBounds> measured = leaf_bounds(unknown, job, counts);
+  for (size_t i = 0; i < measured.size(); ++i) bounds[numbers[i]] = std::move(measured[i]);
+  const BoundingStrategy strategy = bounds_;
   job.workers.for_each(pieces_.size(), 1, [&](WorkRange range) {
     for (size_t i = range.begin; i < range.end && !job.progress.cancelled(); ++i) {
       const SkinChunk& piece = pieces_[i];
       ChunkBounds& box = bounds[leaves_.size() + i];
-      box.keys = bound_keys(options.strategy);
+      box.keys = bound_keys(strategy);
       box.boxes.assign(static_cast<size_t>(box.keys),
-                       scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(options.strategy)));
+                       scene_.skins[piece.skin].skin->bound(piece.piece, bound_span(strategy)));
     }
   });
   return bounds;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/job.h"
@@ -40,7 +41,22 @@ class FrameChunks final : public ChunkGrower {
   /// skin encloses the control points of that piece. `counts` receives the counts of the leaves. Errors of
   /// growing leaves reach the caller. Throws Error (kMemory) before growing a leaf that does not fit. When
   /// cancelled, chunks may have no boxes.
-  std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts) const;
+  ///
+  /// `known`: the boxes of leaves that are known from an earlier frame, by leaf; null where they are not
+  /// known. Empty if none are.
+  std::vector<ChunkBounds> bounds(const Job& job, BoundingCounts& counts,
+                                  const std::vector<const ChunkBounds*>& known = {}) const;
+  /// From now on, bounds() computes the boxes with the strategy `conservative` instead of growing the leaves,
+  /// if that is faster: if the strategy of the scene measures constant boxes, all chunks fit `render.memory`
+  /// together, and no boxes are stored beside caches. Returns whether this is so.
+  bool bound_quickly(const Job& job);
+  /// Returns a hash of everything on which the grown leaf and its boxes depend, except for its numbers
+  /// (FurChunk::renumber()) and its min width: equal hashes mean equal leaves, in all frames of this process.
+  /// Empty when unknown.
+  std::optional<ContentHash> content(uint32_t leaf) const;
+  /// Makes the first growth of a leaf count as growing its strands again. Call before that growth.
+  void mark_grown(uint32_t leaf) { was_grown_[leaf].store(true, std::memory_order_relaxed); }
+  bool was_grown(uint32_t leaf) const { return was_grown_[leaf].load(std::memory_order_relaxed); }
   /// Returns whether strands are stored in fur trees. If so, bounds() computes one box for each leaf;
   /// otherwise, one for each part of a leaf.
   bool in_fur_trees() const;
@@ -66,11 +82,15 @@ class FrameChunks final : public ChunkGrower {
     size_t block = 0;     // max temporary bytes of growing one leaf, without its strands
   };
   MeasurePlan measure_plan(const Job& job) const;
+  /// Returns the boxes of the given leaves.
+  std::vector<ChunkBounds> leaf_bounds(const std::vector<const Procedural*>& leaves, const Job& job,
+                                       BoundingCounts& counts) const;
 
   void divide_skins(const Job& job);
   void collect(const Procedural& procedural, uint32_t part, uint32_t coat);
 
   const RenderScene& scene_;
+  BoundingStrategy bounds_;
   std::vector<std::unique_ptr<Procedural>> made_;  // intermediate procedurals of splitting
   std::vector<const Procedural*> leaves_;
   std::vector<uint32_t> parts_;      // index in RenderScene::fur, by leaf

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "base/job.h"
 #include "render/accel/chunk_accel.h"
@@ -17,8 +19,21 @@ class FrameGeometry {
   /// Splits all procedurals into leaves and computes the boxes of each leaf. Throws Error, of kind kMemory if
   /// the largest chunk does not fit `render.memory`. Returns null when cancelled. `statistics` receives the
   /// counts and times of these steps.
-  static std::unique_ptr<const FrameGeometry> make(const RenderScene& scene, const Job& job,
-                                                   FrameStatistics& statistics);
+  ///
+  /// `kept`, if not null: chunks of an earlier frame. Those with the same contents are used instead of
+  /// growing them again, and the others are freed. When cancelled, `kept` is unchanged. The first picture is
+  /// then more urgent than the last: FrameChunks::bound_quickly(). Call tighten() when many chunks have
+  /// grown.
+  static std::unique_ptr<FrameGeometry> make(const RenderScene& scene, const Job& job,
+                                             FrameStatistics& statistics, KeptFur* kept = nullptr);
+  /// Uses the measured boxes of chunks that have grown, so that later rays are faster. Affects no hit. No ray
+  /// may be traced meanwhile.
+  void tighten(const Job& job) {
+    if (is_quick_) accel_.chunks().tighten(job);
+  }
+  /// Moves all chunks of fur to `kept`, which must be the object that was passed to make(). Afterwards, this
+  /// object can only be destroyed. The scene may have changed since make().
+  void release(KeptFur& kept, MemoryLedger& ledger);
 
   const Accel& accel() const { return accel_; }
   /// Returns the chunks of accel(), for callers that need strands and boxes.
@@ -35,9 +50,11 @@ class FrameGeometry {
 
  private:
   FrameGeometry(std::unique_ptr<const FrameChunks> chunks, std::vector<ChunkBounds> bounds,
-                const ResidentChunksOptions& options, const Job& job);
+                const ResidentChunksOptions& options, const Job& job, std::vector<KeptChunk> kept);
 
   std::unique_ptr<const FrameChunks> chunks_;
+  bool is_quick_ = false;                             // FrameChunks::bound_quickly()
+  std::vector<std::optional<ContentHash>> contents_;  // by leaf; empty if chunks are not kept
   MemoryCharge chunks_charge_;
   std::shared_ptr<const FurChunkFile> stored_;
   MemoryCharge stored_charge_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "render/film/film.h"
 
@@ -11,20 +12,30 @@ namespace pelage {
 struct PassState {
   uint32_t samples = 0;     ///< min sample count over the traced pixels
   double mean_samples = 0;  ///< mean sample count over the traced pixels
-  int grid = 1;  ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
-                 ///< samples
+  int grid = 1;   ///< greater than 1: only the pixels whose x and y are multiples of `grid` are sure to have
+                  ///< samples
+  PixelBox full;  ///< all pixels of this box have samples, whatever `grid` is; may be empty
 };
 
 /// Sees a frame while it is rendered. The calls are made on the thread that renders, between two passes, when
 /// no other thread writes the film. A slow watch delays the render.
 ///
+/// A watch may choose a region. Its pixels get all their samples before the other pixels get more; with
+/// adaptive sampling or a time limit, only each pass begins with them. The film is the same in the end. With
+/// splatted samples, the region has no effect.
+///
 /// With a watch, the passes are shorter, and the first sample of every pixel is taken on grids of 8, 4 and 2
-/// pixels first. The film is the same in the end. With splatted samples, the passes are those of an unwatched
-/// render, because the order of the samples decides how their sums are rounded.
+/// pixels first. The film is the same in the end. With splatted samples, a watch changes no pass, because the
+/// order of the samples decides how their sums are rounded.
 class FrameWatch {
  public:
   virtual ~FrameWatch() = default;
   virtual void passed(const Film& film, const PassState& state) = 0;
+  /// Returns the region, in pixels of the film; empty for none. This function and the next one may be
+  /// called by any thread, at any time.
+  virtual std::optional<PixelBox> region() const = 0;
+  /// Returns a number that changes with the region; 0 if there has never been a region.
+  virtual uint32_t region_version() const = 0;
 };
 
 }  // namespace pelage

@@ -17,6 +17,9 @@ uint32_t limited(double count, uint32_t min, uint32_t max_samples) {
   return std::max(min, static_cast<uint32_t>(std::clamp(count, 0.0, static_cast<double>(max_samples))));
 }
 
+/// Max duration of a pass that is watched, if it can be that short.
+constexpr double kWatched_s = 1;
+
 /// Fraction of the pilot that is used to find pixels with any variance.
 constexpr uint32_t kProbeShare = 4;
 
@@ -45,12 +48,55 @@ SampleSchedule::SampleSchedule(FrameLoop& loop, const RenderParams& params, cons
       refines_(watch && !loop.film().layers().splat),
       in_passes_(stays || params.time_limit > 0 || refines_) {}
 
+void SampleSchedule::tell_watch(int grid) {
+  if (watch_) watch_->passed(loop_.film(), {loop_.min_samples(), loop_.mean_samples(), grid, full_});
+}
+
+SampleSchedule::End SampleSchedule::refine_region(const FrameLoop::Goal& goal, double deadline_s, int grid) {
+  region_seen_ = watch_->region_version();
+  const bool at_once = !params_.adaptive && params_.time_limit <= 0;  // whether all counts are known
+  if (loop_.mean_samples() == 0 || (at_once && region_seen_ == region_refined_)) return End::kDone;
+  region_refined_ = region_seen_;
+  const std::optional<PixelBox> region = watch_->region();
+  if (!region) return End::kDone;
+  const auto columns = static_cast<size_t>(loop_.width());
+  const auto is_inside = [&](size_t pixel) {
+    const int x = static_cast<int>(pixel % columns), y = static_cast<int>(pixel / columns);
+    return x >= region->x0 && x < region->x1 && y >= region->y0 && y < region->y1;
+  };
+  End end = End::kDone;
+  for (uint32_t given = 0, next = 1; end == End::kDone && watch_->region_version() == region_seen_;) {
+    const double began = clock_.seconds();
+    end = loop_.pass(
+        [&](size_t pixel, uint32_t now) {
+          if (!is_inside(pixel) || watch_->region_version() != region_seen_) return now;
+          return at_once ? next : goal(pixel, now);
+        },
+        false, deadline_s);
+    if (end == End::kCancelled) break;
+    if (watch_->region_version() == region_seen_ && end == End::kDone) full_ = *region;
+    tell_watch(grid);
+    if (!at_once || next == max_samples()) break;
+    const double sample_s = std::max(1e-9, clock_.seconds() - began) / (next - given);
+    given = next;
+    next += std::min(limited(kWatched_s / sample_s, 1, given), max_samples() - given);
+  }
+  return end;
+}
+
 SampleSchedule::End SampleSchedule::pass(const FrameLoop::Goal& goal, bool scattered, double deadline_s,
                                          int grid) {
-  const End end = loop_.pass(goal, scattered, deadline_s);
-  if (watch_ && end != End::kCancelled)
-    watch_->passed(loop_.film(), {loop_.min_samples(), loop_.mean_samples(), grid});
-  return end;
+  const auto is_current = [this] { return !refines_ || watch_->region_version() == region_seen_; };
+  while (true) {
+    End end = refines_ ? refine_region(goal, deadline_s, grid) : End::kDone;
+    if (end != End::kDone) return end;
+    end = loop_.pass([&](size_t pixel, uint32_t given) { return is_current() ? goal(pixel, given) : given; },
+                     scattered, deadline_s);
+    if (end == End::kCancelled) return end;
+    if (end == End::kDone && !is_current()) continue;
+    tell_watch(grid);
+    return end;
+  }
 }
 
 SampleSchedule::End SampleSchedule::coarse_passes() {
@@ -88,7 +134,6 @@ ScheduleEnd SampleSchedule::run() {
 }
 
 SampleSchedule::End SampleSchedule::uniform(uint32_t samples) {
-  constexpr double kWatched_s = 1;  // max duration of a pass that is watched, if it can be that short
   End end = refines_ && loop_.mean_samples() == 0 ? coarse_passes() : End::kDone;
   double last_pass_s = 0;  // per sample and pixel
   for (uint32_t given = 0; given < samples && end == End::kDone;) {

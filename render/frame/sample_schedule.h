@@ -44,8 +44,13 @@ class SampleSchedule {
 
  private:
   using End = PassEnd;
-  /// Makes one pass and tells the watch, unless the pass is cancelled. `grid`: see PassState.
+  /// Makes one pass and tells the watch, unless the pass is cancelled. `grid`: see PassState. A new region of
+  /// the watch interrupts the pass, which then continues after refine_region().
   End pass(const FrameLoop::Goal& goal, bool scattered, double deadline_s, int grid = 1);
+  /// Takes the samples of the region that the watch has chosen: all of them, or those of the pass with this
+  /// goal.
+  End refine_region(const FrameLoop::Goal& goal, double deadline_s, int grid);
+  void tell_watch(int grid);
   /// Takes the first sample of the pixels on grids of 8, 4 and 2 pixels.
   End coarse_passes();
   /// Takes samples until every pixel has `samples`.
@@ -64,9 +69,12 @@ class SampleSchedule {
   Job job_;
   const Stopwatch& clock_;
   FrameWatch* watch_;
-  bool refines_;      // whether to make additional passes for the watch
-  bool in_passes_;    // whether a stage has several passes
-  bool cut_ = false;  // counts were scaled down to fit the time limit
+  bool refines_;                 // whether to make additional passes for the watch
+  bool in_passes_;               // whether a stage has several passes
+  uint32_t region_seen_ = 0;     // version of the watch's region that the current pass takes into account
+  uint32_t region_refined_ = 0;  // version of the region that refine_region() has begun with
+  PixelBox full_;                // see PassState
+  bool cut_ = false;             // counts were scaled down to fit the time limit
 };
 
 }  // namespace pelage

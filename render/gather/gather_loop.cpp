@@ -16,6 +16,15 @@ constexpr int kFew = 4;
 /// Fraction of `render.memory` that tiles may take: 1 / kMemoryShare.
 constexpr int64_t kMemoryShare = 8;
 
+/// The tiles of the picture that a film stores. They are whole, also where a region ends inside of them: the
+/// samples of a tile share light, so each pixel of a tile needs the others.
+std::vector<Tile> tiles_of(const PixelBox& film) {
+  std::vector<Tile> tiles = tiles_along_curve(film.width(), film.height(), GatherTile::kSide);
+  for (Tile& tile : tiles)
+    tile = {tile.x0 + film.x0, tile.y0 + film.y0, tile.x1 + film.x0, tile.y1 + film.y0};
+  return tiles;
+}
+
 }  // namespace
 
 GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
@@ -40,7 +49,7 @@ GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const Resid
       result_(result),
       in_passes_(fits || scene.render.time_limit > 0),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
-      tiles_(tiles_along_curve(scene.image.width, scene.image.height, GatherTile::kSide)),
+      tiles_(tiles_of(result.window.film)),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
@@ -62,7 +71,7 @@ uint32_t GatherLoop::portion(uint32_t first, uint32_t end) const {
 
 void GatherLoop::run() {
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
-  const double pixels = static_cast<double>(scene_.image.width) * scene_.image.height;
+  const double pixels = static_cast<double>(result_.film.width()) * result_.film.height();
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double limit_s = scene_.render.time_limit > 0 ? double{scene_.render.time_limit} : kNever;
   job_.progress.begin("render", pixels * samples);
@@ -131,7 +140,7 @@ bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
 }
 
 void GatherLoop::land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch) {
-  rejected_ += tile_.add_to(result_.film, scratch);
+  rejected_ += tile_.add_to(result_.window.film, result_.film, scratch);
   scratch.knots += {.knots = static_cast<int64_t>(scratch.samples.zone_of_knot.size()),
                     .samples = static_cast<int64_t>(scratch.samples.points.size())};
   job_.progress.advance(static_cast<double>(count) * (tile.x1 - tile.x0) * (tile.y1 - tile.y0));

@@ -88,14 +88,15 @@ bool GatherTile::look(uint32_t first, uint32_t count, const Job& job, Scratch& s
   for (uint32_t pixel = 0; pixel < scratch.samples.pixels(); ++pixel) {
     if (job.progress.cancelled()) return false;
     for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t drawn = first + i - scratch.first_sample;
       const auto hit = [&](const Ray& ray) {
         if (!raster_) return scratch.closest(RayKind::kCamera, accel_, ray);
         return scratch.costs.rays.measure(RayKind::kCamera, scratch.thread.counts, [&] {
-          return raster_->closest(pixel, first + i - scratch.first_sample, ray, scratch.thread,
-                                  scratch.raster);
+          return raster_->closest(pixel, drawn, scratch.thread, scratch.raster);
         });
       };
-      points_.look(pixel, first + i, hit, scratch.look, scratch, scratch.samples);
+      const CameraSample* known = raster_ ? &TileRaster::sample(pixel, drawn, scratch.raster) : nullptr;
+      points_.look(pixel, first + i, known, hit, scratch.look, scratch, scratch.samples);
     }
   }
   TileRaster::end(scratch.thread, scratch.raster);
@@ -118,7 +119,7 @@ void GatherTile::add_scattered(uint32_t point, Scratch& scratch) const {
   }
 }
 
-int64_t GatherTile::add_to(Film& film, Scratch& scratch) const {
+int64_t GatherTile::add_to(const PixelBox& window, Film& film, Scratch& scratch) const {
   const TileSamples& samples = scratch.samples;
   int64_t rejected = 0;
   auto seen = samples.seen_lights.begin();
@@ -137,8 +138,8 @@ int64_t GatherTile::add_to(Film& film, Scratch& scratch) const {
       if (front.sample == i) scratch.sample.surface = front.of_pixel.surface;
       add_scattered(from.point, scratch);
     }
-    const bool added =
-        film.add(samples.x(from.pixel), samples.y(from.pixel), scratch.sample, scratch.by_layer);
+    const bool added = film.add(samples.x(from.pixel) - window.x0, samples.y(from.pixel) - window.y0,
+                                scratch.sample, scratch.by_layer);
     rejected += added ? 0 : 1;
   }
   return rejected;

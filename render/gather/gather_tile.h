@@ -45,9 +45,9 @@ class GatherTile {
   /// Traces samples first .. first + count - 1 of each pixel. Stores the result in `scratch`. Returns false
   /// when `job` was cancelled.
   bool trace(const Tile& tile, uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;
-  /// Adds the result of the last trace() to the film. Returns the count of samples that were not added
-  /// because they are not finite.
-  int64_t add_to(Film& film, Scratch& scratch) const;
+  /// Adds the result of the last trace() to the film, which stores the pixels `window` of the picture.
+  /// Returns the count of samples that were not added because they are not finite.
+  int64_t add_to(const PixelBox& window, Film& film, Scratch& scratch) const;
 
  private:
   bool look(uint32_t first, uint32_t count, const Job& job, Scratch& scratch) const;

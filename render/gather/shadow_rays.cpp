@@ -87,7 +87,7 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
   for (uint32_t knot = 0; knot < knots; ++knot) {
     const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
     if (items.empty()) continue;
-    // Each knot makes its choice by itself, so that the rays of other knots tell nothing about its own.
+    // Knots choose independently: which rays one knot traces says nothing about the choice of another.
     const uint64_t random = hash64(random_use("shadow rays"), samples.random_key, first > 0 ? 1 : 0, knot);
     SystematicChoice choice(mass / rays, unit_float(random));
     for (const uint32_t index : items) {

@@ -48,11 +48,11 @@ uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSample
   return knot;
 }
 
-void VisiblePoints::look(uint32_t pixel, uint32_t sample, const FindHit& find, Scratch& scratch,
-                         SampleScratch& thread, TileSamples& tile) const {
+void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
+                         Scratch& scratch, SampleScratch& thread, TileSamples& tile) const {
   const int x = tile.x(pixel), y = tile.y(pixel);
   SampleStream stream = camera_.stream(x, y, sample);
-  const CameraSample from = camera_.draw(x, y, sample, stream);
+  const CameraSample from = known ? *known : camera_.draw(x, y, sample, stream);
   const auto index = static_cast<uint32_t>(tile.samples.size());
   tile.samples.push_back({from.offset, pixel});
   const Hit hit = find(from.ray);

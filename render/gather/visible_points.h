@@ -42,9 +42,9 @@ class VisiblePoints {
   };
 
   /// Finds what sample `sample` of a pixel sees, and adds the sample to `tile`. `pixel`: index of the pixel
-  /// in the tile. `find`: uses `thread`.
-  void look(uint32_t pixel, uint32_t sample, const FindHit& find, Scratch& scratch, SampleScratch& thread,
-            TileSamples& tile) const;
+  /// in the tile. `known`: the camera sample, or null if it must be made. `find`: uses `thread`.
+  void look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find, Scratch& scratch,
+            SampleScratch& thread, TileSamples& tile) const;
 
  private:
   uint32_t knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const;

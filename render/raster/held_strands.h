@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -21,21 +22,27 @@ class HeldStrands {
   /// Max memory of the strands that are kept. If they need more, all but the last are dropped.
   static constexpr size_t kMaxBytes = size_t{1} << 20;
 
+  /// Begins a tile: strands that are kept ahead of use may replace all others.
+  void begin() { ++tile_; }
+  /// Copies a strand that will be used. Does nothing where it would replace another one of the same tile, or
+  /// if memory is short. Call while no strand is lent.
+  template <class Copy>
+  void keep(const StrandHandle& handle, const Copy& copy) {
+    Held& held = held_[index(handle)];
+    if (held.handle == handle || held.tile == tile_ || bytes_ > kMaxBytes / 2) return;
+    replace(held, handle, held.strand, copy);
+  }
   /// Stores the strand of a handle in `met`. Calls copy(Strands&) if the strand is not kept here.
   template <class Copy>
   void lend(const StrandHandle& handle, Strands& met, const Copy& copy) {
-    Held& held = held_[hash64(handle.chunk, handle.index) % kCount];
+    Held& held = held_[index(handle)];
     if (lent_ != &held) {
       take_back(met);
       std::swap(held.strand, met);
       lent_ = &held;
     }
     if (held.handle == handle) return;
-    held.handle = {};
-    bytes_ -= std::min(bytes_, met.bytes());
-    copy(met);
-    held.handle = handle;
-    bytes_ += met.bytes();
+    replace(held, handle, met, copy);
     if (bytes_ > kMaxBytes) drop_others(held, met.bytes());
   }
   /// Returns the max memory, in bytes.
@@ -49,8 +56,20 @@ class HeldStrands {
  private:
   struct Held {
     StrandHandle handle;
+    uint32_t tile = 0;  // when it was copied
     Strands strand;
   };
+  static size_t index(const StrandHandle& handle) { return hash64(handle.chunk, handle.index) % kCount; }
+  /// `strand`: where the strand of `held` is now.
+  template <class Copy>
+  void replace(Held& held, const StrandHandle& handle, Strands& strand, const Copy& copy) {
+    held.handle = {};
+    bytes_ -= std::min(bytes_, strand.bytes());
+    copy(strand);
+    held.handle = handle;
+    held.tile = tile_;
+    bytes_ += strand.bytes();
+  }
   void drop_others(const Held& keep, size_t bytes) {
     for (Held& held : held_) {
       if (&held != &keep) held = {};
@@ -61,6 +80,7 @@ class HeldStrands {
   std::vector<Held> held_ = std::vector<Held>(kCount);
   Held* lent_ = nullptr;
   size_t bytes_ = 0;  // of all strands
+  uint32_t tile_ = 0;
 };
 
 }  // namespace pelage

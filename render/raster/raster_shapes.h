@@ -23,7 +23,7 @@ struct RasterPiece {
     V3f end() const { return p + d; }
     /// Max distance from the chord. kCubic is the max of |u (1 - u) (1/2 - u)|.
     float bulge() const { return 0.25f * q.length() + kCubic * c.length(); }
-    /// Max difference of depths from those of the chord.
+    /// Max difference in depth between the curve and its chord at the same u.
     float depth_bulge() const { return 0.25f * std::abs(q.z) + kCubic * std::abs(c.z); }
     static constexpr float kCubic = 0.0482f;
   };

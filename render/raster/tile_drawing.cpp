@@ -73,9 +73,16 @@ bool TileDrawing::may_see(const Box3f& box) const {
     *low[axis] = four(centre[a] - spread);
     *high[axis] = four(centre[a] + spread);
   }
+  return may_see(boxes)[0];
+}
+
+std::array<bool, 4> TileDrawing::may_see(const FourViewBoxes& boxes) const {
   ViewFootprint footprints[4];
   projection_.find(boxes, footprints);
-  return !footprints[0].is_empty() && !hides(footprints[0]);
+  std::array<bool, 4> result{};
+  for (size_t lane = 0; lane < 4; ++lane)
+    result[lane] = !footprints[lane].is_empty() && !hides(footprints[lane]);
+  return result;
 }
 
 void TileDrawing::update() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,6 +35,9 @@ class TileDrawing final : public PrimitiveSink {
   void update();
   /// Whether a box may have points that the lines see.
   bool may_see(const Box3f& box) const;
+  /// The same for four boxes in the frame of the tile.
+  std::array<bool, 4> may_see(const FourViewBoxes& boxes) const;
+  const TileFrame& frame() const { return frame_; }
   float far() const override { return lines_.grid().far(); }
   void find_footprints(const FourViewBoxes& boxes, ViewFootprint (&footprints)[4]) const override {
     projection_.find(boxes, footprints);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/job.h"
@@ -12,6 +14,7 @@
 #include "render/frame/tile_order.h"
 #include "render/raster/held_strands.h"
 #include "render/raster/tile_frame.h"
+#include "render/raster/tile_hits.h"
 #include "render/raster/tile_lines.h"
 #include "render/scene/render_scene.h"
 
@@ -20,7 +23,7 @@ namespace pelage {
 class TileDrawing;
 
 /// Finds what the camera samples of a tile see, by drawing strands and skins instead of tracing a ray per
-/// sample. Drawing decides which primitive each sample sees. closest() then intersects the sample's ray with
+/// sample. Drawing decides which primitive each sample sees. Then the ray of the sample is intersected with
 /// this primitive only. If the ray misses it, closest() traces the ray. So every result is a hit of the ray,
 /// and nearly always the nearest.
 ///
@@ -48,9 +51,11 @@ class TileRaster {
       }
     };
 
+    std::vector<CameraSample> samples;  ///< by slot, as the following
     std::vector<TileLine> drawn;
     TileLines lines;
-    std::vector<Candidate> candidates;
+    TileHits hits;
+    std::vector<Candidate> candidates[2];  ///< by ChunkKind
     uint32_t samples_per_pixel = 0;
     HeldStrands held;
     int64_t traced = 0;   ///< samples whose ray was traced
@@ -60,12 +65,16 @@ class TileRaster {
   static size_t scratch_bytes(size_t samples);
 
   /// Draws the tile for samples first .. first + count - 1 of each pixel. Returns false when `job` was
-  /// cancelled.
+  /// cancelled. Call end() for the last tile before.
   bool find(const Tile& tile, uint32_t first, uint32_t count, const Job& job, int worker,
             Scratch& scratch) const;
-  /// Returns what sample first + `sample` of a pixel sees. `ray`: camera ray of the sample. Like
-  /// Accel::closest(), stores the geometry in `thread.met`. Call end() before other code uses `thread.met`.
-  Hit closest(uint32_t pixel, uint32_t sample, const Ray& ray, TraceThread& thread, Scratch& scratch) const;
+  /// Returns camera sample first + `sample` of a pixel.
+  static const CameraSample& sample(uint32_t pixel, uint32_t sample, const Scratch& scratch) {
+    return scratch.samples[slot(pixel, sample, scratch)];
+  }
+  /// Returns what this sample sees. Like Accel::closest(), stores the geometry in `thread.met`. Call end()
+  /// before other code uses `thread.met`.
+  Hit closest(uint32_t pixel, uint32_t sample, TraceThread& thread, Scratch& scratch) const;
   static void end(TraceThread& thread, Scratch& scratch) { scratch.held.take_back(thread.met.strand); }
 
  private:
@@ -79,10 +88,21 @@ class TileRaster {
   View make_lines(const Tile& tile, uint32_t first, uint32_t count, Scratch& scratch) const;
   void sort_lines(const View& view, const Range& depths, Scratch& scratch) const;
 
-  void find_candidates(bool skins, const Beam& beam, float far, const Scratch::Candidate& after,
+  enum ChunkKind : size_t { kFur, kSkin };
+  /// A chunk of each kind.
+  using Candidates = std::array<Scratch::Candidate, 2>;
+  void find_candidates(std::array<bool, 2> wanted, const Beam& beam, float far, const Candidates& after,
                        Scratch& scratch) const;
+  static size_t slot(uint32_t pixel, uint32_t sample, const Scratch& scratch) {
+    return size_t{pixel} * scratch.samples_per_pixel + sample;
+  }
+  bool draw_all(const View& view, const Range& all, const Job& job, int worker, Scratch& scratch) const;
+  bool find_hits(const Job& job, int worker, Scratch& scratch) const;
+  void grow(uint32_t chunk, int worker, Scratch& scratch) const;
+  std::optional<Hit> drawn_hit(size_t slot, TraceThread& thread, Scratch& scratch) const;
   Box3f seen_box(const Box3f& box) const { return min_width_.pixels > 0 ? min_width_.around(box) : box; }
   bool may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
+  bool fine_boxes_may_be_seen(uint32_t chunk, const TileDrawing& drawing) const;
 
   const RenderScene& scene_;
   const Accel& accel_;

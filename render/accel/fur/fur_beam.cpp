@@ -17,8 +17,8 @@ namespace {
 
 constexpr float kRounding = 0x1p-19f;  // of a plane in the tree's frame, relative to the largest term
 constexpr size_t kStack = 512;         // as in fur_walk.inl: more than three entries per level
-/// Boxes are enlarged by this many steps of the grid when they are compared with what is already seen: sinks
-/// may draw strands wider by this length.
+/// Boxes are enlarged by this many steps of the grid before a sink tests whether they are hidden, because a
+/// sink may draw strands wider by this length.
 constexpr float kWider = 8;
 
 template <class T>

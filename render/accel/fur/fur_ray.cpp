@@ -14,33 +14,50 @@ namespace {
 constexpr float kErrorBound = 0x1p-19f;
 constexpr float kSmallest = 1e-18f;  // min direction component: its inverse is usable
 
-bool is_finite(const Ray& ray) {
+float largest(const V3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+
+}  // namespace
+
+bool FurRay::is_finite(const Ray& ray) {
   const float sum = ray.origin.x + ray.origin.y + ray.origin.z + ray.direction.x + ray.direction.y +
                     ray.direction.z + ray.near + ray.time;
   return std::isfinite(sum) && !std::isnan(ray.far);
 }
 
-float largest(const V3f& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
+bool FurRay::to_grid(const FurTreeView& tree, const V3f& point, double (&grid)[3]) {
+  const float inverse = 1 / tree.step;
+  V3f rounded;
+  for (int i = 0; i < 3; ++i) {
+    grid[i] = (double(point[i]) - tree.anchor[i]) * inverse;
+    rounded[i] = static_cast<float>(grid[i]);
+  }
+  return largest(rounded) <= FurGrid::kReach;
+}
 
-}  // namespace
+uint32_t FurRay::main_axis(const V3f& direction) {
+  const V3f size_of(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
+  return size_of.x > size_of.y ? (size_of.x > size_of.z ? 0 : 2) : (size_of.y > size_of.z ? 1 : 2);
+}
+
+float FurRay::point_error(const FurTreeView& tree, float origin_reach) {
+  return 2 * kErrorBound * (origin_reach + tree.reach);
+}
+
+float FurRay::reach_in_frame(const FurTreeView& tree, const V3f& origin) {
+  return largest(tree.frame.turned ? tree.frame(origin) : origin);
+}
 
 bool FurRay::prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from) {
-  if (!is_finite(ray)) return false;
-  const float grid = 1 / tree.step;
+  double grid_origin[3];
+  if (!is_finite(ray) || !to_grid(tree, ray.origin, grid_origin)) return false;
   const V3f& d = ray.direction;
-  const double grid_origin[3] = {(double(ray.origin.x) - tree.anchor.x) * grid,
-                                 (double(ray.origin.y) - tree.anchor.y) * grid,
-                                 (double(ray.origin.z) - tree.anchor.z) * grid};
   for (int i = 0; i < 3; ++i) origin[i] = static_cast<float>(grid_origin[i]);
-  if (!(largest(origin) <= FurGrid::kReach)) return false;
   direction = d;
   inverse[3] = near_origin[3] = far_origin[3] = 0;
   is_transformed_ = false;
   begin(tree, ray, from);
 
-  const V3f size_of(std::abs(d.x), std::abs(d.y), std::abs(d.z));
-  const uint32_t k =
-      size_of.x > size_of.y ? (size_of.x > size_of.z ? 0 : 2) : (size_of.y > size_of.z ? 1 : 2);
+  const uint32_t k = main_axis(d);
   const uint32_t i = (k + 1) % 3, j = (k + 2) % 3;
   axis[0] = i, axis[1] = j, axis[2] = k;
   along_i = d[static_cast<int>(i)];
@@ -85,7 +102,7 @@ void FurRay::begin(const FurTreeView& tree, const Ray& ray, const FurStart& from
   // Rotation adds a few units of rounding to boxes and rays.
   const float reach = slab_reach_ + tree.reach;
   const float error_bound = (tree.frame.turned ? 2 * kErrorBound : kErrorBound) * reach;
-  point_error_bound = 2 * kErrorBound * reach;
+  point_error_bound = point_error(tree, slab_reach_);
   for (int i = 0; i < 3; ++i) {
     const float outward = near_side[i] == 1 ? error_bound : -error_bound;
     near_origin[i] = slab_origin_[i] - outward;

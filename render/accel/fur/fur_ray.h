@@ -44,6 +44,18 @@ struct FurRay {
   /// origin is beyond FurGrid::kReach, and rays whose direction does not have a length between 1/2 and 2.
   bool prepare(const FurTreeView& tree, const Ray& ray, const FurStart& from);
 
+  /// Parts of prepare(). Whether all numbers of a ray are finite, except the far end.
+  static bool is_finite(const Ray& ray);
+  /// Converts a point to grid units. Returns whether no coordinate is beyond FurGrid::kReach.
+  static bool to_grid(const FurTreeView& tree, const V3f& point, double (&grid)[3]);
+  /// Returns the axis of the largest component of a direction.
+  static uint32_t main_axis(const V3f& direction);
+  /// Returns `point_error_bound` of a ray with this largest absolute coordinate of its origin, in the frame
+  /// of the tree.
+  static float point_error(const FurTreeView& tree, float origin_reach);
+  /// Returns the largest absolute coordinate of an origin in the frame of the tree. `origin`: in grid units.
+  static float reach_in_frame(const FurTreeView& tree, const V3f& origin);
+
  private:
   friend class FurRays;
   void begin(const FurTreeView& tree, const Ray& ray, const FurStart& from);

@@ -249,5 +249,126 @@ TEST_F(ResidentChunksDeathTest, VisitsWithinAVisitAreABug) {
   }
 }
 
+/// Chunks with the numbers reversed that must not grow.
+TestChunks reversed(const TestChunks& chunks) {
+  TestChunks other = chunks;
+  std::reverse(other.contents.begin(), other.contents.end());
+  return other;
+}
+
+// An accelerator with the chunks of an earlier one, under other numbers, answers every ray as a new one does.
+TEST_F(ResidentChunksScenes, KeptChunksServeAnotherFrame) {
+  for (const bool moving : {false, true}) {
+    RandomChunkOptions scene;
+    scene.translucent = true;
+    scene.skins = false;
+    scene.motion_keys = moving ? 2 : 1;
+    const TestChunks first = random_chunks(8, scene), second = reversed(first);
+    const auto count = static_cast<uint32_t>(first.contents.size());
+    ResidentChunksOptions options = options_of(AccelKind::kFur);
+    options.pool = std::make_shared<PagePool>();
+    const int64_t before = ledger_.budgeted();
+    auto old = make(first, first.measured_bounds(1), options);
+    for (uint32_t chunk = 0; chunk < count; chunk += 2) strand_count(old->chunks(), chunk);
+    std::vector<ChunkBounds> bounds(count);
+    std::vector<KeptChunk> kept(count);
+    for (uint32_t chunk = 0; chunk < count; ++chunk) {
+      KeptChunk& moved = kept[count - 1 - chunk] = old->chunks().release(chunk, ledger_);
+      EXPECT_EQ(moved.fur != nullptr, chunk % 2 == 0);
+      ASSERT_EQ(moved.bounds.boxes.size(), 1u);
+      bounds[count - 1 - chunk] = moved.bounds;
+    }
+    old = nullptr;
+    EXPECT_GT(ledger_.budgeted(), before) << "kept chunks are charged";
+
+    const auto truth = make(second, second.measured_bounds(1), options_of(AccelKind::kFur));
+    const auto accel = std::make_unique<ChunkAccel>(std::move(bounds), second, options,
+                                                    Job{workers_, ledger_, progress_}, std::move(kept));
+    for (uint32_t chunk = 0; chunk < count; ++chunk) {
+      EXPECT_EQ(accel->chunks().is_resident(count - 1 - chunk), chunk % 2 == 0);
+      EXPECT_EQ(accel->chunks().boxes().whole(chunk).min, truth->chunks().boxes().whole(chunk).min);
+      EXPECT_EQ(accel->chunks().boxes().whole(chunk).max, truth->chunks().boxes().whole(chunk).max);
+    }
+    expect_same(*accel, *truth, 3, repetitions(2000));
+    expect_same_strands(accel->chunks(), truth->chunks());
+    EXPECT_EQ(accel->chunks().counts().expansions, count / 2) << "only the others grew";
+  }
+  EXPECT_EQ(ledger_.budgeted(), 0) << "everything is freed";
+}
+
+// Measured boxes change no hit, and save visits.
+TEST_F(ResidentChunksScenes, TightenTheirBoxesWhenChunksHaveGrown) {
+  for (const bool moving : {false, true}) {
+    RandomChunkOptions scene;
+    scene.motion_keys = moving ? 2 : 1;
+    const TestChunks chunks = random_chunks(10, scene);
+    std::vector<ChunkBounds> loose = chunks.bounds(1, 3);
+    for (ChunkBounds& bounds : loose) bounds = {1, {bounds.whole()}, {}};
+    const auto truth = make(chunks, chunks.measured_bounds(1), options_of(AccelKind::kFur));
+    const auto accel = make(chunks, loose, options_of(AccelKind::kFur));
+    const auto visits = [&] {
+      const FlushDenormals flush;
+      TraceThread thread;
+      for (uint64_t i = 0; i < 500; ++i) accel->closest(random_ray(4, i), thread);
+      return thread.counts.chunk_visits;
+    };
+    const Job job{workers_, ledger_, progress_};
+    strand_count(accel->chunks(), 0);
+    accel->chunks().tighten(job);  // one chunk has grown
+    expect_same(*accel, *truth, 4, repetitions(1000));
+    const int64_t before = visits(), memory = ledger_.budgeted();
+    accel->chunks().tighten(job);
+    EXPECT_LT(visits(), before);
+    EXPECT_NEAR(static_cast<double>(ledger_.budgeted()), static_cast<double>(memory), 1000);
+    expect_same(*accel, *truth, 5, repetitions(1000));
+    const KeptChunk kept = accel->chunks().release(0, ledger_);
+    EXPECT_LT(kept.bounds.whole().size().x, loose[0].whole().size().x / 2);
+  }
+}
+
+TEST_F(ResidentChunksScenes, KeptChunksRespectTheLimitAndTheWidthsOfTheNewFrame) {
+  RandomChunkOptions scene;
+  scene.skins = false;
+  const TestChunks chunks = random_chunks(9, scene);
+  const auto count = static_cast<uint32_t>(chunks.contents.size());
+  ResidentChunksOptions options = options_of(AccelKind::kFur);
+  options.pool = std::make_shared<PagePool>();
+  const auto keep = [&] {
+    auto old = make(chunks, chunks.measured_bounds(1), options);
+    std::vector<KeptChunk> kept;
+    for (uint32_t chunk = 0; chunk < count; ++chunk) {
+      strand_count(old->chunks(), chunk);
+      kept.push_back(old->chunks().release(chunk, ledger_));
+    }
+    return kept;
+  };
+  std::vector<KeptChunk> kept = keep();
+  const size_t narrow = kept[0].fur->bytes();
+  options.fur.min_width = MinWidth{{}, 1.0f};
+  {
+    const ResidentChunks held(chunks.measured_bounds(1), chunks, options, Job{workers_, ledger_, progress_},
+                              std::move(kept));
+    EXPECT_GT(held.visit(0, 0, [](const ChunkGeometry& chunk) { return chunk.bytes(); }), narrow);
+    EXPECT_EQ(held.counts().expansions, 0);
+  }
+  kept = keep();
+  options.fur.min_width = {};
+  EXPECT_GT(kept[0].fur->bytes(), narrow) << "widened strands";
+  // The index of the chunks needs memory too, so they do not all fit.
+  options.memory_limit = static_cast<uint64_t>(ledger_.budgeted());
+  ledger_.set_limit(options.memory_limit);
+  const ResidentChunks held(chunks.measured_bounds(1), chunks, options, Job{workers_, ledger_, progress_},
+                            std::move(kept));
+  EXPECT_LE(ledger_.budgeted(), static_cast<int64_t>(options.memory_limit));
+  uint32_t resident = 0;
+  for (uint32_t chunk = 0; chunk < count; ++chunk) {
+    resident += held.is_resident(chunk);
+    EXPECT_GT(strand_count(held, chunk), 0u);
+    EXPECT_LE(ledger_.budgeted(), static_cast<int64_t>(options.memory_limit));
+  }
+  EXPECT_GT(resident, 0u);
+  EXPECT_LT(resident, count);
+}
+
 }  // namespace
 }  // namespace pelage

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/frame_window.h"
 
+#include <atomic>
+#include <optional>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "render/frame/frame_watch.h"
@@ -10,7 +14,7 @@
 namespace pelage {
 namespace {
 
-/// Fur under a sky, with the wide filter, on a picture whose border is not that of a tile.
+/// Fur under a sky, with the wide filter, on a picture whose size is no multiple of a tile.
 struct FurScene : PathScene {
   FurScene() : PathScene(57, 43) {
     RandomStrandOptions o;
@@ -60,9 +64,14 @@ TEST(FrameWindow, ContainsTheApronInWholeTiles) {
 }
 
 TEST(FrameWindow, PixelsOfARegionAreThoseOfTheWholePicture) {
-  for (const FilterSamples samples : {FilterSamples::kDrawn, FilterSamples::kSplatted}) {
+  for (const auto& [integrator, samples] : {std::pair(Integrator::kPath, FilterSamples::kDrawn),
+                                            std::pair(Integrator::kPath, FilterSamples::kSplatted),
+                                            std::pair(Integrator::kGather, FilterSamples::kDrawn),
+                                            std::pair(Integrator::kGather, FilterSamples::kSplatted)}) {
     FurScene scene;
+    scene.render.integrator = integrator;
     scene.image.filter_samples = samples;
+    scene.image.noise_layers = integrator == Integrator::kPath;
     const FrameResult whole = rendered(scene, {});
     for (const PixelBox& region :
          {PixelBox{3, 5, 20, 17}, PixelBox{16, 16, 32, 32}, PixelBox{15, 31, 17, 33},
@@ -81,9 +90,6 @@ TEST(FrameWindow, RegionsThatDependOnOtherPixelsAreRefused) {
   FurScene scene;
   FrameOptions options;
   options.region = PixelBox{0, 0, 8, 8};
-  scene.render.integrator = Integrator::kGather;
-  EXPECT_THROW(rendered(scene, options), Error);
-  scene.render.integrator = Integrator::kPath;
   scene.render.adaptive.emplace();
   EXPECT_THROW(rendered(scene, options), Error);
   scene.render.adaptive.reset();
@@ -91,7 +97,7 @@ TEST(FrameWindow, RegionsThatDependOnOtherPixelsAreRefused) {
   EXPECT_THROW(rendered(scene, options), Error);
 }
 
-/// Counts what it sees, and checks that no sample is lost between two passes.
+/// Records the passes, and checks that no sample is lost between two of them.
 struct Watch final : FrameWatch {
   void passed(const Film& film, const PassState& state) override {
     EXPECT_GE(state.mean_samples, mean);
@@ -101,6 +107,8 @@ struct Watch final : FrameWatch {
       for (int x = 0; x < film.width(); x += state.grid) EXPECT_GT(film.samples(x, y), 0u);
     }
   }
+  std::optional<PixelBox> region() const override { return {}; }
+  uint32_t region_version() const override { return 0; }
   std::vector<int> grids;
   double mean = 0;
 };
@@ -117,6 +125,52 @@ TEST(FrameWatch, SeesCoarsePicturesFirstAndChangesNoPixel) {
     const FrameResult watched = rendered(scene, options, 3);
     ASSERT_GE(watch.grids.size(), 5u);
     EXPECT_EQ(std::vector<int>(watch.grids.begin(), watch.grids.begin() + 4), (std::vector<int>{8, 4, 2, 1}));
+    expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
+  }
+}
+
+/// Chooses a region during the render, and another one later.
+struct RegionWatch final : FrameWatch {
+  void passed(const Film& film, const PassState& state) override {
+    bool has_all = true, has_any = false;
+    for (int y = 0; y < film.height(); ++y) {
+      for (int x = 0; x < film.width(); ++x) {
+        const PixelBox& box = boxes[1];
+        const bool inside = x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1;
+        if (inside) has_all = has_all && film.samples(x, y) == 40;
+        if (!inside) has_any = has_any || film.samples(x, y) == 0;
+      }
+    }
+    if (has_all && has_any) {
+      refined_first = true;
+      EXPECT_EQ(state.full, boxes[1]);
+    }
+    if (state.grid <= 4 && version < 2) ++version;
+  }
+  std::optional<PixelBox> region() const override {
+    return version == 0 ? std::nullopt : std::optional(boxes[version - 1]);
+  }
+  uint32_t region_version() const override { return version; }
+
+  const PixelBox boxes[2] = {{50, 0, 57, 9}, {3, 20, 21, 40}};
+  std::atomic<uint32_t> version{0};
+  bool refined_first = false;
+};
+
+TEST(FrameWatch, RefinesARegionFirstAndChangesNoPixel) {
+  for (const char* kind : {"uniform", "two-stage", "seed", "splatted"}) {
+    FurScene scene;
+    scene.render.samples = 40;
+    if (kind == std::string("two-stage")) scene.render.adaptive.emplace();
+    if (kind == std::string("seed")) scene.render.adaptive.emplace().rule = AdaptiveRule::kSeed;
+    if (kind == std::string("splatted")) scene.image.filter_samples = FilterSamples::kSplatted;
+    const FrameResult alone = rendered(scene, {});
+    RegionWatch watch;
+    FrameOptions options;
+    options.watch = &watch;
+    const FrameResult watched = rendered(scene, options, 3);
+    EXPECT_EQ(watch.refined_first, kind == std::string("uniform")) << kind;
+    EXPECT_EQ(watched.mean_samples, alone.mean_samples) << kind;
     expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
   }
 }

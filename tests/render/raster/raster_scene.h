@@ -35,20 +35,21 @@ struct RasterScene : PathScene {
 
   /// Compares both for `count` samples of each pixel. Calls each(pixel x, y, ray hit, drawn hit).
   template <class Each>
-  Agreement compare(uint32_t count, const Each& each) {
+  Agreement compare(uint32_t count, const Each& each, bool grow_first = false) {
     RenderScene scene{
         std::move(fur), skins, materials, LightSet({}), Camera(camera, 1, image.width, image.height),
         image,          render};
-    const Agreement result = compare(scene, ledger, count, each);
+    const Agreement result = compare(scene, ledger, count, each, grow_first);
     fur = std::move(scene.fur);
     return result;
   }
   Agreement compare(uint32_t count) {
     return compare(count, [](int, int, const Hit&, const Hit&) {});
   }
-  /// The same for any scene.
+  /// The same for any scene. `grow_first`: whether all chunks are grown before.
   template <class Each>
-  static Agreement compare(const RenderScene& scene, MemoryLedger& ledger, uint32_t count, const Each& each) {
+  static Agreement compare(const RenderScene& scene, MemoryLedger& ledger, uint32_t count, const Each& each,
+                           bool grow_first = false) {
     QuietJob job(1, ledger);
     FrameStatistics made;
     ledger.set_limit(scene.render.memory.bytes);
@@ -61,6 +62,8 @@ struct RasterScene : PathScene {
     TraceThread drawing, tracing;
     Agreement result;
     result.chunks = geometry->chunks().size();
+    for (uint32_t chunk = 0; grow_first && chunk < result.chunks; ++chunk)
+      geometry->chunks().visit(chunk, 0, [](const ChunkGeometry&) {});
     for (const Tile& tile : tiles_along_curve(scene.image.width, scene.image.height, 16)) {
       EXPECT_TRUE(raster.find(tile, 0, count, job, 0, scratch));
       uint32_t pixel = 0;
@@ -69,8 +72,7 @@ struct RasterScene : PathScene {
           for (uint32_t i = 0; i < count; ++i) {
             SampleStream stream = samples.stream(x, y, i);
             const Ray ray = samples.draw(x, y, i, stream).ray;
-            const Hit drawn = raster.closest(pixel, i, ray, drawing, scratch),
-                      hit = accel.closest(ray, tracing);
+            const Hit drawn = raster.closest(pixel, i, drawing, scratch), hit = accel.closest(ray, tracing);
             const bool same = is_same(hit, drawn);
             if (same && hit) expect_same_geometry(tracing.met, drawing.met, hit);
             ++result.samples;
@@ -82,6 +84,7 @@ struct RasterScene : PathScene {
           }
         }
       }
+      TileRaster::end(drawing, scratch);
     }
     result.traced = scratch.traced;
     return result;

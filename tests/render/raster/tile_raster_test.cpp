@@ -29,8 +29,10 @@ TEST(TileRaster, SeesTheStrandsAndSkinsThatRaysMeet) {
   }
 }
 
-/// A moving coat in leaves of this size, from a camera at this distance in sizes of the coat.
-void see_coat(int leaf_strands, float distance, std::vector<Hit>& hits, size_t& chunks) {
+/// What is seen of a moving coat in leaves of this size, from a camera at this distance in sizes of the coat.
+/// `grow_first`: whether all chunks are grown before the first is drawn.
+RasterScene::Agreement see_coat(int leaf_strands, float distance, std::vector<Hit>& hits,
+                                bool grow_first = false) {
   const RandomCoat coat(1, {.leaf_strands = leaf_strands, .cage_levels = 3});
   RasterScene scene(48, 48);
   const Box3f box = coat.skin->bound(BoundSpan::kShutter);
@@ -47,23 +49,31 @@ void see_coat(int leaf_strands, float distance, std::vector<Hit>& hits, size_t& 
   skin.rest = coat.rest;
   skin.material = scene.add_material(LambertParams{});
   scene.skins.push_back(skin);
-  const RasterScene::Agreement seen =
-      scene.compare(4, [&](int, int, const Hit&, const Hit& drawn) { hits.push_back(drawn); });
+  const RasterScene::Agreement seen = scene.compare(
+      4, [&](int, int, const Hit&, const Hit& drawn) { hits.push_back(drawn); }, grow_first);
   EXPECT_GT(seen.hits, seen.samples / 20);
-  chunks = seen.chunks;
+  return seen;
 }
 
 TEST(TileRaster, TheDivisionIntoChunksChangesNothing) {
   // From outside, and from among the strands, where some are too near to be drawn.
   for (const float distance : {2.0f, 0.35f}) {
     std::vector<Hit> hits[2];
-    size_t chunks[2] = {0, 0};
-    see_coat(300, distance, hits[0], chunks[0]);
-    see_coat(70, distance, hits[1], chunks[1]);
-    EXPECT_NE(chunks[0], chunks[1]);
+    EXPECT_NE(see_coat(300, distance, hits[0]).chunks, see_coat(70, distance, hits[1]).chunks);
     ASSERT_EQ(hits[0].size(), hits[1].size());
     for (size_t i = 0; i < hits[0].size(); ++i)
       EXPECT_TRUE(RasterScene::is_same(hits[0][i], hits[1][i])) << distance << ' ' << i;
+  }
+}
+
+TEST(TileRaster, TheResidentChunksChangeNothing) {
+  for (const int leaf_strands : {5, 20, 70}) {
+    std::vector<Hit> hits[2];
+    const RasterScene::Agreement absent = see_coat(leaf_strands, 1, hits[0], false),
+                                 resident = see_coat(leaf_strands, 1, hits[1], true);
+    EXPECT_EQ(absent.traced, resident.traced) << leaf_strands;
+    for (size_t i = 0; i < hits[0].size(); ++i)
+      EXPECT_TRUE(RasterScene::is_same(hits[0][i], hits[1][i])) << leaf_strands << ' ' << i;
   }
 }
 
