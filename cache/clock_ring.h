@@ -36,6 +36,14 @@ class ClockRing {
     links_[hand_].previous = number;
   }
 
+  /// Removes a number of the ring. If it is under the hand, moves the hand to the next number.
+  void remove(uint32_t number) {
+    const uint32_t hand = hand_;
+    hand_ = number;
+    remove_hand();
+    if (hand != number) hand_ = hand;
+  }
+
   /// Removes the number under the hand, moves the hand to the next number, and returns the removed number.
   uint32_t remove_hand() {
     const uint32_t number = hand_;

@@ -274,6 +274,32 @@ Resident* Residency::grow(std::unique_lock<std::mutex>& lock, uint32_t slot, int
   return unit;
 }
 
+void Residency::adopt(uint32_t slot, std::unique_ptr<Resident> unit, size_t bytes) {
+  Slot& s = slots_[slot];
+  const std::lock_guard lock(mutex_);
+  PELAGE_CHECK(!s.touched);
+  charge(static_cast<int64_t>(bytes));
+  s.touched = true;
+  s.bytes = bytes;
+  s.hit.store(true, std::memory_order_relaxed);  // not grown here, so no false expansion
+  ++counts_.touched;
+  counts_.working_set_bytes += static_cast<int64_t>(bytes);
+  clock_.insert(slot);
+  s.unit.store(unit.release(), std::memory_order_seq_cst);
+}
+
+std::unique_ptr<Resident> Residency::release(uint32_t slot) {
+  Slot& s = slots_[slot];
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<Resident> unit(s.unit.load(std::memory_order_relaxed));
+  if (!unit) return nullptr;
+  PELAGE_CHECK(!is_pinned(unit.get()));
+  clock_.remove(slot);
+  s.unit.store(nullptr, std::memory_order_seq_cst);
+  charge(-static_cast<int64_t>(s.bytes));
+  return unit;
+}
+
 void Residency::throw_too_full(uint32_t slot, int64_t needed) const {
   const char* remedy =
       never_evicts_ ? "; bounds: none keeps all chunks in memory, any other value does not" : "";

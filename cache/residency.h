@@ -124,6 +124,13 @@ class Residency {
   /// Records that the unit of the slot was useful (ResidencyCounts::false_expansions).
   void mark_hit(uint32_t slot) { set_flag(slots_[slot].hit); }
 
+  /// Puts a unit that was grown elsewhere in an empty slot. `bytes`: its memory, which is charged to the
+  /// ledger. The unit may be evicted like any other. Call before the first visit.
+  void adopt(uint32_t slot, std::unique_ptr<Resident> unit, size_t bytes);
+  /// Removes the unit of a slot and its charge. Returns null if the slot has no unit. Call after the last
+  /// visit.
+  std::unique_ptr<Resident> release(uint32_t slot);
+
   /// Grows all units and turns off eviction for good. Call before the first visit. Returns early when the job
   /// is cancelled. Throws Error (kMemory) when the budget cannot hold all units.
   void grow_all(const Job& job);

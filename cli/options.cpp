@@ -11,7 +11,9 @@
 
 #include "base/nearest_name.h"
 #include "base/version.h"
+#include "cli/argument_errors.h"
 #include "cli/experiment_flags.h"
+#include "cli/number_checks.h"
 #include "cli/post_flags.h"
 #include "groom/curve_basis_names.h"
 #include "lab/compare/fibre_oracle.h"
@@ -42,15 +44,19 @@ void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
 
 constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";
 
-void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
+void add_thread_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("--threads", options.threads, "Number of threads (default: all available)")
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
-  command.add_option("--memory", texts.memory, memory_help)->type_name("BYTES");
   CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "Show no progress");
   command.add_option("--progress", texts.progress, "Progress display: bar, plain or json")
       ->type_name("STYLE")
       ->excludes(quiet);
+}
+
+void add_parallel_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help) {
+  add_thread_flags(command, options, texts);
+  command.add_option("--memory", texts.memory, memory_help)->type_name("BYTES");
 }
 
 void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char* memory_help = kMemoryHelp) {
@@ -58,7 +64,7 @@ void add_run_flags(CLI::App& command, Options& options, Texts& texts, const char
   command
       .add_option("--sample-memory", options.sample_memory_s,
                   "Interval in seconds between memory samples, for the timeline in --stats")
-      ->check(CLI::Range(0.001, 3600.0))
+      ->check(number_between(0.001, 3600))
       ->type_name("SECONDS");
   add_parallel_flags(command, options, texts, memory_help);
 }
@@ -69,7 +75,7 @@ void add_strand_flags(CLI::App& command, Options& options, Texts& texts) {
                   "Curve basis of a strand file: " + ValueReader<CurveBasis>::type_name())
       ->type_name("BASIS");
   command.add_option("--default-width", options.default_width, "Strand width if the file has none")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("WIDTH");
 }
 
@@ -141,7 +147,7 @@ void add_measure(CLI::App& app, Options& options, Texts& texts) {
       ->check(CLI::Range(1, 1000))
       ->type_name("N");
   measure->add_option("--time-limit", options.time_limit_s, "Time limit of a run in seconds (default: 600)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SECONDS");
   add_experiment_flags(*measure, options);
   add_parallel_flags(*measure, options, texts, kMemoryHelp);
@@ -155,7 +161,7 @@ void add_trace(CLI::App& app, Options& options, Texts& texts) {
   trace->add_option("--variant", options.trace_variant, "prepare, or a structure to trace")
       ->type_name("NAME");
   trace->add_option("--share", options.trace_share, "Memory of paged fur as a fraction of its tree's size")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SHARE");
   trace->add_option("--kinds", options.trace_kinds, "Ray kinds to trace: camera,gather,sorted,shadow,deep")
       ->delimiter(',')
@@ -217,6 +223,15 @@ void add_post(CLI::App& app, Options& options, Texts& texts) {
   add_run_flags(*stereo, options, texts, kPostMemory);
 }
 
+void add_merge(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* merge = app.add_subcommand("merge", "Join the regions of a picture that 'render --region' made");
+  merge->add_option("PIECE", options.pieces, "EXR files that together cover the picture once")->required();
+  merge->add_option("-o,--output", options.output, "EXR file to write")->required()->type_name("FILE.exr");
+  merge->add_flag("--any-instructions", options.merge.any_instructions,
+                  "Accept pieces that processors with different instructions rendered");
+  add_thread_flags(*merge, options, texts);
+}
+
 void add_manual(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
   manual->add_option("SECTION", texts.section, "Print only this section, such as camera, curl or map field");
@@ -231,6 +246,7 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_trace(app, options, texts);
   add_compare(app, options, texts);
   add_info(app, options, texts);
+  add_merge(app, options, texts);
   add_convert(app, options, texts);
   add_post(app, options, texts);
   add_manual(app, options, texts);
@@ -238,9 +254,11 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 
 const std::map<std::string, Command>& command_names() {
   static const std::map<std::string, Command> names{
-      {"render", Command::kRender},   {"view", Command::kView},       {"grow", Command::kGrow},
-      {"measure", Command::kMeasure}, {"trace", Command::kTrace},     {"compare", Command::kCompare},
-      {"info", Command::kInfo},       {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"render", Command::kRender},   {"view", Command::kView},
+      {"grow", Command::kGrow},       {"measure", Command::kMeasure},
+      {"trace", Command::kTrace},     {"compare", Command::kCompare},
+      {"info", Command::kInfo},       {"merge", Command::kMerge},
+      {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
       {"stereo", Command::kStereo},   {"manual", Command::kManual}};
   return names;
 }
@@ -256,40 +274,6 @@ void check_command(const std::vector<std::string>& arguments) {
     if (command != Command::kTrace) names.push_back(name);  // internal
   }
   fail("unknown command " + quote(arguments[0]) + suggest(arguments[0], names));
-}
-
-std::vector<std::string> flag_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
-// As typed: "pelage", "pelage render".
-std::string command_name(const CLI::App& app) {
-  return app.get_parent() ? app.get_parent()->get_name() + " " + app.get_name() : app.get_name();
-}
-
-[[noreturn]] void fail_extras(const CLI::App& app) {
-  for (const std::string& extra : app.remaining(true)) {
-    if (!extra.starts_with("-")) fail("unexpected argument " + quote(extra));
-    const std::string flag = extra.substr(0, extra.find('='));
-    const std::vector<std::string> names = flag_names(app);
-    const std::string near = did_you_mean(flag, names);
-    fail("unknown option " + quote(flag) +
-         (near.empty() ? "; see '" + command_name(app) + " --help'" : near));
-  }
-  fail("cannot parse the arguments; see 'pelage --help'");
-}
-
-// Otherwise an empty name, such as an unset shell variable, would mean the default.
-void check_file_names(const CLI::App& app) {
-  for (const char* name : {"--output", "--stats"}) {
-    const CLI::Option* option = app.get_option_no_throw(name);
-    if (!option || option->count() == 0 || !option->results().back().empty()) continue;
-    fail(std::string(option->check_name("-o") ? "-o" : name) + ": expected a name, got an empty one");
-  }
 }
 
 ProgressStyle parse_progress(const Texts& texts) {

@@ -10,6 +10,7 @@
 #include "cli/picture_flags.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
+#include "post/merge_pieces.h"
 #include "post/stereo_file.h"
 #include "scene/document.h"
 
@@ -23,6 +24,7 @@ enum class Command {
   kTrace,
   kCompare,
   kInfo,
+  kMerge,
   kConvert,
   kMotionBlur,
   kStereo,
@@ -88,6 +90,9 @@ struct Options {
   std::string frames;  ///< motionblur, stereo: frame numbers to insert in file names with a placeholder
   BlurFileParams motion_blur;  ///< motionblur: its parameters
   StereoFileParams stereo;     ///< stereo: its parameters
+
+  std::vector<std::string> pieces;  ///< merge: the files to merge
+  MergeParams merge;                ///< merge: its parameters
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown

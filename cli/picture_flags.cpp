@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/nearest_name.h"
+#include "cli/number_checks.h"
 #include "cli/options.h"
 #include "cli/read_scene.h"
 #include "render/render_frame.h"
@@ -46,7 +47,7 @@ void add_picture_flags(CLI::App& render, PictureOptions& picture, PictureTexts& 
       ->check(CLI::Range(1, 1 << 20))
       ->type_name("N");
   render.add_option("--scale", picture.scale, "Factor of the picture's width and height, such as 0.25")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("FACTOR");
   render
       .add_option("--region", texts.region,
@@ -58,7 +59,7 @@ void add_picture_flags(CLI::App& render, PictureOptions& picture, PictureTexts& 
   render
       .add_option("--time-limit", texts.time_limit,
                   "Time limit of a frame in seconds (sets render.time_limit)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("SECONDS");
   render.add_flag("--skip-existing", picture.skip_existing, "Skip the frames whose file is already complete");
 }

@@ -38,8 +38,8 @@ void interpret_picture(const PictureTexts& texts, Options& options);
 
 /// Reads the scene at the size and with the samples that the flags state, and shows its warnings. A preview
 /// has a quarter of the width and height and at most kPreviewSamples samples per pixel, unless `--scale` or
-/// `--samples` state other values. Throws Error: that of load_scene(), or kArguments when the region does not
-/// suit the picture.
+/// `--samples` state other values. Throws the errors of load_scene(), and Error (kArguments) if the region
+/// is not inside the picture.
 SceneDescription read_picture_scene(const Options& options, Progress& progress);
 
 inline constexpr int kPreviewSamples = 4;

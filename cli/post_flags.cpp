@@ -10,6 +10,7 @@
 
 #include "base/nearest_name.h"
 #include "base/value_readers.h"
+#include "cli/number_checks.h"
 #include "world/frames.h"
 
 namespace pelage {
@@ -90,12 +91,12 @@ void add_motion_blur_flags(CLI::App& command, Options& options, PostTexts& texts
   add_file_flags(command, options, texts, options.motion_blur.file.scale);
   ShutterParams& shutter = options.motion_blur.shutter;
   command.add_option("--shutter", shutter.length, "Shutter interval in frames (default: 0.5)")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(number_between(0, 1000))
       ->type_name("FRAMES");
   command
       .add_option("--shutter-centre", shutter.centre,
                   "Middle of the shutter interval, in frames from the rendered instant (default: 0)")
-      ->check(CLI::Range(-1000.0, 1000.0))
+      ->check(number_between(-1000, 1000))
       ->type_name("FRAMES");
   command.add_option("--steps", shutter.steps, "Time steps (default: one per pixel of motion, 8 to 64)")
       ->check(CLI::Range(1, 4096))
@@ -119,10 +120,10 @@ void add_stereo_flags(CLI::App& command, Options& options, PostTexts& texts) {
   command
       .add_option("--focal-pixels", stereo.focal_pixels,
                   "Focal length in pixels; overrides the file's camera")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->type_name("PIXELS");
   command.add_option("--fov", stereo.fov_deg, "Vertical field of view; overrides the file's camera")
-      ->check(CLI::Range(0.01, 170.0))
+      ->check(number_between(0.01, 170))
       ->type_name("DEGREES");
   command.add_option("--eye", texts.eye, "Eye to make: right (default) or left")->type_name("right|left");
   command.add_option("--view", stereo.view, "View of the file to start from (default: left)")
@@ -139,15 +140,11 @@ void interpret_post(const PostTexts& texts, Options& options) {
   if (options.command == Command::kMotionBlur) {
     interpret_file(texts, "--motion", options.motion_blur.file);
     options.motion_blur.file.layers.motion = texts.motion_layer;
-    check_finite("--shutter", options.motion_blur.shutter.length);
-    check_finite("--shutter-centre", options.motion_blur.shutter.centre);
   }
   if (options.command != Command::kStereo) return;
   interpret_file(texts, "--parallax", options.stereo.file);
   options.stereo.parallax = texts.motion_layer;
   check_finite("--eye-separation", options.stereo.eye_separation.value_or(0));
-  check_finite("--focal-pixels", options.stereo.focal_pixels.value_or(1));
-  check_finite("--fov", options.stereo.fov_deg.value_or(1));
   options.stereo.to_left = is_second("--eye", texts.eye, {"right", "left"});
   if (is_second("--filter", texts.filter, {"lanczos", "box"})) options.stereo.filter = StereoFilter::kBox;
   if (texts.convergence.empty() || texts.convergence == "infinite") return;

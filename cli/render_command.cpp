@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/counted.h"
+#include "base/file.h"
 #include "base/heap.h"
 #include "cli/commands.h"
 #include "cli/output_files.h"
@@ -46,21 +47,34 @@ void note_no_output(const std::string& path, Run& run) {
   run.display().warn(path + ": stopped before the first sample; nothing was written");
 }
 
-// Path for a picture. A picture with pixels that have no sample does not replace an existing file but is
-// written beside it.
+// Path for a picture. An interrupted PNG or JPEG, which cannot state that it is partial, has another name. An
+// EXR with pixels that have no sample does not replace an existing file but is written beside it.
 std::string place_of(const FrameResult& result, const std::string& path) {
   std::error_code ignored;
-  if (result.samples > 0 || !std::filesystem::exists(path, ignored)) return path;
+  const bool moves =
+      is_display_image(path) ? result.partial : result.samples == 0 && std::filesystem::exists(path, ignored);
+  if (!moves) return path;
   const std::filesystem::path named(path);
   return std::filesystem::path(named).replace_extension(".partial" + named.extension().string()).string();
 }
 
+// Whether a PNG or JPEG file ends as such a file must.
+bool has_end(const std::string& path) {
+  try {
+    const std::string bytes = read_file(path);
+    return bytes.ends_with(std::string_view("IEND\xae\x42\x60\x82")) || bytes.ends_with("\xff\xd9");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 // Whether a file holds a complete picture: it exists, and its header does not say that it is partial. An EXR
-// file that cannot be read is not complete.
+// file that cannot be read is not complete. A PNG or JPEG with its own name is complete if its end is there,
+// see place_of().
 bool is_complete(const std::string& path) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return false;
-  if (is_display_image(path)) return true;
+  if (is_display_image(path)) return has_end(path);
   try {
     const ExrAttributes attributes = ExrReader(path).parts().front().attributes;
     const auto partial = attributes.find("pelage:partial");
@@ -102,8 +116,8 @@ bool render_one(const SceneDescription& scene, Assets& assets, int frame, const 
   const double seconds = run.seconds() - began;
   trim_heap();  // the chunks of the frame are gone
   const std::string place = place_of(result, path);
-  if (place != path)
-    run.display().warn(path + ": kept, because some pixels of the new picture have no sample yet");
+  if (std::error_code ignored; place != path && std::filesystem::exists(path, ignored))
+    run.display().warn(path + ": kept, because the new picture is partial");
   run.stage("write", [&] { write_frame(place, world, result, seconds, run.job()); });
   const std::string clamped =
       scene.render.clamp_indirect > 0

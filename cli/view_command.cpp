@@ -22,7 +22,8 @@ int run_view(const Options& options) {
   if (view.address != "127.0.0.1") {
     std::fputs(
         fmt::format("pelage: --bind {}: everybody who can reach this address and knows the token can see "
-                    "the picture, and its messages with names of files; nothing is encrypted\n",
+                    "the picture, and its messages with names of files, and can move its camera; nothing is "
+                    "encrypted\n",
                     view.address)
             .c_str(),
         stderr);

@@ -98,7 +98,7 @@ void require_growing(const MemoryLedger& ledger, int points, bool colored, const
 
 std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomParams& params,
                                            std::shared_ptr<const LimitSurface> rest, TextureLibrary& textures,
-                                           const Job& job) {
+                                           const Job& job, const Groom* previous) {
   check_combination(name, params, rest != nullptr);
   const std::string owner = "groom '" + name + "'";
   auto impl = std::make_unique<Impl>();
@@ -130,13 +130,21 @@ std::shared_ptr<const Groom> Groom::create(const std::string& name, const GroomP
                    .add(params.cache ? params.cache->freeze.name : std::string())
                    .digest();
 
+  impl->follicle_identity =
+      ContentHasher().add(identity.stages()[GroomIdentity::kStrands].hash).add(params.leaf_size()).digest();
+
   const int max_points = impl->source.imported ? impl->source.imported->max_points() : params.points;
   require_growing(job.ledger, max_points, stack.colors().has_value(), context.owner);
   if (params.cache) {
     impl->open_cache(name, params, identity, context, seed);
   } else {
     stack.prepare_all(context);
-    if (params.strands_file.empty()) impl->source.grown = impl->place_follicles(params, context, seed);
+    const bool same = previous && previous->impl_->follicle_identity == impl->follicle_identity;
+    if (same && params.strands_file.empty()) {
+      impl->source.grown = previous->impl_->source.grown;
+    } else if (params.strands_file.empty()) {
+      impl->source.grown = std::make_shared<const FollicleTree>(impl->place_follicles(params, context, seed));
+    }
   }
   const size_t bytes = impl->source.bytes() + impl->rest_positions.capacity() * sizeof(V3f);
   impl->charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));

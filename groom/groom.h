@@ -64,9 +64,12 @@ class Groom {
   /// guide files and invalid combinations; kMemory before making anything for which the ledger has no room;
   /// kStopped when the job is stopped. A problem with the cache does not stop growing; it is reported as a
   /// warning to the job's progress.
+  ///
+  /// `previous`, if not null: a groom whose follicles are shared if they are the same. Not used with a cache.
   static std::shared_ptr<const Groom> create(const std::string& name, const GroomParams& params,
                                              std::shared_ptr<const LimitSurface> rest,
-                                             TextureLibrary& textures, const Job& job);
+                                             TextureLibrary& textures, const Job& job,
+                                             const Groom* previous = nullptr);
   ~Groom();
 
   const FollicleTree& follicles() const;

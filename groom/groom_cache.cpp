@@ -62,7 +62,7 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
       std::optional<FollicleTree> stored =
           stored_follicles(*store, follicle_key, &source.rest->topology(), sink);
       have_follicles = stored.has_value();
-      if (stored) source.grown = std::move(*stored);
+      if (stored) source.grown = std::make_shared<const FollicleTree>(std::move(*stored));
     }
     if (have_follicles && !frozen) frozen = FrozenCoat::open(*store, offset_key, source, sink);
   };
@@ -82,8 +82,8 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
     report->fresh = report->stored = frozen.has_value();
     if (!have_follicles) {
       stack->prepare_coverage(context);
-      source.grown = place_follicles(params, context, seed);
-      store_follicles(*store, follicle_key, source.grown, cannot_store);
+      source.grown = std::make_shared<const FollicleTree>(place_follicles(params, context, seed));
+      store_follicles(*store, follicle_key, *source.grown, cannot_store);
     }
     if (!frozen) {
       const FrozenGrowth growth{context.owner, source, *stack,       identity, frozen_end,
@@ -115,7 +115,8 @@ void Groom::Impl::open_cache(const std::string& name, const GroomParams& params,
   report->strands = source.follicles().size();
   report->offset_bytes = stored_bytes(report->file).value_or(frozen->bytes());
   if (!source.imported)
-    report->follicle_bytes = stored_bytes(follicle_file(*store, follicle_key)).value_or(source.grown.bytes());
+    report->follicle_bytes =
+        stored_bytes(follicle_file(*store, follicle_key)).value_or(source.grown->bytes());
   report->seconds = seconds_since(start);
 }
 

@@ -20,6 +20,7 @@ struct Groom::Impl {
   CoatSource source;
   std::optional<OperatorStack> stack;
   ContentHash hash;
+  ContentHash follicle_identity;      // equal hashes mean equal follicles in equal leaves
   std::optional<ContentStore> store;  // only with a cache
   std::optional<FrozenCoat> frozen;   // only with a cache
   size_t frozen_end = 0;              // `frozen` is the state after the operators [0, frozen_end)

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <set>
 
 #include <Imath/half.h>
 #include <fmt/format.h>
@@ -145,7 +146,8 @@ class TextureLibrary::TextureSink final : public ImageSink {
     if (tiles_) {
       stored_.texels = cache_->store(asset_.path.string(), header_.layout, ranges_, std::move(tiles_));
     } else {
-      library_.in_memory_ += static_cast<int64_t>(header_.layout.bytes());
+      stored_.in_memory = static_cast<int64_t>(header_.layout.bytes());
+      library_.in_memory_ += stored_.in_memory;
       stored_.texels = std::make_shared<TexelsInMemory>(header_.layout, ranges_, std::move(texels_));
     }
     return std::move(stored_);
@@ -200,6 +202,7 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
                                                      const std::filesystem::path& path) {
   if (const auto found = stored_.find(path); found != stored_.end()) return found->second;
   check_image_file(asset);
+  const FileStamp stamp = file_stamp(path);
   TextureSink intake(*this, asset);
   try {
     // Before the file is opened, because a progressive JPEG is decoded then.
@@ -209,13 +212,45 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
                 asset.path.string() + ": is progressive or interlaced, so it is decoded as a whole");
     const std::string damage = reader().read(asset.path, intake);
     if (!damage.empty()) fail_image(asset, damage);
-    return stored_.emplace(path, intake.finish()).first->second;
+    Stored& read = stored_.emplace(path, intake.finish()).first->second;
+    read.stamp = stamp;
+    return read;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::kMemory, asset.position, asset.path.string() + ": does not fit in memory");
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::kInput || error.kind() == ErrorKind::kStopped) throw;
     rethrow_at(asset, error);
   }
+}
+
+template <class IsOld>
+void TextureLibrary::forget(const IsOld& is_old) {
+  for (auto image = stored_.begin(); image != stored_.end();) {
+    const std::filesystem::path path = image->first;
+    if (!is_old(path, image->second)) {
+      ++image;
+      continue;
+    }
+    entries_.erase({path, false});
+    entries_.erase({path, true});
+    in_memory_ -= image->second.in_memory;
+    image = stored_.erase(image);
+  }
+}
+
+void TextureLibrary::forget_changed() {
+  const std::lock_guard lock(mutex_);
+  forget(
+      [](const std::filesystem::path& path, const Stored& image) { return image.stamp != file_stamp(path); });
+}
+
+void TextureLibrary::forget_unused() {
+  const std::lock_guard lock(mutex_);
+  std::set<std::filesystem::path> used;
+  for (const auto& [key, entry] : entries_) {
+    if (entry.texture.use_count() > 1) used.insert(key.first);
+  }
+  forget([&](const std::filesystem::path& path, const Stored&) { return !used.contains(path); });
 }
 
 std::shared_ptr<const Texture> TextureLibrary::load(const AssetPath& asset, ColorSpace space) {

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "base/error.h"
+#include "base/file_stamp.h"
 #include "base/ledger.h"
 #include "base/progress.h"
 #include "base/value_readers.h"
@@ -47,6 +48,12 @@ class TextureLibrary {
   /// the position `asset.position` and names the file.
   std::shared_ptr<const Texture> load(const AssetPath& asset, ColorSpace space = ColorSpace::kAuto);
 
+  /// Forgets the images whose files have changed, so that load() reads them again. Textures that are in use
+  /// keep their texels.
+  void forget_changed();
+  /// Forgets the images of which no texture is in use, and frees their memory.
+  void forget_unused();
+
   /// Throws Error (kStopped) once the user has asked to stop.
   void check_stop() const;
 
@@ -55,12 +62,16 @@ class TextureLibrary {
   struct Stored {
     std::shared_ptr<const TexelStore> texels;
     bool is_integer = false;
+    int64_t in_memory = 0;  // bytes of in_memory_
+    FileStamp stamp;        // before the file was read
     MemoryCharge charge;
   };
   struct Entry {
     std::shared_ptr<const Texture> texture;
     MemoryCharge charge;
   };
+  template <class IsOld>
+  void forget(const IsOld& is_old);
   const Stored& stored(const AssetPath& asset, const std::filesystem::path& path);
   const ImageReader& reader();
   std::shared_ptr<TileCache> tile_cache();

@@ -51,6 +51,8 @@ bool FileWatch::wait(std::chrono::milliseconds longest) {
   pollfd both[] = {{inotify_, POLLIN, 0}, {event_, POLLIN, 0}};
   if (::poll(both, 2, static_cast<int>(longest.count())) <= 0) return false;
   bool changed = false;
+  uint64_t woken = 0;
+  [[maybe_unused]] const ssize_t none = ::read(event_, &woken, sizeof woken);
   alignas(inotify_event) char buffer[4096];
   for (ssize_t size = 0; (size = ::read(inotify_, buffer, sizeof buffer)) > 0;) {
     for (ssize_t at = 0; at < size;) {

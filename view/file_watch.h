@@ -27,7 +27,7 @@ class FileWatch {
   /// Waits until one of the files is written, created, replaced or removed, until wake() is called or until
   /// the time is over. Returns whether a file changed. Removes all changes that are waiting.
   bool wait(std::chrono::milliseconds longest);
-  /// Ends a wait() that is under way, and all later ones.
+  /// Ends the wait() that is under way, or else the next one.
   void wake();
 
  private:

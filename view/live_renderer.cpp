@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,71 +23,18 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-/// The last edit that was read completely. The geometry refers to the world, and the world to the assets.
+/// All that is kept between edits. The geometry refers to the world, and the world to the assets. While there
+/// is no geometry, `fur` has the chunks of the last geometry.
 struct LiveRenderer::Loaded {
-  std::shared_ptr<const SceneEdit> edit;
-  std::unique_ptr<Assets> assets;
+  Loaded(MemoryLedger& ledger, Progress& progress) : assets(ledger, &progress) {}
+
+  std::shared_ptr<const SceneEdit> edit;  // the world shows it; null: none, and assets may be incomplete
+  Assets assets;
   std::unique_ptr<World> world;
-  std::unique_ptr<const FrameGeometry> geometry;
+  KeptFur fur;
+  std::unique_ptr<FrameGeometry> geometry;
 
   double frame() const { return edit->scene.frames.frames.front(); }
-};
-
-/// Shows the stage of the work on the desk.
-class LiveRenderer::StageProgress final : public Progress {
- public:
-  explicit StageProgress(const LiveRenderer& renderer) : renderer_(renderer), desk_(renderer.desk_) {}
-
-  void begin(std::string_view stage, double total) override {
-    const std::lock_guard lock(mutex_);
-    stages_.push_back({std::string(stage), total, 0});
-    show();
-  }
-  void advance(double amount) override {
-    const std::lock_guard lock(mutex_);
-    if (stages_.empty()) return;
-    Stage& stage = stages_.back();
-    stage.done += amount;
-    if (stage.total > 0 && stage.done / stage.total - shown_ > 0.005) show();
-  }
-  void expect(double total) override {
-    const std::lock_guard lock(mutex_);
-    if (!stages_.empty()) stages_.back().total = total;
-  }
-  void end() override {
-    const std::lock_guard lock(mutex_);
-    if (!stages_.empty()) stages_.pop_back();
-    show();
-  }
-  void warn(std::string_view line) override {
-    desk_.update([&](ViewStatus& status) {
-      constexpr size_t kMax = 20;
-      status.warnings.emplace_back(line);
-      if (status.warnings.size() > kMax) status.warnings.erase(status.warnings.begin());
-    });
-  }
-  bool cancelled() const override { return renderer_.must_end(); }
-
- private:
-  struct Stage {
-    std::string name;
-    double total = 0, done = 0;
-  };
-  void show() {
-    const Stage stage = stages_.empty() ? Stage{} : stages_.back();
-    shown_ = stage.total > 0 ? std::min(stage.done / stage.total, 1.0) : 0;
-    desk_.update([&](ViewStatus& status) {
-      status.stage = stage.name;
-      status.progress = shown_;
-      status.memory_bytes = renderer_.ledger_.budgeted();
-    });
-  }
-
-  const LiveRenderer& renderer_;
-  ViewDesk& desk_;
-  std::mutex mutex_;
-  std::vector<Stage> stages_;
-  double shown_ = 0;
 };
 
 /// Publishes a picture after each pass.
@@ -101,6 +49,7 @@ class LiveRenderer::Watch final : public FrameWatch {
     picture.width = film.width();
     picture.height = film.height();
     picture.grid = state.grid;
+    picture.full = state.full;
     picture.samples = state.samples;
     picture.layers = film_layers(
         film, [&](const std::string& layer) { return desk.is_wanted(layer); }, &names);
@@ -113,6 +62,8 @@ class LiveRenderer::Watch final : public FrameWatch {
       status.strands_regrown = regrown;
     });
   }
+  std::optional<PixelBox> region() const override { return renderer_.desk_.control().region(); }
+  uint32_t region_version() const override { return renderer_.desk_.control().region_version(); }
 
  private:
   LiveRenderer& renderer_;
@@ -120,7 +71,11 @@ class LiveRenderer::Watch final : public FrameWatch {
 };
 
 LiveRenderer::LiveRenderer(ViewDesk& desk, int threads)
-    : desk_(desk), workers_(threads), thread_([this] { run(); }) {}
+    : desk_(desk),
+      workers_(threads),
+      progress_(desk, ledger_, [this] { return must_end(); }),
+      loaded_(std::make_unique<Loaded>(ledger_, progress_)),
+      thread_([this] { run(); }) {}
 
 LiveRenderer::~LiveRenderer() {
   {
@@ -133,14 +88,15 @@ LiveRenderer::~LiveRenderer() {
 }
 
 void LiveRenderer::submit(std::shared_ptr<const SceneEdit> edit) {
-  desk_.update([](ViewStatus& status) {
-    status.at_rest = false;
-    status.render_error.clear();
-  });
   {
     const std::lock_guard lock(mutex_);
     next_ = std::move(edit);
     waiting_ = true;
+    // Before the thread takes the edit, and after waiting_: the render that ends now must not report rest.
+    desk_.update([](ViewStatus& status) {
+      status.at_rest = false;
+      status.render_error.clear();
+    });
   }
   changed_.notify_all();
 }
@@ -158,7 +114,7 @@ void LiveRenderer::run() {
     const auto fail = [this](const std::string& message) {
       desk_.update([&](ViewStatus& status) {
         status.stage.clear();
-        status.render_error = message;
+        if (!waiting_) status.render_error = message;
       });
     };
     try {
@@ -166,10 +122,10 @@ void LiveRenderer::run() {
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::kStopped) fail(error.what());
     } catch (const std::bad_alloc&) {
-      loaded_ = nullptr;
+      forget();
       fail("out of memory");
     } catch (const std::exception& error) {
-      loaded_ = nullptr;
+      forget();
       fail(error.what());
     }
   }
@@ -177,52 +133,60 @@ void LiveRenderer::run() {
 
 void LiveRenderer::render(const std::shared_ptr<const SceneEdit>& edit) {
   desk_.update([&](ViewStatus& status) {
-    status.at_rest = false;
-    status.render_error.clear();
     status.mean_samples = status.first_pixels_s = status.render_s = 0;
     status.strands_regrown = 0;
     status.wanted_samples = edit->scene.render.samples;
     status.edits += began_;
+    status.edit = edit;
     status.warnings.clear();
     for (const Problem& warning : edit->scene.warnings)
       status.warnings.push_back(to_string(warning.position) + ": " + warning.message);
   });
   began_ = true;
-  desk_.discard_frame();
-  StageProgress progress(*this);
-  const Job job{workers_, ledger_, progress};
-  const Redo redo = loaded_ ? edit->redo_after(*loaded_->edit) : Redo::kAssets;
-  if (redo > Redo::kSampling && loaded_) loaded_->geometry = nullptr;
-  keeps_geometry_ = loaded_ && loaded_->geometry;
-  regrown_before_ = keeps_geometry_ ? loaded_->geometry->strands_regrown() : 0;
-  if (redo == Redo::kAssets) {
-    loaded_ = nullptr;
-    auto loaded = std::make_unique<Loaded>();
-    progress.begin("read", 1);
-    MemoryCharge film = reserve_film(edit->scene, job);
-    loaded->edit = edit;
-    loaded->assets = load_assets(edit->scene, job);
-    progress.end();
-    loaded_ = std::move(loaded);
-  } else if (redo == Redo::kGeometry) {
-    loaded_->assets->materials = load_materials(edit->scene, loaded_->assets->textures, job);
-  }
-  if (redo >= Redo::kGeometry) {
-    progress.begin("pose", 1);
-    loaded_->world = nullptr;
-    loaded_->edit = edit;
+  progress_.reset();
+  const Job job{workers_, ledger_, progress_};
+  const Redo redo = loaded_->edit ? edit->redo_after(*loaded_->edit) : Redo::kAssets;
+  regrown_ = loaded_->geometry ? -loaded_->geometry->strands_regrown() : 0;
+  if (redo == Redo::kSampling) {
+    recompose_sampling(edit->scene, loaded_->assets, loaded_->frame(), job, *loaded_->world);
+  } else if (redo > Redo::kSampling) {
+    release_geometry();
     try {
-      loaded_->world = std::make_unique<World>(compose(edit->scene, *loaded_->assets, loaded_->frame(), job));
-    } catch (...) {
-      loaded_ = nullptr;
-      throw;
+      load(*edit, redo, job);
+    } catch (const Error& error) {
+      // Memory that is kept may be missing elsewhere.
+      if (error.kind() != ErrorKind::kMemory) throw;
+      desk_.discard_frame();
+      forget();
+      load(*edit, Redo::kAssets, job);
     }
-    progress.end();
-  } else if (redo == Redo::kSampling) {
-    recompose_sampling(edit->scene, *loaded_->assets, loaded_->frame(), job, *loaded_->world);
   }
   loaded_->edit = edit;
+  desk_.discard_frame();  // not earlier: after a mistake in an asset, the last picture stays whole
   render_loaded(*edit, job);
+}
+
+void LiveRenderer::load(const SceneEdit& edit, Redo redo, const Job& job) {
+  loaded_->edit = nullptr;  // until everything is loaded
+  loaded_->world = nullptr;
+  if (redo == Redo::kAssets) {
+    progress_.begin("read", 1);
+    const MemoryCharge film = reserve_film(edit.scene, job);
+    update_assets(edit.scene, job, loaded_->assets);
+    progress_.end();
+  } else {
+    loaded_->assets.materials = load_materials(edit.scene, loaded_->assets.textures, job);
+  }
+  progress_.begin("pose", 1);
+  const double frame = edit.scene.frames.frames.front();
+  loaded_->world = std::make_unique<World>(compose(edit.scene, loaded_->assets, frame, job));
+  loaded_->assets.textures.forget_unused();
+  progress_.end();
+}
+
+void LiveRenderer::forget() {
+  loaded_ = nullptr;
+  loaded_ = std::make_unique<Loaded>(ledger_, progress_);
 }
 
 void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
@@ -247,10 +211,7 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     params = wanted;
     image = wanted_image;
     if (partial) return;
-    if (params.min_width() > 0) {  // the geometry of `path` has no widened strands
-      loaded_->geometry = nullptr;
-      keeps_geometry_ = false;
-    }
+    if (params.min_width() > 0) release_geometry();  // the geometry of `path` has no widened strands
   }
   FrameResult result = trace(job, watch);
   if (!result.partial) finish(edit, std::move(result));
@@ -260,14 +221,22 @@ FrameResult LiveRenderer::trace(const Job& job, FrameWatch& watch) {
   FrameOptions options;
   options.watch = &watch;
   try {
-    return pelage::render(*loaded_->world, job, options, loaded_->geometry);
+    return pelage::render(*loaded_->world, job, options, loaded_->geometry, &loaded_->fur);
   } catch (const Error& error) {
-    // The film is charged before the geometry. With geometry that is kept, it may not fit.
-    if (error.kind() != ErrorKind::kMemory || !loaded_->geometry) throw;
+    const bool keeps = loaded_->geometry || loaded_->fur.has_frame();
+    if (error.kind() != ErrorKind::kMemory || !keeps) throw;
   }
+  // Memory that is kept may be missing elsewhere: the film, for example, is charged before the geometry.
+  release_geometry();
+  loaded_->fur.free_chunks();
+  return pelage::render(*loaded_->world, job, options, loaded_->geometry, &loaded_->fur);
+}
+
+void LiveRenderer::release_geometry() {
+  if (!loaded_->geometry) return;
+  regrown_ += loaded_->geometry->strands_regrown();
+  loaded_->geometry->release(loaded_->fur, ledger_);
   loaded_->geometry = nullptr;
-  keeps_geometry_ = false;
-  return pelage::render(*loaded_->world, job, options, loaded_->geometry);
 }
 
 void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
@@ -285,7 +254,6 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
       FinishedFrame{std::move(result), std::move(header), loaded_->world->scene.camera});
   desk_.publish(std::move(picture), std::move(frame));
   const int64_t regrown = strands_regrown();
-  const bool waiting = waiting_;
   desk_.update([&](ViewStatus& status) {
     if (status.first_pixels_s == 0) status.first_pixels_s = seconds;
     status.stage.clear();
@@ -294,17 +262,12 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
     status.layers = std::move(names);
     status.strands_regrown = regrown;
     status.memory_bytes = ledger_.budgeted();
-    status.at_rest = !waiting;
+    status.at_rest = !waiting_;
   });
 }
 
 int64_t LiveRenderer::strands_regrown() const {
-  if (!loaded_ || !loaded_->geometry) return 0;
-  const FrameGeometry& geometry = *loaded_->geometry;
-  if (keeps_geometry_) return geometry.strands_regrown() - regrown_before_;
-  // The geometry is new: after an edit, all its strands are grown again.
-  const bool edited = desk_.status().edits > 0;
-  return edited ? geometry.strands_grown() : geometry.strands_regrown();
+  return regrown_ + (loaded_->geometry ? loaded_->geometry->strands_regrown() : 0);
 }
 
 }  // namespace pelage

@@ -9,8 +9,10 @@
 
 #include "base/ledger.h"
 #include "base/parallel.h"
-#include "view/picture.h"
+#include "render/frame/frame_result.h"
 #include "view/scene_edit.h"
+#include "view/stage_progress.h"
+#include "view/view_desk.h"
 
 namespace pelage {
 
@@ -32,34 +34,37 @@ class LiveRenderer {
   void submit(std::shared_ptr<const SceneEdit> edit);
 
  private:
-  class StageProgress;
   class Watch;
   struct Loaded;
 
   void run();
   void render(const std::shared_ptr<const SceneEdit>& edit);
-  /// Brings loaded_ to the state of an edit.
-  void load(const SceneEdit& edit, const Job& job);
+  /// Makes the assets and the world of an edit, as far as `redo` needs it.
+  void load(const SceneEdit& edit, Redo redo, const Job& job);
+  /// Frees everything that is kept between edits.
+  void forget();
   void render_loaded(const SceneEdit& edit, const Job& job);
   FrameResult trace(const Job& job, FrameWatch& watch);
   void finish(const SceneEdit& edit, FrameResult result);
+  /// Takes the chunks out of the geometry, so that a new geometry can use them.
+  void release_geometry();
   int64_t strands_regrown() const;
   bool must_end() const { return stopped_ || waiting_; }
 
   ViewDesk& desk_;
   MemoryLedger ledger_;
   Workers workers_;
+  std::atomic<bool> waiting_{false};  // next_ is not null
+  std::atomic<bool> stopped_{false};
+  StageProgress progress_;  // before loaded_: chunks that are kept may warn
   // Used by thread_ only.
   std::unique_ptr<Loaded> loaded_;
-  bool began_ = false;           // whether an edit was rendered before
-  bool keeps_geometry_ = false;  // the geometry is older than the edit
-  int64_t regrown_before_ = 0;   // strands regrown before the edit
+  bool began_ = false;   // whether an edit was rendered before
+  int64_t regrown_ = 0;  // strands regrown since the edit, minus those that loaded_->geometry counts
 
   std::mutex mutex_;  // guards next_
   std::condition_variable changed_;
   std::shared_ptr<const SceneEdit> next_;
-  std::atomic<bool> waiting_{false};  // next_ is not null
-  std::atomic<bool> stopped_{false};
   std::thread thread_;  // the last member: it uses the others
 };
 

@@ -29,18 +29,24 @@ void append(const ExrChannel& channel, std::string& bytes) {
 
 }  // namespace
 
-std::string layer_bytes(const Picture& picture, const std::string& layer) {
-  const std::vector<ExrChannel>& channels = picture.layers.at(layer);
-  nlohmann::json head{{"version", picture.version}, {"width", picture.width},
-                      {"height", picture.height},   {"grid", picture.grid},
-                      {"samples", picture.samples}, {"channels", nlohmann::json::array()}};
-  for (const ExrChannel& channel : channels)
-    head["channels"].push_back(
-        {{"name", channel.name}, {"type", kTypeNames[static_cast<int>(channel.type)]}});
-  std::string bytes = head.dump();
+std::string layer_bytes(const Picture& picture, const std::vector<std::string>& layers) {
+  nlohmann::json head{
+      {"version", picture.version},         {"edit", picture.edit}, {"width", picture.width},
+      {"height", picture.height},           {"grid", picture.grid}, {"samples", picture.samples},
+      {"channels", nlohmann::json::array()}};
+  const PixelBox& full = picture.full;
+  head["full"] = {full.x0, full.y0, full.x1, full.y1};
+  for (const std::string& layer : layers) {
+    for (const ExrChannel& channel : picture.layers.at(layer))
+      head["channels"].push_back(
+          {{"name", channel.name}, {"type", kTypeNames[static_cast<int>(channel.type)]}});
+  }
+  std::string bytes = head.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   bytes.append(7 - bytes.size() % 8, ' ');
   bytes += '\n';
-  for (const ExrChannel& channel : channels) append(channel, bytes);
+  for (const std::string& layer : layers) {
+    for (const ExrChannel& channel : picture.layers.at(layer)) append(channel, bytes);
+  }
   return bytes;
 }
 

@@ -46,6 +46,10 @@ int RequestRules::status(const RequestHead& head) const {
   if (!is_own_host(head.host)) return 403;
   if (!head.origin.empty() && head.origin != "http://" + head.host) return 403;
   if (!equal_secrets(head.token, token_)) return 403;
+  if (head.method == "POST") {
+    if (head.type.substr(0, head.type.find(';')) != "application/json") return 415;
+    return head.body_is_plain ? 200 : 411;
+  }
   return head.method == "GET" || head.method == "HEAD" ? 200 : 405;
 }
 

@@ -8,10 +8,12 @@ namespace pelage {
 
 /// The parts of a request that decide whether it is answered.
 struct RequestHead {
-  std::string method;  ///< "GET"
-  std::string host;    ///< header Host; empty if missing
-  std::string origin;  ///< header Origin; empty if missing
-  std::string token;   ///< parameter `token` of the query; empty if missing
+  std::string method;          ///< "GET"
+  std::string host;            ///< header Host; empty if missing
+  std::string origin;          ///< header Origin; empty if missing
+  std::string token;           ///< parameter `token` of the query; empty if missing
+  std::string type = {};       ///< header Content-Type; empty if missing
+  bool body_is_plain = false;  ///< whether the body has a stated length, and is not encoded
 };
 
 /// Decides which requests the server answers. Only pages of this server may send requests from a browser: a
@@ -24,7 +26,8 @@ class RequestRules {
 
   const std::string& token() const { return token_; }
   /// Returns the status code of the refusal, or 200 if the request is to be answered: 405 for other methods
-  /// than GET and HEAD, 403 for a foreign Host or Origin, and for a wrong or missing token.
+  /// than GET, HEAD and POST, 403 for a foreign Host or Origin, and for a wrong or missing token. The body of
+  /// POST must be of the type application/json (415), and plain (411).
   int status(const RequestHead& head) const;
 
  private:

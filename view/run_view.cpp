@@ -14,7 +14,9 @@ namespace pelage {
 void run_live_view(const ViewOptions& options, const std::function<void(const std::string&)>& ready,
                    const std::function<bool()>& stopped) {
   ViewDesk desk;
-  const ViewServer server(desk, options.address, options.port);
+  const bool is_local = options.address == ViewOptions{}.address;
+  const SceneCommands commands(options.scene, options.overrides, desk, is_local);
+  const ViewServer server(desk, commands, options.address, options.port);
   LiveRenderer renderer(desk, options.threads);
   const SceneFollower follower(options.scene, options.overrides, renderer, desk);
   ready(server.url());

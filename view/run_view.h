@@ -19,8 +19,8 @@ struct ViewOptions {
 };
 
 /// Shows a live picture of a scene to browsers, until `stopped` returns true. `stopped` is called 50 times a
-/// second. Calls `ready` with the address of the page once the server answers. Throws Error: that of
-/// load_scene() for a scene with mistakes, kFailed when the port cannot be used.
+/// second. Calls `ready` with the address of the page once the server answers. Throws the
+/// errors of load_scene(), and Error (kFailed) if the port cannot be used.
 void run_live_view(const ViewOptions& options, const std::function<void(const std::string& url)>& ready,
                    const std::function<bool()>& stopped);
 

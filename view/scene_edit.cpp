@@ -4,61 +4,50 @@
 
 #include <set>
 
-#include <sys/stat.h>
+#include "world/asset_files.h"
 
 namespace pelage {
 namespace {
 
-void add_poses(const PosesParams& poses, std::vector<std::filesystem::path>& files) {
-  for (int i = 0; i < poses.count; ++i)
-    files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
-}
-
-/// Files that contain values of the scene; all others are assets.
-bool is_document(const std::filesystem::path& file) {
-  return file.extension() == ".yaml" || file.extension() == ".yml";
+/// The files that a scene names, including poses.
+std::vector<std::filesystem::path> followed_assets(const SceneDescription& scene) {
+  std::vector<std::filesystem::path> files = asset_files(scene);
+  const auto add = [&](const PosesParams& poses) {
+    const std::vector<std::filesystem::path> more = pose_files(poses);
+    files.insert(files.end(), more.begin(), more.end());
+  };
+  for (const auto& skin : scene.skins.items) {
+    if (skin.value.poses) add(*skin.value.poses);
+  }
+  for (const auto& character : scene.characters.items) {
+    for (const PartParams& part : character.value.parts) {
+      if (part.poses) add(*part.poses);
+    }
+  }
+  return files;
 }
 
 }  // namespace
 
 FileStamps stamps_of(const std::vector<std::filesystem::path>& files) {
   FileStamps stamps;
-  for (const std::filesystem::path& file : files) {
-    FileStamp& stamp = stamps[file];
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) continue;
-    stamp = {status.st_ino, status.st_size,
-             int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec};
-  }
+  for (const std::filesystem::path& file : files) stamps[file] = file_stamp(file);
   return stamps;
 }
 
 std::vector<std::filesystem::path> followed_files(const SceneDescription& scene) {
-  std::vector<std::filesystem::path> files = scene.files;
-  for (const auto& skin : scene.skins.items) {
-    if (skin.value.poses) add_poses(*skin.value.poses, files);
-  }
-  for (const auto& character : scene.characters.items) {
-    for (const PartParams& part : character.value.parts) {
-      if (part.poses) add_poses(*part.poses, files);
-    }
-  }
-  const std::set<std::filesystem::path> unique(files.begin(), files.end());
-  return {unique.begin(), unique.end()};
+  const std::vector<std::filesystem::path> assets = followed_assets(scene);
+  std::set<std::filesystem::path> files(scene.files.begin(), scene.files.end());
+  files.insert(assets.begin(), assets.end());
+  return {files.begin(), files.end()};
 }
 
 Redo SceneEdit::redo_after(const SceneEdit& before) const {
-  FileStamps assets, assets_before;
-  for (const auto& [file, stamp] : files) {
-    if (!is_document(file)) assets[file] = stamp;
-  }
-  for (const auto& [file, stamp] : before.files) {
-    if (!is_document(file)) assets_before[file] = stamp;
-  }
-  // A file that only one of the scenes names is a change of the document.
-  for (const auto& [file, stamp] : assets) {
-    const auto known = assets_before.find(file);
-    if (known != assets_before.end() && known->second != stamp) return Redo::kAssets;
+  for (const std::filesystem::path& file : followed_assets(scene)) {
+    const auto now = files.find(file), known = before.files.find(file);
+    // A file that only one of the scenes names is a change of the document.
+    if (now != files.end() && known != before.files.end() && now->second != known->second)
+      return Redo::kAssets;
   }
   return compare_scenes(before.scene.parts, scene.parts);
 }

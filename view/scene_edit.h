@@ -2,22 +2,15 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <vector>
 
+#include "base/file_stamp.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
 
-/// Tells versions of a file apart. All members are 0 for a file that does not exist.
-struct FileStamp {
-  uint64_t inode = 0;
-  int64_t size = 0;
-  int64_t changed_ns = 0;
-  bool operator==(const FileStamp&) const = default;
-};
 using FileStamps = std::map<std::filesystem::path, FileStamp>;
 
 /// Returns the stamps of files as they are now.

@@ -3,6 +3,7 @@
 #include "view/scene_follower.h"
 
 #include <exception>
+#include <optional>
 #include <utility>
 
 namespace pelage {
@@ -15,29 +16,74 @@ constexpr milliseconds kQuiet{30}, kLongestUnrest{300};
 /// Finds changes that inotify does not report: of network drives, and of folders that were replaced.
 constexpr milliseconds kPoll{1000};
 
+SceneParts camera_parts(const SceneParts& parts) {
+  SceneParts camera;
+  for (const auto& [part, hash] : parts) {
+    if (part.starts_with("camera")) camera.emplace(part, hash);
+  }
+  return camera;
+}
+
+ViewCamera camera_of(const SceneDescription& scene, bool moved) {
+  const double frame = scene.frames.frames.front();
+  const CameraParams& camera = scene.camera;
+  return {camera.position.at(frame), camera.look_at.at(frame), camera.up.at(frame), camera.fov.at(frame),
+          moved};
+}
+
 }  // namespace
 
 SceneFollower::SceneFollower(std::filesystem::path scene, std::vector<Override> overrides,
                              LiveRenderer& renderer, ViewDesk& desk)
     : path_(std::move(scene)), overrides_(std::move(overrides)), renderer_(renderer), desk_(desk) {
+  files_ = {path_};
   last_ = read();
   files_ = followed_files(last_->scene);
   stamps_ = last_->files;
   watch_.watch(files_);
   renderer_.submit(last_);
   thread_ = std::thread([this] { run(); });
+  desk_.control().on_change([this] { watch_.wake(); });
 }
 
 SceneFollower::~SceneFollower() {
+  desk_.control().on_change({});
   stopped_ = true;
   watch_.wake();
   thread_.join();
 }
 
-std::shared_ptr<const SceneEdit> SceneFollower::read() const {
-  const auto noticed = std::chrono::steady_clock::now();
+SceneDescription SceneFollower::load_with_camera() {
   SceneDescription scene = load_scene(path_, overrides_);
+  SceneParts own = camera_parts(scene.parts);
+  camera_ = desk_.control().camera();
+  const bool changed = own != own_camera_;
+  const bool written = changed && desk_.control().take_written();
+  if (camera_ && changed && !written) {
+    camera_ = std::nullopt;
+    desk_.control().set_camera({});
+    desk_.update([](ViewStatus& status) {
+      status.camera_note = "the camera of the scene file has changed, and is shown again";
+    });
+  }
+  own_camera_ = std::move(own);
+  if (!camera_) return scene;
+  std::vector<Override> moved = overrides_;
+  for (Override& override : camera_overrides(*camera_)) moved.push_back(std::move(override));
+  return load_scene(path_, moved);
+}
+
+std::shared_ptr<const SceneEdit> SceneFollower::read() {
+  const auto noticed = std::chrono::steady_clock::now();
+  // The stamps of known files are taken before they are read: a file that changes while it is read is read
+  // again.
+  const FileStamps before = stamps_of(files_);
+  SceneDescription scene = load_with_camera();
   FileStamps stamps = stamps_of(followed_files(scene));
+  desk_.update([&](ViewStatus& status) { status.camera = camera_of(scene, camera_.has_value()); });
+  for (auto& [file, stamp] : stamps) {
+    if (const auto known = before.find(file); known != before.end()) stamp = known->second;
+  }
   return std::make_shared<const SceneEdit>(SceneEdit{std::move(scene), std::move(stamps), noticed});
 }
 
@@ -48,7 +94,8 @@ void SceneFollower::run() {
     if (changed) wait_for_quiet();
     // A file that an include names and that does not exist yet is not among files_.
     const bool broken = !desk_.status().scene_error.empty();
-    if (changed || broken || stamps_of(files_) != stamps_) read_again();
+    const bool moved = desk_.control().camera() != camera_;
+    if (changed || broken || moved || stamps_of(files_) != stamps_) read_again();
   }
 }
 

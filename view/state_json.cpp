@@ -6,7 +6,8 @@
 
 namespace pelage {
 
-std::string state_json(const ViewStatus& status, const Picture* picture) {
+std::string state_json(const ViewStatus& status, const Picture* picture,
+                       const std::optional<PixelBox>& region) {
   nlohmann::json state;
   state["done"] = status.done();
   state["error"] = status.error();
@@ -19,6 +20,16 @@ std::string state_json(const ViewStatus& status, const Picture* picture) {
   state["render_s"] = status.render_s;
   state["memory_bytes"] = status.memory_bytes;
   state["edits"] = status.edits;
+  const auto list = [](const V3f& v) { return nlohmann::json{v.x, v.y, v.z}; };
+  const ViewCamera& camera = status.camera;
+  state["camera"] = {{"position", list(camera.position)},
+                     {"look_at", list(camera.look_at)},
+                     {"up", list(camera.up)},
+                     {"fov", camera.fov},
+                     {"moved", camera.moved},
+                     {"note", status.camera_note}};
+  state["region"] =
+      region ? nlohmann::json{region->x0, region->y0, region->x1, region->y1} : nlohmann::json();
   state["layers"] = status.layers;
   state["warnings"] = status.warnings;
   state["version"] = picture ? picture->version : 0;

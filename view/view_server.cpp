@@ -24,13 +24,18 @@ namespace {
 
 constexpr int kThreads = 16;
 constexpr size_t kPiece = 1 << 16;    // bytes sent at once
-constexpr size_t kMaxBody = 1 << 16;  // bytes; no request has a body yet
+constexpr size_t kMaxBody = 1 << 14;  // bytes
+constexpr size_t kMaxLayers = 1000;   // of one request
 constexpr time_t kRead_s = 2, kWrite_us = 700'000;
 
 std::string mime_type(std::string_view name) {
   if (name.ends_with(".html")) return "text/html; charset=utf-8";
   if (name.ends_with(".css")) return "text/css; charset=utf-8";
   return name.ends_with(".js") ? "text/javascript; charset=utf-8" : "image/svg+xml";
+}
+
+std::string file_name(const httplib::Request& request) {
+  return request.path.substr(std::min<size_t>(1, request.path.size()));
 }
 
 std::string with_token(std::string_view page, const std::string& token) {
@@ -67,47 +72,87 @@ void end_connections(int port) {
 }  // namespace
 
 struct ViewServer::State {
-  State(ViewDesk& view_desk, RequestRules request_rules) : desk(view_desk), rules(std::move(request_rules)) {}
+  State(ViewDesk& view_desk, const SceneCommands& scene_commands, RequestRules request_rules)
+      : desk(view_desk), commands(scene_commands), rules(std::move(request_rules)) {}
 
-  void answer(const httplib::Request& request, httplib::Response& response);
+  /// Answers a request whose body has not been read. Returns false for a command, whose body is to be read.
+  bool answer(const httplib::Request& request, httplib::Response& response);
+  void answer_page(const httplib::Request& request, httplib::Response& response);
+  void run_command(const httplib::Request& request, httplib::Response& response) const;
   void send(std::string bytes, const std::string& type, httplib::Response& response);
   static void refuse(int status, const std::string& why, httplib::Response& response) {
     response.status = status;
     response.set_content(why + "\n", "text/plain");
   }
-  void send_layer(const std::string& name, httplib::Response& response);
+  void send_layers(const std::vector<std::string>& names, httplib::Response& response);
   void send_exr(httplib::Response& response);
 
   ViewDesk& desk;
+  const SceneCommands& commands;
   RequestRules rules;
   int port = 0;
-  std::atomic<bool> closing{false};
+  std::atomic<bool> closing{false}, ended{false};
   httplib::Server server;
   std::thread thread;
 };
 
-void ViewServer::State::answer(const httplib::Request& request, httplib::Response& response) {
+bool ViewServer::State::answer(const httplib::Request& request, httplib::Response& response) {
   response.set_header("Cache-Control", "no-store");
   response.set_header("X-Content-Type-Options", "nosniff");
   response.set_header("Referrer-Policy", "no-referrer");
   response.set_header("Content-Security-Policy",
                       "default-src 'self'; script-src 'self' 'unsafe-inline'; style-src 'self'; "
                       "img-src 'self' blob: data:; frame-ancestors 'none'");
-  const int status = rules.status({request.method, request.get_header_value("Host"),
-                                   request.get_header_value("Origin"), request.get_param_value("token")});
-  if (status == 405) return refuse(status, "only GET is answered", response);
-  if (status != 200)
-    return refuse(status, "the address needs its token, as `pelage view` printed it", response);
-  if (request.get_header_value("Content-Length").size() > 4) return refuse(413, "too large", response);
+  const std::string length = request.get_header_value("Content-Length");
+  // Without a length, or with a chunked or packed body, the library would not limit the size.
+  const bool plain = !length.empty() && length.find_first_not_of("0123456789") == std::string::npos &&
+                     request.get_header_value_count("Content-Length") == 1 &&
+                     !request.has_header("Transfer-Encoding") && !request.has_header("Content-Encoding");
+  const int status =
+      rules.status({request.method, request.get_header_value("Host"), request.get_header_value("Origin"),
+                    request.get_param_value("token"), request.get_header_value("Content-Type"), plain});
+  if (status == 403) {
+    refuse(status,
+           "refused: the address needs its token, as `pelage view` printed it, and other sites may not ask",
+           response);
+  } else if (status == 405) {
+    refuse(status, "only GET and POST are answered", response);
+  } else if (status != 200) {
+    refuse(status, "the body of a command must be JSON, of type application/json, with its length", response);
+  } else if (length.size() > 4) {
+    refuse(413, "too large", response);
+  } else if (const bool is_command = SceneCommands::exists(file_name(request));
+             is_command != (request.method == "POST")) {
+    refuse(405, is_command ? "a command needs POST" : "there is no such command", response);
+  } else if (is_command) {
+    return false;
+  } else {
+    answer_page(request, response);
+  }
+  return true;
+}
 
+void ViewServer::State::run_command(const httplib::Request& request, httplib::Response& response) const {
+  const CommandAnswer answer = commands.run(file_name(request), request.body);
+  response.status = answer.status;
+  response.set_content(answer.json, "application/json");
+}
+
+void ViewServer::State::answer_page(const httplib::Request& request, httplib::Response& response) {
   const std::string& path = request.path;
   if (path == "/state.json") {
     const std::shared_ptr<const Picture> picture = desk.picture();
-    return send(state_json(desk.status(), picture.get()), "application/json", response);
+    return send(state_json(desk.status(), picture.get(), desk.control().region()), "application/json",
+                response);
   }
-  if (path == "/layer.bin") return send_layer(request.get_param_value("name"), response);
+  if (path == "/layer.bin") {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < std::min(request.get_param_value_count("name"), kMaxLayers); ++i)
+      names.push_back(request.get_param_value("name", i));
+    return send_layers(names, response);
+  }
   if (path == "/picture.exr") return send_exr(response);
-  const std::string name = path == "/" ? "index.html" : path.substr(std::min<size_t>(1, path.size()));
+  const std::string name = path == "/" ? "index.html" : file_name(request);
   for (const PageFile& file : page_files()) {
     if (file.name == name) return send(with_token(file.text, rules.token()), mime_type(name), response);
   }
@@ -124,11 +169,12 @@ void ViewServer::State::send(std::string bytes, const std::string& type, httplib
                                 });
 }
 
-void ViewServer::State::send_layer(const std::string& name, httplib::Response& response) {
-  const std::shared_ptr<const Picture> picture = desk.with_layer(name);
-  if (!picture || !picture->layers.contains(name))
-    return refuse(404, "the picture does not have this layer yet", response);
-  send(layer_bytes(*picture, name), "application/octet-stream", response);
+void ViewServer::State::send_layers(const std::vector<std::string>& names, httplib::Response& response) {
+  const std::shared_ptr<const Picture> picture = desk.with_layers(names);
+  const auto has = [&](const std::string& name) { return picture->layers.contains(name); };
+  if (!picture || names.empty() || !std::all_of(names.begin(), names.end(), has))
+    return refuse(404, "the picture does not have these layers yet", response);
+  send(layer_bytes(*picture, names), "application/octet-stream", response);
 }
 
 void ViewServer::State::send_exr(httplib::Response& response) {
@@ -141,8 +187,8 @@ void ViewServer::State::send_exr(httplib::Response& response) {
   send(std::move(bytes), "image/x-exr", response);
 }
 
-ViewServer::ViewServer(ViewDesk& desk, const std::string& address, int port) {
-  auto server = std::make_unique<State>(desk, RequestRules(address, port, ""));
+ViewServer::ViewServer(ViewDesk& desk, const SceneCommands& commands, const std::string& address, int port) {
+  auto server = std::make_unique<State>(desk, commands, RequestRules(address, port, ""));
   httplib::Server& http = server->server;
   // Without SO_REUSEPORT, which the library sets by itself: two servers would share the port.
   http.set_socket_options([](socket_t socket) {
@@ -154,11 +200,14 @@ ViewServer::ViewServer(ViewDesk& desk, const std::string& address, int port) {
   http.set_read_timeout(kRead_s);
   http.set_write_timeout(0, kWrite_us);
   http.set_payload_max_length(kMaxBody);
-  http.set_pre_routing_handler(
-      [state = server.get()](const httplib::Request& request, httplib::Response& response) {
-        state->answer(request, response);
-        return httplib::Server::HandlerResponse::Handled;
-      });
+  http.set_pre_routing_handler([state = server.get()](const httplib::Request& request,
+                                                      httplib::Response& response) {
+    const bool answered = state->answer(request, response);
+    return answered ? httplib::Server::HandlerResponse::Handled : httplib::Server::HandlerResponse::Unhandled;
+  });
+  http.Post(".*", [state = server.get()](const httplib::Request& request, httplib::Response& response) {
+    state->run_command(request, response);
+  });
   if (port == 0) {
     server->port = http.bind_to_any_port(address);
   } else if (http.bind_to_port(address, port)) {
@@ -174,13 +223,16 @@ ViewServer::ViewServer(ViewDesk& desk, const std::string& address, int port) {
   url_ = fmt::format("http://{}:{}/?token={}",
                      address.find(':') == std::string::npos ? address : "[" + address + "]", server->port,
                      server->rules.token());
-  server->thread = std::thread([state = server.get()] { state->server.listen_after_bind(); });
+  server->thread = std::thread([state = server.get()] {
+    state->server.listen_after_bind();
+    state->ended = true;
+  });
   state_ = std::move(server);
 }
 
 ViewServer::~ViewServer() {
   state_->closing = true;
-  while (!state_->server.is_running()) std::this_thread::yield();
+  while (!state_->server.is_running() && !state_->ended) std::this_thread::yield();
   state_->server.stop();
   end_connections(state_->port);
   state_->thread.join();

@@ -6,20 +6,29 @@
 
 namespace pelage {
 
+void add_groom_files(const GroomParams& groom, std::vector<std::filesystem::path>& files) {
+  if (!groom.strands_file.empty()) files.push_back(groom.strands_file.path);
+  if (groom.density) ValueReader<Field>::add_files(*groom.density, files);
+  for (const OperatorList::Item& item : groom.operators.items) {
+    for (const ParameterText& parameter : item.prototype->parameters())
+      files.insert(files.end(), parameter.files.begin(), parameter.files.end());
+  }
+}
+
+std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
+  std::vector<std::filesystem::path> files;
+  for (int i = 0; i < poses.count; ++i)
+    files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
+  return files;
+}
+
 std::vector<std::filesystem::path> asset_files(const SceneDescription& scene) {
   std::vector<std::filesystem::path> files;
   const auto add = [&](const AssetPath& file) {
     if (!file.empty()) files.push_back(file.path);
   };
   for (const auto& skin : scene.skins.items) add(skin.value.mesh);
-  for (const auto& groom : scene.grooms.items) {
-    add(groom.value.strands_file);
-    if (groom.value.density) ValueReader<Field>::add_files(*groom.value.density, files);
-    for (const OperatorList::Item& item : groom.value.operators.items) {
-      for (const ParameterText& parameter : item.prototype->parameters())
-        files.insert(files.end(), parameter.files.begin(), parameter.files.end());
-    }
-  }
+  for (const auto& groom : scene.grooms.items) add_groom_files(groom.value, files);
   for (const auto& material : scene.materials.items) {
     std::visit(
         [&](const auto& params) {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tested in tests/world/compose_test.cpp.
 #include "world/assets.h"
 
 #include <fmt/format.h>
@@ -7,6 +6,8 @@
 #include "base/memory_budget.h"
 #include "geom/io/obj_file.h"
 #include "render/fibre/fibre_material.h"
+#include "world/asset_files.h"
+#include "world/asset_keys.h"
 #include "world/crowds.h"
 #include "world/drawn_characters.h"
 #include "world/map_check.h"
@@ -36,17 +37,10 @@ void require_file(const std::filesystem::path& file, const SourcePosition& named
   }
 }
 
-std::vector<std::filesystem::path> pose_files(const PosesParams& poses) {
-  std::vector<std::filesystem::path> files;
-  for (int i = 0; i < poses.count; ++i) {
-    files.emplace_back(frame_file_name(poses.files.path.string(), poses.first + i));
-    require_file(files.back(), poses.files.position);
-  }
-  return files;
-}
-
 PoseSequence pose_sequence(const PosesParams& params, const ControlMesh& cage, MemoryLedger& ledger) {
-  return PoseSequence(pose_files(params), params.first, params.cycle, cage.positions.size(), ledger,
+  const std::vector<std::filesystem::path> files = pose_files(params);
+  for (const std::filesystem::path& file : files) require_file(file, params.files.position);
+  return PoseSequence(files, params.first, params.cycle, cage.positions.size(), ledger,
                       params.frames_per_pose);
 }
 
@@ -62,16 +56,16 @@ Assets::Skin load_skin(const std::string& name, const SkinParams& params, Shared
             topologies);
   job.check_stop();
   auto rest = std::make_shared<LimitSurface>(topology, cage.positions);
-  Assets::Skin skin{std::move(rest), std::move(cage), {}};
+  Assets::Skin skin{std::move(rest), std::move(cage), {}, {}, {}};
   if (params.poses) skin.poses.emplace(pose_sequence(*params.poses, skin.cage, job.ledger));
   return skin;
 }
 
 /// If the strands of the scene cannot fit the memory limit, fails before the first is placed.
-void require_room_for_strands(const SceneDescription& scene, const Job& job) {
+void require_room_for_strands(const SceneDescription& scene, const Assets& assets, const Job& job) {
   int64_t kept = 0;
   for (const auto& [name, position, params] : scene.grooms.items) {
-    if (!params.strands || params.cache) continue;
+    if (!params.strands || params.cache || assets.groom_keys.contains(name)) continue;
     require_room(job.ledger, kept + follicle_temporary_bytes(*params.strands),
                  fmt::format("placing {} strands of groom '{}'", *params.strands, name));
     kept += follicle_bytes(*params.strands);
@@ -89,9 +83,9 @@ bool only_holes(const SurfaceTopology& topology) {
 std::shared_ptr<const Groom> make_groom(const std::string& name, const SourcePosition& position,
                                         const GroomParams& params,
                                         const std::shared_ptr<const LimitSurface>& rest,
-                                        TextureLibrary& textures, const Job& job) {
+                                        TextureLibrary& textures, const Job& job, const Groom* previous) {
   try {
-    auto groom = Groom::create(name, params, rest, textures, job);
+    auto groom = Groom::create(name, params, rest, textures, job, previous);
     if (rest && params.strands_file.empty() && only_holes(rest->topology())) {
       job.progress.warn(fmt::format("{}: groom '{}' grows nothing, because all faces of skin '{}' are holes",
                                     to_string(position), name, params.skin.name));
@@ -115,46 +109,96 @@ std::vector<int64_t> drawn_bytes(const SceneDescription& scene, const Assets& as
   return bytes;
 }
 
+/// "skins.NAME" and "grooms.NAME" to keys.
+std::map<std::string, ContentHash> asset_keys(const SceneDescription& scene) {
+  std::map<std::string, ContentHash> keys;
+  for (const auto& [name, position, params] : scene.skins.items)
+    keys["skins." + name] = skin_key(scene, name, params);
+  for (const auto& [name, position, params] : scene.grooms.items)
+    keys["grooms." + name] = groom_key(scene, name, params, keys["skins." + params.skin.name]);
+  return keys;
+}
+
+/// Frees everything that changes, before anything new needs memory. Grooms that change stay without a key
+/// until their follicles were compared. Returns the new keys.
+std::map<std::string, ContentHash> drop_old(const SceneDescription& scene, Assets& assets) {
+  const std::map<std::string, ContentHash> keys = asset_keys(scene);
+  std::erase_if(assets.skins, [&](const auto& skin) {
+    const auto key = keys.find("skins." + skin.first);
+    return key == keys.end() || key->second != skin.second.key;
+  });
+  std::erase_if(assets.groom_keys, [&](const auto& groom) {
+    const auto key = keys.find("grooms." + groom.first);
+    return key == keys.end() || key->second != groom.second;
+  });
+  std::erase_if(assets.grooms, [&](const auto& groom) { return !keys.contains("grooms." + groom.first); });
+  assets.textures.forget_changed();
+  return keys;
+}
+
+void update_skins(const SceneDescription& scene, const std::map<std::string, ContentHash>& keys,
+                  const Job& job, Assets& assets) {
+  SharedTopologies topologies;
+  for (const auto& [name, skin] : assets.skins) share(skin.rest->shared_topology(), topologies);
+  for (const auto& [name, position, params] : scene.skins.items) {
+    if (assets.skins.contains(name)) continue;
+    job.check_stop();
+    Assets::Skin skin = load_skin(name, params, topologies, job);
+    skin.key = keys.at("skins." + name);
+    skin.charge = MemoryCharge(job.ledger, MemoryTag::kSkins,
+                               static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
+    assets.skins.emplace(name, std::move(skin));
+  }
+  for (const auto& topology : topologies)
+    assets.charges.emplace_back(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
+}
+
+void update_grooms(const SceneDescription& scene, const std::map<std::string, ContentHash>& keys,
+                   const Job& job, Assets& assets) {
+  for (const auto& [name, position, params] : scene.grooms.items) {
+    if (assets.groom_keys.contains(name)) continue;
+    const auto skin = assets.skins.find(params.skin.name);
+    const auto rest = skin == assets.skins.end() ? nullptr : skin->second.rest;
+    std::shared_ptr<const Groom>& groom = assets.grooms[name];
+    groom = make_groom(name, position, params, rest, assets.textures, job, groom.get());
+    assets.groom_keys[name] = keys.at("grooms." + name);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job) {
-  MemoryLedger& ledger = job.ledger;
-  ledger.set_limit(scene.render.memory.bytes);
-  require_room_for_strands(scene, job);
-  auto assets = std::make_unique<Assets>(ledger, &job.progress);
-  SharedTopologies topologies;
-  for (const auto& [name, position, params] : scene.skins.items) {
-    job.check_stop();
-    const Assets::Skin& skin =
-        assets->skins.emplace(name, load_skin(name, params, topologies, job)).first->second;
-    assets->charges.emplace_back(ledger, MemoryTag::kSkins,
-                                 static_cast<int64_t>(skin.rest->bytes() + skin.cage.bytes()));
-  }
-  check_maps(scene, assets->skins);
-  for (const auto& topology : topologies) {
-    assets->charges.emplace_back(ledger, MemoryTag::kSkins, static_cast<int64_t>(topology->bytes()));
-  }
+  auto assets = std::make_unique<Assets>(job.ledger, &job.progress);
+  update_assets(scene, job, *assets);
+  return assets;
+}
+
+void update_assets(const SceneDescription& scene, const Job& job, Assets& assets) {
+  job.ledger.set_limit(scene.render.memory.bytes);
+  assets.charges.clear();
+  assets.crowds.clear();
+  assets.part_poses.clear();
+  assets.materials.clear();
+  const std::map<std::string, ContentHash> keys = drop_old(scene, assets);
+  require_room_for_strands(scene, assets, job);
+  update_skins(scene, keys, job, assets);
+  check_maps(scene, assets.skins);
   for (const auto& [name, position, params] : scene.characters.items) {
     for (size_t part = 0; part < params.parts.size(); ++part) {
       const auto& [skin, material, grooms, poses] = params.parts[part];
       if (!poses) continue;
       job.check_stop();
-      const ControlMesh& cage = assets->skins.at(skin.name).cage;
-      assets->part_poses.emplace(std::pair(name, part), pose_sequence(*poses, cage, ledger));
+      const ControlMesh& cage = assets.skins.at(skin.name).cage;
+      assets.part_poses.emplace(std::pair(name, part), pose_sequence(*poses, cage, job.ledger));
     }
   }
-  assets->crowds = make_crowds(scene, drawn_bytes(scene, *assets), job);
-  for (const auto& crowd : assets->crowds) {
-    assets->charges.emplace_back(ledger, MemoryTag::kSkins,
-                                 static_cast<int64_t>(crowd.capacity() * sizeof(CrowdMember)));
+  assets.crowds = make_crowds(scene, drawn_bytes(scene, assets), job);
+  for (const auto& crowd : assets.crowds) {
+    assets.charges.emplace_back(job.ledger, MemoryTag::kSkins,
+                                static_cast<int64_t>(crowd.capacity() * sizeof(CrowdMember)));
   }
-  for (const auto& [name, position, params] : scene.grooms.items) {
-    const auto skin = assets->skins.find(params.skin.name);
-    const auto rest = skin == assets->skins.end() ? nullptr : skin->second.rest;
-    assets->grooms[name] = make_groom(name, position, params, rest, assets->textures, job);
-  }
-  assets->materials = load_materials(scene, assets->textures, job);
-  return assets;
+  update_grooms(scene, keys, job, assets);
+  assets.materials = load_materials(scene, assets.textures, job);
 }
 
 std::vector<MaterialParams> load_materials(const SceneDescription& scene, TextureLibrary& textures,

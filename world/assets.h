@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/job.h"
 #include "base/ledger.h"
 #include "geom/limit_surface.h"
@@ -24,6 +25,8 @@ struct Assets {
     std::shared_ptr<const LimitSurface> rest;  ///< surface at rest, in object space
     ControlMesh cage;                          ///< control cage at rest, in object space
     std::optional<PoseSequence> poses;         ///< empty: always at rest
+    ContentHash key;                           ///< skin_key()
+    MemoryCharge charge;
   };
 
   explicit Assets(MemoryLedger& ledger, Progress* progress = nullptr) : textures(ledger, progress) {}
@@ -31,12 +34,13 @@ struct Assets {
   TextureLibrary textures;
   std::map<std::string, Skin> skins;
   std::map<std::string, std::shared_ptr<const Groom>> grooms;
+  std::map<std::string, ContentHash> groom_keys;  ///< groom_key(), by the name of the groom
   /// Poses of a part of a character that replace the poses of its skin. The key is the name of the character
   /// and the index of the part (CharacterParams::parts).
   std::map<std::pair<std::string, size_t>, PoseSequence> part_poses;
   std::vector<std::vector<CrowdMember>> crowds;  ///< the animals of each crowd, in the order of the scene
   std::vector<MaterialParams> materials;         ///< in the order of the scene
-  std::vector<MemoryCharge> charges;
+  std::vector<MemoryCharge> charges;             ///< of topologies and crowds
 };
 
 /// Makes all data that is the same in all frames: surfaces at rest, follicles, prepared operators, positions
@@ -45,6 +49,12 @@ struct Assets {
 /// kMemory when an object does not fit `render.memory` (before the object is made), kStopped when the job is
 /// stopped.
 std::unique_ptr<Assets> load_assets(const SceneDescription& scene, const Job& job);
+
+/// Brings assets to the state that load_assets() would make for this scene. Skins and grooms that do not
+/// change are kept. For a groom of which only operators change, the follicles are kept. No world of these
+/// assets may exist. Throws the same errors as load_assets(). `assets` is then incomplete, but this function
+/// can be called again, for any scene.
+void update_assets(const SceneDescription& scene, const Job& job, Assets& assets);
 
 /// Returns the materials of a scene, in its order, with their textures and tables. Throws Error: kInput for
 /// missing or damaged images, kStopped when the job is stopped.

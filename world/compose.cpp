@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/instruction_set.h"
 #include "base/version.h"
 #include "procedurals/detail_policy.h"
 #include "procedurals/fur.h"
@@ -134,6 +135,7 @@ FrameHeader header_of(const SceneDescription& scene, double frame) {
   if (scene.render.adaptive)
     header.adaptive = EnumNames<AdaptiveRule>::names[static_cast<int>(scene.render.adaptive->rule)];
   header.program_version = version();
+  header.instruction_set = instruction_set();
   header.scene_hash = scene.hash;
   return header;
 }

@@ -31,6 +31,10 @@ bool names_attribute(const Value& value) {
                      [](const Value::Entry& entry) { return names_attribute(entry.value); });
 }
 
+void add_keys(const std::string& path, const Value& map, SceneParts& parts) {
+  for (const Value::Entry& entry : map.entries()) parts[path + "." + entry.key] = document_hash(entry.value);
+}
+
 void add_material(const std::string& path, const Value& material, SceneParts& parts) {
   if (!material.is_map()) {
     parts[path + ".model"] = document_hash(material);
@@ -42,14 +46,17 @@ void add_material(const std::string& path, const Value& material, SceneParts& pa
   }
 }
 
-bool starts_with(const std::string& text, std::string_view prefix) { return text.starts_with(prefix); }
-
 Redo redo_of(const std::string& part) {
   if (std::find(kSamplingKeys.begin(), kSamplingKeys.end(), part) != kSamplingKeys.end())
     return Redo::kSampling;
-  if (starts_with(part, "lights.")) return Redo::kSampling;
-  if (starts_with(part, "camera")) return Redo::kGeometry;
-  if (!starts_with(part, "materials.")) return Redo::kAssets;
+  if (part.starts_with("lights.")) return Redo::kSampling;
+  if (part.starts_with("camera")) return Redo::kGeometry;
+  if (part.starts_with("render.gather.")) {
+    // The accelerator widens strands, and `raster` needs other boxes than `rays`.
+    const bool shapes = part == "render.gather.min_width" || part == "render.gather.visibility";
+    return shapes ? Redo::kGeometry : Redo::kSampling;
+  }
+  if (!part.starts_with("materials.")) return Redo::kAssets;
   const std::string_view key = std::string_view(part).substr(part.rfind('.') + 1);
   const bool grows = key == "model" || key == "opacity" || key == "color_attribute" || key == "tables";
   return grows ? Redo::kAssets : Redo::kSampling;
@@ -70,6 +77,8 @@ SceneParts scene_parts(const Value& document) {
       names += item.key + "\n";
       if (block.key == "materials") {
         add_material(path, item.value, parts);
+      } else if (path == "render.gather" && item.value.is_map()) {
+        add_keys(path, item.value, parts);
       } else {
         parts[path] = document_hash(item.value);
       }

@@ -103,8 +103,8 @@ struct SceneDescription {
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< hash of the document with its overrides, not of the assets that it names
-  /// All files from which the document was read: the scene file and its included files. asset_files() returns
-  /// the assets.
+  /// All files that this process reads for the scene: the scene file, its included files, and the assets
+  /// (asset_files()).
   std::vector<std::filesystem::path> files;
   SceneParts parts;  ///< hashes of the parts of the document, to compare scenes
   /// One per use of an old name of a key, with the current name, and per setting without effect.

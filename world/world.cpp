@@ -14,10 +14,6 @@
 
 namespace pelage {
 
-FrameResult render(const World& world, const Job& job, const FrameOptions& options) {
-  return render_frame(world.scene, job, options);
-}
-
 namespace {
 
 DisplayImage display_image(const FrameResult& result) {
@@ -35,9 +31,13 @@ DisplayImage display_image(const FrameResult& result) {
 
 }  // namespace
 
+FrameResult render(const World& world, const Job& job, const FrameOptions& options) {
+  return render_frame(world.scene, job, options);
+}
+
 FrameResult render(const World& world, const Job& job, const FrameOptions& options,
-                   std::unique_ptr<const FrameGeometry>& geometry) {
-  return render_frame(world.scene, job, options, geometry);
+                   std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept) {
+  return render_frame(world.scene, job, options, geometry, kept);
 }
 
 FrameHeader finished_header(const World& world, const FrameResult& result, double seconds) {

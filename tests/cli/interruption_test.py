@@ -43,6 +43,22 @@ class Interruption(ProgramTest):
             self.assertGreater(stats["cpu_s_by"]["camera_rays"], 0)
             self.assertAlmostEqual(sum(stats["cpu_s_by"].values()), stats["cpu_s"])
 
+    def test_an_interrupted_picture_for_a_screen_has_another_name(self):
+        for name in ("a.png", "a.jpg"):
+            partial = name.replace(".", ".partial.")
+            process = self.start_render("-o", name, *LONG, stage="render")
+            got, err = self.interrupt(process, signal.SIGINT)
+            self.assertEqual(got, 130, err)
+            self.assertIn(partial, err)
+            self.assertEqual([n for n in self.names() if n.startswith("a.")], [partial])
+            self.render("-o", name, "--skip-existing")
+            whole = (self.path / name).read_bytes()
+            got, err = self.interrupt(self.start_render("-o", name, *LONG, stage="render"), signal.SIGINT)
+            self.assertIn("kept, because", err)
+            self.assertEqual((self.path / name).read_bytes(), whole)
+            (self.path / name).unlink()
+            (self.path / partial).unlink()
+
     def test_a_request_that_comes_twice_at_once_is_one_except_from_the_keyboard(self):
         process = self.start_render("-o", "a.exr", *LONG, stage="render")
         got, err = self.interrupt(process, signal.SIGTERM, signal.SIGTERM)

@@ -111,7 +111,7 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_EQ(problem({"rendr", "s"}), "unknown command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
             "unknown command 'zebra'; expected one of compare, convert, grow, info, manual, measure, "
-            "motionblur, render, stereo, view");
+            "merge, motionblur, render, stereo, view");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}), "unknown option '--fraems'; did you mean '--frames'?");
   EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "unknown option '--memroy'; did you mean '--memory'?");
   EXPECT_EQ(problem({"render", "s", "--zebra"}), "unknown option '--zebra'; see 'pelage render --help'");
@@ -131,6 +131,28 @@ TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_NE(problem({"render", "s", "--frames"}), "");
   EXPECT_NE(problem({"render", "s", "--quiet", "--progress", "bar"}), "");
   EXPECT_NE(problem({"convert", "a", "b", "--default-width", "0"}), "");
+}
+
+TEST(Options, NumbersAreFiniteAndInTheirRange) {
+  for (const char* number : {"0", "-1", "nan", "inf", "1e999", "1e39", "1e-60", "abc", "2x", "0x10"}) {
+    const std::string wanted = "--scale: expected a number greater than 0, got '" + std::string(number) + "'";
+    EXPECT_EQ(problem({"render", "a.yaml", "--scale=" + std::string(number)}).substr(0, wanted.size()),
+              wanted);
+  }
+  EXPECT_EQ(parsed({"render", "a.yaml", "--scale", "2.5e-1"}).picture.scale, 0.25);
+  for (const char* flag : {"--time-limit", "--scale"})
+    EXPECT_NE(problem({"render", "a.yaml", flag, "0"}).find("greater than 0, got '0'"), std::string::npos);
+  EXPECT_NE(problem({"measure", "accel", "a.yaml", "--time-limit", "nan"}).find("greater than 0"),
+            std::string::npos);
+  EXPECT_NE(problem({"convert", "a", "b", "--default-width", "nan"}).find("greater than 0"),
+            std::string::npos);
+  EXPECT_NE(problem({"stereo", "a", "b", "--focal-pixels", "nan"}).find("greater than 0"), std::string::npos);
+  EXPECT_NE(problem({"trace", "a", "-o", "b", "--share", "nan"}).find("greater than 0"), std::string::npos);
+  EXPECT_NE(
+      problem({"stereo", "a", "b", "--fov", "nan"}).find("expected a number from 0.01 to 170, got 'nan'"),
+      std::string::npos);
+  EXPECT_NE(problem({"render", "a", "--sample-memory", "nan"}).find("expected a number from 0.001 to 3600"),
+            std::string::npos);
 }
 
 TEST(Options, OfMeasure) {

@@ -132,12 +132,12 @@ TEST_F(PostCommands, MistakesAreNamed) {
   EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", "--parallax-units", "meters"}),
             "--parallax-units 'meters' is not known; expected one of pixels, ndc");
   for (const char* flag : {"--shutter", "--shutter-centre", "--motion-scale"}) {
-    EXPECT_EQ(refusal({"motionblur", "a.exr", "-o", "b.exr", flag, "nan"}),
-              flag + std::string(": expected a finite number"));
+    const std::string problem = refusal({"motionblur", "a.exr", "-o", "b.exr", flag, "nan"});
+    EXPECT_EQ(problem.find(flag + std::string(": expected a ")), 0u) << problem;
   }
   for (const char* flag : {"--eye-separation", "--focal-pixels", "--fov", "--parallax-scale"}) {
-    EXPECT_EQ(refusal({"stereo", "a.exr", "-o", "b.exr", flag, "nan"}),
-              flag + std::string(": expected a finite number"));
+    const std::string problem = refusal({"stereo", "a.exr", "-o", "b.exr", flag, "nan"});
+    EXPECT_EQ(problem.find(flag + std::string(": expected a ")), 0u) << problem;
   }
   EXPECT_NE(refusal({"motionblur", "a.exr", "-o", "b.exr", "--scale", "9"}), "accepted");
   EXPECT_NE(refusal({"motionblur", "a.exr"}), "accepted");

@@ -26,7 +26,7 @@ LIBRARY_HEADERS = {
     "libpng": r"png\.h",
 }
 # Anything else in angle brackets is the C++ library (no dot, no slash), the C library or the system.
-SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys|linux|arpa|netinet)/[a-z]+\.h|[a-z]+\.h)$")
+SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys(/platform)?|linux|arpa|netinet)/[a-z0-9]+\.h|[a-z]+\.h)$")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 

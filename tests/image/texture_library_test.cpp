@@ -244,6 +244,29 @@ class TextureBudget : public testing::Test {
   TemporaryFolder folder;
 };
 
+TEST_F(TextureBudget, ForgetsWhatIsOldAndOnlyThat) {
+  const AssetPath a = write("a.ppm", 20, 15), b = write("b.ppm", 30, 15);
+  MemoryLedger ledger;
+  TextureLibrary library(ledger);
+  auto first = library.load(a), other = library.load(b);
+  library.forget_changed();
+  EXPECT_EQ(library.load(a), first);
+  write("a.ppm", 10, 15);
+  EXPECT_EQ(library.load(a), first) << "until it is told";
+  library.forget_changed();
+  const auto second = library.load(a);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(library.load(b), other);
+
+  const int64_t both = ledger.current(MemoryTag::kTextures);
+  library.forget_unused();
+  EXPECT_EQ(ledger.current(MemoryTag::kTextures), both);
+  other = nullptr;
+  library.forget_unused();
+  EXPECT_LT(ledger.current(MemoryTag::kTextures), both);
+  EXPECT_EQ(library.load(a), second);
+}
+
 TEST_F(TextureBudget, RefusesByNameWhatDoesNotFit) {
   const AssetPath file = write("a.ppm", 2000, 1500);
   MemoryLedger ledger;

@@ -62,7 +62,13 @@ class LiveRendererTest : public testing::Test {
     }
   }
 
-  SmallScene scene_;
+  /// Writes an image of one grey pixel.
+  void write_map(int value) const {
+    const std::string grey = std::to_string(value) + "\n";
+    scene_.write("map.ppm", "P3\n1 1\n255\n" + grey + grey + grey);
+  }
+
+  SmallScene scene_{true};
   ViewDesk desk_;
 };
 
@@ -86,7 +92,7 @@ TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {
                         {"position: [3, 2, 8]", "position: [3, 3, 8]", true},
                         {"length: {value: 0.4}", "length: {value: 0.5}", true},
                         {"diffuse: 0.7", "diffuse: 0.7, opacity: 0.5", true},
-                        {"width: 24", "width: 30", true}};
+                        {"width: 24", "width: 30", false}};
   int count = 0;
   for (const Edit& edit : edits) {
     replace(edit.from, edit.to);
@@ -94,6 +100,63 @@ TEST_F(LiveRendererTest, EveryEditIsThatOfARender) {
     expect_rendered();
     EXPECT_EQ(desk_.status().strands_regrown > 0, edit.regrows) << edit.to;
   }
+}
+
+TEST_F(LiveRendererTest, OnlyTheCoatThatChangesGrowsAgain) {
+  replace(", {push_out: {}}", "");
+  replace("materials:",
+          "  fuzz: {skin: still, strands: 300, operators: [{length: {value: 0.2}}]}\nmaterials:");
+  replace("{skin: still, material: hide}", "{skin: still, material: hide, grooms: {fuzz: fur}}");
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  ASSERT_TRUE(rests(0));
+  expect_rendered();
+  const int64_t memory = desk_.status().memory_bytes;
+
+  struct Edit {
+    const char *from, *to;
+    int64_t regrown;  // strands of whole coats
+  };
+  const Edit edits[] = {{"position: [3, 2, 8]", "position: [3, 3, 7]", 0},
+                        {"fov: 40", "fov: 38, lens: {f_stop: 8, focal_length: 5, focus_distance: 8}", 0},
+                        {"length: {value: 0.4}", "length: {value: 0.5}", 400},
+                        {"length: {value: 0.2}", "length: {value: 0.3}", 300},
+                        {"points: 5", "points: 6", 400},
+                        {"strands: 300", "strands: 200", 200},
+                        {"[0.6, 0.4, 0.2]", "[0.2, 0.4, 0.6]", 0},
+                        {"diffuse: 0.7", "diffuse: 0.7, opacity: 0.5", 600},
+                        {"fov: 38", "fov: 37", 0},
+                        {"samples: 4", "samples: 4, integrator: gather", 0},
+                        {"fov: 37", "fov: 36", 0},
+                        {"translate: [0, 1, 0]", "translate: [0, 0.5, 0]", 400},
+                        {"shutter: [-0.25, 0.25]", "shutter: [-0.1, 0.1]", 400},
+                        {"integrator: gather", "accel: embree", 600},
+                        {"accel: embree", "bounds: none", 600},
+                        {"fov: 36", "fov: 35", 0},
+                        {"bounds: none", "memory: 1G", 0},
+                        {"fov: 35", "fov: 34", 0}};
+  int count = 0;
+  for (const Edit& edit : edits) {
+    replace(edit.from, edit.to);
+    ASSERT_TRUE(rests(++count)) << edit.to << desk_.status().error();
+    expect_rendered();
+    EXPECT_EQ(desk_.status().strands_regrown, edit.regrown) << edit.to;
+  }
+  EXPECT_LT(desk_.status().memory_bytes, memory + (memory >> 1)) << "old chunks are freed";
+}
+
+TEST_F(LiveRendererTest, AMapIsReadAgain) {
+  write_map(50);
+  replace("length: {value: 0.4}", "length: {value: {map: map.ppm, channel: r}}");
+  replace("{model: lambert, color: 0.4}", "{model: lambert, color: {map: map.ppm}}");
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  ASSERT_TRUE(rests(0)) << desk_.status().error();
+  expect_rendered();
+  write_map(120);
+  ASSERT_TRUE(rests(1));
+  expect_rendered();
+  EXPECT_EQ(desk_.status().strands_regrown, 400);
 }
 
 TEST_F(LiveRendererTest, AnAssetIsReadAgain) {
@@ -131,6 +194,7 @@ TEST_F(LiveRendererTest, AWrongEditKeepsThePictureAndSaysWhy) {
   replace("mesh: cube.obj, poses", "mesh: none.obj, poses");
   ASSERT_TRUE(shows("no such file"));
   EXPECT_EQ(desk_.picture()->version, version) << "the last good picture stays";
+  EXPECT_TRUE(desk_.with_frame([](const FinishedFrame&) {})) << "with all layers";
   EXPECT_FALSE(desk_.status().done());
   scene_.write("none.obj", read_file(scene_.path("cube.obj")));  // the missing file arrives
   ASSERT_TRUE(wait_until([](const ViewStatus& s) { return s.done(); })) << desk_.status().error();
@@ -151,9 +215,9 @@ TEST_F(LiveRendererTest, ManyEditsAndReadersAtOnce) {
     while (!ends) {
       const ViewStatus status = desk_.status();
       for (const std::string& layer : status.layers) {
-        const auto picture = desk_.with_layer(layer);
+        const auto picture = desk_.with_layers({layer});
         if (!picture || !picture->layers.contains(layer)) continue;
-        EXPECT_FALSE(layer_bytes(*picture, layer).empty());
+        EXPECT_FALSE(layer_bytes(*picture, {layer}).empty());
       }
       desk_.with_frame([](const FinishedFrame& frame) { EXPECT_EQ(frame.result.film.height(), 16); });
     }

@@ -33,6 +33,17 @@ class ViewTest(ProgramTest):
         connection.close()
         return answer.status, body
 
+    def post(self, page, body, headers=None, token=None):
+        """Status and answer. `body`: bytes, or values for JSON."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        data = body if isinstance(body, bytes) else json.dumps(body).encode()
+        query = urllib.parse.urlencode({"token": self.token if token is None else token})
+        connection.request("POST", f"/{page}?{query}", data, {"Content-Type": "application/json", **(headers or {})})
+        answer = connection.getresponse()
+        text = answer.read()
+        connection.close()
+        return answer.status, json.loads(text) if text[:1] == b"{" else text
+
     def state(self):
         status, body = self.get("state.json")
         self.assertEqual(status, 200)

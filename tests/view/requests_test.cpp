@@ -22,8 +22,18 @@ TEST(RequestRules, OnlyOwnPagesWithTheTokenAreAnswered) {
   for (const char* origin : {"null", "http://evil.example", "https://127.0.0.1:8123", "http://127.0.0.1:81",
                              "http://localhost:8123"})
     EXPECT_EQ(rules.status({"GET", "127.0.0.1:8123", origin, "secret"}), 403) << origin;
-  for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "get", ""})
+  for (const char* method : {"PUT", "DELETE", "OPTIONS", "get", ""})
     EXPECT_EQ(rules.status({method, "127.0.0.1:8123", "", "secret"}), 405) << method;
+}
+
+TEST(RequestRules, ACommandIsPlainJson) {
+  const RequestRules rules("127.0.0.1", 8123, "secret");
+  EXPECT_EQ(rules.status({"POST", "127.0.0.1:8123", "", "secret", "application/json", true}), 200);
+  EXPECT_EQ(rules.status({"POST", "127.0.0.1:8123", "", "secret", "application/json", false}), 411);
+  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data"})
+    EXPECT_EQ(rules.status({"POST", "127.0.0.1:8123", "", "secret", type, true}), 415) << type;
+  EXPECT_EQ(rules.status({"POST", "127.0.0.1:8123", "", "secre", "application/json", true}), 403);
+  EXPECT_EQ(rules.status({"POST", "127.0.0.1:8123", "null", "secret", "application/json", true}), 403);
 }
 
 TEST(RequestRules, AllAddressesMeanNumbersOnly) {

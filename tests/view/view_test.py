@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """`pelage view` as its clients see it: what it answers, and what it survives."""
+import json
+import pathlib
 import random
 import socket
 import struct
@@ -69,9 +71,90 @@ class View(ViewTest):
         self.assertGreaterEqual(self.get("state.json", {"X": "y" * 100000})[0], 400)
         self.assertGreaterEqual(self.get("state.json", pad="y" * 100000)[0], 400)
 
+    def expect_rendered(self, *arguments):
+        """The picture at rest has the pixels of a render."""
+        _, shown = self.get("picture.exr")
+        self.render("-o", "a.exr", *arguments)
+        rendered = (self.path / "a.exr").read_bytes()
+        self.assertEqual(shown[-2000:], rendered[-2000:])  # the headers differ in times
+
+    def settled(self, edits, moved):
+        return self.wait(lambda state: state["done"] and state["edits"] == edits and state["camera"]["moved"] == moved)
+
+    def test_a_moved_camera_stays_until_that_of_the_file_changes(self):
+        self.view()
+        self.rest()
+        move = {"action": "move", "position": [-3, 2.5, 7], "look_at": [0, 0.25, 0]}
+        flags = ["--set", "camera.position=[-3, 2.5, 7]", "--set", "camera.look_at=[0, 0.25, 0]"]
+        self.assertEqual(self.post("camera.json", move)[0], 200)
+        state = self.settled(1, True)
+        self.assertEqual(state["camera"]["position"], [-3, 2.5, 7])
+        self.expect_rendered(*flags)
+        self.replace("radiance: 0.3", "radiance: 0.6")
+        self.assertEqual(self.settled(2, True)["camera"]["look_at"], [0, 0.25, 0])
+        self.expect_rendered(*flags)
+        self.replace("fov: 40", "fov: 50")
+        self.assertIn("camera of the scene file", self.settled(3, False)["camera"]["note"])
+        self.expect_rendered()
+
+        self.assertEqual(self.post("camera.json", move)[0], 200)
+        self.assertEqual(self.settled(4, True)["camera"]["note"], "")
+        self.assertEqual(self.post("camera.json", {"action": "reset"})[0], 200)
+        self.settled(5, False)
+        self.expect_rendered()
+
+        self.post("camera.json", move)
+        self.settled(6, True)
+        before = (self.path / "scene.yaml").read_text()
+        status, answer = self.post("camera.json", {"action": "write"})
+        self.assertEqual((status, answer["written"]), (200, True))
+        written = before.replace("[3, 2, 8], look_at: [0, 0, 0]", "[-3, 2.5, 7], look_at: [0, 0.25, 0]")
+        self.assertEqual((self.path / "scene.yaml").read_text(), written)
+        self.assertEqual(self.settled(6, False)["camera"]["note"], "")  # the picture is the same
+        self.expect_rendered()
+
+    def test_a_region_is_refined_first_and_changes_no_pixel(self):
+        self.view("--set", "render.samples=2000", "--set", "image={width: 64, height: 48}")
+        self.wait(lambda state: state["first_pixels_s"] > 0)
+        self.assertEqual(self.post("region.json", {"region": [5, 6, 20, 15]})[0], 200)
+
+        def has_region(state):
+            _, body = self.get("layer.bin", name="beauty")
+            return json.loads(body[:body.index(b"\n")])["full"] == [5, 6, 20, 15]
+
+        self.assertEqual(self.wait(has_region)["region"], [5, 6, 20, 15])
+        self.assertEqual(self.post("region.json", {"region": None})[0], 200)
+        self.replace("samples: 2", "samples: 3")  # --set takes precedence: nothing changes
+        self.assertEqual(self.rest()["region"], None)
+        self.expect_rendered("--set", "render.samples=2000", "--set", "image={width: 64, height: 48}")
+
+    def test_commands_of_strangers_are_refused(self):
+        self.view()
+        self.rest()
+        scene = (self.path / "scene.yaml").read_text()
+        body = {"action": "write", "edit": 0, "lights": {"sky": {"stops": 1}}}
+        for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}, {"Origin": "null"}):
+            self.assertEqual(self.post("lights.json", body, headers)[0], 403)
+        for token in ("", "0" * 32):
+            self.assertEqual(self.post("lights.json", body, token=token)[0], 403)
+        for type in ("text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=x"):
+            self.assertEqual(self.post("lights.json", body, {"Content-Type": type})[0], 415)
+        for headers in ({"Transfer-Encoding": "chunked"}, {"Content-Encoding": "gzip"}, {"Content-Length": "-1"}):
+            self.assertEqual(self.post("lights.json", body, headers)[0], 411)
+        self.assertEqual(self.post("lights.json", b"{" + b" " * 20000 + b"}")[0], 413)
+        for name in ("", "state.json", "main.js", "none", "../lights.json", "lights.json/"):
+            self.assertEqual(self.post(name, body)[0], 405, name)
+        self.assertEqual(self.get("lights.json")[0], 405)
+        self.assertEqual((self.path / "scene.yaml").read_text(), scene)
+        own = {"Origin": f"http://127.0.0.1:{self.port}"}
+        self.assertEqual(self.post("lights.json", body, own)[0], 200)
+        self.assertIn("radiance: 0.3, intensity: 2", (self.path / "scene.yaml").read_text())
+        self.wait(lambda state: state["done"] and state["edits"] == 1)
+
     def test_no_address_of_the_page_leads_elsewhere(self):
         self.view()
-        for name in ("", "main.js", "server.js", "colors.js", "canvas.js", "page.css"):
+        page = pathlib.Path(__file__).resolve().parents[2] / "view/page"
+        for name in ["", *(file.name for file in page.iterdir())]:
             status, body = self.get(name)
             self.assertEqual(status, 200, name)
             self.assertNotIn(b"{{token}}", body)
@@ -125,7 +208,7 @@ class View(ViewTest):
                 f"Accept-Encoding: gzip\r\nTransfer-Encoding: chunked\r\nExpect: 100-continue\r\n\r\n").encode()
         numbers = random.Random(5)
 
-        def fuzzed():
+        def fuzzed(good):
             data = bytearray(good)
             for _ in range(numbers.randint(1, 12)):
                 at = numbers.randrange(len(data))
@@ -144,7 +227,12 @@ class View(ViewTest):
                     data = bytearray(b"\r\n")
             return bytes(data)
 
-        requests = [fuzzed() for _ in range(1000)]
+        command = b'{"action": "move", "position": [3, 2, 8], "look_at": [0, 0, 0]}'
+        post = (f"POST /camera.json?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n"
+                f"Content-Type: application/json\r\nContent-Length: {len(command)}\r\n\r\n").encode() + command
+        requests = []
+        for i in range(1000):
+            requests.append(fuzzed(post if i % 3 == 0 else good))
 
         def send(some):
             for request in some:
@@ -164,7 +252,7 @@ class View(ViewTest):
         for thread in threads:
             thread.join()
         self.assertIsNone(process.poll())
-        self.assertTrue(self.state()["done"])
+        self.rest()
         self.interrupt(process)
 
 

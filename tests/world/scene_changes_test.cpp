@@ -30,6 +30,8 @@ TEST_F(SceneChanges, LightsMaterialsAndSamplesKeepGeometry) {
                                                         {"render.samples", "9"},
                                                         {"render.bounces", "0"},
                                                         {"render.integrator", "gather"},
+                                                        {"render.gather.spacing", "2"},
+                                                        {"render.gather.reuse", "false"},
                                                         {"image.light_layers", "false"}})
     EXPECT_EQ(redo_after(key, value), Redo::kSampling) << key;
 }
@@ -37,6 +39,14 @@ TEST_F(SceneChanges, LightsMaterialsAndSamplesKeepGeometry) {
 TEST_F(SceneChanges, TheCameraKeepsAssets) {
   EXPECT_EQ(redo_after("camera.position", "[3, 2, 9]"), Redo::kGeometry);
   EXPECT_EQ(redo_after("camera.lens", "{f_stop: 4}"), Redo::kGeometry);
+}
+
+TEST_F(SceneChanges, WidthsOfDrawnStrandsKeepAssets) {
+  const std::vector<Override> gather{{"render.integrator", "gather"}};
+  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
+           {"render.gather.min_width", "0.5"}, {"render.gather.visibility", "rays"}}) {
+    EXPECT_EQ(redo(gather, {gather[0], {key, value}}), Redo::kGeometry) << key;
+  }
 }
 
 TEST_F(SceneChanges, EverythingElseStartsAnew) {

@@ -13,8 +13,9 @@ namespace pelage {
 /// folder of its own.
 class SmallScene {
  public:
-  SmallScene() {
-    write("cube.obj", cube(0));
+  /// `maps`: whether the cube has texture coordinates.
+  explicit SmallScene(bool maps = false) {
+    write("cube.obj", cube(0, maps));
     for (int pose = 1; pose <= 3; ++pose)
       write("cube.000" + std::to_string(pose) + ".obj", cube(static_cast<float>(pose)));
     write("scene.yaml", R"(pelage: 1
@@ -47,11 +48,16 @@ render: {samples: 4, bounces: 2, lod: {enabled: false}}
 
  private:
   // A cube of side 1 centred at x.
-  static std::string cube(float x) {
+  static std::string cube(float x, bool maps = false) {
     std::string text;
     for (int i = 0; i < 8; ++i) {
       text += "v " + std::to_string(x + ((i & 1) ? 0.5f : -0.5f)) + ((i & 2) ? " 0.5" : " -0.5") +
               ((i & 4) ? " 0.5" : " -0.5") + "\n";
+    }
+    if (maps) {
+      return text +
+             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 3/2 4/3 2/4\nf 5/1 6/2 8/3 7/4\nf 1/1 2/2 6/3 5/4\n" +
+             "f 3/1 7/2 8/3 4/4\nf 1/1 5/2 7/3 3/4\nf 2/1 4/2 8/3 6/4\n";
     }
     return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
   }

@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture that can be zoomed and moved.
+// A picture that can be zoomed and moved. A tool {down, move, up, wheel} may take the mouse instead.
 export class PictureCanvas {
-  constructor(canvas, onCursor) {
+  // `toolOf(event)`: the tool that takes a gesture; null for none.
+  constructor(canvas, onCursor, toolOf) {
     this.canvas = canvas;
     this.onCursor = onCursor;
+    this.toolOf = toolOf;
     this.fitted = true;
     this.scale = 1;
     this.left = this.top = 0;
-    this.source = document.createElement("canvas");
+    this.box = null;
+    this.source = canvas.picture = document.createElement("canvas");
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener("wheel", event => this.wheel(event), {passive: false});
-    canvas.addEventListener("pointerdown", event => this.drag = {x: event.offsetX, y: event.offsetY});
+    canvas.addEventListener("pointerdown", event => this.down(event));
     canvas.addEventListener("pointermove", event => this.move(event));
-    addEventListener("pointerup", () => this.drag = null);
+    canvas.addEventListener("pointerup", () => this.up());
+    canvas.addEventListener("pointercancel", () => this.up());
     canvas.addEventListener("pointerleave", () => this.onCursor(null));
+    canvas.addEventListener("contextmenu", event => event.preventDefault());
   }
 
   show(image) {
+    this.image = image;
     if (this.source.width !== image.width || this.source.height !== image.height) {
       this.source.width = image.width;
       this.source.height = image.height;
@@ -43,10 +49,25 @@ export class PictureCanvas {
 
   wheel(event) {
     event.preventDefault();
-    this.zoom(2 ** (-event.deltaY / 250), event.offsetX, event.offsetY);
+    const tool = this.toolOf(event);
+    if (tool?.wheel) tool.wheel(event);
+    else this.zoom(2 ** (-event.deltaY / 250), event.offsetX, event.offsetY);
+  }
+
+  down(event) {
+    const tool = this.toolOf(event);
+    this.tool = tool?.down(event) ? tool : null;
+    this.drag = this.tool ? null : {x: event.offsetX, y: event.offsetY};
+    this.canvas.setPointerCapture?.(event.pointerId);
+  }
+
+  up() {
+    this.tool?.up();
+    this.tool = this.drag = null;
   }
 
   move(event) {
+    this.tool?.move(event);
     if (this.drag) {
       this.left += event.offsetX - this.drag.x;
       this.top += event.offsetY - this.drag.y;
@@ -57,10 +78,22 @@ export class PictureCanvas {
     this.onCursor(this.pixelAt(event.offsetX, event.offsetY));
   }
 
+  toPicture(x, y) { return {x: (x - this.left) / this.scale, y: (y - this.top) / this.scale}; }
+
+  // Height of the whole picture in pixels of the screen.
+  shownHeight() { return this.source.height * this.scale; }
+
   pixelAt(x, y) {
-    const column = Math.floor((x - this.left) / this.scale), row = Math.floor((y - this.top) / this.scale);
+    const place = this.toPicture(x, y), column = Math.floor(place.x), row = Math.floor(place.y);
     const inside = column >= 0 && row >= 0 && column < this.source.width && row < this.source.height;
     return inside ? {x: column, y: row} : null;
+  }
+
+  // Frames the pixels [x0, y0, x1, y1]; null for none.
+  setBox(box) {
+    if (JSON.stringify(box) === JSON.stringify(this.box)) return;
+    this.box = box;
+    this.draw();
   }
 
   draw() {
@@ -78,5 +111,11 @@ export class PictureCanvas {
     context.imageSmoothingEnabled = this.scale < 1;
     context.drawImage(source, this.left * ratio, this.top * ratio, source.width * this.scale * ratio,
                       source.height * this.scale * ratio);
+    if (!this.box) return;
+    const [x0, y0, x1, y1] = this.box, s = this.scale * ratio;
+    context.lineWidth = Math.round(1.5 * ratio);
+    context.setLineDash([6 * ratio, 4 * ratio]);
+    context.strokeStyle = "#ffb454";
+    context.strokeRect(this.left * ratio + x0 * s, this.top * ratio + y0 * s, (x1 - x0) * s, (y1 - y0) * s);
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the values of a layer become colours of the screen.
-import {halfValues} from "./server.js";
+import {halfValues, pixelFor} from "./server.js";
 
 const srgb = x => x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
 
@@ -72,11 +72,11 @@ function painter(layer, stops, film) {
 
 // The picture of a layer. Between the pixels of a coarse grid, it repeats them.
 export function paint(layer, stops, film) {
-  const {width, height, grid} = layer, image = new ImageData(width, height), out = image.data;
+  const {width, height} = layer, image = new ImageData(width, height), out = image.data;
   const color = painter(layer, stops, film);
   for (let y = 0; y < height; ++y) {
     for (let x = 0; x < width; ++x) {
-      const from = (y - y % grid) * width + x - x % grid, to = 4 * (y * width + x);
+      const from = pixelFor(layer, x, y), to = 4 * (y * width + x);
       const [r, g, b] = color(from);
       out[to] = r; out[to + 1] = g; out[to + 2] = b; out[to + 3] = 255;
     }

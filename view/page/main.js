@@ -1,19 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-import {readLayer, readState, valueAt} from "./server.js";
+import {pixelFor, readLayers, readState, valueAt} from "./server.js";
 import {paint} from "./colors.js";
 import {PictureCanvas} from "./canvas.js";
+import {CameraTool} from "./camera_tool.js";
+import {RegionTool} from "./region_tool.js";
+import {Mixer} from "./mixer.js";
+import {offerText} from "./scene_text.js";
 
 const element = id => document.getElementById(id);
-const kPoll_ms = 120;
-let state = null, layer = null, kept = null, showsKept = false, cursor = null;
+const kPoll_ms = 120, kFastPoll_ms = 30, kNote_ms = 6000;
+let state = null, layer = null, kept = null, showsKept = false, cursor = null, told = "", willDraw = false;
 
-const canvas = new PictureCanvas(element("canvas"), pixel => { cursor = pixel; showValues(); });
+const view = {
+  state: () => state,
+  edit: () => layer?.edit ?? -1,
+  tell: message => {
+    element("note").textContent = message;
+    element("note").hidden = !message;
+    if (message) setTimeout(() => { if (element("note").textContent === message) element("note").hidden = true; }, kNote_ms);
+  },
+};
+const camera = new CameraTool(view), region = new RegionTool(view);
+const isOn = id => element(id).getAttribute("aria-pressed") === "true";
+const toolOf = event => event.type === "pointerdown" && (event.shiftKey || isOn("region_mode")) ? region
+                        : isOn("camera_mode") ? camera : null;
+const canvas = view.canvas =
+  new PictureCanvas(element("canvas"), pixel => { cursor = pixel; showValues(); }, toolOf);
+const mixer = new Mixer(() => { chooseBeauty(); drawSoon(); });
+
+function chooseBeauty() {
+  if (element("layer").value === "beauty" || mixer.panel.isNeutral()) return;
+  element("layer").value = "beauty";
+  refresh().catch(() => {});
+}
+
+const mixes = shown => shown === layer && layer.name === "beauty" && mixer.mixes;
 
 function draw() {
   const shown = showsKept && kept ? kept : layer;
   if (!shown) return;
-  canvas.show(paint(shown, Number(element("exposure").value), element("transform").value === "film"));
+  const stops = Number(element("exposure").value), film = element("transform").value === "film";
+  const mixed = mixes(shown), began = performance.now();
+  canvas.show(mixed ? mixer.paint(stops, film) : shown.image ?? paint(shown, stops, film));
+  document.body.dataset.layer = shown.name;
+  document.body.dataset.mixed = mixed;
+  document.body.dataset.draw_ms = performance.now() - began;
   showValues();
+}
+
+const copyOf = image => new ImageData(image.data.slice(), image.width, image.height);
+
+function drawSoon() {
+  if (willDraw) return;
+  willDraw = true;
+  requestAnimationFrame(() => { willDraw = false; draw(); });
 }
 
 function showValues() {
@@ -22,9 +62,10 @@ function showValues() {
     element("values").textContent = "";
     return;
   }
-  const pixel = (cursor.y - cursor.y % shown.grid) * shown.width + cursor.x - cursor.x % shown.grid;
+  const pixel = pixelFor(shown, cursor.x, cursor.y);
+  const mixed = mixes(shown) && Object.fromEntries(mixer.valueAt(pixel).map((value, c) => ["RGB"[c], value]));
   const values = shown.channels.map(channel => {
-    const value = valueAt(channel, pixel);
+    const value = mixed?.[channel.name] ?? valueAt(channel, pixel);
     return `${channel.name} ${channel.type === "uint" ? value : value.toPrecision(4)}`;
   });
   element("values").textContent = `(${cursor.x}, ${cursor.y})  ${values.join("  ")}`;
@@ -44,21 +85,34 @@ function showState() {
   element("status").textContent = `${state.width} × ${state.height} · ${what} · ${samples} · ${memory}`;
   element("progress").hidden = state.done;
   element("progress").value = state.progress;
+  if (state.camera.note !== told) view.tell(told = state.camera.note);
+  element("camera_text").disabled = element("camera_reset").disabled = !state.camera.moved;
+  if (!region.from) {
+    canvas.setBox(state.region);
+    element("region_mode").setAttribute("aria-pressed", isOn("region_mode") && !state.region);
+    element("region_mode").textContent = state.region ? "Clear region" : "Region";
+  }
 }
 
 async function refresh() {
   state = await readState();
   const name = element("layer").value;
+  let changed = await mixer.update(state);
   if (state.version && (!layer || layer.version !== state.version || layer.name !== name)) {
-    const read = await readLayer(name);
+    const read = await readLayers([name]);
     if (read) {
       layer = Object.assign(read, {name});
-      draw();
+      changed = true;
     }
   }
+  if (changed) draw();
+  camera.update();
+  if (isOn("camera_mode")) await camera.findDepth();
   showState();
   document.body.dataset.version = layer ? layer.version : 0;
   document.body.dataset.done = state.done;
+  document.body.dataset.depth = camera.depth?.edit;
+  document.body.dataset.waits = camera.camera !== null;
 }
 
 async function follow() {
@@ -67,27 +121,44 @@ async function follow() {
   } catch (problem) {
     element("status").textContent = "no answer: has `pelage view` ended?";
   }
-  setTimeout(follow, kPoll_ms);
+  setTimeout(follow, camera.camera ? kFastPoll_ms : kPoll_ms);
+}
+
+function toggle(id, on = !isOn(id)) {
+  element(id).setAttribute("aria-pressed", on);
+  element("camera_bar").hidden = !isOn("camera_mode");
+  element("canvas").classList.toggle("camera", isOn("camera_mode"));
+  element("lights").hidden = !isOn("lights_mode");
 }
 
 element("layer").addEventListener("change", () => refresh().catch(() => {}));
 element("exposure").addEventListener("input", event => {
   element("stops").textContent = Number(event.target.value).toFixed(1);
-  draw();
+  drawSoon();
 });
 element("transform").addEventListener("change", draw);
 element("fit").addEventListener("click", () => canvas.fit());
 element("one").addEventListener("click", () => canvas.one());
-element("keep").addEventListener("click", () => { kept = layer; element("before").disabled = !kept; });
+element("keep").addEventListener("click", () => {
+  kept = layer && {...layer, image: document.body.dataset.mixed === "true" ? copyOf(canvas.image) : undefined};
+  element("before").disabled = !kept;
+});
 const compare = shows => { if (showsKept !== shows) { showsKept = shows; draw(); } };
 element("before").addEventListener("pointerdown", () => compare(true));
 addEventListener("pointerup", () => compare(false));
+
+for (const id of ["camera_mode", "lights_mode"]) element(id).addEventListener("click", () => toggle(id));
+element("region_mode").addEventListener("click", () => state?.region ? region.clear() : toggle("region_mode"));
+element("camera_reset").addEventListener("click", () => camera.reset());
+element("camera_text").addEventListener("click", () => offerText("Camera of this view", "camera.json", {}));
+
+const keys = {f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", r: "region_mode"};
 addEventListener("keydown", event => {
-  if (event.target.tagName === "SELECT") return;
-  if (event.key === "f") canvas.fit();
-  if (event.key === "1") canvas.one();
-  if (event.key === "k") element("keep").click();
+  const isTyping = ["SELECT", "TEXTAREA", "INPUT"].includes(event.target.tagName) && event.target.type !== "range";
+  if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;
+  if (event.key in keys) element(keys[event.key]).click();
   if (event.key === "b") compare(true);
+  if (event.key === "Escape" && (state?.region || region.last)) region.clear();
 });
 addEventListener("keyup", event => { if (event.key === "b") compare(false); });
 follow();

@@ -24,10 +24,11 @@ export const halfValues = (() => {
 
 const arrays = {half: Uint16Array, float: Float32Array, uint: Uint32Array};
 
-// A layer: {version, width, height, grid, channels: [{name, type, data}]}; null if there is none yet. The data of
-// half channels are the bits of the values.
-export async function readLayer(name) {
-  const answer = await fetch(address("layer.bin", {name}));
+// Some layers of one picture: {version, edit, width, height, grid, full, channels: [{name, type, data}]}; null if there are
+// none yet. The data of half channels are the bits of the values.
+export async function readLayers(names) {
+  const query = new URLSearchParams([...names.map(name => ["name", name]), ["token", token]]);
+  const answer = await fetch(`layer.bin?${query}`);
   if (answer.status === 404) return null;
   if (!answer.ok) throw new Error(`layer.bin: ${answer.status}`);
   const bytes = await answer.arrayBuffer();
@@ -41,6 +42,22 @@ export async function readLayer(name) {
     at += count * type.BYTES_PER_ELEMENT;
   }
   return layer;
+}
+
+// Runs a command. Returns its answer; throws an Error with the server's message.
+export async function command(name, values) {
+  const answer = await fetch(address(name), {
+    method: "POST", headers: {"Content-Type": "application/json"}, body: JSON.stringify(values)});
+  const result = await answer.json().catch(() => ({error: `${name}: ${answer.status}`}));
+  if (!answer.ok) throw new Error(result.error);
+  return result;
+}
+
+// The index of the pixel that stands for (x, y): between the pixels of a coarse grid, one of the grid.
+export function pixelFor(layer, x, y) {
+  const {width, grid, full: [x0, y0, x1, y1]} = layer;
+  if (grid === 1 || (x >= x0 && x < x1 && y >= y0 && y < y1)) return y * width + x;
+  return (y - y % grid) * width + x - x % grid;
 }
 
 export const valueAt = (channel, pixel) =>

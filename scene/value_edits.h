@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/document.h"
+
+namespace pelage {
+
+/// A new value of a key that holds a number or a list of numbers.
+struct ValueEdit {
+  std::vector<std::string>
+      path;  ///< names of the key and of the blocks around it: {"lights", "key", "intensity"}
+  std::vector<double> numbers;  ///< finite, not empty; a single number is written without brackets
+};
+
+/// Returns the text of a scene file with new values. Changes only the bytes of these values, and keeps all
+/// others: comments, formatting and line ends. Adds a missing key after another key of its block.
+///
+/// Throws Error (kInput) with one line if a value cannot be changed in this way: its block is not in the
+/// text, or the value is neither a number nor a list of as many numbers as the new value has. `file`: file
+/// name for messages.
+std::string with_values(const std::string& text, const std::string& file,
+                        const std::vector<ValueEdit>& edits);
+
+/// Does the same to a scene file. The file is replaced as a whole or not at all. Also throws Error (kInput)
+/// if a value comes from an included file or from an override, which the file would not change, and Error
+/// (kFailed) if the file cannot be written or changes at the same time.
+void write_values(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                  const std::vector<ValueEdit>& edits);
+
+/// Returns the new values as YAML, one line for each, under the names of their blocks.
+std::string values_text(const std::vector<ValueEdit>& edits);
+
+/// Returns numbers as they are written into a scene: "0.5", "[1, 0.5, 2]".
+std::string numbers_text(const std::vector<double>& numbers);
+
+}  // namespace pelage

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/value_edits.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "base/temporary_folder.h"
+
+namespace pelage {
+namespace {
+
+const ValueEdit kIntensity{{"lights", "key", "intensity"}, {2.5}};
+const ValueEdit kRadiance{{"lights", "key", "radiance"}, {1, 0.5, 0.25}};
+
+std::string edited(const std::string& text, const std::vector<ValueEdit>& edits) {
+  return with_values(text, "a.yaml", edits);
+}
+
+std::string error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+struct Case {
+  const char *before, *after;
+};
+
+TEST(ValueEdits, OnlyTheBytesOfTheValuesChange) {
+  const Case cases[] = {
+      {"lights: {key: {intensity: 3, radiance: [9, 9, 9]}}  # all\n",
+       "lights: {key: {intensity: 2.5, radiance: [1, 0.5, 0.25]}}  # all\n"},
+      {"# bright\nlights:\n  key:   # the sun\n    type: sphere\n    intensity:   3e1   # strong\n    "
+       "radiance: 0.3\n",
+       "# bright\nlights:\n  key:   # the sun\n    type: sphere\n    intensity:   2.5   # strong\n    "
+       "radiance: [1, 0.5, 0.25]\n"},
+      {"lights:\n  key:\n    intensity: 3\n    radiance:\n      - 7  # red\n      - 8\n      - 9\nz: 1\n",
+       "lights:\n  key:\n    intensity: 2.5\n    radiance:\n      - 1  # red\n      - 0.5\n      - 0.25\nz: "
+       "1\n"},
+      {"\xef\xbb\xbflights: {\"k\\u00e4\": \"\xc3\xa4\", key: {\"intensity\": 3, radiance: [9,\n  9, # g\n  "
+       "9]}}",
+       "\xef\xbb\xbflights: {\"k\\u00e4\": \"\xc3\xa4\", key: {\"intensity\": 2.5, radiance: [1,\n  0.5, # "
+       "g\n  0.25]}}"},
+      {"a: \xc3\xa4\xc3\xb6\r\nlights:\r\n  key:\r\n    intensity: 3\r\n    radiance: 1\r\n",
+       "a: \xc3\xa4\xc3\xb6\r\nlights:\r\n  key:\r\n    intensity: 2.5\r\n    radiance: [1, 0.5, 0.25]\r\n"},
+  };
+  for (const Case& one : cases) EXPECT_EQ(edited(one.before, {kIntensity, kRadiance}), one.after);
+  for (const Case& one : cases) EXPECT_EQ(edited(one.before, {kRadiance, kIntensity}), one.after);
+}
+
+TEST(ValueEdits, AMissingKeyIsAddedToItsBlock) {
+  const Case cases[] = {
+      {"lights: {key: {type: sphere, position: [1, 2, 3] } }",
+       "lights: {key: {type: sphere, intensity: 2.5, position: [1, 2, 3] } }"},
+      {"lights: {key: {position: [1, 2, 3],}}", "lights: {key: {intensity: 2.5, position: [1, 2, 3],}}"},
+      {"lights:\n  key:\n    type: sphere  # a sun\n    # its place\n    position: [1, 2, 3]\n  b: {}\n",
+       "lights:\n  key:\n    type: sphere  # a sun\n    intensity: 2.5\n    # its place\n    position: [1, "
+       "2, 3]\n  b: {}\n"},
+      {"lights:\r\n  key:\r\n    type: sphere\r\n",
+       "lights:\r\n  key:\r\n    type: sphere\r\n    intensity: 2.5\r\n"},
+      {"lights:\n  key:\n    type: sphere", "lights:\n  key:\n    type: sphere\n    intensity: 2.5"},
+      {"lights:\n  key:\n    position: [1, 2, 3]\n",
+       "lights:\n  key:\n    intensity: 2.5\n    position: [1, 2, 3]\n"},
+  };
+  for (const Case& one : cases) EXPECT_EQ(edited(one.before, {kIntensity}), one.after);
+}
+
+TEST(ValueEdits, WhatCannotBeChangedAloneIsRefused) {
+  const char* texts[] = {"lights: {key: {intensity: {keys: {1: 2}}}}",
+                         "lights: {key: {intensity: \"3\"}}",
+                         "lights: {key: {intensity: [3]}}",
+                         "lights: {key: {intensity: }}",
+                         "lights: {key: {intensity: |\n 3\n}}",
+                         "lights: {key: 3}",
+                         "lights: {other: {intensity: 3}}",
+                         "lights: {key: {}}",
+                         "lights: {key: {intensity: 3\n  4}}",
+                         "pelage: 1\n",
+                         "[1]",
+                         "",
+                         "lights: {key: {intensity: 3}"};
+  for (const char* text : texts) {
+    const std::string error = error_of([&] { edited(text, {kIntensity}); });
+    if (std::string(text) == "lights: {key: {intensity: [3]}}") {
+      EXPECT_EQ(error, "");  // a list of one number
+    } else {
+      EXPECT_EQ(error.rfind("a.yaml", 0), 0u) << text << ": " << error;
+      EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    }
+  }
+}
+
+TEST(ValueEdits, TheTextToPasteNamesEachBlockOnce) {
+  EXPECT_EQ(values_text({kIntensity, kRadiance, {{"lights", "a b's", "intensity"}, {1e-6}}}),
+            "lights:\n  key:\n    intensity: 2.5\n    radiance: [1, 0.5, 0.25]\n"
+            "  'a b''s':\n    intensity: 1e-06\n");
+}
+
+TEST(ValueEdits, AFileIsWrittenWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "a.yaml";
+  const std::string text = "include: more.yaml\nlights: {key: {intensity: 3}, sky: {intensity: 1}}\n";
+  write_file(path, text);
+  write_file(folder.path() / "more.yaml", "lights: {key: {radiance: [1, 1, 1]}, rim: {intensity: 2}}\n");
+  EXPECT_NE(error_of([&] {
+              write_values(path, {}, {kIntensity, kRadiance});
+            }).find("more.yaml:1:26: `lights.key.radiance`"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              write_values(path, {}, {{{"lights", "rim", "intensity"}, {1}}});
+            }).find("more.yaml:1"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] {
+              write_values(path, {}, {{{"lights", "rim", "radiance"}, {1}}});
+            }).find("`lights.rim`"),
+            std::string::npos);
+  for (const char* key : {"lights", "lights.key", "lights.key.intensity", "lights.key.intensity.keys"})
+    EXPECT_NE(error_of([&] {
+                write_values(path, {{key, "1"}}, {kIntensity});
+              }).find("--set"),
+              std::string::npos);
+  EXPECT_EQ(read_file(path), text);
+
+  const std::filesystem::path link = folder.path() / "link.yaml";
+  std::filesystem::create_symlink("a.yaml", link);
+  write_values(link, {{"lights.sky.intensity", "9"}, {"lights.keys", "1"}}, {kIntensity});
+  EXPECT_EQ(read_file(path), "include: more.yaml\nlights: {key: {intensity: 2.5}, sky: {intensity: 1}}\n");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
+}  // namespace
+}  // namespace pelage

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/assets.h"
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "base/progress.h"
+#include "tests/world/small_scene.h"
+
+namespace pelage {
+namespace {
+
+/// The assets of the small scene with a second groom, brought up to date after each edit.
+class UpdatedAssets : public testing::Test {
+ protected:
+  UpdatedAssets() {
+    edit("materials:", "  fuzz: {skin: still, strands: 30, operators: [{length: {value: 0.2}}]}\nmaterials:");
+    update();
+  }
+  void edit(const std::string& from, const std::string& to) {
+    std::string text = read_file(scene_.path("scene.yaml"));
+    const size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    scene_.write("scene.yaml", text.replace(at, from.size(), to));
+  }
+  void update() {
+    update_assets(load_scene(scene_.path("scene.yaml")), Job{workers_, ledger_, progress_}, assets_);
+  }
+  std::shared_ptr<const Groom> groom(const std::string& name) const { return assets_.grooms.at(name); }
+  const LimitSurface* skin(const std::string& name) const { return assets_.skins.at(name).rest.get(); }
+
+  SmallScene scene_{true};
+  Workers workers_{1};
+  MemoryLedger ledger_;
+  NoProgress progress_;
+  Assets assets_{ledger_, &progress_};
+};
+
+TEST_F(UpdatedAssets, AGroomLeavesTheOthers) {
+  const auto coat = groom("coat"), fuzz = groom("fuzz");
+  const LimitSurface* const cube = skin("cube");
+  edit("length: {value: 0.4}", "length: {value: 0.5}");
+  update();
+  EXPECT_NE(groom("coat"), coat);
+  EXPECT_EQ(&groom("coat")->follicles(), &coat->follicles()) << "only an operator changed";
+  EXPECT_EQ(groom("fuzz"), fuzz);
+  EXPECT_EQ(skin("cube"), cube);
+
+  edit("strands: 400", "strands: 300");
+  update();
+  EXPECT_EQ(groom("coat")->follicles().size(), 300u);
+  EXPECT_EQ(groom("fuzz"), fuzz);
+}
+
+TEST_F(UpdatedAssets, ASkinTakesItsGroomsWithIt) {
+  const auto coat = groom("coat"), fuzz = groom("fuzz");
+  edit("skins:\n", "skins:\n  # a comment\n");
+  update();
+  EXPECT_EQ(groom("coat"), coat);
+  edit("still: {mesh: cube.obj}", "still: {mesh: cube.obj, scheme: none}");
+  update();
+  EXPECT_EQ(groom("coat"), coat);
+  EXPECT_NE(groom("fuzz"), fuzz);
+
+  const auto again = groom("fuzz");
+  std::string mesh = read_file(scene_.path("cube.obj"));
+  scene_.write("cube.obj", mesh.replace(mesh.find("0.5"), 3, "0.7"));
+  update();
+  EXPECT_NE(groom("coat"), coat);
+  EXPECT_NE(groom("fuzz"), again);
+}
+
+TEST_F(UpdatedAssets, AreThoseOfAFreshSceneAfterEachEdit) {
+  const auto expect_fresh = [&] {
+    MemoryLedger ledger;
+    const auto fresh = load_assets(load_scene(scene_.path("scene.yaml")), {workers_, ledger, progress_});
+    ASSERT_EQ(assets_.grooms.size(), fresh->grooms.size());
+    for (const auto& [name, groom] : fresh->grooms)
+      EXPECT_TRUE(assets_.grooms.at(name)->content_hash() == groom->content_hash()) << name;
+    ASSERT_EQ(assets_.skins.size(), fresh->skins.size());
+    EXPECT_EQ(ledger_.budgeted(), ledger.budgeted()) << "everything old is freed";
+  };
+  const std::pair<const char*, const char*> edits[] = {
+      {"points: 5", "points: 6"},
+      {"strands: 30,", "strands: 40,"},
+      {"  fuzz: {skin: still", "  down: {skin: still"},
+      {"scheme: none", "scheme: catmull-clark"},
+      {"  still: {mesh", "  more: {mesh: cube.obj}\n  still: {mesh"},
+      {"memory: 1G", "memory: 2G"}};
+  edit("still: {mesh: cube.obj}", "still: {mesh: cube.obj, scheme: none}");
+  edit("samples: 4", "samples: 4, memory: 1G");
+  for (const auto& [from, to] : edits) {
+    edit(from, to);
+    update();
+    expect_fresh();
+  }
+}
+
+TEST_F(UpdatedAssets, CanBeCalledAgainAfterAnError) {
+  const auto coat = groom("coat");
+  edit("fuzz: {skin: still, strands: 30",
+       "fuzz: {skin: still, strands: 40, density: {map: none.ppm, channel: r}");
+  EXPECT_THROW(update(), Error);
+  EXPECT_EQ(groom("coat"), coat);
+  scene_.write("none.ppm", "P3\n1 1\n255\n90 90 90\n");
+  update();
+  EXPECT_EQ(groom("coat"), coat);
+  EXPECT_EQ(groom("fuzz")->follicles().size(), 40u);
+}
+
+TEST_F(UpdatedAssets, AChangedMapIsReadAgain) {
+  scene_.write("map.ppm", "P3\n1 1\n255\n90 90 90\n");
+  edit("color: 0.4}", "color: {map: map.ppm, space: linear}}");
+  edit("length: {value: 0.2}", "length: {value: {map: map.ppm, channel: r}}");
+  update();
+  const auto coat = groom("coat"), fuzz = groom("fuzz");
+  scene_.write("map.ppm", "P3\n1 1\n255\n180 180 180\n");
+  update();
+  EXPECT_EQ(groom("coat"), coat);
+  EXPECT_NE(groom("fuzz"), fuzz);
+  const auto& hide = std::get<LambertParams>(assets_.materials.front());
+  EXPECT_NEAR(hide.color.color({}).x, 180.0f / 255, 1e-3f);
+}
+
+}  // namespace
+}  // namespace pelage

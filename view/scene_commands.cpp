@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/scene_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "scene/value_edits.h"
+#include "view/json_fields.h"
+#include "view/light_mix.h"
+#include "view/scene_edit.h"
+
+namespace pelage {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kFarthest = 1e9;  // scene units
+constexpr double kMaxStops = 20;
+constexpr double kMaxTint = 1e3;
+constexpr double kMaxPixel = 65536;  // as image.width
+
+/// What a command works on.
+struct Context {
+  const std::filesystem::path& scene;
+  const std::vector<Override>& overrides;
+  ViewDesk& desk;
+  bool may_write;
+};
+
+V3f read_point(const json& request, const char* key) {
+  const auto found = request.find(key);
+  const std::vector<double> v =
+      read_numbers(found == request.end() ? json() : *found, key, 3, -kFarthest, kFarthest);
+  return V3f(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+}
+
+CameraMove read_move(const json& request, const V3f& up) {
+  const CameraMove move{read_point(request, "position"), read_point(request, "look_at")};
+  constexpr float kMinSine = 1e-3f;  // of the angle between the view axis and `up`
+  const V3f axis = (move.look_at - move.position).normalized();
+  if (!(axis.cross(up.normalized()).length() > kMinSine))
+    throw Error(ErrorKind::kArguments,
+                "look_at: the camera must not be at its target, or look along its up vector");
+  return move;
+}
+
+/// Writes values into the scene file if the action is "write". Returns them as text.
+json values_answer(const Context& context, const std::string& action, const std::vector<ValueEdit>& edits) {
+  const bool writes = action == "write";
+  if (writes && !context.may_write)
+    throw Error(ErrorKind::kArguments, "with --bind, pages cannot write the scene file; copy the text");
+  if (writes) write_values(context.scene, context.overrides, edits);
+  return {{"text", values_text(edits)}, {"written", writes}};
+}
+
+json run_camera(const Context& context, const std::string& body) {
+  const std::array<std::string, 3> keys{"action", "position", "look_at"};
+  const std::array<std::string, 4> actions{"move", "reset", "text", "write"};
+  const json request = read_object(body, keys);
+  const std::string action = read_choice(request, "action", actions);
+  ViewControl& control = context.desk.control();
+  if (action == "move") {
+    const CameraMove move = read_move(request, context.desk.status().camera.up);
+    context.desk.update([](ViewStatus& status) { status.camera_note.clear(); });
+    control.set_camera(move);
+    return json::object();
+  }
+  if (action == "reset") {
+    context.desk.update([](ViewStatus& status) { status.camera_note.clear(); });
+    control.set_camera({});
+    return json::object();
+  }
+  const std::optional<CameraMove> move = control.camera();
+  if (!move) throw Error(ErrorKind::kArguments, "the camera is that of the scene: nothing to write");
+  if (action == "write") control.begin_writing();
+  try {
+    json answer = values_answer(context, action, camera_edits(*move));
+    if (action == "write") control.end_camera(*move);
+    return answer;
+  } catch (...) {
+    control.take_written();
+    throw;
+  }
+}
+
+LightMix read_mix(const std::string& light, const json& value) {
+  const std::array<std::string, 2> keys{"stops", "tint"};
+  check_object(value, "lights." + light, keys);
+  LightMix mix{light, 0, Rgb(1)};
+  if (const auto stops = value.find("stops"); stops != value.end())
+    mix.stops = read_numbers(json::array({*stops}), "stops", 1, -kMaxStops, kMaxStops)[0];
+  if (const auto tint = value.find("tint"); tint != value.end()) {
+    const std::vector<double> v = read_numbers(*tint, "tint", 3, 0, kMaxTint);
+    mix.tint = Rgb(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+  }
+  return mix;
+}
+
+json run_lights(const Context& context, const std::string& body) {
+  const std::array<std::string, 3> keys{"action", "edit", "lights"};
+  const std::array<std::string, 2> actions{"text", "write"};
+  const json request = read_object(body, keys);
+  const std::string action = read_choice(request, "action", actions);
+  const auto lights = request.find("lights");
+  if (lights == request.end() || !lights->is_object())
+    throw Error(ErrorKind::kArguments, "lights: expected an object with the changed lights");
+  std::vector<LightMix> mixes;
+  for (const auto& [light, value] : lights->items()) mixes.push_back(read_mix(light, value));
+  const auto edit = request.find("edit");
+  const int64_t shown = edit != request.end() && edit->is_number_integer() ? edit->get<int64_t>() : -1;
+  const ViewStatus status = context.desk.status();
+  const SceneDescription file = load_scene(context.scene, context.overrides);
+  const auto changed = [&](const LightMix& mix) {
+    const std::string part = "lights." + mix.light;
+    const SceneParts &now = file.parts, &then = status.edit->scene.parts;
+    return now.contains(part) != then.contains(part) || (now.contains(part) && now.at(part) != then.at(part));
+  };
+  if (!status.edit || shown != status.edits || std::any_of(mixes.begin(), mixes.end(), changed))
+    throw Error(ErrorKind::kArguments, "the scene has changed since this picture; look at the new one first");
+  const std::vector<ValueEdit> edits = light_edits(status.edit->scene, mixes);
+  if (edits.empty()) throw Error(ErrorKind::kArguments, "lights: nothing is changed");
+  return values_answer(context, action, edits);
+}
+
+json run_region(const Context& context, const std::string& body) {
+  const std::array<std::string, 1> keys{"region"};
+  const json request = read_object(body, keys);
+  const json region = request.value("region", json());
+  if (region.is_null()) {
+    context.desk.control().set_region({});
+    return json::object();
+  }
+  const std::vector<double> v = read_numbers(region, "region", 4, 0, kMaxPixel);
+  const PixelBox box{static_cast<int>(v[0]), static_cast<int>(v[1]), static_cast<int>(v[2]),
+                     static_cast<int>(v[3])};
+  if (box.x0 >= box.x1 || box.y0 >= box.y1)
+    throw Error(ErrorKind::kArguments, "region: expected [X0, Y0, X1, Y1] with X0 < X1 and Y0 < Y1");
+  context.desk.control().set_region(box);
+  return json::object();
+}
+
+struct Command {
+  std::string_view name;
+  json (*run)(const Context&, const std::string& body);
+};
+constexpr Command kCommands[] = {
+    {"camera.json", run_camera}, {"lights.json", run_lights}, {"region.json", run_region}};
+
+const Command* find_command(std::string_view name) {
+  const auto* found = std::find_if(std::begin(kCommands), std::end(kCommands),
+                                   [=](const Command& command) { return command.name == name; });
+  return found == std::end(kCommands) ? nullptr : found;
+}
+
+std::string text_of(const json& answer) {
+  return answer.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace
+
+bool SceneCommands::exists(std::string_view name) { return find_command(name) != nullptr; }
+
+CommandAnswer SceneCommands::run(std::string_view name, const std::string& body) const {
+  const auto refuse = [](int status, const std::string& why) {
+    return CommandAnswer{status, text_of({{"error", why}})};
+  };
+  const Command* command = find_command(name);
+  if (!command) return refuse(404, "there is no such command");
+  try {
+    return {200, text_of(command->run({scene_, overrides_, desk_, may_write_}, body))};
+  } catch (const Error& error) {
+    return refuse(error.kind() == ErrorKind::kArguments ? 400 : 409, error.what());
+  } catch (const std::exception& error) {
+    return refuse(500, error.what());
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/document.h"
+#include "view/view_desk.h"
+
+namespace pelage {
+
+/// The answer to a command: a status code of HTTP and an object of JSON, with the key "error" unless the
+/// status is 200.
+struct CommandAnswer {
+  int status = 200;
+  std::string json;
+};
+
+/// Commands of clients that change what is rendered, or the scene file. The file is the only one that they
+/// write. docs/VIEW.md describes them. Thread safety: all members may be called from any thread.
+class SceneCommands {
+ public:
+  /// `may_write`: whether clients may change the scene file.
+  SceneCommands(std::filesystem::path scene, std::vector<Override> overrides, ViewDesk& desk,
+                bool may_write = true)
+      : scene_(std::move(scene)), overrides_(std::move(overrides)), desk_(desk), may_write_(may_write) {}
+
+  /// Returns whether there is a command of a name: "camera.json", "lights.json", "region.json".
+  static bool exists(std::string_view name);
+  /// Runs a command. `body`: its parameters, as JSON. Mistakes become answers with an error.
+  CommandAnswer run(std::string_view name, const std::string& body) const;
+
+ private:
+  const std::filesystem::path scene_;
+  const std::vector<Override> overrides_;
+  ViewDesk& desk_;
+  const bool may_write_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/view/scene_commands_test.cpp.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "image/exr.h"
+#include "view/camera_move.h"
+
+namespace pelage {
+
+/// What clients of a view have changed about its picture, apart from the files. Thread safety: all members
+/// may be called from any thread.
+class ViewControl {
+ public:
+  /// Returns the moved camera; empty while the camera is that of the scene.
+  std::optional<CameraMove> camera() const { return locked(camera_); }
+  void set_camera(std::optional<CameraMove> camera) {
+    const std::lock_guard lock(mutex_);
+    camera_ = camera;
+    if (changed_) changed_();
+  }
+
+  /// Ends a move of the camera, unless a newer move has replaced it.
+  void end_camera(const CameraMove& move) {
+    if (camera() == move) set_camera({});
+  }
+  /// Announces that a command is going to write the camera into the scene file. This change of the file does
+  /// not end a newer move of the camera.
+  void begin_writing() { writing_ = true; }
+  /// Returns whether begin_writing() was called since the last call.
+  bool take_written() { return writing_.exchange(false); }
+
+  /// Returns the pixels that are to be refined before all others; empty for none.
+  std::optional<PixelBox> region() const { return locked(region_); }
+  void set_region(std::optional<PixelBox> region) {
+    const std::lock_guard lock(mutex_);
+    region_ = region;
+    ++region_version_;
+  }
+  /// Returns how often the region was set.
+  uint32_t region_version() const { return region_version_; }
+
+  /// Calls `changed` after each change of the camera. An empty function ends these calls.
+  void on_change(std::function<void()> changed) {
+    const std::lock_guard lock(mutex_);
+    changed_ = std::move(changed);
+  }
+
+ private:
+  template <class T>
+  T locked(const T& value) const {
+    const std::lock_guard lock(mutex_);
+    return value;
+  }
+
+  mutable std::mutex mutex_;  // guards all
+  std::optional<CameraMove> camera_;
+  std::optional<PixelBox> region_;
+  std::atomic<uint32_t> region_version_{0};
+  std::function<void()> changed_;
+  std::atomic<bool> writing_{false};
+};
+
+}  // namespace pelage
