@@ -171,9 +171,17 @@ void ViewServer::State::send(std::string bytes, const std::string& type, httplib
 
 void ViewServer::State::send_layers(const std::vector<std::string>& names, httplib::Response& response) {
   const std::shared_ptr<const Picture> picture = desk.with_layers(names);
-  const auto has = [&](const std::string& name) { return picture->layers.contains(name); };
-  if (!picture || names.empty() || !std::all_of(names.begin(), names.end(), has))
-    return refuse(404, "the picture does not have these layers yet", response);
+  const auto has = [&](const std::string& name) { return picture && picture->layers.contains(name); };
+  if (names.empty() || !std::all_of(names.begin(), names.end(), has)) {
+    const std::vector<std::string> known = desk.status().layers;
+    const auto will_have = [&](const std::string& name) {
+      return std::find(known.begin(), known.end(), name) != known.end();
+    };
+    if (names.empty() || !std::all_of(names.begin(), names.end(), will_have))
+      return refuse(404, "the picture has no such layer", response);
+    response.status = 204;  // not an error, which browsers would report to the user: the next picture has them
+    return;
+  }
   send(layer_bytes(*picture, names), "application/octet-stream", response);
 }
 

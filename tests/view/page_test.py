@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of `pelage view` in a real browser, driven by Selenium. Skipped where Debian's chromium, chromium-driver or
-python3-selenium is missing; `./dev setup --browser` installs them. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
+python3-selenium or python3-numpy is missing; `./dev setup --browser` installs them. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
 import json
 import math
 import os
@@ -52,6 +52,10 @@ class Page(ViewTest):
         self.until(lambda: self.attribute(browser, "version") > 0)
         return browser
 
+    def settle(self, browser):
+        """Waits until the page shows the finished picture of the last edit that the server knows."""
+        self.wait(lambda state: state["done"] and self.attribute(browser, "version") == state["version"])
+
     @staticmethod
     def attribute(browser, name):
         value = browser.execute_script(f"return document.body.dataset.{name}")
@@ -79,7 +83,7 @@ class Page(ViewTest):
     def test_refines_follows_and_recovers(self):
         self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=16")
         browser = self.open()
-        self.until(lambda: self.attribute(browser, "done") == "true")
+        self.settle(browser)
         self.assertIn("120 × 80 · done", self.text(browser, "status"))
         self.shoot(browser, "rest")
         before = self.mean(browser)
@@ -87,7 +91,7 @@ class Page(ViewTest):
         # An edit.
         self.replace("radiance: 0.3", "radiance: 1.2")
         self.until(lambda: self.mean(browser)[0] > before[0] + 20)
-        self.until(lambda: self.attribute(browser, "done") == "true")
+        self.settle(browser)
 
         # A wrong edit shows its message and line, and keeps the picture.
         kept = self.mean(browser)
@@ -97,7 +101,7 @@ class Page(ViewTest):
         self.shoot(browser, "error")
         self.replace("bouncs: 1", "bounces: 1")
         self.until(lambda: not browser.find_element(By.ID, "error").is_displayed())
-        self.until(lambda: self.attribute(browser, "done") == "true")
+        self.settle(browser)
         for a, b in zip(self.mean(browser), kept):
             self.assertAlmostEqual(a, b, delta=0.5)
 
@@ -133,7 +137,7 @@ class Page(ViewTest):
                      "  sky: {type: environment, radiance: 0.3}\n")
         self.view("--set", "image={width: 120, height: 80, event_layers: true}", "--set", "render.samples=4")
         browser = self.open()
-        self.until(lambda: self.attribute(browser, "done") == "true")
+        self.settle(browser)
         renders = self.state()["version"]
         browser.find_element(By.ID, "lights_mode").click()
         self.until(lambda: browser.find_elements(By.CLASS_NAME, "light"))
@@ -203,7 +207,8 @@ class Page(ViewTest):
         self.until(lambda: "intensity: 16.97" in browser.execute_script("return document.getElementById('text').value"))
         self.shoot(browser, "apply")
         browser.find_element(By.ID, "write_text").click()
-        self.until(lambda: self.attribute(browser, "done") == "true" and self.state()["edits"] == 1)
+        self.wait(lambda state: state["edits"] == 1)
+        self.settle(browser)
         text = (self.path / "scene.yaml").read_text()
         number = re.search(r"intensity: (16\.97\d*)\}  # warm", text).group(1)
         rgb = re.search(r"radiance: (\[0\.3, 0\.0\d*, 0\])", text).group(1)
@@ -218,7 +223,7 @@ class Page(ViewTest):
     def test_moves_the_camera(self):
         self.view("--set", "image={width: 120, height: 80}")
         browser = self.open()
-        self.until(lambda: self.attribute(browser, "done") == "true")
+        self.settle(browser)
         browser.find_element(By.ID, "camera_mode").click()
         canvas = browser.find_element(By.ID, "canvas")
         first = self.state()["camera"]
@@ -232,7 +237,8 @@ class Page(ViewTest):
             self.until(lambda: self.attribute(browser, "depth") == str(edits))
             act()
             self.until(lambda: self.state()["edits"] > edits)
-            self.until(lambda: self.attribute(browser, "done") == "true" and self.attribute(browser, "waits") == "false")
+            self.until(lambda: self.attribute(browser, "waits") == "false")
+            self.settle(browser)
             return self.state()["camera"]
 
         def drag(x, y, button=0):
@@ -322,14 +328,15 @@ class Page(ViewTest):
         for _ in range(10):
             pages[0].refresh()
         self.replace("radiance: 0.3", "radiance: 0.9")
+        self.wait(lambda state: state["edits"] == 1)
         for page in pages:
-            self.until(lambda: self.attribute(page, "done") == "true")
+            self.settle(page)
         self.until(lambda: self.mean(pages[0]) == self.mean(pages[1]))
 
 
 if __name__ == "__main__":
     if webdriver is None or not CHROMIUM or not DRIVER:
-        print("skipped: needs chromium, chromium-driver and python3-selenium")
+        print("skipped: needs chromium, chromium-driver, python3-selenium and python3-numpy")
         sys.exit(77)
     ProgramTest.PELAGE = sys.argv.pop(1)
     unittest.main()

@@ -29,7 +29,7 @@ const arrays = {half: Uint16Array, float: Float32Array, uint: Uint32Array};
 export async function readLayers(names) {
   const query = new URLSearchParams([...names.map(name => ["name", name]), ["token", token]]);
   const answer = await fetch(`layer.bin?${query}`);
-  if (answer.status === 404) return null;
+  if (answer.status === 204 || answer.status === 404) return null;
   if (!answer.ok) throw new Error(`layer.bin: ${answer.status}`);
   const bytes = await answer.arrayBuffer();
   const start = new Uint8Array(bytes).indexOf(10) + 1;
