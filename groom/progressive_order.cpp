@@ -244,8 +244,11 @@ void DartThrowing::accept_or_file(int level, float radius) {
   for (const Tried& tried : tried_) {
     if ((++looked_at & 0xfff) == 0) job_.check_stop();
     const FollicleCandidate& candidate = waiting_[tried.place];
-    float distance = tried.distance;
-    if (distance >= radius && level < kLevels) distance = grid_.nearest(candidate, radius, earlier);
+    // A rejected candidate also waits for follicles of this level where that makes room for others.
+    const bool is_measured = tried.distance < radius && last_ == kLevels;
+    const float distance = level == kLevels || is_measured
+                               ? tried.distance
+                               : std::min(tried.distance, grid_.nearest(candidate, radius, earlier));
     if (distance >= radius) {
       accepted_.push_back({tried.rank, candidate.attempt});
       if (level < kLevels) grid_.insert(candidate);
