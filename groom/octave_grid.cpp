@@ -46,7 +46,7 @@ void OctaveGrid::link(uint32_t index) {
   head = index;
 }
 
-float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius) const {
+float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius, uint32_t skipped) const {
   float best = radius;
   const V3f normal = unpack_normal(candidate.normal);
   for (unsigned left = octaves_; left != 0; left &= left - 1) {
@@ -66,7 +66,7 @@ float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius) cons
         size_t heads = row(x0, y, z, octave);
         for (int32_t x = x0; x <= x1; ++x) {
           if (x != x0 && (x & 15) == 0) heads = row(x, y, z, octave);
-          best = nearest_in(heads_[heads + static_cast<size_t>(x & 15)], candidate, normal, best);
+          best = nearest_in(heads_[heads + static_cast<size_t>(x & 15)], skipped, candidate, normal, best);
           if (best < kNearEnough * radius) return best;
         }
       }
@@ -75,9 +75,9 @@ float OctaveGrid::nearest(const FollicleCandidate& candidate, float radius) cons
   return best;
 }
 
-float OctaveGrid::nearest_in(uint32_t item, const FollicleCandidate& candidate, const V3f& normal,
-                             float best) const {
-  for (; item != kNone; item = items_[item].next) {
+float OctaveGrid::nearest_in(uint32_t item, uint32_t skipped, const FollicleCandidate& candidate,
+                             const V3f& normal, float best) const {
+  for (; item != kNone && item >= skipped; item = items_[item].next) {
     const Item& other = items_[item];
     const float dx = candidate.x - other.x, dy = candidate.y - other.y, dz = candidate.z - other.z;
     const float spacing = std::min(candidate.spacing, other.spacing);

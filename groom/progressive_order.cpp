@@ -104,6 +104,7 @@ class DartThrowing {
  private:
   struct Tried {
     uint32_t region, rank, place;  // `place` is in waiting_, or in the part of a candidate that arrives
+    float distance = 0;            // to the nearest follicle of earlier levels, at most the radius
     bool operator<(const Tried& other) const {
       return region != other.region ? region < other.region : rank < other.rank;
     }
@@ -114,6 +115,7 @@ class DartThrowing {
   void hold_all(std::vector<FollicleCandidate> candidates);
   bool collect(int level, double radius);
   void make_room_to_try(size_t count);
+  void measure_distances(int level, float radius);
   void accept_or_file(int level, float radius);
   void append_accepted();
   void forget_the_hopeless(int level);
@@ -150,6 +152,7 @@ bool DartThrowing::throw_at(int level) {
     grid_.rebuild(static_cast<size_t>(ahead), static_cast<float>(radius));
   }
   if (!collect(level, radius)) return false;
+  measure_distances(level, static_cast<float>(radius));
   accept_or_file(level, static_cast<float>(radius));
   const size_t before = order_.size();
   append_accepted();
@@ -226,12 +229,26 @@ void DartThrowing::hold_all(std::vector<FollicleCandidate> candidates) {
   waiting_.hold_all(std::move(candidates));
 }
 
+/// Measures the distances to follicles of earlier levels. They reject six of seven candidates, in parallel.
+void DartThrowing::measure_distances(int level, float radius) {
+  job_.for_each(tried_.size(), 4096, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      tried_[i].distance = level < kLevels ? grid_.nearest(waiting_[tried_[i].place], radius) : radius;
+    }
+  });
+}
+
 void DartThrowing::accept_or_file(int level, float radius) {
+  const uint32_t earlier = grid_.size();
   size_t looked_at = 0;
   for (const Tried& tried : tried_) {
     if ((++looked_at & 0xfff) == 0) job_.check_stop();
     const FollicleCandidate& candidate = waiting_[tried.place];
-    const float distance = level < kLevels ? grid_.nearest(candidate, radius) : radius;
+    // A rejected candidate also waits for follicles of this level where that makes room for others.
+    const bool is_measured = tried.distance < radius && last_ == kLevels;
+    const float distance = level == kLevels || is_measured
+                               ? tried.distance
+                               : std::min(tried.distance, grid_.nearest(candidate, radius, earlier));
     if (distance >= radius) {
       accepted_.push_back({tried.rank, candidate.attempt});
       if (level < kLevels) grid_.insert(candidate);
@@ -289,7 +306,7 @@ size_t progressive_order_bytes(size_t candidates, size_t count, const HeldCandid
   const size_t part = FollicleCandidates::max_of(candidates / held.parts);
   const size_t tried = std::min(held.max_waiting, count);
   const size_t waiting = held.parts == 1 ? 0 : held.max_waiting;  // the only part waits where it was made
-  constexpr size_t kArrivedBytes = 4, kTriedBytes = 12;
+  constexpr size_t kArrivedBytes = 4, kTriedBytes = 16;
   return part * (sizeof(FollicleCandidate) + kArrivedBytes) + waiting * WaitingCandidates::kItemBytes +
          tried * kTriedBytes + OctaveGrid::bytes(with_overshoot(count), count) +
          with_overshoot(count) * sizeof(uint32_t);

@@ -48,7 +48,8 @@ struct HeldCandidates {
 /// number of follicles, which grows as 1 / radius^2. On a skin that is narrower than the distance between
 /// follicles, this prediction may be wrong, and dropped candidates may be needed. The result is then empty.
 ///
-/// Only the making of candidates is parallel. Throws Error (kStopped) when the job is stopped.
+/// Making and sorting candidates is parallel, and so are the tests against follicles of earlier levels. Only
+/// the few candidates that pass are tested in order. Throws Error (kStopped) when the job is stopped.
 std::optional<std::vector<uint32_t>> progressive_order(CandidateSupply& supply, size_t count, double area,
                                                        const HeldCandidates& held, const Job& job);
 

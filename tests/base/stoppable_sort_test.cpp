@@ -16,7 +16,7 @@ namespace {
 
 std::vector<uint64_t> numbers(size_t count) {
   std::vector<uint64_t> result(count);
-  for (size_t i = 0; i < count; ++i) result[i] = hash64(1, i, 2) % (count / 2);
+  for (size_t i = 0; i < count; ++i) result[i] = hash64(1, i, 2) % std::max<size_t>(count / 2, 1);
   return result;
 }
 
@@ -29,11 +29,27 @@ class Stopped final : public Progress {
 };
 
 TEST(StoppableSort, SortsAsTheLibraryDoes) {
-  QuietJob job(1);
-  std::vector<uint64_t> sorted = numbers(30000), truth = sorted;
-  stoppable_sort(job, sorted.begin(), sorted.end(), std::greater<>());
-  std::sort(truth.begin(), truth.end(), std::greater<>());
-  EXPECT_EQ(sorted, truth);
+  for (const int threads : {1, 3}) {
+    QuietJob job(threads);
+    for (const size_t count : {0, 1, 100, 16383, 16384, 100'003}) {
+      std::vector<uint64_t> sorted = numbers(count), truth = sorted;
+      stoppable_sort(job, sorted.begin(), sorted.end(), std::greater<>());
+      std::sort(truth.begin(), truth.end(), std::greater<>());
+      EXPECT_EQ(sorted, truth) << count;
+    }
+  }
+}
+
+TEST(StoppableSort, OrdersEqualElementsAlikeWithAnyNumberOfThreads) {
+  std::vector<std::vector<uint64_t>> sorted;
+  for (const int threads : {1, 2, 5}) {
+    QuietJob job(threads);
+    sorted.push_back(numbers(50'000));
+    stoppable_sort(job, sorted.back().begin(), sorted.back().end(),
+                   [](uint64_t a, uint64_t b) { return a % 100 < b % 100; });
+  }
+  EXPECT_EQ(sorted[0], sorted[1]);
+  EXPECT_EQ(sorted[0], sorted[2]);
 }
 
 TEST(StoppableSort, EndsWhenTheUserAsksToStop) {
