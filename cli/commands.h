@@ -19,6 +19,7 @@ int run_convert(const Options& options);
 int run_motion_blur(const Options& options);
 int run_stereo(const Options& options);
 int run_view(const Options& options);
+int run_why(const Options& options);
 int run_manual(const Options& options);
 
 }  // namespace pelage

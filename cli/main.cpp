@@ -40,6 +40,8 @@ int run(const pelage::Options& options) {
       return pelage::run_stereo(options);
     case Command::kView:
       return pelage::run_view(options);
+    case Command::kWhy:
+      return pelage::run_why(options);
     case Command::kManual:
       return pelage::run_manual(options);
   }

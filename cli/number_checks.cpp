@@ -33,6 +33,15 @@ FlagCheck positive_number() {
   };
 }
 
+FlagCheck whole_number() {
+  return [](const std::string& text) -> std::string {
+    int number = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end ? "" : "expected a whole number, got " + quote(text);
+  };
+}
+
 FlagCheck number_between(double min, double max) {
   return [=](const std::string& text) -> std::string {
     const double value = number_of(text);

@@ -108,6 +108,22 @@ void add_view(CLI::App& app, Options& options, Texts& texts) {
   view->add_option("--memory", texts.memory, kMemoryHelp)->type_name("BYTES");
 }
 
+void add_why(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* why = app.add_subcommand("why", "Explain a pixel: its strand, material, light and cost");
+  add_scene_flags(*why, options, texts);
+  why->add_option("X", options.pixel_x, "Column of the pixel; 0 is the leftmost")
+      ->required()
+      ->check(whole_number());
+  why->add_option("Y", options.pixel_y, "Row of the pixel; 0 is the top")->required()->check(whole_number());
+  why->add_flag("--json", options.json, "Print JSON");
+  why->add_option("-o,--output", options.output,
+                  "Picture to write (.png, .jpg): the surroundings of the pixel, with its strand drawn over")
+      ->type_name("FILE.png");
+  why->add_option("--frames", texts.frames, "Frame of the pixel (default: the scene's first)")
+      ->type_name("FRAME");
+  add_parallel_flags(*why, options, texts, kMemoryHelp);
+}
+
 void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
@@ -241,6 +257,7 @@ void add_manual(CLI::App& app, Options& options, Texts& texts) {
 void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_render(app, options, texts);
   add_view(app, options, texts);
+  add_why(app, options, texts);
   add_grow(app, options, texts);
   add_measure(app, options, texts);
   add_trace(app, options, texts);
@@ -255,6 +272,8 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 const std::map<std::string, Command>& command_names() {
   static const std::map<std::string, Command> names{
       {"render", Command::kRender},   {"view", Command::kView},
+      {"why", Command::kWhy},
+
       {"grow", Command::kGrow},       {"measure", Command::kMeasure},
       {"trace", Command::kTrace},     {"compare", Command::kCompare},
       {"info", Command::kInfo},       {"merge", Command::kMerge},

@@ -19,6 +19,7 @@ namespace pelage {
 enum class Command {
   kRender,
   kView,
+  kWhy,
   kGrow,
   kMeasure,
   kTrace,
@@ -62,6 +63,9 @@ struct Options {
 
   int port = 0;      ///< view: port of the server; 0: any free port
   std::string bind;  ///< view: address of the server; empty: 127.0.0.1
+
+  int pixel_x = 0, pixel_y = 0;  ///< why: the pixel, from the upper left corner
+  bool json = false;             ///< why: whether to print JSON
 
   Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant

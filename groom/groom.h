@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/content_store.h"
 #include "base/ledger.h"
@@ -19,6 +20,7 @@ namespace pelage {
 
 class TextureLibrary;
 struct GroomCacheReport;
+struct GrowthStep;
 struct Job;
 
 /// A skin in the pose of a frame. It has one limit surface per motion key, and one tree over the tessellation
@@ -90,6 +92,10 @@ class Groom {
   /// colours: constant, per strand or per point. With `kept`, grows only the strands in `kept`, but costs as
   /// much as growing every strand up to the last of these.
   Strands grow(size_t leaf, const PosedSkin& pose, const KeptStrands* kept = nullptr) const;
+
+  /// Returns a strand after each step of its growth (groom/growth_steps.h), in the pose of the first motion
+  /// key. Not for a groom with a cache, which keeps only the result of its frozen operators.
+  std::vector<GrowthStep> grow_steps(size_t follicle, const PosedSkin& pose) const;
 
   /// Returns the exact size of the result of grow(), for the whole leaf or for its first `count` strands.
   /// Does not set the number of motion keys, because it depends on the pose.

@@ -88,11 +88,14 @@ void Simplification::tabulate_area() {
   area_[0] = area_[1];
 }
 
+float Simplification::size_share(float width) const {
+  return params_.size && width < 1 ? std::pow(width, 2 * std::log(0.5f) / std::log(kHalf)) : 1.0f;
+}
+
 float Simplification::share(float pixels, float motion, float across, float confusion) const {
   const float width = stats_.width * pixels, length = stats_.length * pixels;
   if (!(width > 0) || !(length > 0)) return 1;  // nothing of them is visible, so nothing can be saved
-  float share = 1;
-  if (params_.size && width < 1) share = std::pow(width, 2 * std::log(0.5f) / std::log(kHalf));
+  float share = size_share(width);
   if (motion > 0 || confusion > 0)
     share *= std::pow(blur_ratio(length, motion, across, confusion), -params_.blur_strength);
   const float blur = kHidden * std::hypot(across, confusion);
@@ -104,19 +107,44 @@ float Simplification::min_kept(float share) const {
   return std::max(share, params_.min_share) * std::max(budget_, 1.0f);
 }
 
+Simplification::Blur Simplification::blur(const RootPlace& root) const {
+  Blur blur;
+  if (params_.motion_blur) {
+    blur.motion = motion_across(view_, root.open, root.close);
+    blur.across = root.direction.length2() > 0
+                      ? motion_across_line(view_, root.open, root.close, root.direction)
+                      : blur.motion * kMeanSine;
+  }
+  if (params_.depth_of_field) blur.confusion = confusion_diameter(view_, root.open);
+  return blur;
+}
+
 float Simplification::share(const RootPlace& root) const {
   const float pixels = params_.quality * pixels_per_unit(view_, root.open);
-  float motion = 0, across = 0, confusion = 0;
-  if (params_.motion_blur) {
-    motion = motion_across(view_, root.open, root.close);
-    across = root.direction.length2() > 0 ? motion_across_line(view_, root.open, root.close, root.direction)
-                                          : motion * kMeanSine;
-  }
-  if (params_.depth_of_field) confusion = confusion_diameter(view_, root.open);
+  const auto [motion, across, confusion] = blur(root);
   const float seen = share(pixels, motion * pixels, across * pixels, confusion * pixels);
   if (!params_.back_facing) return seen;
   return std::min(1.0f,
                   std::max(seen * back_facing_share(facing(view_, root.open, root.normal)), min_kept(0)));
+}
+
+LodMeasures Simplification::measures(const RootPlace& root) const {
+  const float pixels = params_.quality * pixels_per_unit(view_, root.open);
+  const auto [motion, across, confusion] = blur(root);
+  LodMeasures m;
+  m.width = stats_.width * pixels;
+  m.length = stats_.length * pixels;
+  m.motion = motion * pixels;
+  m.across = across * pixels;
+  m.confusion = confusion * pixels;
+  m.size_share = size_share(m.width);
+  if (m.length > 0 && (m.motion > 0 || m.confusion > 0))
+    m.blur_share = std::pow(blur_ratio(m.length, m.motion, m.across, m.confusion), -params_.blur_strength);
+  m.facing = facing(view_, root.open, root.normal);
+  if (params_.back_facing) m.facing_share = back_facing_share(m.facing);
+  m.budget = budget_;
+  m.share = share(root);
+  return m;
 }
 
 float Simplification::max_share(float distance) const {

@@ -27,6 +27,21 @@ struct RootPlace {
                      ///< shorter if directions vary widely, 0 if unknown
 };
 
+/// The quantities from which the share of a root follows. Lengths are in pixels of a picture with
+/// SimplificationParams::quality times the resolution.
+struct LodMeasures {
+  float width = 0, length = 0;  ///< of an average strand
+  float motion = 0;             ///< while the shutter is open; 0 if it is not taken into account
+  float across = 0;             ///< the part of `motion` across the strand
+  float confusion = 0;          ///< diameter of the disc of confusion; 0 if it is not taken into account
+  float facing = 1;             ///< cosine between the skin's normal and the direction to the camera
+  float size_share = 1;         ///< lambda_size
+  float blur_share = 1;         ///< lambda_blur
+  float facing_share = 1;       ///< factor where the skin faces away from the camera
+  float budget = 1;             ///< factor of the role of the coat
+  float share = 1;              ///< share(): the product of these factors within its limits
+};
+
 /// Stochastic simplification of one coat [Cook07, Ryu07]. Determines which fraction of the strands suffices
 /// for a root, and by which factor the kept strands are widened.
 ///
@@ -62,6 +77,8 @@ class Simplification {
   /// coats. Back-facing skin keeps fewer strands, down to a fifth of lambda; these strands may exceed the max
   /// width.
   float share(const RootPlace& root) const;
+  /// Returns how share() arrives at its result.
+  LodMeasures measures(const RootPlace& root) const;
   /// Returns an upper bound of share() for roots at this distance from the camera or at a larger one.
   float max_share(float distance) const;
   /// Returns t = min(0.1, lambda / 4, 1 - lambda), half the range of priorities in which strands fade. With
@@ -107,6 +124,12 @@ class Simplification {
   ContentHash hash() const;
 
  private:
+  /// Lengths at a root in scene units.
+  struct Blur {
+    float motion = 0, across = 0, confusion = 0;
+  };
+  Blur blur(const RootPlace& root) const;
+  float size_share(float width) const;
   float share(float pixels, float motion, float across, float confusion) const;
   /// Returns the minimum share: `share`, which the max width requires, or min_share if larger. A budget above
   /// 1 increases the minimum; a budget below 1 does not decrease it.

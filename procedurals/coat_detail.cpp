@@ -53,20 +53,25 @@ size_t CoatDetail::candidates(size_t leaf) const {
   return low - range.begin;
 }
 
+RootPlace CoatDetail::place(size_t follicle, const SkinPose& pose) const {
+  const PosedSkin skin = pose.skin();
+  const SurfacePoint root = groom_->root(follicle, skin, pose.open_key);
+  RootPlace place;
+  place.open = place.close = root.position;
+  if (pose.close_key != pose.open_key) place.close = groom_->root(follicle, skin, pose.close_key).position;
+  place.normal = root.du.cross(root.dv).normalized();
+  if (direction_) place.direction = direction_->at(groom_->follicles().root(follicle), root);
+  return place;
+}
+
 CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
   const uint32_t begin = groom_->follicles().leaves()[leaf].begin;
-  const PosedSkin skin = pose.skin();
   Choice choice;
   const size_t count = candidates(leaf);
   for (uint32_t s = 0; s < count; ++s) {
     const float priority = groom_->priority(begin + s);
     if (priority >= first_out_) continue;
-    const SurfacePoint root = groom_->root(begin + s, skin, pose.open_key);
-    RootPlace place;
-    place.open = place.close = root.position;
-    if (pose.close_key != pose.open_key) place.close = groom_->root(begin + s, skin, pose.close_key).position;
-    place.normal = root.du.cross(root.dv).normalized();
-    if (direction_) place.direction = direction_->at(groom_->follicles().root(begin + s), root);
+    const RootPlace place = this->place(begin + s, pose);
     const float share = simplification_.share(place);
     const float width = simplification_.width_factor(share, priority);
     if (width <= 0) continue;

@@ -44,6 +44,9 @@ class CoatDetail {
   /// Returns the kept strands of a leaf. `pose` must contain the faces below the candidates of the leaf.
   Choice choose(size_t leaf, const SkinPose& pose) const;
 
+  /// Returns the data of a root from which its level of detail follows. `pose`: as in choose().
+  RootPlace place(size_t follicle, const SkinPose& pose) const;
+
   /// Returns an upper bound of the width factors of all strands.
   float max_width_factor() const { return max_width_factor_; }
   /// Returns a lower bound of the width factors of all strands that do not fade.

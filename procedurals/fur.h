@@ -27,6 +27,11 @@ class FurProcedural final : public Procedural {
   StrandScale scale() const override;
   ChunkBounds exact_bounds(BoundSpan span, int keys) const override;
 
+  const Groom& groom() const { return *groom_; }
+  const PosedCharacterSkin& skin() const { return *skin_; }
+  /// Returns the reduction of detail; null if every strand is grown.
+  const CoatDetail* detail() const { return detail_.get(); }
+
  private:
   std::shared_ptr<const Groom> groom_;
   std::shared_ptr<const PosedCharacterSkin> skin_;

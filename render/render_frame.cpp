@@ -68,11 +68,13 @@ TileCosts trace_paths(const RenderScene& scene, FrameGeometry& geometry, const F
   return loop.costs();
 }
 
-TileCosts gather(const RenderScene& scene, const FrameGeometry& geometry, const PathOptions& options,
+TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
                  const GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock,
                  FrameResult& result) {
-  GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options, tiles, geometry.fits(), job, clock,
-                  result);
+  std::optional<TighteningWatch> watch;
+  if (options.watch) watch.emplace(geometry, job, *options.watch);
+  GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options.path, tiles, geometry.fits(), job,
+                  clock, result, watch ? &*watch : nullptr);
   loop.run();
   return loop.costs();
 }
@@ -116,7 +118,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
 
   const double prepared_s = clock.seconds();
   const double prepared_cpu_s = geometry->growth_cpu_s();
-  const TileCosts costs = gathers ? gather(scene, *geometry, options.path, tiles, job, clock, result)
+  const TileCosts costs = gathers ? gather(scene, *geometry, options, tiles, job, clock, result)
                                   : trace_paths(scene, *geometry, options, job, clock, result);
   result.statistics.cpu_s += render_seconds(costs, geometry->growth_cpu_s() - prepared_cpu_s);
   geometry->add_to(result.statistics);

@@ -12,6 +12,7 @@
 #include "base/job.h"
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_watch.h"
+#include "view/why_answer.h"
 #include "world/world.h"
 
 namespace pelage {
@@ -61,6 +62,7 @@ class LiveRenderer::Watch final : public FrameWatch {
       status.layers = std::move(names);
       status.strands_regrown = regrown;
     });
+    renderer_.answer_questions();
   }
   std::optional<PixelBox> region() const override { return renderer_.desk_.control().region(); }
   uint32_t region_version() const override { return renderer_.desk_.control().region_version(); }
@@ -75,9 +77,16 @@ LiveRenderer::LiveRenderer(ViewDesk& desk, int threads)
       workers_(threads),
       progress_(desk, ledger_, [this] { return must_end(); }),
       loaded_(std::make_unique<Loaded>(ledger_, progress_)),
-      thread_([this] { run(); }) {}
+      thread_([this] { run(); }) {
+  desk_.why().on_ask([this] {
+    // With the lock, so that the question is not missed between the test of the thread and its sleep.
+    { const std::lock_guard lock(mutex_); }
+    changed_.notify_all();
+  });
+}
 
 LiveRenderer::~LiveRenderer() {
+  desk_.why().on_ask({});
   {
     const std::lock_guard lock(mutex_);
     stopped_ = true;
@@ -106,8 +115,13 @@ void LiveRenderer::run() {
     std::shared_ptr<const SceneEdit> edit;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return must_end(); });
+      changed_.wait(lock, [this] { return must_end() || desk_.why().is_waiting(); });
       if (stopped_) return;
+      if (!waiting_) {
+        lock.unlock();
+        answer_questions();
+        continue;
+      }
       edit = std::exchange(next_, nullptr);
       waiting_ = false;
     }
@@ -193,7 +207,7 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
   Watch watch(*this, edit);
   RenderParams& params = loaded_->world->scene.render;
   if (params.integrator == Integrator::kGather) {
-    // `gather` shows its picture only at the end. One sample per pixel with `path` comes before it.
+    // The first pass of `gather` is a whole picture. Coarse ones with `path` come before it.
     ImageParams& image = loaded_->world->scene.image;
     const RenderParams wanted = params;
     const ImageParams wanted_image = image;
@@ -201,15 +215,19 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     params.samples = 1;
     image.filter_samples = FilterSamples::kDrawn;
     bool partial = false;
+    const auto restore = [&] {
+      params = wanted;
+      image = wanted_image;
+      is_preview_ = false;
+    };
+    is_preview_ = true;
     try {
       partial = trace(job, watch).partial;
     } catch (...) {
-      params = wanted;
-      image = wanted_image;
+      restore();
       throw;
     }
-    params = wanted;
-    image = wanted_image;
+    restore();
     if (partial) return;
     if (params.min_width() > 0) release_geometry();  // the geometry of `path` has no widened strands
   }
@@ -263,6 +281,16 @@ void LiveRenderer::finish(const SceneEdit& edit, FrameResult result) {
     status.strands_regrown = regrown;
     status.memory_bytes = ledger_.budgeted();
     status.at_rest = !waiting_;
+  });
+}
+
+void LiveRenderer::answer_questions() {
+  if (is_preview_) return;
+  desk_.why().answer([this](int x, int y) -> std::optional<CommandAnswer> {
+    if (!loaded_->edit || !loaded_->geometry) return no_picture_answer();
+    const ExplainedFrame frame{loaded_->edit->scene, loaded_->assets, *loaded_->world, loaded_->geometry,
+                               &loaded_->fur};
+    return why_answer(frame, x, y, workers_, ledger_, [this] { return must_end(); });
   });
 }
 

@@ -46,6 +46,8 @@ class LiveRenderer {
   void render_loaded(const SceneEdit& edit, const Job& job);
   FrameResult trace(const Job& job, FrameWatch& watch);
   void finish(const SceneEdit& edit, FrameResult result);
+  /// Answers what clients ask about the pixels of the picture.
+  void answer_questions();
   /// Takes the chunks out of the geometry, so that a new geometry can use them.
   void release_geometry();
   int64_t strands_regrown() const;
@@ -59,8 +61,9 @@ class LiveRenderer {
   StageProgress progress_;  // before loaded_: chunks that are kept may warn
   // Used by thread_ only.
   std::unique_ptr<Loaded> loaded_;
-  bool began_ = false;   // whether an edit was rendered before
-  int64_t regrown_ = 0;  // strands regrown since the edit, minus those that loaded_->geometry counts
+  bool began_ = false;       // whether an edit was rendered before
+  bool is_preview_ = false;  // whether the picture has other settings than the scene
+  int64_t regrown_ = 0;      // strands regrown since the edit, minus those that loaded_->geometry counts
 
   std::mutex mutex_;  // guards next_
   std::condition_variable changed_;

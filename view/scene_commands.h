@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "scene/document.h"
+#include "view/command_answer.h"
 #include "view/view_desk.h"
 
 namespace pelage {
-
-/// The answer to a command: a status code of HTTP and an object of JSON, with the key "error" unless the
-/// status is 200.
-struct CommandAnswer {
-  int status = 200;
-  std::string json;
-};
 
 /// Commands of clients that change what is rendered, or the scene file. The file is the only one that they
 /// write. docs/VIEW.md describes them. Thread safety: all members may be called from any thread.

@@ -11,6 +11,7 @@
 #include "view/picture.h"
 #include "view/view_control.h"
 #include "view/view_status.h"
+#include "view/why_desk.h"
 
 namespace pelage {
 
@@ -28,6 +29,8 @@ class ViewDesk {
 
   /// What clients have changed about the picture.
   ViewControl& control() { return control_; }
+  /// What clients ask about its pixels.
+  WhyDesk& why() { return why_; }
 
   /// Returns the last picture; null before the first.
   std::shared_ptr<const Picture> picture() const;
@@ -55,6 +58,7 @@ class ViewDesk {
 
  private:
   ViewControl control_;
+  WhyDesk why_;
 
   mutable std::mutex mutex_;  // guards status_, picture_, wanted_
   ViewStatus status_;

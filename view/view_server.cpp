@@ -6,6 +6,7 @@
 #include <atomic>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include <arpa/inet.h>
@@ -50,6 +51,16 @@ std::string with_token(std::string_view page, const std::string& token) {
   return text;
 }
 
+/// Reads a whole number of at most 6 digits.
+std::optional<int> read_pixel(const std::string& text) {
+  constexpr size_t kMaxDigits = 6;
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (text.size() > kMaxDigits || error != std::errc() || rest != end) return {};
+  return value;
+}
+
 /// Ends the connections of clients that neither read nor write, for which a thread would wait. All sockets of
 /// this process with the server's port belong to the server.
 void end_connections(int port) {
@@ -86,6 +97,7 @@ struct ViewServer::State {
   }
   void send_layers(const std::vector<std::string>& names, httplib::Response& response);
   void send_exr(httplib::Response& response);
+  void send_why(const httplib::Request& request, httplib::Response& response);
 
   ViewDesk& desk;
   const SceneCommands& commands;
@@ -152,6 +164,7 @@ void ViewServer::State::answer_page(const httplib::Request& request, httplib::Re
     return send_layers(names, response);
   }
   if (path == "/picture.exr") return send_exr(response);
+  if (path == "/why.json") return send_why(request, response);
   const std::string name = path == "/" ? "index.html" : file_name(request);
   for (const PageFile& file : page_files()) {
     if (file.name == name) return send(with_token(file.text, rules.token()), mime_type(name), response);
@@ -193,6 +206,15 @@ void ViewServer::State::send_exr(httplib::Response& response) {
     bytes = partial_exr(*picture);
   }
   send(std::move(bytes), "image/x-exr", response);
+}
+
+void ViewServer::State::send_why(const httplib::Request& request, httplib::Response& response) {
+  const std::optional<int> x = read_pixel(request.get_param_value("x"));
+  const std::optional<int> y = read_pixel(request.get_param_value("y"));
+  CommandAnswer answer{400, R"({"error": "expected the parameters x and y, a pixel of the picture"})"};
+  if (x && y) answer = desk.why().ask(*x, *y, [this] { return closing.load(); });
+  response.status = answer.status;
+  send(std::move(answer.json), "application/json", response);
 }
 
 ViewServer::ViewServer(ViewDesk& desk, const SceneCommands& commands, const std::string& address, int port) {

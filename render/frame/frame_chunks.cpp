@@ -52,6 +52,7 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job)
     }
   }
   was_grown_ = std::make_unique<std::atomic<bool>[]>(leaves_.size());
+  growths_ = std::make_unique<std::atomic<uint32_t>[]>(leaves_.size());
   divide_skins(job);
 }
 
@@ -119,6 +120,7 @@ ChunkContents FrameChunks::grow(uint32_t chunk) const {
   fur.strands = leaves_[chunk]->generate();
   const auto count = static_cast<int64_t>(fur.strands.strand_count());
   strands_grown_.fetch_add(count, std::memory_order_relaxed);
+  growths_[chunk].fetch_add(1, std::memory_order_relaxed);
   if (was_grown_[chunk].exchange(true, std::memory_order_relaxed))
     strands_regrown_.fetch_add(count, std::memory_order_relaxed);
   if (fur.strands.strand_count() > 0) {
@@ -171,7 +173,7 @@ size_t FrameChunks::bytes() const {
   size_t sum = sizeof(*this) + made_.capacity() * sizeof(made_[0]) + leaves_.capacity() * sizeof(leaves_[0]) +
                (parts_.capacity() + coats_.capacity()) * sizeof(uint32_t) +
                scales_.capacity() * sizeof(scales_[0]) + pieces_.capacity() * sizeof(pieces_[0]) +
-               leaves_.size();
+               leaves_.size() * (sizeof(was_grown_[0]) + sizeof(growths_[0]));
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
   for (const SkinChunk& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
   return sum;

@@ -57,6 +57,8 @@ class FrameChunks final : public ChunkGrower {
   /// Makes the first growth of a leaf count as growing its strands again. Call before that growth.
   void mark_grown(uint32_t leaf) { was_grown_[leaf].store(true, std::memory_order_relaxed); }
   bool was_grown(uint32_t leaf) const { return was_grown_[leaf].load(std::memory_order_relaxed); }
+  /// Returns how often grow() has grown a leaf.
+  uint32_t growths(uint32_t leaf) const { return growths_[leaf].load(std::memory_order_relaxed); }
   /// Returns whether strands are stored in fur trees. If so, bounds() computes one box for each leaf;
   /// otherwise, one for each part of a leaf.
   bool in_fur_trees() const;
@@ -98,7 +100,8 @@ class FrameChunks final : public ChunkGrower {
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0}, strands_regrown_{0};
-  std::unique_ptr<std::atomic<bool>[]> was_grown_;  // by leaf
+  std::unique_ptr<std::atomic<bool>[]> was_grown_;    // by leaf
+  std::unique_ptr<std::atomic<uint32_t>[]> growths_;  // by leaf
 };
 
 }  // namespace pelage

@@ -45,6 +45,8 @@ class FrameGeometry {
   // Of FrameChunks.
   int64_t strands_grown() const { return chunks_->strands_grown(); }
   int64_t strands_regrown() const { return chunks_->strands_regrown(); }
+  /// Returns how often a chunk of fur was grown; 0 if it was kept from an earlier frame.
+  uint32_t growths(uint32_t chunk) const { return chunks_->growths(chunk); }
   /// Adds the counts of strands grown, of chunks grown and evicted, and of reads from `render.bvh.file`.
   void add_to(FrameStatistics& statistics) const;
 

@@ -224,6 +224,16 @@ ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const H
                                       : skin_point(ray, hit, met.triangle);
 }
 
+Rgb FrameShading::color(const Hit& hit, const HitGeometry& met) const {
+  if (hit.kind == HitKind::kStrand) {
+    const FurPart& part = scene_.fur[hit.part];
+    const Rgb color = fibre_color(*fibres_[part.material], met.strand, hit, along_strand(met.strand, hit));
+    return tinted(color, part.tint);
+  }
+  const SkinPart& part = scene_.skins[hit.part];
+  return tinted(skin_color(part, *skins_[part.material], hit, met.triangle), part.tint);
+}
+
 /// Motion in pixels from the frame to the next one for a point seen at `time` of the shutter. The point
 /// continues its mean motion over the shutter; the camera follows its keys.
 V2f FrameShading::motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const {

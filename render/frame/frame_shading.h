@@ -22,6 +22,8 @@ class FrameShading {
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
+  /// Returns the colour of the material at a hit.
+  Rgb color(const Hit& hit, const HitGeometry& met) const;
   /// Returns VisibleSurface::depth of a hit of a camera ray.
   float depth(const Ray& ray, const Hit& hit) const;
   /// Returns the film data of a hit of a camera ray.

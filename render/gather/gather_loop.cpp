@@ -41,15 +41,18 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
                        const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-                       const Stopwatch& clock, FrameResult& result)
+                       const Stopwatch& clock, FrameResult& result, FrameWatch* watch)
     : scene_(scene),
       tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
+      watch_(watch),
       in_passes_(fits || scene.render.time_limit > 0),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
+      refines_(watch && scene.render.time_limit <= 0),
       tiles_(tiles_of(result.window.film)),
+      given_(tiles_.size()),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
@@ -81,19 +84,67 @@ void GatherLoop::run() {
     const uint32_t wanted = in_passes_ ? portion(given, samples) : samples;
     const uint32_t count = fitting(wanted, given);
     if (count == 0) end = PassEnd::kOutOfTime;
-    if (end == PassEnd::kDone) end = trace({given, count, is_first}, is_first ? kNever : limit_s);
+    if (end == PassEnd::kDone) end = pass({given, count, is_first}, is_first ? kNever : limit_s);
     given += count;
+    if (end == PassEnd::kDone) tell_watch();
     if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
   job_.progress.end();
   report(end);
 }
 
-PassEnd GatherLoop::trace(const Pass& pass, double deadline_s) {
+uint32_t& GatherLoop::given(const Tile& tile) {
+  const PixelBox& film = result_.window.film;
+  const int columns = (film.width() + GatherTile::kSide - 1) / GatherTile::kSide;
+  const int column = (tile.x0 - film.x0) / GatherTile::kSide, row = (tile.y0 - film.y0) / GatherTile::kSide;
+  return given_[static_cast<size_t>(row * columns + column)];
+}
+
+void GatherLoop::tell_watch() const {
+  if (!watch_) return;
+  double sum = 0;
+  for (const uint32_t given : given_) sum += given;
+  const uint32_t min = *std::min_element(given_.begin(), given_.end());
+  watch_->passed(result_.film, {min, sum / static_cast<double>(given_.size()), 1, full_});
+}
+
+PassEnd GatherLoop::pass(const Pass& pass, double deadline_s) {
+  while (true) {
+    PassEnd end = refines_ ? refine_region() : PassEnd::kDone;
+    if (end == PassEnd::kDone) end = trace(pass, pass.scattered ? scattered(tiles_) : tiles_, deadline_s);
+    if (end != PassEnd::kDone || is_current()) return end;
+  }
+}
+
+PassEnd GatherLoop::refine_region() {
+  region_seen_ = watch_->region_version();
+  const std::optional<PixelBox> region = watch_->region();
+  const bool has_samples = *std::min_element(given_.begin(), given_.end()) > 0;
+  if (!region || !has_samples) return PassEnd::kDone;
+  std::vector<Tile> inside;
+  const auto samples = static_cast<uint32_t>(scene_.render.samples);
+  uint32_t first = samples;
+  for (const Tile& tile : tiles_) {
+    if (tile.x0 >= region->x1 || tile.x1 <= region->x0 || tile.y0 >= region->y1 || tile.y1 <= region->y0)
+      continue;
+    inside.push_back(tile);
+    first = std::min(first, given(tile));
+  }
+  PassEnd end = PassEnd::kDone;
+  while (first < samples && end == PassEnd::kDone && is_current()) {
+    const uint32_t count = portion(first, samples);
+    end = trace({first, count, false}, inside, std::numeric_limits<double>::infinity());
+    first += count;
+    full_ = *region;
+    if (end == PassEnd::kDone && is_current()) tell_watch();
+  }
+  return end;
+}
+
+PassEnd GatherLoop::trace(const Pass& pass, const std::vector<Tile>& tiles, double deadline_s) {
   const double began = clock_.seconds();
-  const std::vector<Tile> tiles = pass.scattered ? scattered(tiles_) : tiles_;
   const PassEnd end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
-    return trace_tile(pass, tile, worker);
+    return !is_current() || trace_tile(pass, tile, worker);
   });
   sample_s_ = (clock_.seconds() - began) / pass.count;
   return end;
@@ -124,13 +175,14 @@ class GatherLoop::Lease {
   GatherTile::Scratch* scratch_;
 };
 
-/// False when cancelled.
+/// Takes the samples of the pass that the tile does not have yet. False when cancelled.
 bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
+  uint32_t& first = given(tile);
   Lease lease(*this);
   const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
   const uint32_t end = pass.first + pass.count;
-  for (uint32_t first = pass.first; first < end;) {
+  while (first < end) {
     const uint32_t count = portion(first, end);
     if (!tile_.trace(tile, first, count, job_, lease.scratch())) return false;
     land(count, tile, lease.scratch());

@@ -12,6 +12,7 @@
 #include "base/ledger.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_result.h"
+#include "render/frame/frame_watch.h"
 #include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
 
@@ -39,10 +40,11 @@ class GatherLoop {
   static Memory reserve_tiles(const RenderScene& scene, const Job& job);
 
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
-  /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it.
+  /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it. `watch`:
+  /// sees the film after each pass; may be null.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-             const Stopwatch& clock, FrameResult& result);
+             const Stopwatch& clock, FrameResult& result, FrameWatch* watch = nullptr);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -55,13 +57,23 @@ class GatherLoop {
     uint32_t first = 0, count = 1;  ///< samples first .. first + count - 1 of each pixel
     bool scattered = false;         ///< whether consecutive tiles are far apart
   };
-  PassEnd trace(const Pass& pass, double deadline_s);
+  PassEnd trace(const Pass& pass, const std::vector<Tile>& tiles, double deadline_s);
+  /// Makes a pass over all tiles. If the watch has a new region, refines its tiles first. A new region
+  /// interrupts the pass, which then continues.
+  PassEnd pass(const Pass& pass, double deadline_s);
+  /// Takes all samples of the tiles of the watch's region, unless no tile has samples yet.
+  PassEnd refine_region();
+  /// Returns whether the watch still has the region that refine_region() has seen.
+  bool is_current() const { return !refines_ || watch_->region_version() == region_seen_; }
+  void tell_watch() const;
   /// Returns how many samples per pixel the next pass can take within the time limit: at most `count`.
   /// `given`: samples per pixel so far.
   uint32_t fitting(uint32_t count, uint32_t given) const;
   bool trace_tile(const Pass& pass, const Tile& tile, int worker);
   /// Returns how many of the samples first .. end - 1 share light with sample `first`.
   uint32_t portion(uint32_t first, uint32_t end) const;
+  /// Returns the samples per pixel that a tile has so far.
+  uint32_t& given(const Tile& tile);
   void land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch);
   void report(PassEnd end);
 
@@ -70,9 +82,14 @@ class GatherLoop {
   const Job job_;
   const Stopwatch& clock_;
   FrameResult& result_;
+  FrameWatch* const watch_;
   const bool in_passes_;    // otherwise, a tile gets all its samples before the next tile
   const bool first_alone_;  // whether the first sample of a pixel shares no light with further samples
+  const bool refines_;      // whether the watch may choose a region
   std::vector<Tile> tiles_;
+  std::vector<uint32_t> given_;  // given(), row by row
+  uint32_t region_seen_ = 0;     // version of the watch's region that the current pass takes into account
+  PixelBox full_;                // see PassState
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_
   std::mutex idle_mutex_;

@@ -105,13 +105,29 @@ TEST(Options, OfTheOtherCommands) {
   EXPECT_TRUE(parsed({"manual", "--markdown"}).markdown);
 }
 
+TEST(Options, OfWhy) {
+  const Options options = parsed({"why", "s.yaml", "12", "34", "--json", "-o", "a.png", "--set", "a=1"});
+  EXPECT_EQ(options.command, Command::kWhy);
+  EXPECT_EQ(options.pixel_x, 12);
+  EXPECT_EQ(options.pixel_y, 34);
+  EXPECT_TRUE(options.json);
+  EXPECT_EQ(options.output, "a.png");
+  EXPECT_FALSE(parsed({"why", "s.yaml", "1", "2"}).json);
+  EXPECT_EQ(problem({"why", "s.yaml", "1"}), "Y is required; see 'pelage why --help'");
+  EXPECT_EQ(parsed({"why", "s.yaml", "-1", "2"}).pixel_x, -1) << "run_why() names the size of the picture";
+  for (const std::string pixel : {"1.5", "x", "1e1", "0x1", "99999999999"}) {
+    EXPECT_EQ(problem({"why", "s.yaml", "1", pixel}),
+              "Y: expected a whole number, got '" + pixel + "'; see 'pelage why --help'");
+  }
+}
+
 TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_NE(problem({"grow", "s", "--lod"}).find("--output"), std::string::npos);
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");
   EXPECT_EQ(problem({"rendr", "s"}), "unknown command 'rendr'; did you mean 'render'?");
   EXPECT_EQ(problem({"zebra"}),
             "unknown command 'zebra'; expected one of compare, convert, grow, info, manual, measure, "
-            "merge, motionblur, render, stereo, view");
+            "merge, motionblur, render, stereo, view, why");
   EXPECT_EQ(problem({"render", "s", "--fraems", "1"}), "unknown option '--fraems'; did you mean '--frames'?");
   EXPECT_EQ(problem({"render", "s", "--memroy=4G"}), "unknown option '--memroy'; did you mean '--memory'?");
   EXPECT_EQ(problem({"render", "s", "--zebra"}), "unknown option '--zebra'; see 'pelage render --help'");

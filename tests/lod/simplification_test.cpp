@@ -49,6 +49,34 @@ TEST(Simplification, SharesFallSmoothlyWithTheDistance) {
   }
 }
 
+TEST(Simplification, MeasuresSayHowAShareComesAbout) {
+  SimplificationParams params;
+  params.quality = 2;
+  params.min_share = 1e-4f;
+  for (const float budget : {1.0f, 1.5f, 0.5f}) {
+    LodView view = view_from(V3f(0));
+    view.lens_diameter = 0.05f;
+    view.focus_distance = 100;
+    const Simplification s(params, view, kHair, budget);
+    const RootPlace root{V3f(0, 0, -60), V3f(0.05f, 0, -60), V3f(0.8f, 0, -0.6f), V3f(1, 0, 0)};
+    const LodMeasures m = s.measures(root);
+    EXPECT_NEAR(m.width, 2 * 0.01f * 1000 / 60, 1e-4f);
+    EXPECT_NEAR(m.length, 2 * 1000.0f / 60, 1e-2f);
+    EXPECT_NEAR(m.motion, 0.05f * 2 * 1000 / 60, 1e-2f);
+    EXPECT_NEAR(m.across, 0, 1e-2f) << "it moves along itself";
+    EXPECT_GT(m.confusion, 0);
+    EXPECT_NEAR(m.facing, -0.6f, 1e-4f);
+    EXPECT_LT(m.size_share, 1);
+    EXPECT_LT(m.blur_share, 1);
+    EXPECT_LT(m.facing_share, 1);
+    EXPECT_EQ(m.budget, budget);
+    EXPECT_EQ(m.share, s.share(root));
+    // No limit applies here.
+    const float product = m.size_share * m.blur_share * m.facing_share * m.budget;
+    EXPECT_NEAR(m.share, product, 1e-5f * product);
+  }
+}
+
 TEST(Simplification, NoStrandGrowsBeyondThePixelOrAQuarterOfItself) {
   for (const float length : {0.1f, 1.0f, 5.0f}) {
     const CoatStats stats{0.01f, length, 1e-6f};

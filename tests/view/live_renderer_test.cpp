@@ -4,6 +4,7 @@
 #include <functional>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/file.h"
 #include "tests/world/small_scene.h"
@@ -234,6 +235,83 @@ TEST_F(LiveRendererTest, ManyEditsAndReadersAtOnce) {
   ends = true;
   reader.join();
   expect_rendered();
+}
+
+TEST_F(LiveRendererTest, ExplainsPixelsOfThePicture) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  const auto ask = [this](int x, int y) {
+    const CommandAnswer answer = desk_.why().ask(x, y, [] { return false; });
+    return std::pair(answer.status, nlohmann::json::parse(answer.json));
+  };
+  ASSERT_TRUE(rests(0));
+  int strands = 0;
+  const auto check = [&] {
+    for (int x = 0; x < 24; x += 3) {
+      const auto [status, why] = ask(x, 8);
+      ASSERT_EQ(status, 200) << why;
+      desk_.with_frame([&](const FinishedFrame& frame) {
+        const Rgb shown = frame.result.film.radiance(x, 8);
+        EXPECT_EQ(why["radiance"], nlohmann::json({shown.x, shown.y, shown.z}));
+        const uint32_t id = frame.result.film.surface(x, 8).id;
+        EXPECT_EQ(why["strand"].is_null(), id == kNoStrand);
+        if (id == kNoStrand) return;
+        EXPECT_EQ(why["strand"]["id"], id);
+        ++strands;
+      });
+    }
+  };
+  check();
+  EXPECT_GT(strands, 0);
+  EXPECT_EQ(ask(24, 8).first, 400);
+  EXPECT_EQ(ask(-1, 8).second["error"], "pixel -1 8: the picture has 24 x 16 pixels");
+  expect_rendered();
+  replace("intensity: 30", "intensity: 60");
+  ASSERT_TRUE(rests(1));
+  check();
+  replace("samples: 4", "samples: 7, integrator: gather");
+  ASSERT_TRUE(rests(2));
+  check();
+  replace("mesh: cube.obj, poses", "mesh: none.obj, poses");
+  ASSERT_TRUE(wait_until([](const ViewStatus& s) { return !s.error().empty(); }));
+  EXPECT_EQ(ask(12, 8).first, 409);
+}
+
+TEST_F(LiveRendererTest, AnswersWhileItRendersAndWhileTheSceneChanges) {
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {{"render.samples", "100000"}, {"render.bounces", "0"}}, renderer,
+                               desk_);
+  ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.first_pixels_s > 0; }));
+  std::atomic<bool> ends{false};
+  std::atomic<int> answers{0};
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 2; ++i) {
+    clients.emplace_back([&, i] {
+      while (!ends) {
+        const CommandAnswer answer = desk_.why().ask(10 + i, 8, [&] { return ends.load(); });
+        if (answer.status == 200) ++answers;
+      }
+    });
+  }
+  for (int i = 0; i < 4; ++i) {
+    const int before = answers;
+    replace("intensity: 3", "intensity: 33");
+    EXPECT_TRUE(wait_until([&](const ViewStatus&) { return answers > before; }));
+    replace("value: 0.4", "value: 0.44");
+  }
+  EXPECT_FALSE(desk_.status().done()) << "it still renders";
+  ends = true;
+  for (std::thread& client : clients) client.join();
+}
+
+TEST_F(LiveRendererTest, GatherShowsItsOwnPasses) {
+  replace("samples: 4", "samples: 100000, integrator: gather");
+  LiveRenderer renderer(desk_, 2);
+  const SceneFollower follower(path(), {}, renderer, desk_);
+  // The pass with `path` has one sample.
+  ASSERT_TRUE(wait_until([](const ViewStatus& status) { return status.mean_samples > 1; }));
+  EXPECT_FALSE(desk_.status().done());
+  EXPECT_GT(desk_.picture()->samples, 1u);
 }
 
 TEST_F(LiveRendererTest, EndsInTheMiddleOfARender) {

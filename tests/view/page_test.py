@@ -201,6 +201,10 @@ class Page(ViewTest):
         expect({"key": [2 ** 1.5] * 3, "sky": tint})
         self.assertEqual(self.state()["version"], renders, "nothing was rendered")
 
+        mixed = sum(layers[f"{light}.{part.replace(' ', '.')}"] * numpy.array(factor)
+                    for light, factor in {"key": [2 ** 1.5] * 3, "sky": tint}.items() for part in parts[light])
+        unmixed = sum(layers.values())
+
         # Into the scene: only the values change.
         before = (self.path / "scene.yaml").read_text()
         browser.find_element(By.ID, "light_apply").click()
@@ -217,6 +221,85 @@ class Page(ViewTest):
         for name in layers:
             layers[name] = self.layer(name)
         expect({"key": [1, 1, 1], "sky": [1, 1, 1]})
+        self.expect_mixed(mixed, unmixed)
+        bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
+        self.assertEqual(bad, [])
+
+    def expect_mixed(self, mixed, unmixed):
+        """A mix agrees with renders of the scene as it is now, with other seeds, block by block."""
+        def blocks(picture):  # 20 x 20 pixels
+            return picture.reshape(4, 20, 6, 20, 3).mean(axis=(1, 3))
+
+        renders, before = [], "render: {"
+        for seed in range(1, 25):
+            now = f"render: {{seed: {seed}, "
+            self.replace(before, now)
+            before = now
+            self.wait(lambda state: state["done"] and state["edits"] == 1 + seed)
+            renders.append(blocks(self.layer("beauty", 4)[:, :, :3]))
+        mean, sigma = numpy.mean(renders, axis=0), numpy.std(renders, axis=0, ddof=1)
+        # The error of a render, that of the mean, and the rounding of channels to half floats.
+        error = numpy.sqrt(sigma ** 2 * (1 + 1 / len(renders)) + (5e-4 * mean) ** 2) + 1e-7
+        deviation = abs(blocks(mixed) - mean) / error
+        # Of 72 values of Student's t with 23 degrees of freedom, 0.46 are beyond 3 on average, and more than 4 with a
+        # probability below 1e-4.
+        self.assertLessEqual((deviation > 3).sum(), 4, deviation.round(1))
+        self.assertLess(deviation.max(), 6)
+        self.assertGreater((abs(blocks(unmixed) - mean) / error > 3).mean(), 0.5, "the test would find a wrong mix")
+
+    def test_explains_a_pixel(self):
+        self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=16",
+                  "--set", "grooms.coat.strands=3000", "--set", "render.lod.enabled=false")
+        browser = self.open()
+        self.settle(browser)
+        canvas = browser.find_element(By.ID, "canvas")
+
+        def lit():
+            """Pixels of the canvas with the colour of the strand that is drawn over it."""
+            return browser.execute_script("""
+                const c = document.getElementById("canvas"), d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+                let count = 0;
+                for (let i = 0; i < d.length; i += 4) if (d[i] === 255 && d[i + 1] === 180 && d[i + 2] === 84) ++count;
+                return count""")
+
+        def click():
+            webdriver.ActionChains(browser).move_to_element_with_offset(canvas, 30, 20).click().perform()
+
+        # Without the mode, a click asks nothing.
+        self.assertEqual(lit(), 0)
+        click()
+        self.assertFalse(browser.find_element(By.ID, "why").is_displayed())
+        browser.find_element(By.ID, "why_mode").click()
+        click()
+        self.until(lambda: self.attribute(browser, "why"))
+        x, y = map(int, self.attribute(browser, "why").split())
+        status, body = self.get("why.json", x=x, y=y)
+        answer = json.loads(body)
+        self.assertIsNotNone(answer["strand"])
+        ids = numpy.frombuffer(self.get("layer.bin", name="id")[1][-4 * 120 * 80:], numpy.uint32).reshape(80, 120)
+        self.assertEqual(answer["strand"]["id"], ids[y, x])
+        shown = self.text(browser, "why_answer")
+        self.assertIn(f"Strand {answer['strand']['id']} of box.coat", shown)
+        for what in ("length", "width", "sky diffuse direct", "Material fur (cone-shell)", "grown once"):
+            self.assertIn(what, shown)
+        self.until(lambda: lit() > 20)
+        self.shoot(browser, "why")
+
+        # An edit.
+        self.replace("radiance: 0.3", "radiance: 0.6")
+        self.until(lambda: "has changed" in self.text(browser, "why_message"))
+        self.wait(lambda state: state["edits"] == 1)
+        self.settle(browser)
+        click()
+        self.until(lambda: self.text(browser, "why_message") == "")
+
+        # The background.
+        webdriver.ActionChains(browser).send_keys(Keys.ESCAPE).perform()
+        self.until(lambda: not browser.find_element(By.ID, "why").is_displayed() and lit() == 0)
+        webdriver.ActionChains(browser).key_down(Keys.ALT).move_to_element_with_offset(canvas, -150, -120).click().key_up(
+            Keys.ALT).perform()
+        self.until(lambda: "only lights" in self.text(browser, "why_answer"))
+        self.assertEqual(lit(), 0)
         bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(bad, [])
 
@@ -307,12 +390,12 @@ class Page(ViewTest):
         browser.find_element(By.TAG_NAME, "body").send_keys(Keys.ESCAPE)
         self.until(lambda: self.state()["region"] is None)
 
-    def layer(self, name):
+    def layer(self, name, channels=3):
         """A layer of radiance as an array [row, column, channel]."""
         _, body = self.get("layer.bin", name=name)
         head = json.loads(body[:body.index(b"\n")])
         halves = numpy.frombuffer(body, numpy.float16, offset=body.index(b"\n") + 1).astype(float)
-        return halves.reshape(3, head["height"], head["width"]).transpose(1, 2, 0)
+        return halves.reshape(channels, head["height"], head["width"]).transpose(1, 2, 0)
 
     @staticmethod
     def shown(browser):

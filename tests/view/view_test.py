@@ -128,6 +128,26 @@ class View(ViewTest):
         self.assertEqual(self.rest()["region"], None)
         self.expect_rendered("--set", "render.samples=2000", "--set", "image={width: 64, height: 48}")
 
+    def test_a_pixel_is_explained(self):
+        process = self.view()
+        self.rest()
+        status, body = self.get("why.json", x=10, y=10)
+        self.assertEqual(status, 200)
+        shown = json.loads(body)
+        rendered = json.loads(self.run_pelage("why", "scene.yaml", 10, 10, "--json")[0])
+        self.assertTrue(shown["strand"])
+        for answer in (shown, rendered):
+            for key in ("cost", "chunk", "text"):  # they differ from run to run
+                del answer[key]
+        self.assertEqual(shown, rendered)
+        for values in ({"x": 24, "y": 8}, {"x": 12, "y": -1}, {"x": 12}, {}, {"x": "1.5", "y": 2}, {"x": "", "y": 2},
+                       {"x": "9" * 40, "y": 2}, {"x": "1e1", "y": 2}, {"x": " 1", "y": 2}, {"x": "0x1", "y": "2"}):
+            status, body = self.get("why.json", **values)
+            self.assertEqual(status, 400, values)
+            self.assertTrue(json.loads(body)["error"], values)
+        self.assertEqual(self.get("why.json", token="0" * 32, x=12, y=8)[0], 403)
+        self.interrupt(process)
+
     def test_commands_of_strangers_are_refused(self):
         self.view()
         self.rest()
@@ -230,9 +250,10 @@ class View(ViewTest):
         command = b'{"action": "move", "position": [3, 2, 8], "look_at": [0, 0, 0]}'
         post = (f"POST /camera.json?token={self.token} HTTP/1.1\r\nHost: 127.0.0.1:{self.port}\r\n"
                 f"Content-Type: application/json\r\nContent-Length: {len(command)}\r\n\r\n").encode() + command
+        why = good.replace(b"/state.json?", b"/why.json?x=12&y=8&")
         requests = []
         for i in range(1000):
-            requests.append(fuzzed(post if i % 3 == 0 else good))
+            requests.append(fuzzed([post, good, why][i % 3]))
 
         def send(some):
             for request in some:

@@ -10,6 +10,7 @@ export class PictureCanvas {
     this.scale = 1;
     this.left = this.top = 0;
     this.box = null;
+    this.marks = null;
     this.source = canvas.picture = document.createElement("canvas");
     new ResizeObserver(() => this.draw()).observe(canvas);
     canvas.addEventListener("wheel", event => this.wheel(event), {passive: false});
@@ -96,6 +97,12 @@ export class PictureCanvas {
     this.draw();
   }
 
+  // Marks a pixel {x, y}, and draws a line through the points [x, y] of `outline`; null for neither.
+  setMarks(marks) {
+    this.marks = marks;
+    this.draw();
+  }
+
   draw() {
     const {canvas, source} = this, ratio = devicePixelRatio;
     const width = canvas.clientWidth, height = canvas.clientHeight;
@@ -111,11 +118,38 @@ export class PictureCanvas {
     context.imageSmoothingEnabled = this.scale < 1;
     context.drawImage(source, this.left * ratio, this.top * ratio, source.width * this.scale * ratio,
                       source.height * this.scale * ratio);
-    if (!this.box) return;
+    if (this.box) this.drawBox(context, ratio);
+    if (this.marks) this.drawMarks(context, ratio);
+  }
+
+  drawBox(context, ratio) {
     const [x0, y0, x1, y1] = this.box, s = this.scale * ratio;
     context.lineWidth = Math.round(1.5 * ratio);
     context.setLineDash([6 * ratio, 4 * ratio]);
     context.strokeStyle = "#ffb454";
     context.strokeRect(this.left * ratio + x0 * s, this.top * ratio + y0 * s, (x1 - x0) * s, (y1 - y0) * s);
+    context.setLineDash([]);
+  }
+
+  drawMarks(context, ratio) {
+    const {pixel, outline} = this.marks, s = this.scale * ratio;
+    const place = ([x, y]) => [this.left * ratio + x * s, this.top * ratio + y * s];
+    const line = new Path2D();
+    outline.forEach((point, i) => i ? line.lineTo(...place(point)) : line.moveTo(...place(point)));
+    if (outline.length) line.arc(...place(outline.at(-1)), 0.01, 0, 1);
+    const square = new Path2D(), [x, y] = place([pixel.x, pixel.y]), side = Math.max(s, 5 * ratio);
+    square.rect(x + (s - side) / 2, y + (s - side) / 2, side, side);
+    const root = new Path2D();
+    if (outline.length) root.arc(...place(outline[0]), 3 * ratio, 0, 2 * Math.PI);
+    context.lineJoin = context.lineCap = "round";
+    for (const [color, more] of [["#000c", 2.5], ["#ffb454", 0]]) {
+      context.strokeStyle = context.fillStyle = color;
+      context.lineWidth = (1.5 + more) * ratio;
+      context.stroke(line);
+      context.stroke(root);
+      context.fill(root);
+      context.strokeStyle = more ? color : "#fff";
+      context.stroke(square);
+    }
   }
 }

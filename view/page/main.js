@@ -4,6 +4,7 @@ import {paint} from "./colors.js";
 import {PictureCanvas} from "./canvas.js";
 import {CameraTool} from "./camera_tool.js";
 import {RegionTool} from "./region_tool.js";
+import {WhyTool} from "./why_tool.js";
 import {Mixer} from "./mixer.js";
 import {offerText} from "./scene_text.js";
 
@@ -20,9 +21,10 @@ const view = {
     if (message) setTimeout(() => { if (element("note").textContent === message) element("note").hidden = true; }, kNote_ms);
   },
 };
-const camera = new CameraTool(view), region = new RegionTool(view);
+const camera = new CameraTool(view), region = new RegionTool(view), why = new WhyTool(view);
 const isOn = id => element(id).getAttribute("aria-pressed") === "true";
-const toolOf = event => event.type === "pointerdown" && (event.shiftKey || isOn("region_mode")) ? region
+const takesClick = (event, id, key) => event.type === "pointerdown" && (event[key] || isOn(id));
+const toolOf = event => takesClick(event, "region_mode", "shiftKey") ? region : takesClick(event, "why_mode", "altKey") ? why
                         : isOn("camera_mode") ? camera : null;
 const canvas = view.canvas =
   new PictureCanvas(element("canvas"), pixel => { cursor = pixel; showValues(); }, toolOf);
@@ -107,6 +109,7 @@ async function refresh() {
   }
   if (changed) draw();
   camera.update();
+  why.update();
   if (isOn("camera_mode")) await camera.findDepth();
   showState();
   document.body.dataset.version = layer ? layer.version : 0;
@@ -147,18 +150,19 @@ const compare = shows => { if (showsKept !== shows) { showsKept = shows; draw();
 element("before").addEventListener("pointerdown", () => compare(true));
 addEventListener("pointerup", () => compare(false));
 
-for (const id of ["camera_mode", "lights_mode"]) element(id).addEventListener("click", () => toggle(id));
+for (const id of ["camera_mode", "lights_mode", "why_mode"]) element(id).addEventListener("click", () => toggle(id));
 element("region_mode").addEventListener("click", () => state?.region ? region.clear() : toggle("region_mode"));
 element("camera_reset").addEventListener("click", () => camera.reset());
 element("camera_text").addEventListener("click", () => offerText("Camera of this view", "camera.json", {}));
 
-const keys = {f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", r: "region_mode"};
+const keys = {f: "fit", 1: "one", k: "keep", c: "camera_mode", l: "lights_mode", w: "why_mode", r: "region_mode"};
 addEventListener("keydown", event => {
   const isTyping = ["SELECT", "TEXTAREA", "INPUT"].includes(event.target.tagName) && event.target.type !== "range";
   if (isTyping || event.ctrlKey || event.metaKey || event.altKey || element("scene_text").open) return;
   if (event.key in keys) element(keys[event.key]).click();
   if (event.key === "b") compare(true);
-  if (event.key === "Escape" && (state?.region || region.last)) region.clear();
+  if (event.key === "Escape" && !element("why").hidden) why.close();
+  else if (event.key === "Escape" && (state?.region || region.last)) region.clear();
 });
 addEventListener("keyup", event => { if (event.key === "b") compare(false); });
 follow();

@@ -44,6 +44,14 @@ export async function readLayers(names) {
   return layer;
 }
 
+// Why a pixel is what it is. Throws an Error with the server's message.
+export async function readWhy(x, y) {
+  const answer = await fetch(address("why.json", {x, y}));
+  const result = await answer.json().catch(() => ({error: `why.json: ${answer.status}`}));
+  if (!answer.ok) throw new Error(result.error);
+  return result;
+}
+
 // Runs a command. Returns its answer; throws an Error with the server's message.
 export async function command(name, values) {
   const answer = await fetch(address(name), {

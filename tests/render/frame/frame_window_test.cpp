@@ -129,6 +129,20 @@ TEST(FrameWatch, SeesCoarsePicturesFirstAndChangesNoPixel) {
   }
 }
 
+TEST(FrameWatch, SeesThePassesOfGatherAndChangesNoPixel) {
+  FurScene scene;
+  scene.render.integrator = Integrator::kGather;
+  scene.image.noise_layers = false;
+  const FrameResult alone = rendered(scene, {});
+  Watch watch;
+  FrameOptions options;
+  options.watch = &watch;
+  const FrameResult watched = rendered(scene, options, 3);
+  EXPECT_EQ(watch.grids, (std::vector<int>{1, 1}));  // 1 and 4 samples
+  EXPECT_EQ(watch.mean, 5);
+  expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
+}
+
 /// Chooses a region during the render, and another one later.
 struct RegionWatch final : FrameWatch {
   void passed(const Film& film, const PassState& state) override {
@@ -173,6 +187,48 @@ TEST(FrameWatch, RefinesARegionFirstAndChangesNoPixel) {
     EXPECT_EQ(watched.mean_samples, alone.mean_samples) << kind;
     expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
   }
+}
+
+/// Chooses a region after the first pass, and another one after the second.
+struct GatherRegionWatch final : FrameWatch {
+  void passed(const Film& film, const PassState& state) override {
+    const PixelBox& box = boxes[version == 0 ? 0 : version - 1];
+    const uint32_t inside = film.samples(box.x0, box.y0);
+    const uint32_t outside = film.samples(56, 42);
+    if (version > 0 && inside == 100 && outside == 1) {
+      ++refined;
+      EXPECT_EQ(state.full, box);
+      EXPECT_LT(state.mean_samples, 100);
+      EXPECT_EQ(state.samples, 1u);
+      for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) EXPECT_EQ(film.samples(x, y), 100u);
+      }
+    }
+    if (version == 0 || (version == 1 && inside == 100)) ++version;
+  }
+  std::optional<PixelBox> region() const override {
+    return version == 0 ? std::nullopt : std::optional(boxes[version - 1]);
+  }
+  uint32_t region_version() const override { return version; }
+
+  const PixelBox boxes[2] = {{3, 20, 15, 30}, {30, 2, 33, 9}};
+  std::atomic<uint32_t> version{0};
+  int refined = 0;
+};
+
+TEST(FrameWatch, GatherRefinesTheTilesOfARegionFirst) {
+  FurScene scene;
+  scene.render.integrator = Integrator::kGather;
+  scene.render.samples = 100;
+  scene.image.noise_layers = false;
+  const FrameResult alone = rendered(scene, {});
+  GatherRegionWatch watch;
+  FrameOptions options;
+  options.watch = &watch;
+  const FrameResult watched = rendered(scene, options, 3);
+  EXPECT_EQ(watch.refined, 2);
+  EXPECT_EQ(watched.mean_samples, 100);
+  expect_same(pixels(watched, watched.window.region), pixels(alone, alone.window.region));
 }
 
 TEST(FrameWatch, DoesNotChangeTheOrderOfSplattedSamples) {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/frame/frame_statistics.h"
+#include "why/chunk_why.h"
+#include "why/light_terms.h"
+#include "why/material_why.h"
+#include "why/seen_surface.h"
+#include "why/strand_why.h"
+#include "world/world.h"
+
+namespace pelage {
+
+/// A skin that a pixel shows.
+struct SkinWhy {
+  std::string name;  ///< "rat.rat"
+  uint32_t face = 0;
+  V2f place{0};  ///< parameters in the face
+  V2f uv{0};     ///< texture coordinates
+};
+
+/// Work that the samples of a pixel took.
+struct CostWhy {
+  RayStatistics rays;
+  double trace_s = 0;   ///< CPU seconds of tracing and shading
+  double growth_s = 0;  ///< CPU seconds of growing chunks
+  int64_t strands_grown = 0;
+};
+
+/// Why a pixel is what it is.
+struct PixelWhy {
+  int x = 0, y = 0;
+  uint32_t samples = 0;
+  Rgb radiance{0};
+  float alpha = 0;
+  /// Standard error of the luminance of the pixel's own samples; empty with `gather`, whose samples share
+  /// light.
+  std::optional<double> noise;
+  float depth = 0;                ///< of the visible surface; infinite if there is none
+  std::vector<LightTerm> lights;  ///< they add up to `radiance`
+  std::vector<SeenCount> seen;    ///< what the camera samples see
+  std::optional<StrandWhy> strand;
+  std::optional<ChunkWhy> chunk;  ///< of the strand
+  std::optional<SkinWhy> skin;    ///< neither a strand nor a skin: the camera sees only lights, or nothing
+  std::optional<MaterialWhy> material;
+  CostWhy cost;
+  bool is_adaptive = false;  ///< whether the picture chooses the sample count of the pixel; here it has all
+};
+
+/// A frame that is explained. While a pixel is explained, `image` and `render` of the world differ.
+struct ExplainedFrame {
+  const SceneDescription& scene;
+  Assets& assets;
+  World& world;                              ///< composed from `scene` and `assets`
+  std::unique_ptr<FrameGeometry>& geometry;  ///< of the world; made if null
+  KeptFur* kept = nullptr;                   ///< see render_frame()
+};
+
+/// Throws Error (kArguments) if a pixel is outside the picture.
+void check_pixel(const ImageParams& image, int x, int y);
+
+/// Renders a pixel again and explains it. Its radiance is that of a render of the whole picture, except with
+/// adaptive sampling and time limits, which are ignored. Throws Error: kArguments if the pixel is outside the
+/// picture, kStopped when the job is stopped, and the errors of render().
+PixelWhy explain_pixel(const ExplainedFrame& frame, int x, int y, const Job& job);
+
+}  // namespace pelage
