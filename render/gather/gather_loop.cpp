@@ -41,20 +41,36 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
                        const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-                       const Stopwatch& clock, FrameResult& result)
+                       const Stopwatch& clock, FrameResult& result, FrameSaver* saver)
     : scene_(scene),
       tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
+      saver_(saver),
       in_passes_(fits || scene.render.time_limit > 0),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
       tiles_(tiles_of(result.window.film)),
+      sample_counts_(tiles_.size()),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
     idle_.push_back(scratch_.back().get());
   }
+  if (saver_) saver_->restore(state());
+}
+
+FrameState GatherLoop::state() {
+  FrameState blocks = result_.film.state();
+  blocks.push_back(std::as_writable_bytes(std::span(sample_counts_)));
+  return blocks;
+}
+
+size_t GatherLoop::tile_of(const Tile& tile) const {
+  const PixelBox& film = result_.window.film;
+  const int columns = (film.width() + GatherTile::kSide - 1) / GatherTile::kSide;
+  return static_cast<size_t>((tile.y0 - film.y0) / GatherTile::kSide) * static_cast<size_t>(columns) +
+         static_cast<size_t>((tile.x0 - film.x0) / GatherTile::kSide);
 }
 
 uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
@@ -75,6 +91,8 @@ void GatherLoop::run() {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double limit_s = scene_.render.time_limit > 0 ? double{scene_.render.time_limit} : kNever;
   job_.progress.begin("render", pixels * samples);
+  for (const Tile& tile : tiles_)  // of a frame that was restored
+    job_.progress.advance(1.0 * (tile.x1 - tile.x0) * (tile.y1 - tile.y0) * sample_counts_[tile_of(tile)]);
   PassEnd end = PassEnd::kDone;
   for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
     const bool is_first = given == 0 && first_alone_ && in_passes_;
@@ -86,15 +104,20 @@ void GatherLoop::run() {
     if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
   job_.progress.end();
+  if (end == PassEnd::kCancelled && saver_) saver_->save(state());
   report(end);
 }
 
 PassEnd GatherLoop::trace(const Pass& pass, double deadline_s) {
   const double began = clock_.seconds();
   const std::vector<Tile> tiles = pass.scattered ? scattered(tiles_) : tiles_;
-  const PassEnd end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
-    return trace_tile(pass, tile, worker);
-  });
+  PassEnd end = PassEnd::kCancelled;
+  while (true) {
+    end = trace_tiles(tiles, job_, clock_, deadline_s,
+                      [&](const Tile& tile, int worker) { return trace_tile(pass, tile, worker); });
+    if (end != PassEnd::kCancelled || !saver_ || job_.progress.cancelled()) break;
+    saver_->save(state());
+  }
   sample_s_ = (clock_.seconds() - began) / pass.count;
   return end;
 }
@@ -124,17 +147,20 @@ class GatherLoop::Lease {
   GatherTile::Scratch* scratch_;
 };
 
-/// False when cancelled.
+/// False when cancelled or when the state of the frame should be saved.
 bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
+  uint32_t& given = sample_counts_[tile_of(tile)];
+  const uint32_t end = pass.first + pass.count;
+  if (given >= end) return true;  // before the frame was saved
   Lease lease(*this);
   const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
-  const uint32_t end = pass.first + pass.count;
-  for (uint32_t first = pass.first; first < end;) {
-    const uint32_t count = portion(first, end);
-    if (!tile_.trace(tile, first, count, job_, lease.scratch())) return false;
+  while (given < end) {
+    if (saver_ && saver_->due()) return false;
+    const uint32_t count = portion(given, end);
+    if (!tile_.trace(tile, given, count, job_, lease.scratch())) return false;
     land(count, tile, lease.scratch());
-    first += count;
+    given += count;
   }
   return true;
 }

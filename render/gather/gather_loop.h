@@ -12,6 +12,7 @@
 #include "base/ledger.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_result.h"
+#include "render/frame/frame_saver.h"
 #include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
 
@@ -40,9 +41,10 @@ class GatherLoop {
 
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
   /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it.
+  /// `saver`: stores the state of the frame; may be null. The constructor restores the state that it has.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-             const Stopwatch& clock, FrameResult& result);
+             const Stopwatch& clock, FrameResult& result, FrameSaver* saver = nullptr);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -56,6 +58,8 @@ class GatherLoop {
     bool scattered = false;         ///< whether consecutive tiles are far apart
   };
   PassEnd trace(const Pass& pass, double deadline_s);
+  FrameState state();
+  size_t tile_of(const Tile& tile) const;
   /// Returns how many samples per pixel the next pass can take within the time limit: at most `count`.
   /// `given`: samples per pixel so far.
   uint32_t fitting(uint32_t count, uint32_t given) const;
@@ -70,9 +74,11 @@ class GatherLoop {
   const Job job_;
   const Stopwatch& clock_;
   FrameResult& result_;
+  FrameSaver* saver_;       // may be null
   const bool in_passes_;    // otherwise, a tile gets all its samples before the next tile
   const bool first_alone_;  // whether the first sample of a pixel shares no light with further samples
   std::vector<Tile> tiles_;
+  std::vector<uint32_t> sample_counts_;  // by tile, row by row: samples of each of its pixels so far
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_
   std::mutex idle_mutex_;
