@@ -79,6 +79,8 @@ class ContentStore {
   /// failure, nothing more is written, and commit() reports this failure to `warn`.
   class Writer {
    public:
+    /// Writes to any path, for StoredFile(path). Replaces a link at this path.
+    Writer(const std::filesystem::path& path, const std::string& kind, const ContentHash& key);
     /// Writes the next section.
     void add(std::span<const std::byte> section);
     template <class T>
@@ -91,12 +93,10 @@ class ContentStore {
     bool commit(const WarningSink& warn);
 
    private:
-    friend class ContentStore;
     struct Section {
       uint64_t offset = 0, bytes = 0;
       ContentHash hash;
     };
-    Writer(const std::filesystem::path& path, const std::string& kind, const ContentHash& key);
     void put(std::span<const std::byte> bytes);
     void attempt(const std::function<void()>& step);
 

@@ -30,6 +30,7 @@ struct Texts {
   bool quiet = false;
   PostTexts post;
   PictureTexts picture;
+  std::string checkpoint_every;
 };
 
 constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
@@ -89,6 +90,7 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("FILE.%04d.exr");
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_picture_flags(*render, options.picture, texts.picture);
+  add_checkpoint_flags(*render, options.checkpoint, texts.checkpoint_every);
   add_run_flags(*render, options, texts);
 }
 
@@ -337,6 +339,7 @@ void interpret(const Texts& texts, Options& options) {
     options.overrides.push_back({"frames", "'" + texts.frames + "'"});
   }
   interpret_picture(texts.picture, options);
+  interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/checkpoint_flags.h"
 #include "cli/picture_flags.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
@@ -59,7 +60,8 @@ struct Options {
   int threads = 0;                        ///< --threads; 0: as many as are available to the process
   ProgressStyle progress = ProgressStyle::kAuto;
 
-  PictureOptions picture;  ///< render: flags of the picture
+  PictureOptions picture;        ///< render: flags of the picture
+  CheckpointOptions checkpoint;  ///< render: flags of checkpoints
 
   int port = 0;      ///< view: port of the server; 0: any free port
   std::string bind;  ///< view: address of the server; empty: 127.0.0.1

@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/heap.h"
 #include "cli/commands.h"
+#include "cli/frame_checkpoints.h"
 #include "cli/output_files.h"
 #include "cli/picture_flags.h"
 #include "cli/progress_display.h"
@@ -100,25 +101,32 @@ std::vector<int> missing_frames(const Options& options, const FrameList& list, c
   return missing;
 }
 
-// Renders and writes one frame; returns whether it is complete.
+// Renders and writes one frame; returns whether it is complete. `checkpoint`: may be null.
 bool render_one(const SceneDescription& scene, Assets& assets, int frame, const std::string& path,
-                const FrameOptions& how, Run& run) {
+                FrameOptions how, Checkpoint* checkpoint, Run& run) {
   const double began = run.seconds();
   World world = run.stage("pose", [&] { return compose(scene, assets, frame, run.job()); });
   run.statistics().world += world.counts;
   const double posed = run.seconds();
+  if (checkpoint) checkpoint->begin(world.poses);
+  how.saver = checkpoint;
   const FrameResult result = render(world, run.job(), how);
   run.statistics().add(result, posed, 1.0 / static_cast<double>(scene.frames.frames.size()));
   if (result.mean_samples == 0) {
     note_no_output(path, run);
     return false;
   }
-  const double seconds = run.seconds() - began;
+  if (result.partial && checkpoint && SignalGuard::from_outside()) {
+    run.display().note(checkpoint->file().string() + "  holds " + samples_text(result));
+    return false;
+  }
+  const double seconds = run.seconds() - began + (checkpoint ? checkpoint->earlier_s() : 0);
   trim_heap();  // the chunks of the frame are gone
   const std::string place = place_of(result, path);
   if (std::error_code ignored; place != path && std::filesystem::exists(path, ignored))
     run.display().warn(path + ": kept, because the new picture is partial");
   run.stage("write", [&] { write_frame(place, world, result, seconds, run.job()); });
+  if (checkpoint && !result.partial) checkpoint->finish(place);
   const std::string clamped =
       scene.render.clamp_indirect > 0
           ? fmt::format(", {:.2g} % of the indirect light clamped", 100 * result.clamped_fraction)
@@ -141,7 +149,10 @@ int run_render(const Options& options) {
   check_output_pattern(output, scene.frames);
   check_files(options, scene, output);
 
+  FrameCheckpoints checkpoints(options, scene, run.display());
   scene.frames.frames = missing_frames(options, scene.frames, output, run);
+  scene.frames.frames =
+      checkpoints.unfinished(scene.frames.frames, [&](int frame) { return frame_file_name(output, frame); });
   if (scene.frames.frames.empty()) {
     run.finish(options);
     return 0;
@@ -159,7 +170,8 @@ int run_render(const Options& options) {
     for (size_t i = 0; i < scene.frames.frames.size() && complete; ++i) {
       path = frame_file_name(output, scene.frames.frames[i]);
       run.display().frame(scene.frames.frames[i], i + 1, scene.frames.frames.size());
-      complete = render_one(scene, *assets, scene.frames.frames[i], path, how, run);
+      const int frame = scene.frames.frames[i];
+      complete = render_one(scene, *assets, frame, path, how, checkpoints.of(frame), run);
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kStopped) throw;

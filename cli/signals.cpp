@@ -15,8 +15,10 @@ namespace {
 // A signal handler can access only statics.
 std::atomic<int> g_signal{0};  // the first one; 0: none yet
 std::atomic<int64_t> g_heard_ms{0};
+std::atomic<uint32_t> g_checkpoints{0};
 std::string_view g_note;  // changes only while no handler is installed
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<int64_t>::is_always_lock_free &&
+              std::atomic<uint32_t>::is_always_lock_free);
 
 int64_t now_ms() {
   timespec now{};
@@ -70,6 +72,23 @@ int SignalGuard::exit_code() {
   const int signal = g_signal.load();
   return 128 + (signal != 0 ? signal : SIGINT);
 }
+
+bool SignalGuard::from_outside() {
+  const int signal = g_signal.load();
+  return signal == SIGTERM || signal == SIGHUP;
+}
+
+CheckpointSignal::CheckpointSignal() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { g_checkpoints.fetch_add(1, std::memory_order_relaxed); };
+  action.sa_flags = SA_RESTART;
+  ::sigemptyset(&action.sa_mask);
+  ::sigaction(SIGUSR1, &action, &old_);
+}
+
+CheckpointSignal::~CheckpointSignal() { ::sigaction(SIGUSR1, &old_, nullptr); }
+
+uint32_t CheckpointSignal::count() { return g_checkpoints.load(std::memory_order_relaxed); }
 
 void prepare_process() {
   ::signal(SIGXFSZ, SIG_IGN);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include <signal.h>
@@ -26,6 +27,8 @@ class SignalGuard {
   /// Exit code of an interrupted run: 128 + the number of the signal that the last guard received first. This
   /// is 130 for SIGINT, 143 for SIGTERM and 129 for SIGHUP. 130 if the guard received no signal.
   static int exit_code();
+  /// Whether the signal came from outside (SIGTERM or SIGHUP), not from the keyboard.
+  static bool from_outside();
 
   static constexpr std::string_view kPassNote =
       "\npelage: stopping after this pass; press Ctrl-C again to quit now\n";
@@ -33,6 +36,22 @@ class SignalGuard {
 
  private:
   std::array<struct sigaction, kHandled.size()> old_;
+};
+
+/// While this object exists, SIGUSR1 only adds 1 to a count; otherwise SIGUSR1 ends the process. Only one
+/// such object may exist at a time.
+class CheckpointSignal {
+ public:
+  CheckpointSignal();
+  ~CheckpointSignal();
+  CheckpointSignal(const CheckpointSignal&) = delete;
+  CheckpointSignal& operator=(const CheckpointSignal&) = delete;
+
+  /// Number of signals so far. Cheap. Thread safety: may be called from any thread.
+  static uint32_t count();
+
+ private:
+  struct sigaction old_ {};
 };
 
 /// Prepares the process for safe output. Call it once per process, before starting threads. A write beyond a

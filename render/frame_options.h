@@ -8,6 +8,7 @@
 
 namespace pelage {
 
+class FrameSaver;
 class FrameWatch;
 
 /// How to render a frame, apart from the values of its scene.
@@ -15,6 +16,7 @@ struct FrameOptions {
   PathOptions path = {};
   std::optional<PixelBox> region = {};  ///< the only pixels to compute; empty: the whole picture
   FrameWatch* watch = nullptr;          ///< sees the film between passes; may be null
+  FrameSaver* saver = nullptr;          ///< stores the state of the frame; may be null, see check_saving()
 };
 
 }  // namespace pelage

@@ -13,6 +13,7 @@
 #include "render/frame/frame_geometry.h"
 #include "render/frame/frame_layers.h"
 #include "render/frame/frame_loop.h"
+#include "render/frame/frame_saver.h"
 #include "render/frame/frame_watch.h"
 #include "render/frame/sample_schedule.h"
 #include "render/gather/gather_loop.h"
@@ -52,11 +53,12 @@ class TighteningWatch final : public FrameWatch {
 TileCosts trace_paths(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
                       const Job& job, const Stopwatch& clock, FrameResult& result) {
   const PathTracer tracer(scene, geometry.accel(), result.film.layers(), options.path);
-  FrameLoop loop(tracer, job, result.film, result.window, clock);
+  FrameLoop loop(tracer, job, result.film, result.window, clock, options.saver);
   std::optional<TighteningWatch> watch;
   if (options.watch) watch.emplace(geometry, job, *options.watch);
   const ScheduleEnd end =
       SampleSchedule(loop, scene.render, job, clock, geometry.fits(), watch ? &*watch : nullptr).run();
+  if (end.partial && options.saver) options.saver->save(loop.state());
   result.partial = end.partial;
   result.time_limited = end.time_limited;
   result.samples = loop.min_samples();
@@ -74,7 +76,7 @@ TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameO
   std::optional<TighteningWatch> watch;
   if (options.watch) watch.emplace(geometry, job, *options.watch);
   GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options.path, tiles, geometry.fits(), job,
-                  clock, result, watch ? &*watch : nullptr);
+                  clock, result, watch ? &*watch : nullptr, options.saver);
   loop.run();
   return loop.costs();
 }
@@ -94,6 +96,15 @@ void check_region(const ImageParams& image, const RenderParams& render, const Pi
   if (render.adaptive) refuse("`adaptive` sampling needs the whole picture");
 }
 
+void check_saving(const RenderParams& render) {
+  const auto refuse = [](const std::string& why) {
+    throw Error(ErrorKind::kArguments, "checkpoints do not work with " + why);
+  };
+  if (render.adaptive)
+    refuse("`adaptive` sampling, where the sample count of a pixel depends on the whole picture");
+  if (render.time_limit > 0) refuse("`time_limit`, because the picture then depends on the speed of the run");
+}
+
 FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOptions& options) {
   std::unique_ptr<FrameGeometry> geometry;
   return render_frame(scene, job, options, geometry);
@@ -103,6 +114,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
                          std::unique_ptr<FrameGeometry>& geometry, KeptFur* kept) {
   const Stopwatch clock;
   if (options.region) check_region(scene.image, scene.render, *options.region);
+  if (options.saver) check_saving(scene.render);
   const FilmLayers layers = film_layers(scene);
   job.ledger.set_limit(scene.render.memory.bytes);
   const FrameWindow window =

@@ -17,6 +17,10 @@ class KeptFur;
 /// sampling, where the sample count of a pixel depends on the whole picture.
 void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region);
 
+/// Throws Error (kArguments) when the frame cannot be continued bit for bit from a stored state: with
+/// adaptive sampling or a time limit. See FrameSaver.
+void check_saving(const RenderParams& render);
+
 /// Renders one frame with the integrator of the scene (render.integrator). First bounds all chunks. Then
 /// takes samples in passes over the whole picture (SampleSchedule, or GatherLoop for `gather`). A picture
 /// that is cancelled at any time is therefore valid, but has fewer samples.

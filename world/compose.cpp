@@ -43,6 +43,7 @@ class Composer {
       job_.check_stop();
       add(drawn[i], scene_.render.lod.enabled && !full_detail[i]);
     }
+    world_.poses = pose_hasher_.digest();
   }
 
  private:
@@ -72,6 +73,7 @@ class Composer {
     const Rgb tint = character.member ? character.member->tint : Rgb(1);
     const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
     charge(posed->bytes());
+    pose_hasher_.add(posed->hash());
     box.extendBy(posed->bound(BoundSpan::kShutter));
     const size_t own = world_.scene.skins.size();
     world_.scene.skins.push_back({character.name + "." + part.skin.name, posed, skin.rest,
@@ -122,6 +124,7 @@ class Composer {
   const LodView lod_view_;
   DetailPolicy detail_;
   std::shared_ptr<PoseCache> poses_;
+  ContentHasher pose_hasher_;
   std::set<std::tuple<const Groom*, uint64_t, uint64_t, float>> seen_;  // coats on poses
 };
 

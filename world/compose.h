@@ -34,6 +34,7 @@ struct World {
   WorldCounts counts;
   FrameHeader header;  ///< header of the EXR file; write_frame() adds the results of the render
   std::vector<MemoryCharge> charges;
+  ContentHash poses = {};  ///< hash of the surfaces of all skins, over the shutter
 };
 
 /// Makes the world of one frame: poses skins and coats, and sets up materials, lights and the camera. Does

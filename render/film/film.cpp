@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <type_traits>
 
 #include "base/check.h"
 
@@ -70,6 +71,14 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
 
   surfaces_[pixel].offer(sample.surface, sample.inside_pixel());
   return true;
+}
+
+std::vector<std::span<std::byte>> Film::state() {
+  // Any bytes are valid values of their members, which are numbers.
+  static_assert(std::is_standard_layout_v<FrontSurface> && sizeof(FrontSurface) == 14 * sizeof(float));
+  static_assert(std::is_standard_layout_v<PixelMoments> && sizeof(PixelMoments) == 24);
+  return {std::as_writable_bytes(sums_.values()), std::as_writable_bytes(std::span(counts_)),
+          std::as_writable_bytes(std::span(surfaces_)), std::as_writable_bytes(std::span(moments_))};
 }
 
 Rgb Film::radiance(int x, int y) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -63,6 +64,10 @@ class Film {
   /// Returns the indirect part of layers().scattered(light, group). Only with layers().events.
   Rgb indirect(int x, int y, size_t light, int group) const;
   const VisibleSurface& surface(int x, int y) const { return surfaces_[index(x, y)].surface; }
+
+  /// Returns the memory that add() changes, in blocks. A film of the same size and layers with the same bytes
+  /// in its blocks is the same film.
+  std::vector<std::span<std::byte>> state();
 
   /// Returns all channels of rows y0 .. y1-1. As half: R G B A and the light layers. As float: Z, N, tangent,
   /// forward and root. As uint: id. With layers().noise, there are two more channels: `samples` as uint, and

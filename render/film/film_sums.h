@@ -50,6 +50,9 @@ class FilmSums {
   /// Call once per sample.
   void add_weight(int x, int y, const Footprint& footprint);
 
+  /// Returns the memory of the sums.
+  std::span<float> values() { return sums_; }
+
   /// Returns the weighted mean of a channel of pixel (x, y); 0 where nothing was added.
   float mean(int x, int y, size_t channel) const;
 

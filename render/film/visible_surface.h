@@ -28,20 +28,20 @@ struct VisibleSurface {
 /// surface that any sample of the pixel sees.
 struct FrontSurface {
   VisibleSurface surface;
-  bool inside_pixel = false;  ///< whether a sample inside the pixel sees the surface
+  uint32_t inside_pixel = 0;  ///< 1 if a sample inside the pixel sees the surface, otherwise 0
 
   /// Replaces the surface by `other` if the sample that sees `other` takes precedence. Returns whether it was
   /// replaced. `inside`: whether that sample is inside the pixel.
   bool offer(const VisibleSurface& other, bool inside) {
     if (!yields_to(other.depth, inside)) return false;
     surface = other;
-    inside_pixel = inside;
+    inside_pixel = inside ? 1 : 0;
     return true;
   }
   /// Returns whether offer() would replace the surface by one at `depth`.
   bool yields_to(float depth, bool inside) const {
-    const bool first_inside = inside && !inside_pixel;
-    const bool nearer = inside == inside_pixel && depth < surface.depth;
+    const bool first_inside = inside && inside_pixel == 0;
+    const bool nearer = inside == (inside_pixel != 0) && depth < surface.depth;
     return first_inside || nearer;
   }
 };

@@ -30,7 +30,7 @@ std::vector<Tile> tiles_within(const PixelBox& traced, const Film& film) {
 }  // namespace
 
 FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film,
-                     const FrameWindow& window, const Stopwatch& clock)
+                     const FrameWindow& window, const Stopwatch& clock, FrameSaver* saver)
     : integrator_(integrator),
       job_(job),
       film_(film),
@@ -38,6 +38,7 @@ FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& f
       top_(window.film.y0),
       traced_(moved(window.traced, -left_, -top_)),
       clock_(clock),
+      saver_(saver),
       tiles_(tiles_within(traced_, film)),
       costs_(static_cast<size_t>(tile_count(film.width())) * static_cast<size_t>(tile_count(film.height()))),
       sample_counts_(static_cast<size_t>(film.width()) * static_cast<size_t>(film.height())) {
@@ -45,6 +46,13 @@ FrameLoop::FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& f
     scratch_.push_back(integrator.make_scratch());
     scratch_.back()->thread.worker = worker;
   }
+  if (saver_) saver_->restore(state());
+}
+
+FrameState FrameLoop::state() {
+  FrameState blocks = film_.state();
+  blocks.push_back(std::as_writable_bytes(std::span(sample_counts_)));
+  return blocks;
 }
 
 uint32_t FrameLoop::min_samples() const {
@@ -62,12 +70,25 @@ double FrameLoop::mean_samples() const {
 
 PassEnd FrameLoop::pass(const Goal& goal, bool scattered, double deadline_s) {
   const std::vector<Tile> tiles = scattered ? pelage::scattered(tiles_) : tiles_;
-  return trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
-    if (!trace(tile, goal, *scratch_[static_cast<size_t>(worker)])) return false;
-    double none = 0;
-    if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
-    return true;
-  });
+  while (true) {
+    const PassEnd end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
+      if (saver_ && saver_->due()) return false;
+      if (!trace(tile, goal, *scratch_[static_cast<size_t>(worker)])) return false;
+      double none = 0;
+      if (first_tile_s_ == 0) first_tile_s_.compare_exchange_strong(none, clock_.seconds());
+      return true;
+    });
+    if (end != PassEnd::kCancelled || !saver_ || job_.progress.cancelled()) return end;
+    saver_->save(state());
+  }
+}
+
+uint32_t FrameLoop::min_samples(const Tile& tile) const {
+  uint32_t min = std::numeric_limits<uint32_t>::max();
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) min = std::min(min, sample_counts_[pixel_of(x, y)]);
+  }
+  return min;
 }
 
 bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch) {
@@ -76,14 +97,18 @@ bool FrameLoop::trace(const Tile& tile, const Goal& goal, SampleScratch& scratch
   int64_t traced = 0;
   // Splatted samples of several pixels enter the same sum. They are traced sample by sample, so that the
   // order of the sum does not depend on how many samples a pass takes.
+  // If they were interrupted within a sample, the pixels that lack it come first.
   const bool splatted = film_.layers().splat.has_value();
-  const uint32_t at_once = splatted ? 1 : std::numeric_limits<uint32_t>::max();
+  constexpr uint32_t kAll = std::numeric_limits<uint32_t>::max();
+  const uint32_t at_once = splatted ? 1 : kAll;
   bool stopped = false;
   for (bool more = true; more && !stopped;) {
     more = false;
+    const uint32_t fewest = splatted ? min_samples(tile) : kAll;
     for (int y = tile.y0; y < tile.y1 && !stopped; ++y) {
       for (int x = tile.x0; x < tile.x1 && !stopped; ++x) {
         uint32_t& given = sample_counts_[pixel_of(x, y)];
+        if (given > fewest) continue;
         const uint32_t before = given;
         stopped = !trace_pixel(x, y, goal, at_once, given, scratch);
         traced += given - before;
@@ -105,7 +130,8 @@ bool FrameLoop::trace_pixel(int x, int y, const Goal& goal, uint32_t at_once, ui
   uint32_t left = at_once;
   for (uint32_t until = goal(pixel, given); left > 0 && given < until; until = goal(pixel, given)) {
     for (; left > 0 && given < until; ++given, --left) {
-      if (given % kSamplesPerCheck == 0 && job_.progress.cancelled()) return false;
+      const bool checks = given % kSamplesPerCheck == 0;
+      if (checks && (job_.progress.cancelled() || (saver_ && saver_->due()))) return false;
       integrator_.trace(left_ + x, top_ + y, given, scratch);
       if (!film_.add(x, y, scratch.sample, scratch.by_layer)) ++rejected_;
     }

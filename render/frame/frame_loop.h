@@ -11,6 +11,7 @@
 #include "base/job.h"
 #include "base/stopwatch.h"
 #include "render/film/film.h"
+#include "render/frame/frame_saver.h"
 #include "render/frame/frame_statistics.h"
 #include "render/frame/frame_window.h"
 #include "render/frame/sample_integrator.h"
@@ -27,9 +28,11 @@ class FrameLoop {
   /// the result is not greater than `given`.
   using Goal = std::function<uint32_t(size_t pixel, uint32_t given)>;
 
-  /// `film`: stores the pixels window.film. `clock`: deadlines are in seconds on this clock.
+  /// `film`: stores the pixels window.film. `clock`: deadlines are in seconds on this clock. `saver`: stores
+  /// the state of the frame during passes; may be null. The constructor restores the state that the saver
+  /// has.
   FrameLoop(const SampleIntegrator& integrator, const Job& job, Film& film, const FrameWindow& window,
-            const Stopwatch& clock);
+            const Stopwatch& clock, FrameSaver* saver = nullptr);
 
   int width() const { return film_.width(); }
   int height() const { return film_.height(); }
@@ -50,6 +53,8 @@ class FrameLoop {
   /// tiles are far apart instead, so that threads that start together do not wait for the same fur. One
   /// thread adds all samples of a pixel, in order. Starts no more tiles once the clock passes `deadline_s`.
   PassEnd pass(const Goal& goal, bool scattered, double deadline_s = std::numeric_limits<double>::infinity());
+  /// Returns the state of the frame, for the saver. Call between passes.
+  FrameState state();
 
   /// Returns the mean time per sample, in seconds of one thread, over all samples so far of the tile that
   /// contains the pixel; 0 if it has none.
@@ -72,6 +77,8 @@ class FrameLoop {
   /// Adds samples to a pixel, at most `at_once`, until it has as many as `goal` says. Returns false when
   /// cancelled. `given`: count of its samples.
   bool trace_pixel(int x, int y, const Goal& goal, uint32_t at_once, uint32_t& given, SampleScratch& scratch);
+  /// Returns the min sample count over the pixels of a tile.
+  uint32_t min_samples(const Tile& tile) const;
   size_t tile_of(int x, int y) const;
   size_t pixel_of(int x, int y) const {
     return static_cast<size_t>(y) * static_cast<size_t>(width()) + static_cast<size_t>(x);
@@ -83,6 +90,7 @@ class FrameLoop {
   const int left_, top_;   // pixel (0, 0) of the film, in the picture
   const PixelBox traced_;  // in pixels of the film, like all pixels of this class
   const Stopwatch& clock_;
+  FrameSaver* saver_;
   std::vector<Tile> tiles_;
   std::vector<TileCost> costs_;                          // by tile, row by row
   std::vector<uint32_t> sample_counts_;                  // by pixel

@@ -121,7 +121,9 @@ double SampleSchedule::deadline() const {
 ScheduleEnd SampleSchedule::run() {
   End end = End::kDone;
   if (!params_.adaptive) {
-    job_.progress.begin("render", static_cast<double>(loop_.traced_count()) * max_samples());
+    const auto pixels = static_cast<double>(loop_.traced_count());
+    job_.progress.begin("render", pixels * max_samples());
+    job_.progress.advance(pixels * loop_.mean_samples());  // of a frame that was restored
     end = uniform(max_samples());
   } else if (params_.adaptive->rule == AdaptiveRule::kTwoStage) {
     end = two_stage();

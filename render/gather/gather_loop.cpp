@@ -41,23 +41,38 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
                        const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-                       const Stopwatch& clock, FrameResult& result, FrameWatch* watch)
+                       const Stopwatch& clock, FrameResult& result, FrameWatch* watch, FrameSaver* saver)
     : scene_(scene),
       tile_(scene, accel, chunks, result.film.layers(), options),
       job_(job),
       clock_(clock),
       result_(result),
       watch_(watch),
+      saver_(saver),
       in_passes_(fits || scene.render.time_limit > 0),
       first_alone_(scene.render.time_limit > 0 || scene.render.samples > kFew),
       refines_(watch && scene.render.time_limit <= 0),
       tiles_(tiles_of(result.window.film)),
-      given_(tiles_.size()),
+      sample_counts_(tiles_.size()),
       free_(memory.tiles) {
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
     idle_.push_back(scratch_.back().get());
   }
+  if (saver_) saver_->restore(state());
+}
+
+FrameState GatherLoop::state() {
+  FrameState blocks = result_.film.state();
+  blocks.push_back(std::as_writable_bytes(std::span(sample_counts_)));
+  return blocks;
+}
+
+size_t GatherLoop::tile_of(const Tile& tile) const {
+  const PixelBox& film = result_.window.film;
+  const int columns = (film.width() + GatherTile::kSide - 1) / GatherTile::kSide;
+  return static_cast<size_t>((tile.y0 - film.y0) / GatherTile::kSide) * static_cast<size_t>(columns) +
+         static_cast<size_t>((tile.x0 - film.x0) / GatherTile::kSide);
 }
 
 uint32_t GatherLoop::fitting(uint32_t count, uint32_t given) const {
@@ -78,6 +93,8 @@ void GatherLoop::run() {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double limit_s = scene_.render.time_limit > 0 ? double{scene_.render.time_limit} : kNever;
   job_.progress.begin("render", pixels * samples);
+  for (const Tile& tile : tiles_)  // of a frame that was restored
+    job_.progress.advance(1.0 * (tile.x1 - tile.x0) * (tile.y1 - tile.y0) * sample_counts_[tile_of(tile)]);
   PassEnd end = PassEnd::kDone;
   for (uint32_t given = 0; given < samples && end == PassEnd::kDone;) {
     const bool is_first = given == 0 && first_alone_ && in_passes_;
@@ -90,22 +107,16 @@ void GatherLoop::run() {
     if (count < wanted && end == PassEnd::kDone) end = PassEnd::kOutOfTime;
   }
   job_.progress.end();
+  if (end == PassEnd::kCancelled && saver_) saver_->save(state());
   report(end);
-}
-
-uint32_t& GatherLoop::given(const Tile& tile) {
-  const PixelBox& film = result_.window.film;
-  const int columns = (film.width() + GatherTile::kSide - 1) / GatherTile::kSide;
-  const int column = (tile.x0 - film.x0) / GatherTile::kSide, row = (tile.y0 - film.y0) / GatherTile::kSide;
-  return given_[static_cast<size_t>(row * columns + column)];
 }
 
 void GatherLoop::tell_watch() const {
   if (!watch_) return;
   double sum = 0;
-  for (const uint32_t given : given_) sum += given;
-  const uint32_t min = *std::min_element(given_.begin(), given_.end());
-  watch_->passed(result_.film, {min, sum / static_cast<double>(given_.size()), 1, full_});
+  for (const uint32_t count : sample_counts_) sum += count;
+  const uint32_t min = *std::min_element(sample_counts_.begin(), sample_counts_.end());
+  watch_->passed(result_.film, {min, sum / static_cast<double>(sample_counts_.size()), 1, full_});
 }
 
 PassEnd GatherLoop::pass(const Pass& pass, double deadline_s) {
@@ -119,7 +130,7 @@ PassEnd GatherLoop::pass(const Pass& pass, double deadline_s) {
 PassEnd GatherLoop::refine_region() {
   region_seen_ = watch_->region_version();
   const std::optional<PixelBox> region = watch_->region();
-  const bool has_samples = *std::min_element(given_.begin(), given_.end()) > 0;
+  const bool has_samples = *std::min_element(sample_counts_.begin(), sample_counts_.end()) > 0;
   if (!region || !has_samples) return PassEnd::kDone;
   std::vector<Tile> inside;
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
@@ -143,9 +154,14 @@ PassEnd GatherLoop::refine_region() {
 
 PassEnd GatherLoop::trace(const Pass& pass, const std::vector<Tile>& tiles, double deadline_s) {
   const double began = clock_.seconds();
-  const PassEnd end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
-    return !is_current() || trace_tile(pass, tile, worker);
-  });
+  PassEnd end = PassEnd::kCancelled;
+  while (true) {
+    end = trace_tiles(tiles, job_, clock_, deadline_s, [&](const Tile& tile, int worker) {
+      return !is_current() || trace_tile(pass, tile, worker);
+    });
+    if (end != PassEnd::kCancelled || !saver_ || job_.progress.cancelled()) break;
+    saver_->save(state());
+  }
   sample_s_ = (clock_.seconds() - began) / pass.count;
   return end;
 }
@@ -175,14 +191,17 @@ class GatherLoop::Lease {
   GatherTile::Scratch* scratch_;
 };
 
-/// Takes the samples of the pass that the tile does not have yet. False when cancelled.
+/// Takes the samples of the pass that the tile does not have yet. False when cancelled or when the state of
+/// the frame should be saved.
 bool GatherLoop::trace_tile(const Pass& pass, const Tile& tile, int worker) {
   uint32_t& first = given(tile);
+  const uint32_t end = pass.first + pass.count;
+  if (first >= end) return true;
   Lease lease(*this);
   const TileTimer timer(lease.scratch().costs);
   lease.scratch().thread.worker = worker;
-  const uint32_t end = pass.first + pass.count;
   while (first < end) {
+    if (saver_ && saver_->due()) return false;
     const uint32_t count = portion(first, end);
     if (!tile_.trace(tile, first, count, job_, lease.scratch())) return false;
     land(count, tile, lease.scratch());

@@ -12,6 +12,7 @@
 #include "base/ledger.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_result.h"
+#include "render/frame/frame_saver.h"
 #include "render/frame/frame_watch.h"
 #include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
@@ -41,10 +42,12 @@ class GatherLoop {
 
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
   /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it. `watch`:
-  /// sees the film after each pass; may be null.
+  /// sees the film after each pass; may be null. `saver`: stores the state of the frame; may be null. The
+  /// constructor restores the state that it has.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
              const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-             const Stopwatch& clock, FrameResult& result, FrameWatch* watch = nullptr);
+             const Stopwatch& clock, FrameResult& result, FrameWatch* watch = nullptr,
+             FrameSaver* saver = nullptr);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -66,6 +69,8 @@ class GatherLoop {
   /// Returns whether the watch still has the region that refine_region() has seen.
   bool is_current() const { return !refines_ || watch_->region_version() == region_seen_; }
   void tell_watch() const;
+  FrameState state();
+  size_t tile_of(const Tile& tile) const;
   /// Returns how many samples per pixel the next pass can take within the time limit: at most `count`.
   /// `given`: samples per pixel so far.
   uint32_t fitting(uint32_t count, uint32_t given) const;
@@ -73,7 +78,7 @@ class GatherLoop {
   /// Returns how many of the samples first .. end - 1 share light with sample `first`.
   uint32_t portion(uint32_t first, uint32_t end) const;
   /// Returns the samples per pixel that a tile has so far.
-  uint32_t& given(const Tile& tile);
+  uint32_t& given(const Tile& tile) { return sample_counts_[tile_of(tile)]; }
   void land(uint32_t count, const Tile& tile, GatherTile::Scratch& scratch);
   void report(PassEnd end);
 
@@ -83,13 +88,14 @@ class GatherLoop {
   const Stopwatch& clock_;
   FrameResult& result_;
   FrameWatch* const watch_;
+  FrameSaver* const saver_;
   const bool in_passes_;    // otherwise, a tile gets all its samples before the next tile
   const bool first_alone_;  // whether the first sample of a pixel shares no light with further samples
   const bool refines_;      // whether the watch may choose a region
   std::vector<Tile> tiles_;
-  std::vector<uint32_t> given_;  // given(), row by row
-  uint32_t region_seen_ = 0;     // version of the watch's region that the current pass takes into account
-  PixelBox full_;                // see PassState
+  std::vector<uint32_t> sample_counts_;  // given(), by tile, row by row
+  uint32_t region_seen_ = 0;  // version of the watch's region that the current pass takes into account
+  PixelBox full_;             // see PassState
   std::vector<std::unique_ptr<GatherTile::Scratch>> scratch_;
   std::counting_semaphore<> free_;  // its count is the size of idle_
   std::mutex idle_mutex_;

@@ -12,6 +12,7 @@ struct PixelMoments {
   double mean = 0;
   double squares = 0;  ///< sum of squared deviations from the mean
   uint32_t count = 0;
+  uint32_t unused = 0;  ///< makes each byte of the struct defined
 
   void add(double x) {
     ++count;

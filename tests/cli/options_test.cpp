@@ -121,6 +121,27 @@ TEST(Options, OfWhy) {
   }
 }
 
+TEST(Options, OfCheckpoints) {
+  const CheckpointOptions none = parsed({"render", "s"}).checkpoint;
+  EXPECT_FALSE(none.folder || none.resume);
+  const CheckpointOptions some = parsed({"render", "s", "--checkpoint", "ck", "--resume"}).checkpoint;
+  EXPECT_EQ(some.folder, "ck");
+  EXPECT_TRUE(some.resume);
+  EXPECT_EQ(some.every_s, 60);
+  for (const auto& [text, seconds] : {std::pair{"90", 90.0}, {"0.5s", 0.5}, {"5m", 300.0}, {"2h", 7200.0}})
+    EXPECT_EQ(parsed({"render", "s", "--checkpoint", "ck", "--every", text}).checkpoint.every_s, seconds);
+  for (const char* text : {"0s", "-1", "5 m", "5d", "m", "1e9", "nan", "1m30s"}) {
+    EXPECT_EQ(
+        problem({"render", "s", "--checkpoint", "ck", std::string("--every=") + text}),
+        "--every: expected a time from 0.1s to 168h such as 60s, 5m or 2h, got '" + std::string(text) + "'");
+  }
+  EXPECT_EQ(problem({"render", "s", "--checkpoint", ""}), "--checkpoint: the name of the folder is empty");
+  EXPECT_EQ(problem({"render", "s", "--resume"}),
+            "--resume requires --checkpoint; see 'pelage render --help'");
+  EXPECT_EQ(problem({"render", "s", "--every", "5s"}),
+            "--every requires --checkpoint; see 'pelage render --help'");
+}
+
 TEST(Options, MistakesNameWhatWasMeant) {
   EXPECT_NE(problem({"grow", "s", "--lod"}).find("--output"), std::string::npos);
   EXPECT_EQ(problem({}), "expected a command; see 'pelage --help'");

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A furry cube for tests that run the program, and how they run it."""
 import pathlib
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -30,6 +31,17 @@ f 3 7 8 4
 f 1 5 7 3
 f 2 4 8 6
 """
+
+
+def exr_pixels(path):
+    """The compressed pixels of an EXR file, without its header."""
+    data, at = path.read_bytes(), 8
+    while data[at]:  # attributes: name, type, size, value
+        at = data.index(0, data.index(0, at) + 1) + 1
+        at += 4 + struct.unpack_from("<i", data, at)[0]
+    first, = struct.unpack_from("<Q", data, at + 1)  # of the table of offsets
+    assert at < first < len(data), (at, first, len(data))
+    return data[first:]
 
 
 class ProgramTest(unittest.TestCase):

@@ -46,6 +46,32 @@ TEST(Signals, OldHandlersComeBack) {
   EXPECT_EQ(before.sa_handler, after.sa_handler);
 }
 
+TEST(Signals, Usr1OnlyCountsWhileCheckpointsAreMade) {
+  struct sigaction before {
+  }, after{};
+  ::sigaction(SIGUSR1, nullptr, &before);
+  {
+    const SignalGuard guard;
+    const CheckpointSignal checkpoints;
+    const uint32_t count = CheckpointSignal::count();
+    ::raise(SIGUSR1);
+    ::raise(SIGUSR1);
+    EXPECT_EQ(CheckpointSignal::count(), count + 2);
+    EXPECT_FALSE(SignalGuard::interrupted());
+  }
+  ::sigaction(SIGUSR1, nullptr, &after);
+  EXPECT_EQ(before.sa_handler, after.sa_handler);
+}
+
+TEST(Signals, TheKeyboardIsNotOutside) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const SignalGuard guard;
+    EXPECT_FALSE(SignalGuard::from_outside());
+    ::raise(signal);
+    EXPECT_EQ(SignalGuard::from_outside(), signal != SIGINT);
+  }
+}
+
 TEST(SignalsDeathTest, TheSecondEndsTheProcess) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(

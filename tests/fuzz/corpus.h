@@ -23,6 +23,7 @@ std::vector<std::string> exr_corpus();
 std::vector<std::string> post_corpus();
 std::vector<std::string> scene_corpus();
 std::vector<std::string> cache_corpus();
+std::vector<std::string> checkpoint_corpus();
 std::vector<std::string> leaf_corpus();
 std::vector<std::string> fur_corpus();
 std::vector<std::string> treelet_corpus();

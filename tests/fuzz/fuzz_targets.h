@@ -25,6 +25,8 @@ void fuzz_scene(std::span<const uint8_t> bytes);
 
 /// A file of a content store, and what `pelage info` says of it.
 void fuzz_cache(std::span<const uint8_t> bytes);
+/// A checkpoint, as it is and as if its checksums were right.
+void fuzz_checkpoint(std::span<const uint8_t> bytes);
 /// A leaf of an operator cache, as if its checksum were right; and a layer of one.
 void fuzz_leaf(std::span<const uint8_t> bytes);
 

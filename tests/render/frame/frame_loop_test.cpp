@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/frame/frame_loop.h"
 
+#include <algorithm>
+#include <atomic>
+
 #include <gtest/gtest.h>
 
 #include "base/hash.h"
@@ -23,6 +26,47 @@ class RandomSamples : public SampleIntegrator {
 };
 
 constexpr int kWidth = 40, kHeight = 35;
+
+using Bytes = std::vector<std::vector<std::byte>>;
+
+/// Asks for the state at random moments, keeps it, and cancels the job after some of these.
+class RandomMoments final : public FrameSaver, public Progress {
+ public:
+  /// `saves_left`: cancels after this count of saves; negative: never.
+  RandomMoments(uint64_t seed, int saves_left, Bytes kept = {})
+      : seed_(seed), saves_left_(saves_left), kept_(std::move(kept)) {
+    draw();
+  }
+  bool due() const override { return calls_.fetch_sub(1) <= 0; }
+  void save(const FrameState& state) override {
+    kept_.clear();
+    for (const auto& block : state) kept_.emplace_back(block.begin(), block.end());
+    ++saves_;
+    if (--saves_left_ == 0) cancelled_ = true;
+    draw();
+  }
+  bool restore(const FrameState& state) override {
+    for (size_t i = 0; i < kept_.size(); ++i) std::copy(kept_[i].begin(), kept_[i].end(), state[i].begin());
+    return !kept_.empty();
+  }
+  void begin(std::string_view, double) override {}
+  void advance(double) override {}
+  void end() override {}
+  bool cancelled() const override { return cancelled_; }
+
+  const Bytes& kept() const { return kept_; }
+  int saves() const { return saves_; }
+
+ private:
+  // More calls than there are tiles, so that each save has new samples.
+  void draw() { calls_ = 20 + static_cast<int>(hash64(seed_, saves_) % 300); }
+
+  uint64_t seed_;
+  int saves_ = 0, saves_left_;
+  Bytes kept_;
+  mutable std::atomic<int> calls_{0};
+  std::atomic<bool> cancelled_{false};
+};
 
 Film film_after(const std::vector<uint32_t>& passes, FilmLayers layers, int threads, MemoryLedger& ledger) {
   Film film(kWidth, kHeight, layers, ledger);
@@ -52,6 +96,44 @@ TEST(FrameLoop, ThePictureDoesNotDependOnPassesAndThreads) {
         ASSERT_EQ(at_once.samples(x, y), 11u);
       }
     }
+  }
+}
+
+TEST(FrameLoop, AStateSavedAtAnyMomentLeadsToTheSameFilm) {
+  MemoryLedger ledger;
+  for (const bool splatted : {false, true}) {
+    FilmLayers layers;
+    layers.noise = !splatted;
+    if (splatted) layers.splat = PixelFilter::kBlackmanHarris;
+    Film whole = film_after({11}, layers, 1, ledger);
+    int saves = 0;
+    for (uint64_t seed = 0; seed < 12; ++seed) {
+      const int threads = 1 + static_cast<int>(seed % 3);
+      // Each run begins with the state that the last run saved before it was cancelled.
+      Bytes kept;
+      PassEnd end = PassEnd::kCancelled;
+      for (uint64_t run = 0; end != PassEnd::kDone; ++run) {
+        Film film(kWidth, kHeight, layers, ledger);
+        const Workers workers(threads);
+        RandomMoments moments(hash64(seed, run), run < 5 ? 2 : -1, kept);
+        const Stopwatch clock;
+        const RandomSamples samples;
+        FrameLoop loop(samples, {workers, ledger, moments}, film,
+                       frame_window(kWidth, kHeight, {}, layers.splat), clock, &moments);
+        for (const uint32_t count : {1u, 3u, 11u}) {
+          end = loop.pass([count](size_t, uint32_t) { return count; }, count == 1);
+          if (end != PassEnd::kDone) break;
+        }
+        kept = moments.kept();
+        saves += moments.saves();
+        if (end != PassEnd::kDone) continue;
+        const FrameState wanted = whole.state(), got = film.state();
+        for (size_t i = 0; i < wanted.size(); ++i)
+          ASSERT_TRUE(std::equal(wanted[i].begin(), wanted[i].end(), got[i].begin()))
+              << splatted << seed << i;
+      }
+    }
+    EXPECT_GT(saves, 60);
   }
 }
 

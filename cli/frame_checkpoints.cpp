@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/checkpoint_test.py.
+#include "cli/frame_checkpoints.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "cli/output_files.h"
+#include "render/render_frame.h"
+
+namespace pelage {
+
+FrameCheckpoints::FrameCheckpoints(const Options& options, const SceneDescription& scene, Progress& progress)
+    : options_(options.checkpoint), region_(options.picture.region), progress_(progress) {
+  if (!options_.folder) return;
+  check_saving(scene.render);
+  for (const int frame : scene.frames.frames) {
+    const auto file = std::filesystem::path(*options_.folder) / checkpoint_name(frame, region_);
+    check_replaces_none("--checkpoint", file, scene.files);
+  }
+  prepare_output(std::filesystem::path(*options_.folder) / "probe.checkpoint");
+  inputs_ = frame_inputs(scene);
+  signal_.emplace();
+}
+
+Checkpoint* FrameCheckpoints::of(int frame) {
+  if (!options_.folder) return nullptr;
+  std::unique_ptr<Checkpoint>& checkpoint = checkpoints_[frame];
+  if (!checkpoint) {
+    checkpoint = std::make_unique<Checkpoint>(
+        std::filesystem::path(*options_.folder) / checkpoint_name(frame, region_),
+        frame_inputs(inputs_, frame, region_),
+        Checkpoint::Schedule{options_.every_s, &CheckpointSignal::count}, progress_);
+  }
+  return checkpoint.get();
+}
+
+std::vector<int> FrameCheckpoints::unfinished(const std::vector<int>& frames,
+                                              const std::function<std::string(int)>& picture) {
+  if (!options_.resume) return frames;
+  std::vector<int> left;
+  for (const int frame : frames) {
+    const Checkpoint::Found found = of(frame)->find(picture(frame));
+    if (found != Checkpoint::Found::kPicture) left.push_back(frame);
+    const std::string file = of(frame)->file().string();
+    if (found == Checkpoint::Found::kPicture) {
+      progress_.note(picture(frame) + "  is finished, skipped");
+    } else if (found == Checkpoint::Found::kState) {
+      progress_.note(file + "  is continued");
+    } else {
+      progress_.note(
+          fmt::format("{}  has no state to continue from; the frame starts from the beginning", file));
+    }
+  }
+  return left;
+}
+
+}  // namespace pelage
