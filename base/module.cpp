@@ -14,6 +14,9 @@ namespace pelage {
 
 namespace {
 
+// Its address tells which file contains this code.
+void own_address() {}
+
 std::vector<std::filesystem::path> search_folders() {
   std::vector<std::filesystem::path> folders;
   std::error_code error;
@@ -22,6 +25,11 @@ std::vector<std::filesystem::path> search_folders() {
     const std::filesystem::path prefix = executable.parent_path().parent_path();
     folders.push_back(prefix / "lib");
     folders.push_back(prefix / "lib" / "pelage");
+  }
+  Dl_info own{};
+  if (::dladdr(reinterpret_cast<const void*>(&own_address), &own) != 0 && own.dli_fname) {
+    const std::filesystem::path library = std::filesystem::canonical(own.dli_fname, error);
+    if (!error && library != executable) folders.push_back(library.parent_path());
   }
   if (const char* list = std::getenv("PELAGE_MODULE_PATH")) {
     const std::string paths = list;
@@ -59,6 +67,8 @@ Module::Module(const std::string& name) {
 Module::~Module() {
   if (handle_) ::dlclose(handle_);
 }
+
+void* program_symbol(const char* name) { return ::dlsym(RTLD_DEFAULT, name); }
 
 void* Module::symbol(const char* name) const {
   void* address = ::dlsym(handle_, name);

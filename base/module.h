@@ -9,8 +9,9 @@ namespace pelage {
 /// A shared library that the constructor opens and the destructor closes.
 class Module {
  public:
-  /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable, then the
-  /// folders of the environment variable PELAGE_MODULE_PATH, then the folders where the system looks for
+  /// Opens lib`name`.so. Searches ../lib and ../lib/pelage beside the folder of the executable, then, if this
+  /// code is in a shared library, the folder of this library, then the folders of the environment variable
+  /// PELAGE_MODULE_PATH, then the folders where the system looks for
   /// libraries. Throws Error (kFailed) when the library cannot be loaded, or when it is not found. In the
   /// latter case, the message lists all paths tried, except those of the system.
   explicit Module(const std::string& name);
@@ -26,5 +27,9 @@ class Module {
   void* handle_ = nullptr;
   std::filesystem::path path_;
 };
+
+/// Returns the address of a function of the program that has loaded this code, or of a library with which
+/// this program was linked. Returns null if there is no function of this name.
+void* program_symbol(const char* name);
 
 }  // namespace pelage

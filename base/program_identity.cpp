@@ -44,9 +44,27 @@ std::string build_id(const dl_phdr_info& object) {
   return id;
 }
 
-// The first object is the program itself; a non-zero result ends the iteration.
-int look_at_first(dl_phdr_info* object, size_t, void* found) {
-  *static_cast<std::string*>(found) = build_id(*object);
+/// The program or library that contains this code.
+struct Own {
+  std::string id;
+  std::string file = "/proc/self/exe";  // the program has no name in the list of objects
+};
+
+bool contains(const dl_phdr_info& object, uintptr_t address) {
+  for (int i = 0; i < object.dlpi_phnum; ++i) {
+    const ElfW(Phdr)& part = object.dlpi_phdr[i];
+    const uintptr_t begin = object.dlpi_addr + part.p_vaddr;
+    if (part.p_type == PT_LOAD && address >= begin && address - begin < part.p_memsz) return true;
+  }
+  return false;
+}
+
+// A non-zero result ends the iteration.
+int look_for_own(dl_phdr_info* object, size_t, void* found) {
+  if (!contains(*object, reinterpret_cast<uintptr_t>(&look_for_own))) return 0;
+  auto& own = *static_cast<Own*>(found);
+  own.id = build_id(*object);
+  if (object->dlpi_name && object->dlpi_name[0] != '\0') own.file = object->dlpi_name;
   return 1;
 }
 
@@ -74,11 +92,11 @@ std::string library_identity(std::string_view name) {
 }
 
 std::string program_identity() {
-  std::string id;
-  ::dl_iterate_phdr(look_at_first, &id);
-  if (!id.empty()) return id;
+  Own own;
+  ::dl_iterate_phdr(look_for_own, &own);
+  if (!own.id.empty()) return own.id;
   try {
-    return to_string(content_hash(MappedFile("/proc/self/exe").bytes()));
+    return to_string(content_hash(MappedFile(own.file).bytes()));
   } catch (const Error&) {
     return "unknown";
   }

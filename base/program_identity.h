@@ -6,9 +6,10 @@
 
 namespace pelage {
 
-/// Returns a text that identifies this build of the program. Results of different builds may differ in the
-/// last digit or more. The text is the linker's build id or, if there is none, a hash of the executable file;
-/// "unknown" when this file cannot be read.
+/// Returns a text that identifies this build of the program or, if this code is in a shared library that
+/// another program has loaded, of this library. Results of different builds may differ in the last digit or
+/// more. The text is the linker's build id or, if there is none, a hash of the file; "unknown" when this file
+/// cannot be read.
 std::string program_identity();
 
 /// Returns the build id of the first loaded shared library whose file name contains `name`. Returns "none"

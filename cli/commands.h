@@ -18,6 +18,8 @@ int run_merge(const Options& options);
 int run_convert(const Options& options);
 int run_motion_blur(const Options& options);
 int run_stereo(const Options& options);
+int run_rib(const Options& options);
+int run_procedural(const Options& options);
 int run_view(const Options& options);
 int run_why(const Options& options);
 int run_manual(const Options& options);

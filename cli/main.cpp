@@ -38,6 +38,10 @@ int run(const pelage::Options& options) {
       return pelage::run_motion_blur(options);
     case Command::kStereo:
       return pelage::run_stereo(options);
+    case Command::kRib:
+      return pelage::run_rib(options);
+    case Command::kProcedural:
+      return pelage::run_procedural(options);
     case Command::kView:
       return pelage::run_view(options);
     case Command::kWhy:

@@ -15,6 +15,7 @@
 #include "cli/experiment_flags.h"
 #include "cli/number_checks.h"
 #include "cli/post_flags.h"
+#include "cli/rib_flags.h"
 #include "groom/curve_basis_names.h"
 #include "lab/compare/fibre_oracle.h"
 #include "world/frames.h"
@@ -250,6 +251,22 @@ void add_merge(CLI::App& app, Options& options, Texts& texts) {
   add_thread_flags(*merge, options, texts);
 }
 
+void add_rib(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* rib = app.add_subcommand("rib", "Write a scene as RIB for a RenderMan-compliant renderer");
+  add_scene_flags(*rib, options, texts);
+  rib->add_option("-o,--output", options.output,
+                  "File to write (.rib, or .rib.gz for a compressed file); %04d is the frame number")
+      ->required()
+      ->type_name("FILE.rib");
+  rib->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
+  add_rib_flags(*rib, options.rib);
+  add_run_flags(*rib, options, texts);
+
+  add_procedural_flags(
+      *app.add_subcommand("procedural", "Answer requests of RunProgram on standard input with RIB"),
+      options.rib);
+}
+
 void add_manual(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
   manual->add_option("SECTION", texts.section, "Print only this section, such as camera, curl or map field");
@@ -266,21 +283,28 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_compare(app, options, texts);
   add_info(app, options, texts);
   add_merge(app, options, texts);
+  add_rib(app, options, texts);
   add_convert(app, options, texts);
   add_post(app, options, texts);
   add_manual(app, options, texts);
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{
-      {"render", Command::kRender},   {"view", Command::kView},
-      {"why", Command::kWhy},
-
-      {"grow", Command::kGrow},       {"measure", Command::kMeasure},
-      {"trace", Command::kTrace},     {"compare", Command::kCompare},
-      {"info", Command::kInfo},       {"merge", Command::kMerge},
-      {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
-      {"stereo", Command::kStereo},   {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{{"render", Command::kRender},
+                                                    {"view", Command::kView},
+                                                    {"why", Command::kWhy},
+                                                    {"grow", Command::kGrow},
+                                                    {"measure", Command::kMeasure},
+                                                    {"trace", Command::kTrace},
+                                                    {"compare", Command::kCompare},
+                                                    {"info", Command::kInfo},
+                                                    {"merge", Command::kMerge},
+                                                    {"convert", Command::kConvert},
+                                                    {"motionblur", Command::kMotionBlur},
+                                                    {"stereo", Command::kStereo},
+                                                    {"rib", Command::kRib},
+                                                    {"procedural", Command::kProcedural},
+                                                    {"manual", Command::kManual}};
   return names;
 }
 

@@ -9,6 +9,7 @@
 
 #include "cli/checkpoint_flags.h"
 #include "cli/picture_flags.h"
+#include "cli/rib_flags.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
 #include "post/merge_pieces.h"
@@ -30,6 +31,8 @@ enum class Command {
   kConvert,
   kMotionBlur,
   kStereo,
+  kRib,
+  kProcedural,
   kManual
 };
 
@@ -99,6 +102,8 @@ struct Options {
 
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
+
+  RibOptions rib;  ///< rib, procedural: their flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/rib_test.py.
+#include <cstdio>
+#include <iostream>
+#include <string>
+
+#include "cli/commands.h"
+#include "renderman/program_replies.h"
+
+namespace pelage {
+namespace {
+
+class OutputSink final : public RibSink {
+ public:
+  void write(std::string_view bytes) override {
+    std::cout.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  }
+};
+
+}  // namespace
+
+int run_procedural(const Options& options) {
+  ProgramReplies replies(options.rib.command);
+  OutputSink output;
+  for (std::string request; std::getline(std::cin, request);) {
+    const std::string error = replies.reply(request, output);
+    std::cout.flush();
+    if (!error.empty()) std::fprintf(stderr, "pelage: error: %s\n", error.c_str());
+    if (!std::cout) break;
+  }
+  return 0;
+}
+
+}  // namespace pelage

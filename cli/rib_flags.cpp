@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/options_test.cpp.
+#include "cli/rib_flags.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace pelage {
+
+void add_rib_flags(CLI::App& rib, RibOptions& options) {
+  rib.add_flag("--ascii", options.ascii, "Write text instead of the binary encoding");
+  CLI::Option* archives =
+      rib.add_flag("--archives", options.archives, "Write one archive per leaf of a coat, read on demand");
+  CLI::Option* expand =
+      rib.add_flag("--expand", options.expand, "Write all strands as Curves")->excludes(archives);
+  rib.add_flag("--lod", options.lod,
+               "With --archives or --expand: write only the strands that remain at the picture's level of "
+               "detail (render.lod)");
+  archives->excludes(expand);
+}
+
+void add_procedural_flags(CLI::App& procedural, RibOptions& options) {
+  procedural
+      .add_option("--command", options.command,
+                  "Command of nested procedurals in the replies (default: pelage procedural)")
+      ->type_name("COMMAND");
+}
+
+}  // namespace pelage

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "procedurals/procedural.h"
+#include "renderman/frame_coats.h"
+
+namespace pelage {
+
+/// Consecutive leaves of a coat: first <= leaf < end.
+struct LeafRange {
+  size_t first = 0, end = 0;
+  size_t count() const { return end - first; }
+};
+
+/// The leaves of one coat in one frame as procedurals, with their exact boxes. Neighbouring leaves are close
+/// to each other, so ranges of leaves form a tree: split() divides a range into up to eight ranges.
+///
+/// Thread safety: const members may be called from any thread.
+class CoatTree {
+ public:
+  /// `lod`: level of detail of the coat; empty for all strands. Every leaf has the strands of the same leaf
+  /// of the full coat that level of detail keeps.
+  CoatTree(const FrameCoat& coat, const std::optional<Simplification>& lod);
+
+  LeafRange all() const { return {0, leaves_.size()}; }
+  std::vector<LeafRange> split(LeafRange range) const;
+  /// Returns the exact box of a range over the shutter (law 4): empty if it has no strands. The first call
+  /// measures all leaves, or reads their boxes from the side file beside the cache of the groom. `job` of
+  /// that call must not run a loop at the same time.
+  Box3f box(LeafRange range, const Job& job) const;
+  const Procedural& leaf(size_t index) const { return *leaves_[index]; }
+  /// Returns the memory that growing a leaf takes, including the result, in bytes.
+  int64_t growth_bytes(size_t index) const;
+
+ private:
+  std::vector<std::unique_ptr<Procedural>> leaves_;
+  mutable std::mutex mutex_;  // guards the boxes; locked while they are measured
+  mutable std::vector<Box3f> boxes_;
+};
+
+}  // namespace pelage

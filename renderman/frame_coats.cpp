@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "renderman/frame_coats.h"
+
+#include "procedurals/detail_policy.h"
+#include "world/drawn_characters.h"
+
+namespace pelage {
+namespace {
+
+class FramePoser {
+ public:
+  FramePoser(const SceneDescription& scene, const Assets& assets, double frame, const Job& job)
+      : scene_(scene),
+        assets_(assets),
+        frame_(frame),
+        camera_(scene.camera, frame, scene.image.width, scene.image.height),
+        lod_view_(lod_view()),
+        detail_(scene.render.lod, lod_view_, scene.camera.shutter, job),
+        poses_(std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger)) {}
+
+  const V3f& eye() const { return lod_view_.open.position; }
+
+  void add(const DrawnCharacter& character, bool reduced, FrameParts& parts) {
+    for (size_t part = 0; part < character.params->parts.size(); ++part)
+      add_part(character, part, reduced, parts);
+  }
+
+ private:
+  LodView lod_view() const {
+    const std::optional<CameraParams>& own = scene_.render.lod.camera.own;
+    return own ? Camera(*own, frame_, scene_.image.width, scene_.image.height).lod_view()
+               : camera_.lod_view();
+  }
+
+  void add_part(const DrawnCharacter& character, size_t index, bool reduced, FrameParts& parts) {
+    const PartParams& part = character.params->parts[index];
+    const Assets::Skin& skin = assets_.skins.at(part.skin.name);
+    CharacterPose pose = pose_character(character, index, assets_, scene_.camera, frame_);
+    for (const auto& groom : part.grooms.items) {
+      if (assets_.grooms.at(groom.name)->needs_closest_point()) pose.push_out_view = camera_.view();
+    }
+    const Rgb tint = character.member ? character.member->tint : Rgb(1);
+    PosedCages cages = pose.shutter;
+    const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
+    parts.skins.push_back({character.name + "." + part.skin.name, part.skin.name, part.material.name, tint,
+                           std::move(cages), posed});
+    for (const auto& groom : part.grooms.items) {
+      FrameCoat coat{character.name,
+                     groom.name,
+                     groom.value.name,
+                     tint,
+                     assets_.grooms.at(groom.name),
+                     posed,
+                     skin.rest,
+                     {},
+                     {}};
+      if (reduced) {
+        coat.lod = detail_.simplification(*coat.coat, skin.rest.get(), *posed);
+        coat.direction = detail_.direction(*coat.coat, skin.rest);
+      }
+      posed->reserve_for_leaves(*coat.coat, reduced);
+      parts.coats.push_back(std::move(coat));
+    }
+  }
+
+  const SceneDescription& scene_;
+  const Assets& assets_;
+  const double frame_;
+  const Camera camera_;
+  const LodView lod_view_;
+  DetailPolicy detail_;
+  std::shared_ptr<PoseCache> poses_;
+};
+
+}  // namespace
+
+FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
+                      const std::string& only) {
+  const std::vector<DrawnCharacter> drawn = drawn_characters(scene, assets);
+  FramePoser poser(scene, assets, frame, job);
+  const std::vector<bool> full =
+      full_detail_characters(drawn, scene.render.lod.full_detail, poser.eye(), frame);
+  FrameParts parts;
+  for (size_t i = 0; i < drawn.size(); ++i) {
+    job.check_stop();
+    if (only.empty() || only == drawn[i].name)
+      poser.add(drawn[i], scene.render.lod.enabled && !full[i], parts);
+  }
+  return parts;
+}
+
+std::vector<float> motion_times(const CameraParams& camera, int keys) {
+  std::vector<float> times(static_cast<size_t>(keys), camera.shutter.x);
+  for (int key = 1; key < keys; ++key) {
+    const float t = static_cast<float>(key) / static_cast<float>(keys - 1);
+    times[static_cast<size_t>(key)] = camera.shutter.x + t * (camera.shutter.y - camera.shutter.x);
+  }
+  return times;
+}
+
+}  // namespace pelage
