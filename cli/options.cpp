@@ -34,7 +34,7 @@ struct Texts {
   std::string checkpoint_every;
 };
 
-constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json"};
+constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json", "alfred", "tractor"};
 
 void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
   command.add_option("SCENE", options.input, "Scene file")->required();
@@ -51,7 +51,7 @@ void add_thread_flags(CLI::App& command, Options& options, Texts& texts) {
       ->check(CLI::Range(0, 4096))
       ->type_name("N");
   CLI::Option* quiet = command.add_flag("--quiet", texts.quiet, "Show no progress");
-  command.add_option("--progress", texts.progress, "Progress display: bar, plain or json")
+  command.add_option("--progress", texts.progress, "Progress display: bar, plain, json, alfred or tractor")
       ->type_name("STYLE")
       ->excludes(quiet);
 }

@@ -42,11 +42,13 @@ enum class Experiment { kAccel, kBounds, kGrowth, kResidency, kSamplers, kLod, k
 inline constexpr const char* kLodParts[] = {"crowd", "detail", "wedge", "dolly"};
 
 enum class ProgressStyle {
-  kAuto,   ///< a bar on a terminal, lines elsewhere
-  kBar,    ///< one line that is redrawn continuously, with the time left
-  kPlain,  ///< a line from time to time, for logs
-  kJson,   ///< a JSON object for each percent of progress
-  kQuiet,  ///< nothing
+  kAuto,     ///< a bar on a terminal, lines elsewhere
+  kBar,      ///< one line that is redrawn continuously, with the time left
+  kPlain,    ///< a line from time to time, for logs
+  kJson,     ///< a JSON object for each percent of progress
+  kAlfred,   ///< "ALF_PROGRESS 7%" for each percent of the run, on standard output
+  kTractor,  ///< "TR_PROGRESS 007%" for each percent of the run, on standard output
+  kQuiet,    ///< nothing
 };
 
 /// The whole command line. Each command reads only the members that concern it; the other members keep their

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,7 @@ ProgressTarget standard_error() {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
   };
+  target.percent = [](std::string_view text) { std::cout << text << std::flush; };
   target.seconds = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   };
@@ -160,6 +162,9 @@ void ProgressDisplay::draw(bool last) {
       return;
     case ProgressStyle::kJson:
       return draw_json(stage, last, drawn_s_);
+    case ProgressStyle::kAlfred:
+    case ProgressStyle::kTractor:
+      return draw_percent(stage);
     default:
       return draw_line(stage, last, drawn_s_);
   }
@@ -195,6 +200,17 @@ void ProgressDisplay::draw_json(Stage& stage, bool last, double now_s) {
   if (const std::optional<double> left_s = stage.left.estimate()) json["left_s"] = *left_s;
   json["ended"] = last;
   target_.write(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void ProgressDisplay::draw_percent(const Stage& stage) {
+  if (stage.name != "render") return;
+  const double before = frame_ ? static_cast<double>(frame_->place - 1) : 0;
+  const double frames = frame_ ? static_cast<double>(frame_->count) : 1;
+  const int percent = percent_of((before + fraction_of(stage.done, stage.total)) / frames);
+  if (percent <= run_percent_) return;
+  run_percent_ = percent;
+  target_.percent(style_ == ProgressStyle::kAlfred ? fmt::format("ALF_PROGRESS {}%\n", percent)
+                                                   : fmt::format("TR_PROGRESS {:03}%\n", percent));
 }
 
 std::string ProgressDisplay::bar_line(const Stage& stage, double now_s) const {

@@ -20,6 +20,8 @@ struct ProgressTarget {
   std::function<double()> seconds;              ///< reads a monotonic clock
   int columns = 80;                             ///< width of the terminal, for the bar
   bool color = false;
+  /// Writes the lines that only the queues of farms read; called under a lock.
+  std::function<void(std::string_view)> percent = {};
 };
 
 /// Shows progress as a bar, as lines or as JSON lines. The display is due for an update at every thousandth
@@ -28,6 +30,9 @@ struct ProgressTarget {
 ///
 /// Lines are meant for logs. A stage gets its first line after ten seconds, and another one every half
 /// minute. It also gets a line at its end if it took a second or more.
+///
+/// The queues of render farms get one percentage for the whole run: that of the stages "render" of all
+/// frames.
 class ProgressDisplay final : public Progress {
  public:
   /// Writes to standard error. kAuto becomes a bar on a terminal, and lines elsewhere. Colours follow the
@@ -65,6 +70,7 @@ class ProgressDisplay final : public Progress {
   void draw(bool last);
   void draw_line(Stage& stage, bool last, double now_s);
   void draw_json(Stage& stage, bool last, double now_s);
+  void draw_percent(const Stage& stage);
   std::string bar_line(const Stage& stage, double now_s) const;
   std::string title(const Stage& stage) const;
   void set_next_step(double done);
@@ -83,6 +89,7 @@ class ProgressDisplay final : public Progress {
     size_t place = 0, count = 0;
   };
   std::optional<Frame> frame_;
+  int run_percent_ = -1;  // last line of draw_percent()
   double drawn_s_ = 0;
   bool line_open_ = false;  // the cursor is at the end of a bar, not at the start of a line
 };

@@ -3,6 +3,7 @@
 when it has written, or is writing, a checkpoint. PELAGE_SOAK=N kills N renders instead of a few."""
 import os
 import random
+import resource
 import signal
 import sys
 import unittest
@@ -17,9 +18,9 @@ FILE = "ck/frame-0001.checkpoint"
 
 
 class Checkpoints(ProgramTest):
-    def start_render(self, *arguments, output="a.exr"):
+    def start_render(self, *arguments, output="a.exr", **options):
         return self.start("render", "scene.yaml", "-o", output, "--checkpoint", "ck", "--threads", "2",
-                          "--progress", "plain", *arguments)
+                          "--progress", "plain", *arguments, **options)
 
     def inode(self, name=FILE):
         try:
@@ -142,6 +143,25 @@ class Checkpoints(ProgramTest):
         (self.path / FILE).write_bytes(data[:-9])
         err = self.end(self.start_render("--resume"))
         self.assertIn(FILE + ": damaged cache file: it is truncated; the frame is rendered from the beginning", err)
+
+    def test_a_full_disk_keeps_the_last_checkpoint_and_stops_nothing(self):
+        process = self.start_render(*SMALL, "--every", "0.1s")
+        self.after_checkpoint(process)
+        process.kill()
+        process.wait()
+        size = (self.path / FILE).stat().st_size
+        before = self.inode()
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size - 1, size - 1))
+        process = self.start_render(*SMALL, "--every", "0.1s", "--resume", preexec_fn=limit)
+        warned = False
+        for line in process.stderr:
+            if FILE + ": cannot write: File too large" in line:
+                warned = True
+                self.assertEqual(self.inode(), before)
+                break
+        self.assertTrue(warned)
+        self.end(process)
+        self.assertEqual(self.pixels("a.exr"), self.whole(*SMALL))
 
     def test_what_cannot_have_checkpoints_is_refused_at_once(self):
         for setting in ("render.adaptive={rule: two-stage}", "render.time_limit=5"):

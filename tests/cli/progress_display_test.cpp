@@ -12,11 +12,11 @@ namespace {
 
 /// Writes and a clock that a test sets.
 struct Recorder {
-  std::vector<std::string> writes;
+  std::vector<std::string> writes, percents;
   double now_s = 1000;
   ProgressTarget target(int columns = 80, bool color = false) {
     return {[this](std::string_view text) { writes.emplace_back(text); }, [this] { return now_s; }, columns,
-            color};
+            color, [this](std::string_view text) { percents.emplace_back(text); }};
   }
 };
 
@@ -103,6 +103,34 @@ TEST(ProgressDisplay, JsonLinesParse) {
   EXPECT_EQ(last.at("done"), 1.0);
   EXPECT_EQ(last.at("ended"), true);
   EXPECT_TRUE(nlohmann::json::parse(recorder.writes.back()).contains("note"));
+}
+
+TEST(ProgressDisplay, QueuesGetOnePercentageForAllFrames) {
+  for (const ProgressStyle style : {ProgressStyle::kAlfred, ProgressStyle::kTractor}) {
+    Recorder recorder;
+    ProgressDisplay display(style, recorder.target(), kNever);
+    for (size_t frame = 1; frame <= 2; ++frame) {
+      display.frame(static_cast<int>(10 * frame), frame, 2);
+      run_stage(display, recorder);  // "grow" does not count
+      display.begin("render", 4);
+      for (int i = 0; i < 4; ++i) {
+        recorder.now_s += 1;
+        display.advance(1);
+      }
+      display.end();
+    }
+    display.note("a note");
+    const std::vector<std::string> wanted =
+        style == ProgressStyle::kAlfred
+            ? std::vector<std::string>{"12%", "25%", "37%", "50%", "62%", "75%", "87%", "100%"}
+            : std::vector<std::string>{"012%", "025%", "037%", "050%", "062%", "075%", "087%", "100%"};
+    ASSERT_EQ(recorder.percents.size(), wanted.size());
+    for (size_t i = 0; i < wanted.size(); ++i) {
+      EXPECT_EQ(recorder.percents[i],
+                (style == ProgressStyle::kAlfred ? "ALF_PROGRESS " : "TR_PROGRESS ") + wanted[i] + "\n");
+    }
+    EXPECT_EQ(recorder.writes, std::vector<std::string>{"a note\n"});
+  }
 }
 
 TEST(ProgressDisplay, BarFitsTheTerminal) {
