@@ -318,7 +318,10 @@ void check_command(const std::vector<std::string>& arguments) {
   for (const auto& [name, command] : command_names()) {
     if (command != Command::kTrace) names.push_back(name);  // internal
   }
-  fail("unknown command " + quote(arguments[0]) + suggest(arguments[0], names));
+  std::string hint = did_you_mean(arguments[0], names);
+  for (const std::string& name : hint.empty() ? names : std::vector<std::string>())
+    hint += (hint.empty() ? "; expected one of " : ", ") + name;
+  fail("unknown command " + quote(arguments[0]) + hint);
 }
 
 ProgressStyle parse_progress(const Texts& texts) {

@@ -53,11 +53,11 @@ Number parse(const std::string& name, std::string_view text) {
 
 LeafRange parse_leaves(const std::string& text) {
   const size_t dash = text.find('-');
-  const auto first = parse<size_t>("leaf", std::string_view(text).substr(0, dash));
+  const auto first = parse<uint32_t>("leaf", std::string_view(text).substr(0, dash));
   const auto last =
-      dash == std::string::npos ? first : parse<size_t>("leaf", std::string_view(text).substr(dash + 1));
+      dash == std::string::npos ? first : parse<uint32_t>("leaf", std::string_view(text).substr(dash + 1));
   if (last < first) fail("leaf=" + text + ": the last leaf comes before the first");
-  return {first, last + 1};
+  return {first, size_t(last) + 1};
 }
 
 void set(HairArguments& arguments, const std::string& name, const std::string& value) {

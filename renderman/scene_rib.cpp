@@ -132,7 +132,7 @@ class SceneRibWriter {
       arguments.frame = frame;
       arguments.character = coat.character;
       arguments.coat = coat.groom;
-      arguments.scene_camera = coat.lod.has_value();
+      arguments.scene_camera = source_.scene.render.lod.enabled;
       write_procedural(rib, tree, arguments, job_);
     } else if (options_.coats == RibCoats::kExpanded) {
       write_expanded(rib, tree, times, job_);

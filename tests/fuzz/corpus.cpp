@@ -110,6 +110,17 @@ std::vector<std::string> tfx_corpus() {
   return corpus;
 }
 
+std::vector<std::string> request_corpus() {
+  return {"rat.yaml character=rat coat=under frame=3 leaf=2-7 camera=scene memory=512M",
+          "'my ''rat''.yaml' 'set=a.b={c: [1, 2]}' scale=1e-3 detail=full threads=4",
+          "r leaf=0-18446744073709551615 coat=c",
+          "r leaf=18446744073709551615 coat=c",
+          "r scale=1e-45",
+          "r memory=99999999999999999999G",
+          "'" + std::string(100000, ' '),
+          std::string(100000, '\'') + "r"};
+}
+
 std::vector<std::string> obj_corpus() {
   std::string cube =
       "v -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 -1\nv 1 -1 -1\n"

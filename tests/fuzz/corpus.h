@@ -21,6 +21,7 @@ std::vector<std::string> obj_corpus();
 std::vector<std::string> hdr_corpus();
 std::vector<std::string> exr_corpus();
 std::vector<std::string> post_corpus();
+std::vector<std::string> request_corpus();
 std::vector<std::string> scene_corpus();
 std::vector<std::string> cache_corpus();
 std::vector<std::string> checkpoint_corpus();

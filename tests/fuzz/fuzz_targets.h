@@ -20,6 +20,8 @@ void fuzz_hdr(std::span<const uint8_t> bytes);
 void fuzz_exr(std::span<const uint8_t> bytes);
 /// Both tools of post/ on an EXR, within a small budget.
 void fuzz_post(std::span<const uint8_t> bytes);
+/// The arguments of a procedural, which a renderer passes on from a RIB file.
+void fuzz_request(std::span<const uint8_t> bytes);
 /// The text of a scene, through YAML and every schema; no asset is read.
 void fuzz_scene(std::span<const uint8_t> bytes);
 

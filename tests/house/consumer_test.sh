@@ -33,5 +33,20 @@ echo "$said"
 other eye: 0 0 1 1 0 0 0 0 0 0 0 0
 scale must be 1 to 8" ]
 
+# A renderer in plain C that loads the plugin. The coat has maps, which the plugin reads with a module beside it.
+cat >"$scratch/maps.yaml" <<SCENE
+include: $examples/rat.yaml
+camera: {shutter: [0, 0]}
+grooms: {under: {strands: 3000}, guard: {strands: 200}}
+SCENE
+plugin=$scratch/prefix/lib/pelage/libpelage_ri.so
+said=$("$scratch/build/renderer" "$plugin" "$scratch/maps.yaml coat=under detail=full threads=2")
+echo "$said"
+[ "$said" = "3000 strands, 0 errors" ]
+said=$("$scratch/build/renderer" "$plugin" "$scratch/nothing.yaml")
+echo "$said"
+[ "$(tail -1 <<<"$said")" = "0 strands, 1 errors" ]
+[ "$(nm -D --defined-only "$plugin" | awk '{print $3}' | sort | tr '\n' ' ')" = "ConvertParameters Free Subdivide " ]
+
 # The installed command, where there is one, runs from there and finds what it needs.
 if [ -x "$scratch/prefix/bin/pelage" ]; then "$scratch/prefix/bin/pelage" --version; fi
