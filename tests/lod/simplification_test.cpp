@@ -71,9 +71,11 @@ TEST(Simplification, MeasuresSayHowAShareComesAbout) {
     EXPECT_LT(m.facing_share, 1);
     EXPECT_EQ(m.budget, budget);
     EXPECT_EQ(m.share, s.share(root));
-    // No limit applies here.
-    const float product = m.size_share * m.blur_share * m.facing_share * m.budget;
-    EXPECT_NEAR(m.share, product, 1e-5f * product);
+    // Widened strands may not be wider than a pixel, so more are kept than the factors ask for.
+    EXPECT_GT(m.share, m.size_share * m.blur_share * m.facing_share * m.budget);
+    const LodMeasures near = s.measures({V3f(0, 0, -5), V3f(0, 0, -5), V3f(0, 0, -1)});
+    EXPECT_EQ(near.size_share, 1);
+    EXPECT_NEAR(near.share, near.facing_share, 1e-6f) << "only the direction of the skin thins it out";
   }
 }
 

@@ -1,85 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page of `pelage view` in a real browser, driven by Selenium. Skipped where Debian's chromium, chromium-driver or
-python3-selenium or python3-numpy is missing; `./dev setup --browser` installs them. With PELAGE_SCREENSHOTS=DIR, keeps pictures of the page."""
+"""The page of `pelage view` in a real browser."""
 import json
 import math
-import os
-import pathlib
 import re
-import shutil
-import sys
-import time
-import unittest
 
 try:
     import numpy
     from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import Select
 except ImportError:
-    webdriver = None
+    pass
 
-from program_view import ProgramTest, ViewTest
-
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+from program_page import PageTest, run_tests
 
 
-class Page(ViewTest):
-    def browser(self):
-        options = webdriver.ChromeOptions()
-        options.binary_location = CHROMIUM
-        for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                         "--window-size=900,600"):
-            options.add_argument(argument)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        browser = webdriver.Chrome(service=Service(DRIVER), options=options)
-        self.addCleanup(browser.quit)
-        return browser
-
-    def until(self, holds, seconds=60):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if holds():
-                return
-            time.sleep(0.05)
-        self.fail("never happened")
-
-    def open(self):
-        browser = self.browser()
-        browser.get(self.url)
-        self.until(lambda: self.attribute(browser, "version") > 0)
-        return browser
-
-    def settle(self, browser):
-        """Waits until the page shows the finished picture of the last edit that the server knows."""
-        self.wait(lambda state: state["done"] and self.attribute(browser, "version") == state["version"])
-
-    @staticmethod
-    def attribute(browser, name):
-        value = browser.execute_script(f"return document.body.dataset.{name}")
-        return int(value or 0) if name == "version" else value
-
-    @staticmethod
-    def text(browser, name):
-        return browser.find_element(By.ID, name).text
-
-    @staticmethod
-    def mean(browser):
-        """Mean colour of the shown picture, 0 to 255."""
-        return browser.execute_script("""
-            const c = document.getElementById("canvas"), d = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
-            let sum = [0, 0, 0], count = 0;
-            for (let i = 0; i < d.length; i += 4) if (d[i + 3]) { ++count; for (let k = 0; k < 3; ++k) sum[k] += d[i + k]; }
-            return sum.map(s => s / count)""")
-
-    def shoot(self, browser, name):
-        folder = os.environ.get("PELAGE_SCREENSHOTS")
-        if folder:
-            pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
-            browser.save_screenshot(os.path.join(folder, name + ".png"))
-
+class Page(PageTest):
     def test_refines_follows_and_recovers(self):
         self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=16")
         browser = self.open()
@@ -130,122 +67,6 @@ class Page(ViewTest):
         self.shoot(browser, "zoomed")
         bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
         self.assertEqual(bad, [])
-
-    def test_mixes_lights_and_writes_them_into_the_scene(self):
-        self.replace("lights: {sky: {type: environment, radiance: 0.3}}",
-                     "lights:  # two\n  key: {type: sphere, position: [5, 8, 5], radius: 2, intensity: 6}  # warm\n"
-                     "  sky: {type: environment, radiance: 0.3}\n")
-        self.view("--set", "image={width: 120, height: 80, event_layers: true}", "--set", "render.samples=4")
-        browser = self.open()
-        self.settle(browser)
-        renders = self.state()["version"]
-        browser.find_element(By.ID, "lights_mode").click()
-        self.until(lambda: browser.find_elements(By.CLASS_NAME, "light"))
-        rows = {row.get_attribute("data-light"): row for row in browser.find_elements(By.CLASS_NAME, "light")}
-        self.assertEqual(sorted(rows), ["key", "sky"])
-        Select(browser.find_element(By.ID, "transform")).select_by_visible_text("sRGB only")
-
-        def move(light, kind, value):
-            browser.execute_script("arguments[0].value = arguments[1]; arguments[0].dispatchEvent(new Event('input'))",
-                                   rows[light].find_element(By.CSS_SELECTOR, f"input[type={kind}]"), value)
-
-        def press(light, text):
-            buttons = {button.text: button for button in rows[light].find_elements(By.TAG_NAME, "button")}
-            buttons[text].click()
-
-        parts = {light: [b.text for b in row.find_elements(By.CSS_SELECTOR, ".lobes button")] for light, row in rows.items()}
-        self.assertIn("emission", parts["sky"])
-        self.assertIn("diffuse indirect", parts["key"])
-        layers = {f"{light}.{part.replace(' ', '.')}": None for light in rows for part in parts[light]}
-        for name in layers:
-            layers[name] = self.layer(name)
-
-        def expect(factors, without=()):
-            """The shown picture is the sum of the layers times the factors of their lights."""
-            total = sum(layers[f"{light}.{part.replace(' ', '.')}"] * numpy.array(factor)
-                        for light, factor in factors.items() for part in parts[light] if (light, part) not in without)
-            srgb = numpy.where(total <= 0.0031308, 12.92 * total, 1.055 * numpy.maximum(total, 0.001) ** (1 / 2.4) - 0.055)
-            wanted = numpy.floor(255 * numpy.clip(srgb, 0, 1) + 0.5)
-            self.until(lambda: abs(self.shown(browser) - wanted).max() <= 1, 10)
-
-        expect({"key": [1, 1, 1], "sky": [1, 1, 1]})
-        move("key", "range", 1.5)
-        expect({"key": [2 ** 1.5] * 3, "sky": [1, 1, 1]})
-        move("sky", "color", "#ff8000")
-        tint = [1, ((128 / 255 + 0.055) / 1.055) ** 2.4, 0]
-        expect({"key": [2 ** 1.5] * 3, "sky": tint})
-        press("sky", "emission")
-        press("key", "diffuse indirect")
-        expect({"key": [2 ** 1.5] * 3, "sky": tint}, {("sky", "emission"), ("key", "diffuse indirect")})
-        self.shoot(browser, "mixer")
-        press("sky", "M")
-        expect({"key": [2 ** 1.5] * 3}, {("key", "diffuse indirect")})
-        press("sky", "M")
-        press("sky", "S")
-        expect({"sky": tint}, {("sky", "emission")})
-        press("sky", "S")
-        press("sky", "emission")
-        press("key", "diffuse indirect")
-        webdriver.ActionChains(browser).key_down(Keys.ALT).perform()
-        press("key", "diffuse direct")
-        expect({"key": [2 ** 1.5] * 3, "sky": tint}, {("key", part) for part in parts["key"] if part != "diffuse direct"})
-        webdriver.ActionChains(browser).move_to_element(browser.find_element(By.ID, "canvas")).perform()
-        at_cursor = r"\((\d+), (\d+)\)  R (\S+)"
-        self.until(lambda: re.match(at_cursor, self.text(browser, "values")))
-        place = re.match(at_cursor, self.text(browser, "values"))
-        x, y, red = int(place[1]), int(place[2]), float(place[3])
-        total = 2 ** 1.5 * layers["key.diffuse.direct"] + sum(layers[f"sky.{p.replace(' ', '.')}"] for p in parts["sky"]) * tint
-        self.assertAlmostEqual(red, total[y, x, 0], delta=2e-3 * red + 1e-6)
-        press("key", "diffuse direct")
-        webdriver.ActionChains(browser).key_up(Keys.ALT).perform()
-        expect({"key": [2 ** 1.5] * 3, "sky": tint})
-        self.assertEqual(self.state()["version"], renders, "nothing was rendered")
-
-        mixed = sum(layers[f"{light}.{part.replace(' ', '.')}"] * numpy.array(factor)
-                    for light, factor in {"key": [2 ** 1.5] * 3, "sky": tint}.items() for part in parts[light])
-        unmixed = sum(layers.values())
-
-        # Into the scene: only the values change.
-        before = (self.path / "scene.yaml").read_text()
-        browser.find_element(By.ID, "light_apply").click()
-        self.until(lambda: "intensity: 16.97" in browser.execute_script("return document.getElementById('text').value"))
-        self.shoot(browser, "apply")
-        browser.find_element(By.ID, "write_text").click()
-        self.wait(lambda state: state["edits"] == 1)
-        self.settle(browser)
-        text = (self.path / "scene.yaml").read_text()
-        number = re.search(r"intensity: (16\.97\d*)\}  # warm", text).group(1)
-        rgb = re.search(r"radiance: (\[0\.3, 0\.0\d*, 0\])", text).group(1)
-        self.assertEqual(text.replace(number, "6").replace(rgb, "0.3"), before)
-        self.until(lambda: browser.execute_script("return document.body.dataset.mixed") == "false")
-        for name in layers:
-            layers[name] = self.layer(name)
-        expect({"key": [1, 1, 1], "sky": [1, 1, 1]})
-        self.expect_mixed(mixed, unmixed)
-        bad = [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"]
-        self.assertEqual(bad, [])
-
-    def expect_mixed(self, mixed, unmixed):
-        """A mix agrees with renders of the scene as it is now, with other seeds, block by block."""
-        def blocks(picture):  # 20 x 20 pixels
-            return picture.reshape(4, 20, 6, 20, 3).mean(axis=(1, 3))
-
-        renders, before = [], "render: {"
-        for seed in range(1, 25):
-            now = f"render: {{seed: {seed}, "
-            self.replace(before, now)
-            before = now
-            self.wait(lambda state: state["done"] and state["edits"] == 1 + seed)
-            renders.append(blocks(self.layer("beauty", 4)[:, :, :3]))
-        mean, sigma = numpy.mean(renders, axis=0), numpy.std(renders, axis=0, ddof=1)
-        # The error of a render, that of the mean, and the rounding of channels to half floats.
-        error = numpy.sqrt(sigma ** 2 * (1 + 1 / len(renders)) + (5e-4 * mean) ** 2) + 1e-7
-        deviation = abs(blocks(mixed) - mean) / error
-        # Of 72 values of Student's t with 23 degrees of freedom, 0.46 are beyond 3 on average, and more than 4 with a
-        # probability below 1e-4.
-        self.assertLessEqual((deviation > 3).sum(), 4, deviation.round(1))
-        self.assertLess(deviation.max(), 6)
-        self.assertGreater((abs(blocks(unmixed) - mean) / error > 3).mean(), 0.5, "the test would find a wrong mix")
 
     def test_explains_a_pixel(self):
         self.view("--set", "image={width: 120, height: 80}", "--set", "render.samples=16",
@@ -390,21 +211,6 @@ class Page(ViewTest):
         browser.find_element(By.TAG_NAME, "body").send_keys(Keys.ESCAPE)
         self.until(lambda: self.state()["region"] is None)
 
-    def layer(self, name, channels=3):
-        """A layer of radiance as an array [row, column, channel]."""
-        _, body = self.get("layer.bin", name=name)
-        head = json.loads(body[:body.index(b"\n")])
-        halves = numpy.frombuffer(body, numpy.float16, offset=body.index(b"\n") + 1).astype(float)
-        return halves.reshape(channels, head["height"], head["width"]).transpose(1, 2, 0)
-
-    @staticmethod
-    def shown(browser):
-        """The whole picture as the page shows it, in pixels of the picture."""
-        values = browser.execute_script("""
-            const c = document.getElementById("canvas").picture;
-            return [c.width, c.height, ...c.getContext("2d").getImageData(0, 0, c.width, c.height).data]""")
-        return numpy.array(values[2:]).reshape(values[1], values[0], 4)[:, :, :3]
-
     def test_two_pages_at_once_and_reloads(self):
         self.view()
         pages = [self.open(), self.open()]
@@ -418,8 +224,4 @@ class Page(ViewTest):
 
 
 if __name__ == "__main__":
-    if webdriver is None or not CHROMIUM or not DRIVER:
-        print("skipped: needs chromium, chromium-driver, python3-selenium and python3-numpy")
-        sys.exit(77)
-    ProgramTest.PELAGE = sys.argv.pop(1)
-    unittest.main()
+    run_tests()

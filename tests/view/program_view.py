@@ -62,10 +62,13 @@ class ViewTest(ProgramTest):
         return self.wait(lambda state: state["done"])
 
     def replace(self, old, new):
-        """Edits the scene as many editors do: writes another file and renames it."""
         text = (self.path / "scene.yaml").read_text()
         self.assertIn(old, text)
-        (self.path / "scene.new").write_text(text.replace(old, new))
+        self.write(text.replace(old, new))
+
+    def write(self, text):
+        """Edits the scene as many editors do: writes another file and renames it."""
+        (self.path / "scene.new").write_text(text)
         os.replace(self.path / "scene.new", self.path / "scene.yaml")
 
     def interrupt(self, process):
