@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "render/frame/frame_result.h"
 #include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
+#include "render/reflection/cache_fill.h"
 
 namespace pelage {
 
@@ -31,6 +33,7 @@ class GatherLoop {
   struct Memory {
     int tiles = 0;  ///< max count of such tiles
     MemoryCharge charge;
+    MemoryCharge cache;  ///< of the reflection cache
   };
   /// Reserves memory for one tile per thread. Call before chunks take the rest of the memory. If the tiles of
   /// all threads together would need more than an eighth of `render.memory`, reserves memory for fewer tiles,
@@ -41,8 +44,8 @@ class GatherLoop {
   /// Keeps references to its arguments, except `options` and `memory`. `chunks`: the chunks of `accel`.
   /// `fits`: whether all chunks fit into memory together. `clock`: the time limit starts with it.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-             const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-             const Stopwatch& clock, FrameResult& result);
+             const PathOptions& options, Memory& memory, bool fits, const Job& job, const Stopwatch& clock,
+             FrameResult& result);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -66,6 +69,9 @@ class GatherLoop {
   void report(PassEnd end);
 
   const RenderScene& scene_;
+  std::optional<CacheFill> fill_;  // empty: no reflection cache
+  std::optional<ReflectionCache> cache_;
+  MemoryCharge cache_memory_;
   const GatherTile tile_;
   const Job job_;
   const Stopwatch& clock_;
