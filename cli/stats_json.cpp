@@ -93,6 +93,10 @@ std::string statistics_json(const Statistics& s) {
       {"clamped_fraction", s.clamped_fraction},
       {"knots", s.frames.knots.knots},
       {"knot_samples", s.frames.knots.samples},
+      {"reflection_cells", s.frames.reflections.cells},
+      {"reflection_paths", s.frames.reflections.paths},
+      {"reflection_lookups", s.frames.reflections.lookups},
+      {"reflections_found", s.frames.reflections.found},
       {"rays", rays_json(s.frames.rays)},
       {"stages_s", stages_json(s)},
   };

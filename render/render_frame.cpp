@@ -71,8 +71,7 @@ TileCosts trace_paths(const RenderScene& scene, FrameGeometry& geometry, const F
 }
 
 TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameOptions& options,
-                 const GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock,
-                 FrameResult& result) {
+                 GatherLoop::Memory& tiles, const Job& job, const Stopwatch& clock, FrameResult& result) {
   std::optional<TighteningWatch> watch;
   if (options.watch) watch.emplace(geometry, job, *options.watch);
   GatherLoop loop(scene, geometry.accel(), geometry.chunks(), options.path, tiles, geometry.fits(), job,
@@ -123,7 +122,7 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   require_room(job.ledger, Film::bytes_needed(width, height, layers), "the frame buffer");
   const bool gathers = scene.render.integrator == Integrator::kGather;
   FrameResult result{Film(width, height, layers, job.ledger), window};
-  const GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
+  GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
   result.partial = geometry == nullptr;
   if (result.partial) return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tested in tests/cli/measure_test.py.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -80,6 +81,15 @@ void add_work(Columns& columns) {
   columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");
     return knots > 0 ? run.outcome.number("knot_samples") / knots : NAN;
+  });
+  for (const std::string key : {"reflection_cells", "reflection_paths", "reflection_lookups"}) {
+    std::string title = key;
+    std::replace(title.begin(), title.end(), '_', ' ');
+    columns.add_number(key, title, key);
+  }
+  columns.add("reflections_found", "found", Quantity::kRatio, [](const ShadingRun& run) {
+    const double lookups = run.outcome.number("reflection_lookups");
+    return lookups > 0 ? run.outcome.number("reflections_found") / lookups : NAN;
   });
 }
 

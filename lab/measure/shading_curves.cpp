@@ -44,6 +44,7 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
       gather_with("cells", own.cells ? "false" : "true"),
       gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
       gather_with("paths", fmt::format("{:g}", own.paths / 2)),
+      gather_with("cache", own.cache ? "false" : "true"),
       gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
   curves.back().settings.back().second = "drawn";

@@ -10,9 +10,9 @@
 namespace pelage {
 
 /// Names of the ways to render that `measure shading` compares. `path` is always among them.
-inline constexpr const char* kShadingParts[] = {"path",       "splatted",   "adaptive", "gather",
-                                                "visibility", "reuse",      "spacing",  "skin_spacing",
-                                                "cells",      "light_rays", "paths",    "drawn"};
+inline constexpr const char* kShadingParts[] = {"path",  "splatted", "adaptive",     "gather", "visibility",
+                                                "reuse", "spacing",  "skin_spacing", "cells",  "light_rays",
+                                                "paths", "cache",    "drawn"};
 
 /// One way to render, which is measured with several sample counts. Its results are one line in the plots of
 /// error over CPU time.

@@ -157,7 +157,9 @@ void add_shading_sections(const ShadingRuns& all, const ShadingPlan& plan,
     if (key.ends_with("_s") && key != "cpu_s" && key != "cpu_least_s" && key != "cpu_most_s")
       work.push_back(key);
   }
-  work.insert(work.end(), {"knots", "samples_per_knot", "peak_rss_bytes", "peak_anonymous_bytes"});
+  work.insert(work.end(),
+              {"knots", "samples_per_knot", "reflection_cells", "reflection_paths", "reflection_lookups",
+               "reflections_found", "peak_rss_bytes", "peak_anonymous_bytes"});
   report.sections.push_back({"Rays, knots and memory", {table(is_measured, work, "Work of each run.")}});
   report.sections.push_back(pictures_of(all, folder));
 }

@@ -13,6 +13,7 @@ FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
   cpu_s += other.cpu_s;
   samples_rejected += other.samples_rejected;
   knots += other.knots;
+  reflections += other.reflections;
   for (const auto& [stage, seconds] : other.stages_s) stages_s[stage] += seconds;
   return *this;
 }

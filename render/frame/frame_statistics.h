@@ -10,6 +10,7 @@
 #include "render/accel/trace_counts.h"
 #include "render/frame/knot_statistics.h"
 #include "render/frame/ray_statistics.h"
+#include "render/frame/reflection_statistics.h"
 #include "render/frame/render_seconds.h"
 
 namespace pelage {
@@ -25,6 +26,7 @@ struct FrameStatistics {
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
   std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage
   KnotStatistics knots;
+  ReflectionStatistics reflections;
 
   FrameStatistics& operator+=(const FrameStatistics& other);
 };

@@ -6,36 +6,13 @@
 
 #include "base/hash.h"
 #include "lod/size.h"
+#include "render/frame/rest_place.h"
 #include "render/gather/knot_level.h"
 
 namespace pelage {
 namespace {
 
 constexpr int kMinExponent = -60, kMaxExponent = 60;
-
-/// Where a strand grows at rest.
-struct RestRoot {
-  V3f position{0};
-  V3f normal{0};    ///< of any length
-  float scale = 1;  ///< size in world space / size at rest
-};
-
-RestRoot rest_root(const FurPart& part, const Strands& strand) {
-  if (!part.rest || !strand.has_roots())
-    return {strand.point(0), strand.strand_points(0) > 1 ? strand.point(1) - strand.point(0) : V3f(0), 1};
-  const RootAddress& root = strand.root(0);
-  const SurfacePoint at = part.rest->evaluate(root.face, root.u, root.v);
-  return {at.position, at.smooth_normal.length2() > 0 ? at.smooth_normal : at.du.cross(at.dv), part.scale};
-}
-
-/// Returns the largest component of a vector, and the sign of this component, as a number below 6.
-uint32_t side_of(const V3f& v) {
-  uint32_t axis = 0;
-  for (uint32_t i = 1; i < 3; ++i) {
-    if (std::abs(v[static_cast<int>(i)]) > std::abs(v[static_cast<int>(axis)])) axis = i;
-  }
-  return 2 * axis + (v[static_cast<int>(axis)] < 0 ? 1 : 0);
-}
 
 }  // namespace
 
@@ -52,7 +29,7 @@ float CoatCells::samples_on(const Strands& strand, float length) const {
 
 uint64_t CoatCells::key(const Hit& hit, const Strands& strand, float length, float place,
                         uint64_t random) const {
-  const RestRoot root = rest_root(fur_[hit.part], strand);
+  const RestPlace root = rest_place(fur_[hit.part], strand);
   const float pixels = root.scale * pixels_per_unit(view_, strand.point(0));
   const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinExponent, kMaxExponent);
   uint64_t key =

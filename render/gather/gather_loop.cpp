@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/memory_budget.h"
 #include "base/parallel.h"
@@ -25,6 +26,10 @@ std::vector<Tile> tiles_of(const PixelBox& film) {
   return tiles;
 }
 
+bool uses_cache(const RenderScene& scene) {
+  return scene.render.gather.cache && scene.render.gather.reuse && scene.render.bounces > 0;
+}
+
 }  // namespace
 
 GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job& job) {
@@ -35,15 +40,18 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
-  return {tiles, reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles,
-                         "the sample buffer of the tiles that are rendered at once")};
+  return {tiles,
+          reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles,
+                  "the sample buffer of the tiles that are rendered at once"),
+          uses_cache(scene) ? CacheFill::reserve(scene, job) : MemoryCharge{}};
 }
 
 GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-                       const PathOptions& options, const Memory& memory, bool fits, const Job& job,
+                       const PathOptions& options, Memory& memory, bool fits, const Job& job,
                        const Stopwatch& clock, FrameResult& result, FrameWatch* watch, FrameSaver* saver)
     : scene_(scene),
-      tile_(scene, accel, chunks, result.film.layers(), options),
+      cache_memory_(std::move(memory.cache)),
+      tile_(scene, accel, chunks, result.film.layers(), options, cache_),
       job_(job),
       clock_(clock),
       result_(result),
@@ -55,6 +63,7 @@ GatherLoop::GatherLoop(const RenderScene& scene, const Accel& accel, const Resid
       tiles_(tiles_of(result.window.film)),
       sample_counts_(tiles_.size()),
       free_(memory.tiles) {
+  if (uses_cache(scene)) fill_.emplace(scene, accel, result.film.layers().splat.has_value(), options);
   for (int i = 0; i < memory.tiles; ++i) {
     scratch_.push_back(tile_.make_scratch());
     idle_.push_back(scratch_.back().get());
@@ -88,6 +97,7 @@ uint32_t GatherLoop::portion(uint32_t first, uint32_t end) const {
 }
 
 void GatherLoop::run() {
+  if (fill_) fill_->run(std::move(cache_memory_), job_, clock_, cache_);
   const auto samples = static_cast<uint32_t>(scene_.render.samples);
   const double pixels = static_cast<double>(result_.film.width()) * result_.film.height();
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -222,6 +232,7 @@ void GatherLoop::land(uint32_t count, const Tile& tile, GatherTile::Scratch& scr
 TileCosts GatherLoop::costs() const {
   TileCosts all;
   for (const auto& scratch : scratch_) all += scratch->costs;
+  if (fill_) all += fill_->costs();
   return all;
 }
 
@@ -239,13 +250,17 @@ void GatherLoop::report(PassEnd end) {
   }
   result_.mean_samples = sum / (static_cast<double>(result_.film.width()) * result_.film.height());
   result_.statistics.samples_rejected += rejected_;
-  for (const auto& scratch : scratch_) result_.statistics.knots += scratch->knots;
+  for (const auto& scratch : scratch_) {
+    result_.statistics.knots += scratch->knots;
+    result_.statistics.reflections += scratch->indirect_paths.reflections;
+  }
   IndirectClamp clamp;
   for (const auto& scratch : scratch_) {
     result_.statistics.trace += scratch->thread.counts;
     clamp.add_counts(scratch->clamp);
   }
-  result_.statistics.rays += costs().rays.counts();
+  if (fill_) fill_->add_to(result_.statistics);
+  for (const auto& scratch : scratch_) result_.statistics.rays += scratch->costs.rays.counts();
   result_.clamped_fraction = clamp.lost_fraction();
 }
 

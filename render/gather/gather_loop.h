@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <semaphore>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "render/frame/frame_watch.h"
 #include "render/frame/tile_pass.h"
 #include "render/gather/gather_tile.h"
+#include "render/reflection/cache_fill.h"
 
 namespace pelage {
 
@@ -33,6 +35,7 @@ class GatherLoop {
   struct Memory {
     int tiles = 0;  ///< max count of such tiles
     MemoryCharge charge;
+    MemoryCharge cache;  ///< of the reflection cache
   };
   /// Reserves memory for one tile per thread. Call before chunks take the rest of the memory. If the tiles of
   /// all threads together would need more than an eighth of `render.memory`, reserves memory for fewer tiles,
@@ -45,9 +48,8 @@ class GatherLoop {
   /// sees the film after each pass; may be null. `saver`: stores the state of the frame; may be null. The
   /// constructor restores the state that it has.
   GatherLoop(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-             const PathOptions& options, const Memory& memory, bool fits, const Job& job,
-             const Stopwatch& clock, FrameResult& result, FrameWatch* watch = nullptr,
-             FrameSaver* saver = nullptr);
+             const PathOptions& options, Memory& memory, bool fits, const Job& job, const Stopwatch& clock,
+             FrameResult& result, FrameWatch* watch = nullptr, FrameSaver* saver = nullptr);
 
   /// Adds the samples of the frame to `result.film`, and stores counts and times in `result`.
   void run();
@@ -83,6 +85,9 @@ class GatherLoop {
   void report(PassEnd end);
 
   const RenderScene& scene_;
+  std::optional<CacheFill> fill_;  // empty: no reflection cache
+  std::optional<ReflectionCache> cache_;
+  MemoryCharge cache_memory_;
   const GatherTile tile_;
   const Job job_;
   const Stopwatch& clock_;

@@ -19,7 +19,8 @@ constexpr uint32_t kPilotShare = 8;
 }  // namespace
 
 GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-                       const FilmLayers& layers, const PathOptions& options)
+                       const FilmLayers& layers, const PathOptions& options,
+                       const std::optional<ReflectionCache>& cache)
     : scene_(scene),
       accel_(accel),
       layers_(layers),
@@ -27,7 +28,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),
-      indirect_paths_(scene, accel, shading_, camera_, options) {
+      indirect_paths_(scene, accel, shading_, camera_, options, cache) {
   if (scene.render.draws_visible()) raster_.emplace(scene, accel, chunks, camera_);
 }
 

@@ -28,8 +28,10 @@ class GatherTile {
   static constexpr int kSide = FilmSums::kTileSide;
 
   /// Keeps references to its arguments, except `options`. `chunks`: the chunks of `accel`.
+  /// `cache`: see IndirectPaths.
   GatherTile(const RenderScene& scene, const Accel& accel, const ResidentChunks& chunks,
-             const FilmLayers& layers, const PathOptions& options);
+             const FilmLayers& layers, const PathOptions& options,
+             const std::optional<ReflectionCache>& cache);
 
   struct Scratch;
   std::unique_ptr<Scratch> make_scratch() const;

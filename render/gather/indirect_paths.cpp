@@ -18,7 +18,19 @@ constexpr uint32_t kPathsPerCheck = 256;  // whether to stop
 /// A sink of PathWalk: sums up the light that arrives along the first ray of a path, by light.
 class IndirectPaths::ArrivingLight {
  public:
-  ArrivingLight(std::vector<Rgb>& arriving, IndirectClamp& clamp) : arriving_(arriving), clamp_(clamp) {}
+  ArrivingLight(const ReflectionCache* cache, Scratch& scratch, IndirectClamp& clamp)
+      : cache_(cache), arriving_(scratch.arriving), counts_(scratch.reflections), clamp_(clamp) {}
+
+  /// Ends the path at its second surface if the cache knows what this surface reflects.
+  bool arrive(const PathState& path, const HitGeometry& met) {
+    if (!cache_ || path.vertex > 1) return true;
+    const Rgb* reflected = cache_->find(path.ray, path.hit, met);
+    ++counts_.lookups;
+    if (!reflected) return true;
+    ++counts_.found;
+    for (size_t light = 0; light < arriving_.size(); ++light) add(path, light, reflected[light]);
+    return false;
+  }
 
   void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
     if (through > 0) add(path, from.light, from.value.total() * from.arriving * (through * factor));
@@ -33,7 +45,9 @@ class IndirectPaths::ArrivingLight {
     arriving_[source] += arriving * clamp_.keep(path.first, arriving);
   }
 
+  const ReflectionCache* cache_;
   std::vector<Rgb>& arriving_;
+  ReflectionStatistics& counts_;
   IndirectClamp& clamp_;
 };
 
@@ -71,7 +85,7 @@ void IndirectPaths::follow(const TileSamples& samples, const VisiblePoint& point
   std::copy(std::begin(point.weights), std::end(point.weights), path.first);
   path.weight = point.weight() * factor;
   scratch.arriving.assign(scene_.lights.size(), Rgb(0));
-  ArrivingLight sink(scratch.arriving, thread.clamp);
+  ArrivingLight sink(cache_ ? &*cache_ : nullptr, scratch, thread.clamp);
   walk_.follow(point.ray(point.scattered), path, scratch.direct, thread, sink);
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "base/job.h"
+#include "render/frame/reflection_statistics.h"
 #include "render/gather/knot_order.h"
 #include "render/gather/path_sharing.h"
 #include "render/gather/tile_samples.h"
 #include "render/path/path_walk.h"
+#include "render/reflection/reflection_cache.h"
 
 namespace pelage {
 
@@ -15,14 +18,21 @@ namespace pelage {
 /// safety: const members may be called from any thread, each with its own scratch.
 class IndirectPaths {
  public:
-  /// Keeps references to its arguments, except `options`.
+  /// Keeps references to its arguments, except `options`. `cache`: ends paths at their second surface; may
+  /// be empty.
   IndirectPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
-                const CameraSamples& camera, const PathOptions& options)
-      : scene_(scene), camera_(camera), options_(options), walk_(scene, accel, shading, options) {}
+                const CameraSamples& camera, const PathOptions& options,
+                const std::optional<ReflectionCache>& cache)
+      : scene_(scene),
+        camera_(camera),
+        cache_(cache),
+        options_(options),
+        walk_(scene, accel, shading, options) {}
 
   struct Scratch {
     DirectLightScratch direct;
-    KnotOrder order;            // visible points, sorted by knot
+    KnotOrder order;  // visible points, sorted by knot
+    ReflectionStatistics reflections;
     std::vector<Rgb> arriving;  // radiance that arrives at the visible point along a path, by light
   };
 
@@ -38,6 +48,7 @@ class IndirectPaths {
 
   const RenderScene& scene_;
   const CameraSamples& camera_;
+  const std::optional<ReflectionCache>& cache_;
   const PathOptions options_;
   PathWalk<ArrivingLight> walk_;
 };

@@ -42,6 +42,10 @@ struct PathState {
 ///   met(path, light, radiance, weight, through)
 ///       Receives a light that the ray drawn from the lobes hits. The light that arrives at the current
 ///       vertex is radiance * weight * through, where `through` is the fraction that nothing blocks.
+/// It may have a third:
+///   arrive(path, met)
+///       Receives each vertex after the first, before its light is found. `met`: the geometry that was hit.
+///       Returns whether the path goes on from there.
 ///
 /// Thread safety: const members may be called from any thread, each with its own scratch.
 template <class Sink>
@@ -93,6 +97,9 @@ class PathWalk {
     bool goes_on = true;
     while (goes_on) {
       ++path.vertex;
+      if constexpr (requires { sink.arrive(path, scratch.thread.met); }) {
+        if (!sink.arrive(path, scratch.thread.met)) return;
+      }
       goes_on = scatter(shading_.scatter_point(path.ray, path.hit, scratch.thread.met), path, lights, scratch,
                         sink);
     }

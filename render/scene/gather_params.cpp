@@ -54,6 +54,15 @@ const Schema<GatherParams>& GatherParams::schema() {
           {.help = "Indirect paths per camera sample that sees a strand or skin; dark surfaces get fewer",
            .min = 0.05,
            .max = 1});
+    s.key("cache", &GatherParams::cache,
+          {.help = "true: indirect paths end at the second surface. The light that this surface reflects is "
+                   "read from a cache of cells about 8 pixels large, which paths of the whole picture fill "
+                   "first. Glossy skins are not cached. Needs `reuse: true`"});
+    s.key("cache_paths", &GatherParams::cache_paths,
+          {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});
+    s.key("memory", &GatherParams::memory,
+          {.help = "Maximum memory of the cache. A cache that needs more is refused with an error",
+           .default_text = "an eighth of `render.memory`"});
     return s;
   }();
   return table;

@@ -119,10 +119,10 @@ class Measure(unittest.TestCase):
 
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
-                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse", "--set", "image.width=48",
+                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache", "--set", "image.width=48",
                      "--set", "image.height=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false"]
+        curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true"]
         names = ["warm-up", "reference-a", "reference-b"]
         for curve in curves:
             names += [f"{curve}, 4", f"{curve}, 16"] + ([f"{curve}, 16, other seed"] if "gather" in curve else [])
@@ -150,11 +150,18 @@ class Measure(unittest.TestCase):
             self.assertIsNone(few["reuse_bias"])
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_knot"], 1)
         self.assertGreater(rows["gather, 16"]["samples_per_knot"], 1)
+        cached = rows["gather, cache: true, 16"]
+        self.assertGreater(cached["reflection_cells"], 0)
+        self.assertGreater(cached["reflection_paths"], 0)
+        self.assertGreater(cached["reflection_lookups"], 0)
+        self.assertGreater(cached["reflections_found"], 0)
+        self.assertEqual(rows["gather, 16"]["reflection_lookups"], 0)
         for row in rows.values():  # where both reach an error, the gain is the ratio of their times
             if row["gain_at_5"] is not None:
                 self.assertAlmostEqual(row["gain_at_5"] * row["cpu_s_to_5"], rows["path, 16"]["cpu_s_to_5"], 9)
         differences = sorted(path.name for path in (self.path / "out").glob("difference-*.png"))
-        self.assertEqual(differences, ["difference-gather.png", "difference-path.png", "difference-reuse.png"])
+        self.assertEqual(differences, ["difference-cache.png", "difference-gather.png", "difference-path.png",
+                                       "difference-reuse.png"])
         for name in differences:
             check_png((self.path / "out" / name).read_bytes())
         self.assertFalse((self.path / "cache").exists(), "the scene's own cache was touched")

@@ -23,6 +23,7 @@ TEST(Statistics, SumWhatFramesCounted) {
   result.statistics.residency.cpu_s = 0.25;
   result.statistics.samples_rejected = 1;
   result.statistics.knots = {.knots = 2, .samples = 50};
+  result.statistics.reflections = {.cells = 3, .paths = 4, .lookups = 6, .found = 5};
   result.statistics.stages_s = {{"render", 2.0}};
   Statistics run;
   for (int i = 0; i < 3; ++i) run.add(result, 1, 1.0 / 3);
@@ -49,6 +50,10 @@ TEST(Statistics, SumWhatFramesCounted) {
   EXPECT_EQ(frames.samples_rejected, 3);
   EXPECT_EQ(frames.knots.knots, 6);
   EXPECT_EQ(frames.knots.samples, 150);
+  EXPECT_EQ(frames.reflections.cells, 9);
+  EXPECT_EQ(frames.reflections.paths, 12);
+  EXPECT_EQ(frames.reflections.lookups, 18);
+  EXPECT_EQ(frames.reflections.found, 15);
   EXPECT_EQ(frames.stages_s.at("render"), 6);
 }
 

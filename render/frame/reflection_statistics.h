@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace pelage {
+
+/// Counts of the reflection cache of `integrator: gather`, for one thread, one frame or several frames.
+struct ReflectionStatistics {
+  int64_t cells = 0;    ///< of all sizes
+  int64_t paths = 0;    ///< that found a second surface and were added to the cells
+  int64_t lookups = 0;  ///< paths that asked for the light of their second surface
+  int64_t found = 0;    ///< lookups that were answered; the other paths went on
+
+  ReflectionStatistics& operator+=(const ReflectionStatistics& other) {
+    cells += other.cells;
+    paths += other.paths;
+    lookups += other.lookups;
+    found += other.found;
+    return *this;
+  }
+};
+
+}  // namespace pelage

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/reflection/cell_keys.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "base/hash.h"
+#include "lod/size.h"
+#include "render/frame/rest_place.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kMinExponent = -60, kMaxExponent = 60;
+constexpr uint32_t kMaxParts = 128;
+
+/// A number that identifies the part of a strand that is hit, among the parts of all lengths; not 0.
+uint32_t part_of_strand(const Hit& hit, const Strands& strand, float pixels) {
+  float length = 0;  // of the control polygon
+  for (uint32_t i = 1; i < strand.strand_points(0); ++i)
+    length += (strand.point(i) - strand.point(i - 1)).length();
+  uint32_t parts = CellKeys::kMinParts;
+  while (parts < kMaxParts && length * pixels > static_cast<float>(parts) * CellKeys::kPartPixels) parts *= 2;
+  const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
+  const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
+  return parts + std::min(static_cast<uint32_t>(static_cast<float>(parts) * place), parts - 1);
+}
+
+uint32_t octant_of(const V3f& direction) {
+  return (direction.x < 0 ? 1u : 0u) | (direction.y < 0 ? 2u : 0u) | (direction.z < 0 ? 4u : 0u);
+}
+
+}  // namespace
+
+std::optional<CellPath> CellKeys::of(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
+  const bool on_strand = hit.kind == HitKind::kStrand;
+  if (!on_strand && std::holds_alternative<GlossyParams>(scene_.materials[scene_.skins[hit.part].material]))
+    return std::nullopt;
+  const RestPlace at = on_strand ? rest_place(scene_.fur[hit.part], met.strand)
+                                 : rest_place(scene_.skins[hit.part], ray, hit, met.triangle);
+  const V3f seen = on_strand ? met.strand.point(0) : ray.origin + hit.distance * ray.direction;
+  const float pixels = at.scale * pixels_per_unit(view_, seen);
+  const int exponent = std::clamp(std::ilogb(kPixels / pixels), kMinExponent, kMaxExponent);
+  const uint32_t part = on_strand ? part_of_strand(hit, met.strand, pixels_per_unit(view_, seen)) : 0;
+  const uint64_t place =
+      hash64(random_use("cell of reflections"), hit.part, part, side_of(at.normal), octant_of(ray.direction));
+  CellPath cells;
+  for (int level = 0; level < static_cast<int>(cells.size()); ++level) {
+    const auto index = [&](int axis) {
+      const double scaled = std::ldexp(double{at.position[axis]}, -(exponent + level));
+      return static_cast<uint64_t>(static_cast<int64_t>(std::floor(scaled)));
+    };
+    cells[static_cast<size_t>(level)] = hash64(place, static_cast<uint32_t>(exponent),
+                                               static_cast<uint32_t>(level), index(0), index(1), index(2));
+  }
+  return cells;
+}
+
+}  // namespace pelage

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/reflection/reflection_cache_test.cpp.
+#include "render/reflection/reflection_paths.h"
+
+#include <optional>
+
+#include "base/hash.h"
+#include "render/sampling/systematic_choice.h"
+
+namespace pelage {
+namespace {
+
+/// Draws after SampleDraw::kFirstVertex, the same as those of a path's first vertex.
+enum FirstVertexDraw : uint32_t { kLobe = 1, kRoulette = 3 };
+
+void seek(SampleStream& stream, FirstVertexDraw draw) {
+  stream.seek(static_cast<uint32_t>(SampleDraw::kFirstVertex) + draw);
+}
+
+}  // namespace
+
+/// A sink of PathWalk: sums up the light that the second surface of a path reflects, by light.
+class ReflectionPaths::Recorder {
+ public:
+  Recorder(const CellKeys& keys, std::vector<Rgb>& reflected) : keys_(keys), reflected_(reflected) {}
+
+  bool arrive(const PathState& path, const HitGeometry& met) {
+    if (path.vertex > 1) return true;
+    cells_ = keys_.of(path.ray, path.hit, met);
+    return cells_.has_value();
+  }
+  void shadow(const PathState& path, const LightPoint& from, float factor, float through) {
+    if (through > 0)
+      reflected_[from.light] += path.throughput * from.value.total() * from.arriving * (through * factor);
+  }
+  void met(const PathState& path, size_t light, const Rgb& radiance, float weight, float through) {
+    if (weight * through > 0) reflected_[light] += path.throughput * radiance * (weight * through);
+  }
+  /// Returns the cells of the second surface; empty where there is none, or no cell for it.
+  const std::optional<CellPath>& cells() const { return cells_; }
+
+ private:
+  const CellKeys& keys_;
+  std::vector<Rgb>& reflected_;
+  std::optional<CellPath> cells_;
+};
+
+ReflectionPaths::ReflectionPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+                                 const CameraSamples& camera, const PathOptions& options)
+    : scene_(scene),
+      accel_(accel),
+      shading_(shading),
+      camera_(camera),
+      options_(options),
+      keys_(scene),
+      walk_(scene, accel, shading, options) {}
+
+bool ReflectionPaths::trace(const Tile& tile, double paths, const Job& job, Scratch& scratch,
+                            ReflectionTable& table) const {
+  const uint64_t random =
+      hash64(random_use("paths of reflections"), static_cast<uint64_t>(scene_.render.seed),
+             static_cast<uint32_t>(tile.x0), static_cast<uint32_t>(tile.y0));
+  SystematicChoice choice(1, unit_float(random));
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      if (job.progress.cancelled()) return false;
+      const uint32_t count = choice.times(static_cast<float>(paths));
+      for (uint32_t i = 0; i < count; ++i) follow(x, y, i, scratch, table);
+    }
+  }
+  return true;
+}
+
+void ReflectionPaths::follow(int x, int y, uint32_t sample, Scratch& scratch, ReflectionTable& table) const {
+  SampleStream stream(hash64(random_use("reflections"), static_cast<uint64_t>(scene_.render.seed)),
+                      static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
+  const CameraSample from = camera_.draw(x, y, sample, stream);
+  const Hit hit = scratch.closest(RayKind::kCamera, accel_, from.ray);
+  if (!hit) return;
+  const ScatterPoint point = shading_.scatter_point(from.ray, hit, scratch.thread.met);
+  seek(stream, kLobe);
+  const auto drawn = point.sample(stream.next3d());
+  if (!drawn) return;
+  PathState path(stream);
+  path.time = from.ray.time;
+  path.random = from.ray.random;
+  for (int g = 0; g < kLobeGroups; ++g) path.first[g] = drawn->value.lobes[g] / drawn->value.pdf;
+  path.weight = drawn->value.total() / drawn->value.pdf;
+  if (!(max_component(path.weight) > 0)) return;
+  if (options_.roulette) {
+    const float survived = PathWalk<Recorder>::survival(path.weight);
+    seek(stream, kRoulette);
+    if (stream.next1d() >= survived) return;
+    path.weight /= survived;
+  }
+  Ray ray;
+  ray.origin = point.start(drawn->wi);
+  ray.direction = drawn->wi;
+  ray.time = path.time;
+  if (!point.can_hit_own_strand()) ray.start = hit.start;
+  scratch.reflected.assign(scene_.lights.size(), Rgb(0));
+  Recorder recorder(keys_, scratch.reflected);
+  const float weight = luminance(path.weight);
+  walk_.follow(ray, path, scratch.direct, scratch, recorder);
+  if (!recorder.cells()) return;
+  ++scratch.added;
+  table.add(*recorder.cells(), weight, scratch.reflected);
+}
+
+}  // namespace pelage

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/job.h"
+#include "render/frame/tile_order.h"
+#include "render/path/path_walk.h"
+#include "render/reflection/cell_keys.h"
+#include "render/reflection/reflection_table.h"
+
+namespace pelage {
+
+/// Traces the paths that fill the reflection cache. A path starts at a camera sample of its own and is traced
+/// as `path` does, to its end. It gives one estimate of the radiance that leaves its second surface towards
+/// the first one, by light, to each cell of the place. The estimates are unbiased, so the mean of a cell
+/// keeps energy. Thread safety: const members may be called from any thread, each with its own scratch.
+class ReflectionPaths {
+ public:
+  /// Keeps references to its arguments, except `options`.
+  ReflectionPaths(const RenderScene& scene, const Accel& accel, const FrameShading& shading,
+                  const CameraSamples& camera, const PathOptions& options);
+
+  struct Scratch final : SampleScratch {
+    DirectLightScratch direct;
+    int64_t added = 0;           // paths that were added to cells
+    std::vector<Rgb> reflected;  // by the second surface of a path, by light
+  };
+
+  /// Traces the paths of the pixels of a tile, and adds them to `table`. `paths`: mean count per pixel.
+  /// Returns false when `job` was cancelled.
+  bool trace(const Tile& tile, double paths, const Job& job, Scratch& scratch, ReflectionTable& table) const;
+
+ private:
+  class Recorder;
+  void follow(int x, int y, uint32_t sample, Scratch& scratch, ReflectionTable& table) const;
+
+  const RenderScene& scene_;
+  const Accel& accel_;
+  const FrameShading& shading_;
+  const CameraSamples& camera_;
+  const PathOptions options_;
+  const CellKeys keys_;
+  PathWalk<Recorder> walk_;
+};
+
+}  // namespace pelage

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/vector.h"
+
+namespace pelage {
+
+/// Weighted sums of radiance by cell and light. Cells are stored in the order in which they were first added,
+/// so that sums over several tables depend only on the order of the tables. Used by one thread while it
+/// changes; after that, const members may be called from any thread.
+class ReflectionTable {
+ public:
+  struct Cell {
+    uint64_t key = 0;
+    uint64_t outer = 0;  ///< key of the next larger cell around this one; its own key if there is none
+    uint32_t paths = 0;  ///< count of the paths that were added
+    float weight = 0;    ///< sum of their weights
+  };
+
+  explicit ReflectionTable(size_t lights = 0) : lights_(lights) {}
+
+  /// Adds the radiance of one path, by light, to cells: the smallest cell first, and each inside the next.
+  void add(std::span<const uint64_t> cells, float weight, std::span<const Rgb> radiance);
+  /// Adds the cells of another table, in their order.
+  void add(const ReflectionTable& other);
+  /// Replaces sums by estimates of the mean. The estimate of a small cell counts the estimate of the cell
+  /// around it as much as `blend` paths of its own. Call once, after all paths were added.
+  void finish(float blend);
+
+  size_t size() const { return cells_.size(); }
+  /// Returns the index of the cell with this key; size() if there is none.
+  size_t find(uint64_t key) const;
+  const Cell& cell(size_t index) const { return cells_[index]; }
+  /// Returns the sums or, after finish(), the estimates of a cell, by light.
+  const Rgb* radiance(size_t index) const { return radiance_.data() + index * lights_; }
+  /// Returns the memory of the table, in bytes.
+  size_t bytes() const;
+  /// Returns an upper bound of bytes() of a table with `cells` cells.
+  static size_t max_bytes(size_t cells, size_t lights);
+
+ private:
+  size_t insert(uint64_t key, uint64_t outer);
+  void index_again(size_t slots);
+  void finish(size_t cell, float blend, std::vector<bool>& finished);
+
+  size_t lights_;
+  std::vector<uint32_t> index_;  // open addressing: 1 + index of a cell, or 0; its size is a power of two
+  std::vector<Cell> cells_;
+  std::vector<Rgb> radiance_;  // by cell and light
+};
+
+}  // namespace pelage

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "tests/render/film/film_picture.h"
+#include "tests/render/gather/gather_scene.h"
+
+namespace pelage {
+namespace {
+
+struct CachedScene : GatherScene {
+  CachedScene() {
+    render.gather.cache = true;
+    render.gather.cache_paths = 2;  // enough to fill the cells of so small a picture
+  }
+};
+
+void expect_same(const Film& a, const Film& b) {
+  const ExrImage one = picture_of(a), other = picture_of(b);
+  ASSERT_EQ(one.channels.size(), other.channels.size());
+  for (size_t i = 0; i < one.channels.size(); ++i)
+    EXPECT_EQ(one.channels[i].pixels, other.channels[i].pixels) << one.channels[i].name;
+}
+
+TEST(ReflectionCache, OneAndManyThreadsGiveTheSameFilm) {
+  CachedScene scene;
+  const FrameResult one = scene.run({}, 1);
+  const ReflectionStatistics first = scene.statistics.reflections;
+  expect_same(one.film, scene.run({}, 4).film);
+  EXPECT_GT(first.cells, 0);
+  EXPECT_GT(first.found, first.lookups / 2);
+  EXPECT_EQ(scene.statistics.reflections.cells, 2 * first.cells);
+  EXPECT_EQ(scene.statistics.reflections.found, 2 * first.found);
+}
+
+TEST(ReflectionCache, ARegionHasThePixelsOfThePicture) {
+  CachedScene scene;
+  const FrameResult whole = scene.run();
+  FrameOptions options;
+  options.region = PixelBox{8, 6, 20, 18};
+  NoProgress progress;
+  const FrameResult part = scene.run_frame(options, 2, progress);
+  const PixelBox film = part.window.film;
+  for (int y = 6; y < 18; ++y) {
+    for (int x = 8; x < 20; ++x)
+      EXPECT_EQ(part.film.radiance(x - film.x0, y - film.y0), whole.film.radiance(x, y)) << x << ", " << y;
+  }
+}
+
+TEST(ReflectionCache, SavesRaysInPaleFur) {
+  PathScene scene(24, 24);
+  scene.camera.fov = 16;
+  scene.add_fur(furball(2000, 0.5f, 0.02f), diffuse_fibre(Rgb(0.95f)));
+  scene.add_sky(Rgb(1));
+  scene.render.integrator = Integrator::kGather;
+  scene.render.bounces = 12;
+  scene.render.gather.cache_paths = 0.1f;
+  scene.run();
+  const RayStatistics whole = scene.statistics.rays;
+  EXPECT_EQ(scene.statistics.reflections.lookups, 0);
+  scene.statistics = {};
+  scene.render.gather.cache = true;
+  scene.run();
+  EXPECT_LT(scene.statistics.rays.indirect, 0.8 * static_cast<double>(whole.indirect));
+  EXPECT_LT(scene.statistics.rays.shadow, 0.8 * static_cast<double>(whole.shadow));
+}
+
+TEST(ReflectionCache, AnyMemoryThatSufficesGivesTheSameFilm) {
+  CachedScene scene;
+  const FrameResult free = scene.run();
+  const int64_t peak = scene.ledger.peak(MemoryTag::kReflectionCache);
+  EXPECT_GT(peak, 0);
+  EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
+  scene.render.gather.memory.bytes = static_cast<uint64_t>(peak);
+  expect_same(free.film, scene.run().film);
+  scene.render.gather.memory.bytes = 16 << 10;
+  try {
+    scene.run();
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_NE(std::string(error.what()).find("render.gather.memory"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(scene.ledger.current(MemoryTag::kReflectionCache), 0);
+}
+
+TEST(ReflectionCache, WithoutReuseItIsNotUsed) {
+  CachedScene scene;
+  scene.render.gather.reuse = false;
+  const FrameResult with = scene.run();
+  EXPECT_EQ(scene.statistics.reflections.cells, 0);
+  scene.render.gather.cache = false;
+  expect_same(with.film, scene.run().film);
+}
+
+/// Stops as soon as the cache is being filled.
+struct StopsFill final : Progress {
+  void begin(std::string_view stage, double) override { filling = filling || stage == "reflection cache"; }
+  void advance(double) override {}
+  void end() override {}
+  bool cancelled() const override { return filling; }
+  bool filling = false;
+};
+
+TEST(ReflectionCache, AnInterruptedFillLeavesAnEmptyPicture) {
+  CachedScene scene;
+  StopsFill progress;
+  const FrameResult result = scene.run({}, 1, progress);
+  EXPECT_TRUE(result.partial);
+  EXPECT_EQ(result.samples, 0u);
+}
+
+}  // namespace
+}  // namespace pelage
