@@ -24,6 +24,7 @@ LIBRARY_HEADERS = {
     "JSON": r"nlohmann/",
     "cpp-httplib": r"httplib\.h",
     "libpng": r"png\.h",
+    "zlib": r"zlib\.h",
 }
 # Anything else in angle brackets is the C++ library (no dot, no slash), the C library or the system.
 SYSTEM_HEADER = re.compile(r"([a-z_0-9]+|(sys(/platform)?|linux|arpa|netinet)/[a-z0-9]+\.h|[a-z]+\.h)$")
