@@ -177,6 +177,7 @@ void update_assets(const SceneDescription& scene, const Job& job, Assets& assets
   job.ledger.set_limit(scene.render.memory.bytes);
   assets.charges.clear();
   assets.crowds.clear();
+  assets.archives.clear();
   assets.part_poses.clear();
   assets.materials.clear();
   const std::map<std::string, ContentHash> keys = drop_old(scene, assets);

@@ -14,6 +14,7 @@
 #include "geom/pose_sequence.h"
 #include "groom/groom.h"
 #include "image/texture_library.h"
+#include "world/archives.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -38,6 +39,7 @@ struct Assets {
   /// Poses of a part of a character that replace the poses of its skin. The key is the name of the character
   /// and the index of the part (CharacterParams::parts).
   std::map<std::pair<std::string, size_t>, PoseSequence> part_poses;
+  std::map<std::string, Archive> archives;       ///< by name, of the frame that was composed last
   std::vector<std::vector<CrowdMember>> crowds;  ///< the animals of each crowd, in the order of the scene
   std::vector<MaterialParams> materials;         ///< in the order of the scene
   std::vector<MemoryCharge> charges;             ///< of topologies and crowds

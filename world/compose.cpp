@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "procedurals/detail_policy.h"
 #include "procedurals/fur.h"
+#include "world/archives.h"
 #include "world/drawn_characters.h"
 
 namespace pelage {
@@ -168,6 +169,10 @@ World compose(const SceneDescription& scene, Assets& assets, double frame, const
               header_of(scene, frame),
               {}};
   Composer(scene, assets, frame, job, world).add_all();
+  for (const auto& archive : scene.archives.items) {
+    load_archive(scene, archive.name, archive.value, frame, job, assets.archives[archive.name]);
+    add_archive(scene, archive.name, archive.value, assets.archives.at(archive.name), job, world);
+  }
   return world;
 }
 

@@ -10,8 +10,11 @@
 #include "base/nearest_name.h"
 #include "image/exr_file.h"
 #include "scene/document_hash.h"
+#include "scene/overrides.h"
+#include "scene/renamed_keys.h"
 #include "world/asset_files.h"
 #include "world/leaf_sizes.h"
+#include "world/rib_document.h"
 #include "world/scene_schema.h"
 
 namespace pelage {
@@ -128,6 +131,10 @@ void check_references(const SceneDescription& scene, Problems& problems) {
     }
   }
   for (const auto& crowd : scene.crowds.items) check_crowd(scene, crowd, problems);
+  for (const auto& archive : scene.archives.items) {
+    for (const auto& material : archive.value.materials.items)
+      check_name(material.value, "material", scene.materials, problems);
+  }
   for (const auto& light : scene.lights.items)
     check_layer_name("light", light.name, light.position, problems);
   for (const auto& groom : scene.grooms.items)
@@ -192,6 +199,24 @@ void collect_files(const Value& value, std::set<std::string>& files) {
   }
 }
 
+/// A scene file, or a RIB file as a scene, with the overrides.
+std::optional<Value> any_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                                  Problems& problems, RenamedKeys& renamed) {
+  if (!is_rib(path)) {
+    std::optional<Value> document = load_document(path, overrides, problems, &renamed);
+    if (document) add_archive_materials(*document, renamed.warnings);
+    return document;
+  }
+  Value document = rib_document(path, renamed.warnings);
+  rename_old_keys(document, renamed, problems);
+  DocumentLimits limits;
+  for (const Override& override : overrides) {
+    apply_override(override, document, limits, problems, &renamed);
+    rename_old_keys(document, renamed, problems);
+  }
+  return document;
+}
+
 /// The scene file, and those that provided a value.
 std::vector<std::filesystem::path> files_of(const Value& document, const std::filesystem::path& path) {
   std::set<std::string> files{path.string()};
@@ -205,10 +230,11 @@ SceneDescription load_scene(const std::filesystem::path& path, const std::vector
   Problems problems;
   SceneDescription scene;
   RenamedKeys renamed{SceneDescription::schema()};
-  if (const std::optional<Value> document = load_document(path, overrides, problems, &renamed)) {
+  if (const std::optional<Value> document = any_document(path, overrides, problems, renamed)) {
     const ContentHash hash = document_hash(*document);
     scene.parts = scene_parts(*document);
     scene.files = files_of(*document, path);
+    scene.from_rib = is_rib(path);
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // If a block could not be read, references to its names would be reported as unknown too.
     if (SceneDescription::schema().read(*document, scene, problems)) {

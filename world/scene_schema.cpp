@@ -139,6 +139,26 @@ const Schema<CharacterParams>& CharacterParams::schema() {
   return table;
 }
 
+const Schema<ArchiveParams>& ArchiveParams::schema() {
+  static const Schema<ArchiveParams> table = [] {
+    Schema<ArchiveParams> s(
+        "archive",
+        "A RIB file: its curves become coats and its meshes become skins, as they are. Its "
+        "camera and its lights are ignored; `pelage render shot.rib` uses them.");
+    s.set_example(R"(archives:
+  fox: {rib: fox.rib, transform: {translate: [0, 0, 5]}, materials: {plastic: hide}})");
+    s.key("rib", &ArchiveParams::rib, {.help = "RIB file: text, binary or compressed", .required = true});
+    s.key("transform", &ArchiveParams::transform, {.help = "Placement", .default_text = "at the origin"});
+    s.key(
+        "materials", &ArchiveParams::materials,
+        {.help = "Materials for the surfaces of the file: {surface: material}. The name of a surface is the "
+                 "parameter \"name\" of its shader, or the name of the shader. Other surfaces get a "
+                 "material ARCHIVE.SURFACE with the values of the file"});
+    return s;
+  }();
+  return table;
+}
+
 const Schema<SceneDescription>& SceneDescription::schema() {
   static const Schema<SceneDescription> table = [] {
     Schema<SceneDescription> s(
@@ -170,6 +190,8 @@ camera: {position: {keys: {1: [0, 12, 60], 48: [0, 12, 30]}}, look_at: [0, 9, 0]
     s.key("characters", &SceneDescription::characters, {.help = "Animals, by name"});
     s.key("crowds", &SceneDescription::crowds,
           {.help = "Groups of many animals made from a few characters, by name"});
+    s.key("archives", &SceneDescription::archives,
+          {.help = "RIB files that are drawn with the scene, by name"});
     s.key("lights", &SceneDescription::lights,
           {.help = "Lights, by name; each adds its own layers to the picture"});
     s.key("render", &SceneDescription::render,

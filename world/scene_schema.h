@@ -88,6 +88,16 @@ struct CharacterParams {
   static const Schema<CharacterParams>& schema();
 };
 
+/// A RIB file, whose coats and skins are drawn as they are.
+struct ArchiveParams {
+  AssetPath rib;
+  TransformParams transform;
+  /// From the surfaces of the file, by name, to materials of the scene. load_scene() adds the surfaces that
+  /// the scene does not mention, and materials for them.
+  Named<NameReference> materials;
+  static const Schema<ArchiveParams>& schema();
+};
+
 /// Everything that a scene file states.
 struct SceneDescription {
   FormatVersion pelage;
@@ -100,13 +110,15 @@ struct SceneDescription {
   Named<MaterialParams> materials;
   Named<CharacterParams> characters;
   Named<CrowdParams> crowds;
+  Named<ArchiveParams> archives;
   Named<LightParams> lights;
   RenderParams render;
   std::string hash;  ///< hash of the document with its overrides, not of the assets that it names
   /// All files that this process reads for the scene: the scene file, its included files, and the assets
   /// (asset_files()).
   std::vector<std::filesystem::path> files;
-  SceneParts parts;  ///< hashes of the parts of the document, to compare scenes
+  bool from_rib = false;  ///< whether the scene is a RIB file (is_rib())
+  SceneParts parts;       ///< hashes of the parts of the document, to compare scenes
   /// One per use of an old name of a key, with the current name, and per setting without effect.
   std::vector<Problem> warnings;
   static const Schema<SceneDescription>& schema();
@@ -117,8 +129,9 @@ struct SceneDescription {
 /// material on a skin.
 void check_references(const SceneDescription& scene, Problems& problems);
 
-/// Reads a scene file with its includes, applies the overrides, and checks everything that can be checked
-/// without the assets. Throws Error (kInput) with all mistakes, in the order of the file.
+/// Reads a scene file with its includes, or a RIB file (rib_document()), applies the overrides, and checks
+/// everything that can be checked without the assets. Throws Error (kInput) with all mistakes, in the order
+/// of the file.
 SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
 
 }  // namespace pelage

@@ -29,5 +29,6 @@ std::vector<std::string> leaf_corpus();
 std::vector<std::string> fur_corpus();
 std::vector<std::string> treelet_corpus();
 std::vector<std::string> chunks_corpus();
+std::vector<std::string> rib_corpus();
 
 }  // namespace pelage

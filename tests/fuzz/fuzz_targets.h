@@ -40,6 +40,9 @@ void fuzz_treelet(std::span<const uint8_t> bytes);
 /// A file of chunks of fur, as it is and as if its checksums were right, and rays through what it holds.
 void fuzz_chunks(std::span<const uint8_t> bytes);
 
+/// A RIB file: its strands, skins and lights, and the scene that it makes.
+void fuzz_rib(std::span<const uint8_t> bytes);
+
 /// A file of this process that holds `bytes`; its name ends in `ending`.
 std::filesystem::path fuzz_file(std::span<const uint8_t> bytes, const std::string& ending);
 

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "world/archives.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/memory_budget.h"
+#include "base/nearest_name.h"
+#include "procedurals/pose_cache.h"
+#include "procedurals/posed_character_skin.h"
+#include "procedurals/rib/rib_reading.h"
+#include "world/character_transform.h"
+#include "world/compose.h"
+
+namespace pelage {
+namespace {
+
+/// The transform of an archive over the shutter.
+RibTransform placement_of(const SceneDescription& scene, const TransformParams& transform, double frame) {
+  const V2f shutter = scene.camera.shutter;
+  if (!moves(transform) || !(shutter.y > shutter.x))
+    return RibTransform(character_matrix(transform, moves(transform) ? frame + shutter.x : frame));
+  std::vector<std::pair<double, M44f>> samples;
+  for (int key = 0; key < scene.camera.motion_keys; ++key) {
+    const double time = shutter.x + double(shutter.y - shutter.x) * key / (scene.camera.motion_keys - 1);
+    samples.emplace_back(time, character_matrix(transform, frame + time));
+  }
+  return RibTransform(std::move(samples));
+}
+
+ContentHash key_of(const ArchiveParams& params, const RibTransform& placement, double frame,
+                   const V2f& shutter) {
+  ContentHasher hasher;
+  hasher.add(params.rib.path.string()).add(frame).add(shutter.x).add(shutter.y);
+  for (const auto& [time, matrix] : placement.samples()) {
+    hasher.add(time);
+    for (const auto& row : matrix.x) {
+      for (const float x : row) hasher.add(x);
+    }
+  }
+  return hasher.digest();
+}
+
+size_t bytes_of(const RibScene& rib) {
+  size_t bytes = 0;
+  for (const RibCoat& coat : rib.coats) {
+    for (const auto& batch : coat.batches) bytes += batch->bytes();
+    bytes += coat.deferred.size() * sizeof(RibDeferredBatch);
+  }
+  for (const RibSkin& skin : rib.skins)
+    bytes += skin.cage.bytes() + skin.keys.size() * skin.cage.positions.size() * sizeof(V3f);
+  return bytes;
+}
+
+size_t material_of(const SceneDescription& scene, const ArchiveParams& params, const RibScene& rib,
+                   size_t own) {
+  const RibMaterial& material = rib.materials[own];
+  const auto* entry = params.materials.find(material.name);
+  if (!entry)
+    throw Error(ErrorKind::kInput, params.rib.position,
+                "surface " + quote(material.name) + " has no material; add it to the table `materials`");
+  size_t index = 0;
+  while (scene.materials.items[index].name != entry->value.name)
+    ++index;  // load_scene checked that it exists
+  if ((fibre_params(scene.materials.items[index].value) != nullptr) != material.fibre)
+    throw Error(ErrorKind::kInput, entry->value.position,
+                quote(entry->value.name) + " is a material for " +
+                    (material.fibre ? "skins, but the surface is on curves"
+                                    : "strands, but the surface is on a mesh"));
+  return index;
+}
+
+void add_coat(const std::string& name, const RibCoat& coat, size_t material, World& world) {
+  FurPart fur{name + "." + coat.name, {}, material, nullptr, coat.tint};
+  fur.procedurals.push_back(rib_procedural(coat));
+  ++world.counts.characters;
+  if (world.scene.camera.may_see(fur.procedurals.back()->bound(BoundSpan::kShutter)))
+    ++world.counts.characters_in_frame;
+  const auto strands = static_cast<int64_t>(fur.procedurals.back()->counts().strands);
+  world.counts.strands_described += strands;
+  world.counts.strands_unique += strands;
+  world.scene.fur.push_back(std::move(fur));
+}
+
+CharacterPose pose_of(const RibSkin& skin, const LimitSurface& rest) {
+  CharacterPose pose;
+  pose.topology = rest.shared_topology();
+  for (const auto& key : skin.keys) {
+    pose.shutter.cages.push_back(key);
+    pose.shutter.transforms.emplace_back();
+  }
+  if (skin.keys.size() > 1) {
+    // The file says nothing about the time outside of the shutter.
+    for (const auto* key : {&skin.keys.front(), &skin.keys.back()}) {
+      pose.frame_ends.cages.push_back(*key);
+      pose.frame_ends.transforms.emplace_back();
+    }
+  }
+  return pose;
+}
+
+}  // namespace
+
+void load_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
+                  double frame, const Job& job, Archive& archive) {
+  const RibTransform placement = placement_of(scene, params.transform, frame);
+  const ContentHash key = key_of(params, placement, frame, scene.camera.shutter);
+  if (archive.rib && archive.key == key) return;
+  archive = {};
+  const std::string what = fmt::format("reading archive '{}'", name);
+  RibReadOptions options;
+  options.frame = static_cast<int>(std::lround(frame));
+  options.shutter = scene.camera.shutter;
+  options.placement = placement;
+  options.mirror_left_handed = scene.from_rib;
+  options.reserve = [&](size_t bytes) { require_room(job.ledger, static_cast<int64_t>(bytes), what); };
+  options.check_stop = [&] { job.check_stop(); };
+  auto rib = std::make_shared<RibScene>(read_rib(params.rib.path, options));
+  // The others are known since the scene was loaded.
+  for (const Problem& warning : rib->warnings) {
+    if (warning.message.starts_with("strands without extent"))
+      job.progress.warn(to_string(warning.position) + ": " + warning.message);
+  }
+  size_t bytes = bytes_of(*rib);
+  for (const RibSkin& skin : rib->skins) {
+    const auto topology =
+        SurfaceTopology::create(skin.cage, skin.scheme, skin.boundary, to_string(skin.position), job);
+    archive.surfaces.push_back(std::make_shared<const LimitSurface>(topology, skin.keys.front()));
+    bytes += topology->bytes() + archive.surfaces.back()->bytes();
+    require_room(job.ledger, static_cast<int64_t>(bytes), what);
+  }
+  archive.charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
+  archive.rib = std::move(rib);
+  archive.key = key;
+}
+
+void add_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
+                 const Archive& archive, const Job& job, World& world) {
+  const RibScene& rib = *archive.rib;
+  const auto poses = std::make_shared<PoseCache>(job.workers.thread_count(), job.ledger);
+  for (size_t i = 0; i < rib.skins.size(); ++i) {
+    const RibSkin& skin = rib.skins[i];
+    const size_t material = material_of(scene, params, rib, skin.material);
+    const auto& rest = archive.surfaces[i];
+    const auto posed = std::make_shared<PosedCharacterSkin>(pose_of(skin, *rest), poses);
+    world.charges.emplace_back(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(posed->bytes()));
+    world.scene.skins.push_back({name + "." + skin.name, posed, rest, material, skin.tint});
+  }
+  for (const RibCoat& coat : rib.coats) {
+    if (coat.batches.empty() && coat.deferred.empty()) continue;
+    add_coat(name, coat, material_of(scene, params, rib, coat.material), world);
+  }
+}
+
+}  // namespace pelage

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/job.h"
+#include "base/ledger.h"
+#include "geom/limit_surface.h"
+#include "procedurals/rib/rib_scene.h"
+#include "world/scene_schema.h"
+
+namespace pelage {
+
+struct World;
+
+/// The contents of a RIB file in one frame, in world space.
+struct Archive {
+  ContentHash key;  ///< of everything from which it is made
+  std::shared_ptr<const RibScene> rib;
+  std::vector<std::shared_ptr<const LimitSurface>> surfaces;  ///< of the skins, at shutter open
+  MemoryCharge charge;
+};
+
+/// Makes `archive` the contents of a file at a frame, unless it already is. Throws Error: kInput for mistakes
+/// in the file, kMemory when its strands and skins do not fit `render.memory`, kStopped when the job is
+/// stopped.
+void load_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
+                  double frame, const Job& job, Archive& archive);
+
+/// Adds the coats and skins of an archive to a world, as "ARCHIVE.NAME". Throws Error (kInput) if a surface
+/// has no material, or one of the wrong kind.
+void add_archive(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
+                 const Archive& archive, const Job& job, World& world);
+
+}  // namespace pelage
