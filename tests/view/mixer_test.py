@@ -91,7 +91,7 @@ class Mixer(PageTest):
         self.until(lambda: "intensity: 16.97" in browser.execute_script("return document.getElementById('text').value"))
         self.shoot(browser, "apply")
         browser.find_element(By.ID, "write_text").click()
-        self.until(lambda: self.attribute(browser, "done") == "true" and self.state()["edits"] == 1)
+        self.shows(browser, 1)
         text = (self.path / "scene.yaml").read_text()
         number = re.search(r"intensity: (16\.97\d*)\}  # warm", text).group(1)
         rgb = re.search(r"radiance: (\[0\.3, 0\.0\d*, 0\])", text).group(1)

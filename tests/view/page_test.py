@@ -109,7 +109,7 @@ class Page(PageTest):
         # An edit.
         self.replace("radiance: 0.3", "radiance: 0.6")
         self.until(lambda: "has changed" in self.text(browser, "why_message"))
-        self.until(lambda: self.attribute(browser, "done") == "true" and self.state()["edits"] == 1)
+        self.shows(browser, 1)
         click()
         self.until(lambda: self.text(browser, "why_message") == "")
 

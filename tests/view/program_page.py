@@ -57,6 +57,12 @@ class PageTest(ViewTest):
         self.until(lambda: self.attribute(browser, "version") > 0)
         return browser
 
+    def shows(self, browser, edits):
+        """Waits until the page shows the finished picture after `edits` edits. The server knows first, so the page alone
+        could still show that the picture before is finished."""
+        version = self.wait(lambda state: state["done"] and state["edits"] == edits)["version"]
+        self.until(lambda: self.attribute(browser, "version") == version)
+
     @staticmethod
     def attribute(browser, name):
         value = browser.execute_script(f"return document.body.dataset.{name}")
