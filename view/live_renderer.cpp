@@ -63,6 +63,8 @@ class LiveRenderer::Watch final : public FrameWatch {
       status.strands_regrown = regrown;
     });
     renderer_.answer_questions();
+    // What follows is better seen in the picture itself.
+    if (renderer_.is_preview_ && state.grid <= 2) renderer_.preview_is_over_ = true;
   }
   std::optional<PixelBox> region() const override { return renderer_.desk_.control().region(); }
   uint32_t region_version() const override { return renderer_.desk_.control().region_version(); }
@@ -75,7 +77,7 @@ class LiveRenderer::Watch final : public FrameWatch {
 LiveRenderer::LiveRenderer(ViewDesk& desk, int threads)
     : desk_(desk),
       workers_(threads),
-      progress_(desk, ledger_, [this] { return must_end(); }),
+      progress_(desk, ledger_, [this] { return must_end() || preview_is_over_; }),
       loaded_(std::make_unique<Loaded>(ledger_, progress_)),
       thread_([this] { run(); }) {
   desk_.why().on_ask([this] {
@@ -211,24 +213,23 @@ void LiveRenderer::render_loaded(const SceneEdit& edit, const Job& job) {
     ImageParams& image = loaded_->world->scene.image;
     const RenderParams wanted = params;
     const ImageParams wanted_image = image;
-    params.integrator = Integrator::kPath;
-    params.samples = 1;
-    image.filter_samples = FilterSamples::kDrawn;
-    bool partial = false;
     const auto restore = [&] {
       params = wanted;
       image = wanted_image;
-      is_preview_ = false;
+      is_preview_ = preview_is_over_ = false;
     };
+    params.integrator = Integrator::kPath;
+    params.samples = 1;
+    image.filter_samples = FilterSamples::kDrawn;
     is_preview_ = true;
     try {
-      partial = trace(job, watch).partial;
+      trace(job, watch);
     } catch (...) {
       restore();
       throw;
     }
     restore();
-    if (partial) return;
+    if (must_end()) return;
     if (params.min_width() > 0) release_geometry();  // the geometry of `path` has no widened strands
   }
   FrameResult result = trace(job, watch);

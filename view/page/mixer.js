@@ -37,15 +37,21 @@ export class Mixer {
     this.showButtons();
     element("light_message").textContent =
       state.layers.length && !this.lights.size ? "The scene has no light layers: set image.light_layers to true." : "";
-    if (!this.lights.size || (this.mix.layers?.version === state.version && this.mix.has(this.lights))) return false;
-    const layers = await readLayers([...this.lights.values()].flat().map(part => part.layer));
-    if (!layers) return false;
-    this.mix.setLayers(layers);
-    if (this.applied !== null && layers.edit > this.applied) {
+    let changed = false;
+    const isCurrent = this.mix.layers?.version === state.version && this.mix.has(this.lights);
+    const layers = this.lights.size && !isCurrent &&
+                   await readLayers([...this.lights.values()].flat().map(part => part.layer));
+    if (layers) {
+      this.mix.setLayers(layers);
+      changed = true;
+    }
+    // The picture with the new values may arrive before the answer that they were written.
+    if (this.applied !== null && this.mix.layers.edit > this.applied) {
       this.applied = null;
       this.panel.reset(false);
+      changed = true;
     }
-    return true;
+    return changed;
   }
 
   paint(stops, film) { return this.mix.paint(this.lights, this.panel.settings, this.panel.moved, stops, film); }
