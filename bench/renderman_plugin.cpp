@@ -109,3 +109,5 @@ BENCHMARK(first_call)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace pelage
+
+BENCHMARK_MAIN();
