@@ -14,7 +14,7 @@ namespace {
 struct CachedScene : GatherScene {
   CachedScene() {
     render.gather.cache = true;
-    render.gather.cache_paths = 2;  // enough to fill the cells of so small a picture
+    render.gather.cache_paths = 32;  // enough to fill the cells of so small a picture
   }
 };
 
@@ -57,7 +57,7 @@ TEST(ReflectionCache, SavesRaysInPaleFur) {
   scene.add_sky(Rgb(1));
   scene.render.integrator = Integrator::kGather;
   scene.render.bounces = 12;
-  scene.render.gather.cache_paths = 0.1f;
+  scene.render.gather.cache_paths = 0.25f;
   scene.run();
   const RayStatistics whole = scene.statistics.rays;
   EXPECT_EQ(scene.statistics.reflections.lookups, 0);

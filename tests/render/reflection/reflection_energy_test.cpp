@@ -102,6 +102,7 @@ TEST(ReflectionEnergy, TwoCoatsOfDifferentModelsHaveTheLightOfPaths) {
   scene.add_fur(furball(300, 0.8f, 0.01f), MarschnerParams{});
   scene.add_skin(sphere_mesh(1), GlossyParams{});
   scene.add_key();
+  scene.add_sky(Rgb(0.5f));
   scene.expect_light_of_paths(0.3);  // on glossy skin, paths go on
 }
 
