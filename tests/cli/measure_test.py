@@ -120,7 +120,7 @@ class Measure(unittest.TestCase):
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
                      "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache", "--set", "image.width=48",
-                     "--set", "image.height=32")
+                     "--set", "image.height=32", "--set", "render.gather.cache_paths=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
         curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true"]
         names = ["warm-up", "reference-a", "reference-b"]
