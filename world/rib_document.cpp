@@ -240,24 +240,25 @@ void add_archive_materials(Value& document, std::vector<Problem>& warnings) {
   for (Value::Entry& entry : archives->entries()) {
     const Value* file = entry.value.find("rib");
     if (!file || !file->is_scalar() || file->text().empty()) continue;  // the schema reports it
-    const std::filesystem::path folder = std::filesystem::path(file->position().file).parent_path();
-    const bool by_flag = file->position().line == 0;
+    const SourcePosition named_at = file->position();  // a copy: `file` is an entry of a map that grows below
+    const std::filesystem::path folder = std::filesystem::path(named_at.file).parent_path();
+    const bool by_flag = named_at.line == 0;
     std::filesystem::path path = by_flag ? std::filesystem::path(file->text()) : folder / file->text();
     RibScene rib;
     try {
       rib = read_description(path, {}, false);
     } catch (const Error& error) {
       if (error.problems().size() != 1 || error.problems()[0].position.line > 0) throw;
-      throw Error(ErrorKind::kInput, file->position(), error.what());
+      throw Error(ErrorKind::kInput, named_at, error.what());
     }
     warnings.insert(warnings.end(), rib.warnings.begin(), rib.warnings.end());
-    if (!entry.value.find("materials")) add_entry(entry.value, "materials", Value::map(file->position(), {}));
+    if (!entry.value.find("materials")) add_entry(entry.value, "materials", Value::map(named_at, {}));
     Value* table = entry.value.find("materials");
     if (!table->is_map()) continue;
     for (const RibMaterial& material : rib.materials) {
       if (table->find(material.name)) continue;
       const std::string name = entry.key + "." + material.name;
-      add_entry(*table, material.name, rib_text(file->position(), name));
+      add_entry(*table, material.name, rib_text(named_at, name));
       const Value* own = document.find("materials");
       if (!own || !own->find(name)) add_entry(added, name, rib_material(material, warnings));
     }
