@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/checkpoint_flags.h"
+#include "cli/farm_flags.h"
 #include "cli/picture_flags.h"
 #include "geom/strands.h"
 #include "post/blur_file.h"
@@ -26,6 +27,7 @@ enum class Command {
   kCompare,
   kInfo,
   kMerge,
+  kFarm,
   kConvert,
   kMotionBlur,
   kStereo,
@@ -97,6 +99,8 @@ struct Options {
 
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
+
+  FarmOptions farm;  ///< farm: its flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown
