@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/checkpoint_flags.h"
+#include "cli/farm_flags.h"
 #include "cli/picture_flags.h"
 #include "cli/rib_flags.h"
 #include "geom/strands.h"
@@ -28,6 +29,7 @@ enum class Command {
   kCompare,
   kInfo,
   kMerge,
+  kFarm,
   kConvert,
   kMotionBlur,
   kStereo,
@@ -106,6 +108,7 @@ struct Options {
   MergeParams merge;                ///< merge: its parameters
 
   RibOptions rib;  ///< rib, procedural: their flags
+  FarmOptions farm;  ///< farm: its flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown
