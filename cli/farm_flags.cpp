@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "cli/checkpoint_flags.h"
+#include "world/frames.h"
 
 namespace pelage {
 namespace {
@@ -35,7 +36,8 @@ void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
   farm.add_option("--regions", texts.regions,
                   "Divide each frame into columns x rows, such as 4x4 (default: one task per frame)")
       ->type_name("COLUMNSxROWS");
-  farm.add_option("--dir", options.folder, "Folder for checkpoints, regions and statistics (default: farm)")
+  farm.add_option("--dir", options.folder,
+                  "Folder for checkpoints, regions and statistics; one per shot (default: farm)")
       ->type_name("DIR");
   farm.add_option("--every", texts.every,
                   "Time between two checkpoints, such as 60s, 5m or 2h (default: 60s)")
@@ -49,6 +51,9 @@ void interpret_farm(const FarmTexts& texts, FarmOptions& options) {
                                            suggest(texts.action, std::vector<std::string>{"plan"}));
   }
   if (options.folder.empty()) throw Error(ErrorKind::kArguments, "--dir: the name of the folder is empty");
+  if (has_frame_pattern(options.folder))
+    throw Error(ErrorKind::kArguments,
+                "--dir " + quote(options.folder) + ": all frames share the folder, without a frame number");
   if (!texts.regions.empty() && !parse_regions(texts.regions, options.columns, options.rows)) {
     throw Error(ErrorKind::kArguments,
                 "--regions: expected columns and rows such as 4x4, got " + quote(texts.regions));

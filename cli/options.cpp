@@ -220,7 +220,7 @@ void add_farm(CLI::App& app, Options& options, Texts& texts) {
       ->required()
       ->type_name("FILE.%04d.exr");
   farm->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
-  add_parallel_flags(*farm, options, texts, kMemoryHelp);
+  add_parallel_flags(*farm, options, texts, "Memory budget of each task, such as 512M or 4G");
 }
 
 void add_manual(CLI::App& app, Options& options, Texts& texts) {
@@ -247,22 +247,13 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{{"render", Command::kRender},
-                                                    {"view", Command::kView},
-                                                    {"why", Command::kWhy},
-                                                    {"grow", Command::kGrow},
-                                                    {"measure", Command::kMeasure},
-                                                    {"trace", Command::kTrace},
-                                                    {"compare", Command::kCompare},
-                                                    {"info", Command::kInfo},
-                                                    {"merge", Command::kMerge},
-                                                    {"farm", Command::kFarm},
-                                                    {"convert", Command::kConvert},
-                                                    {"motionblur", Command::kMotionBlur},
-                                                    {"stereo", Command::kStereo},
-                                                    {"rib", Command::kRib},
-                                                    {"procedural", Command::kProcedural},
-                                                    {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{
+      {"render", Command::kRender},   {"view", Command::kView},       {"why", Command::kWhy},
+      {"grow", Command::kGrow},       {"measure", Command::kMeasure}, {"trace", Command::kTrace},
+      {"compare", Command::kCompare}, {"info", Command::kInfo},       {"merge", Command::kMerge},
+      {"farm", Command::kFarm},       {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo},   {"rib", Command::kRib},         {"procedural", Command::kProcedural},
+      {"manual", Command::kManual}};
   return names;
 }
 
@@ -336,6 +327,11 @@ void interpret(const Texts& texts, Options& options) {
 }
 
 }  // namespace
+
+std::string progress_name(ProgressStyle style) {
+  const bool named = style != ProgressStyle::kAuto && style != ProgressStyle::kQuiet;
+  return named ? kProgressNames[static_cast<size_t>(style)] : "";
+}
 
 std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out) {
   Options options;

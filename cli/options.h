@@ -53,6 +53,9 @@ enum class ProgressStyle {
   kQuiet,    ///< nothing
 };
 
+/// Returns the name that --progress has for a style; nothing for kAuto and kQuiet.
+std::string progress_name(ProgressStyle style);
+
 /// The whole command line. Each command reads only the members that concern it; the other members keep their
 /// defaults.
 struct Options {
@@ -107,7 +110,7 @@ struct Options {
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
 
-  RibOptions rib;  ///< rib, procedural: their flags
+  RibOptions rib;    ///< rib, procedural: their flags
   FarmOptions farm;  ///< farm: its flags
 
   std::string section;    ///< manual: the section to print

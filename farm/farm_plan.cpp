@@ -33,13 +33,21 @@ std::string in_folder(const FarmRequest& request, const std::string& place) {
   return (std::filesystem::path(request.folder) / place).string();
 }
 
+/// Writes a name so that frame_file_name() returns it unchanged.
+std::string escaped(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '%' ? std::string("%%") : std::string(1, c);
+  return result;
+}
+
 FarmTask grow_task(const FarmRequest& request) {
   FarmTask task;
   task.name = "grow";
   task.command = {request.program, "grow", request.scene};
   append(task.command, request.arguments);
   append(task.command, {"--frames", print_frames({request.frames})});
-  if (request.threads > 0) append(task.command, {"--threads", fmt::format("{}", request.threads)});
+  append(task.command, request.flags);
+  task.memory = request.memory;
   return task;
 }
 
@@ -54,7 +62,7 @@ FarmTask render_task(const FarmRequest& request, int frame, const std::string& s
   if (request.grows) task.after = {"grow"};
   task.command = {request.program, "render", request.scene};
   append(task.command, request.arguments);
-  append(task.command, {"--frames", fmt::format("{}", frame), "-o", output});
+  append(task.command, {"--frames", fmt::format("{}", frame), "-o", escaped(output)});
   if (region)
     append(task.command,
            {"--region", fmt::format("{},{},{},{}", region->x0, region->y0, region->x1, region->y1)});
@@ -65,7 +73,8 @@ FarmTask render_task(const FarmRequest& request, int frame, const std::string& s
     task.command.emplace_back("--skip-existing");
   }
   append(task.command, {"--stats", in_folder(request, "stats/" + name + ".json")});
-  if (request.threads > 0) append(task.command, {"--threads", fmt::format("{}", request.threads)});
+  append(task.command, request.flags);
+  task.memory = request.memory;
   return task;
 }
 
@@ -86,6 +95,7 @@ void add_regions(const FarmRequest& request, int frame, const std::vector<PixelB
     merge.command.push_back(piece);
   }
   append(merge.command, {"-o", merge.output});
+  append(merge.command, request.flags);
   tasks.push_back(std::move(merge));
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/farm_plan.h"
 
+#include <algorithm>
 #include <set>
 #include <tuple>
 
 #include <gtest/gtest.h>
+
+#include "world/frames.h"
 
 namespace pelage {
 namespace {
@@ -38,7 +41,8 @@ TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
   regions.columns = regions.rows = 2;
   regions.grows = true;
   regions.saves = false;
-  regions.threads = 3;
+  regions.flags = {"--threads", "3"};
+  regions.memory = 1000;
   const std::vector<FarmTask> tasks = make_farm_plan(regions);
   ASSERT_EQ(tasks.size(), 1u + 3 * 5);
   EXPECT_EQ(shell_line(tasks[0].command),
@@ -52,11 +56,30 @@ TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
   EXPECT_EQ(tasks[5].after.size(), 4u);
   EXPECT_EQ(shell_line(tasks[5].command),
             "pelage merge farm/pieces/0001-r0c0.exr farm/pieces/0001-r0c1.exr farm/pieces/0001-r1c0.exr "
-            "farm/pieces/0001-r1c1.exr -o shot.0001.exr");
+            "farm/pieces/0001-r1c1.exr -o shot.0001.exr --threads 3");
+  EXPECT_EQ(tasks[0].memory, 1000u);
+  EXPECT_EQ(tasks[1].memory, 1000u);
+  EXPECT_EQ(tasks[5].memory, 0u);
   std::set<std::string> before;
   for (const FarmTask& task : tasks) {
     for (const std::string& name : task.after) EXPECT_TRUE(before.contains(name)) << task.name;
     EXPECT_TRUE(before.insert(task.name).second);
+  }
+}
+
+TEST(FarmPlan, ATaskWritesTheFileThatThePlanNames) {
+  FarmRequest percent = request();
+  percent.frames = {-3};
+  percent.output = "100%%d_##.exr";
+  for (const int columns : {1, 2}) {
+    percent.columns = columns;
+    for (const FarmTask& task : make_farm_plan(percent)) {
+      const auto flag = std::find(task.command.begin(), task.command.end(), "-o");
+      ASSERT_NE(flag, task.command.end());
+      const bool renders = task.command[1] == "render";  // merge has no placeholders
+      EXPECT_EQ(renders ? frame_file_name(flag[1], -3) : flag[1], task.output);
+    }
+    EXPECT_EQ(make_farm_plan(percent).back().output, "100%d_-03.exr");
   }
 }
 

@@ -48,7 +48,7 @@ ReturnToService=2
 MpiDefault=none
 MailProg=/bin/true
 KillWait=5
-NodeName=%(host)s NodeAddr=127.0.0.1 CPUs=2 RealMemory=1000 State=UNKNOWN
+NodeName=%(host)s NodeAddr=127.0.0.1 CPUs=2 RealMemory=4000 State=UNKNOWN
 PartitionName=main Nodes=%(host)s Default=YES MaxTime=INFINITE State=UP
 """
 
@@ -68,11 +68,14 @@ class Slurm:
         config = folder / "slurm.conf"
         config.write_text(CONFIG % {"host": host, "port": port, "next": port + 1, "folder": folder})
         self.environment = {**os.environ, "SLURM_CONF": str(config)}
-        place = {"key-file": key, "socket": folder / "munge/socket", "pid-file": folder / "munge/pid",
-                 "log-file": folder / "munge/log", "seed-file": folder / "munge/seed"}
+        self.config, self.key = config, key
+
+    def start(self):
+        place = {"key-file": self.key, "socket": self.folder / "munge/socket", "pid-file": self.folder / "munge/pid",
+                 "log-file": self.folder / "munge/log", "seed-file": self.folder / "munge/seed"}
         self.call("munged", "--force", *(f"--{name}={path}" for name, path in place.items()))
-        self.call("slurmctld", "-f", config)
-        self.call("slurmd", "-f", config)
+        self.call("slurmctld", "-f", self.config)
+        self.call("slurmd", "-f", self.config)
 
     def call(self, *words, check=True, **options):
         return subprocess.run([str(w) for w in words], env=self.environment, check=check, text=True,
@@ -88,17 +91,44 @@ class Slurm:
 
     def start_delayed(self):
         """Starts the jobs that Slurm would start two minutes after they queued themselves again."""
+        time.sleep(2.5)  # Slurm revokes a job that starts in the second in which it was queued again
         for job, _, reason in self.jobs().values():
             if reason == "BeginTime":
                 self.call("scontrol", "update", f"JobId={job}", "StartTime=now", check=False)
 
+    def processes(self):
+        """The daemons, and the processes of Slurm that watch over jobs: they name the folder, or have its configuration."""
+        found = []
+        for place in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                words = (place / "cmdline").read_bytes() + (place / "environ").read_bytes()
+                if str(self.folder).encode() in words and int(place.name) != os.getpid():
+                    found.append(int(place.name))
+            except OSError:
+                pass  # it has ended
+        return found
+
     def end(self):
+        """Ends all jobs and daemons, first politely."""
+        self.call("scancel", "--user=root", check=False)
+        self.wait(lambda: not self.call("squeue", "-h", check=False))
         self.call("scontrol", "shutdown", check=False)
-        for name in ("slurmctld.pid", "slurmd.pid", "munge/pid"):
-            while name != "munge/pid" and (self.folder / name).exists():
-                time.sleep(0.05)
-            if name == "munge/pid":
-                os.kill(int((self.folder / name).read_text()), signal.SIGTERM)
+        if (self.folder / "munge/pid").exists():
+            self.wait(lambda: not any((self.folder / name).exists() for name in ("slurmctld.pid", "slurmd.pid")))
+            os.kill(int((self.folder / "munge/pid").read_text()), signal.SIGTERM)
+        if not self.wait(lambda: not self.processes()):
+            for process in self.processes():
+                os.kill(process, signal.SIGKILL)
+            raise AssertionError("daemons of Slurm did not end by themselves")
+
+    @staticmethod
+    def wait(condition):
+        """Waits for a condition, up to a minute."""
+        for _ in range(1200):
+            if condition():
+                return True
+            time.sleep(0.05)
+        return False
 
 
 @unittest.skipUnless(all(map(shutil.which, NEEDED)) and os.geteuid() == 0, "needs root and Slurm: slurm-wlm munge jq")
@@ -112,6 +142,7 @@ class SlurmTest(ProgramTest):
         self.write_scripts()
         self.slurm = Slurm(pathlib.Path(folder.name))
         self.addCleanup(self.slurm.end)
+        self.slurm.start()
         self.slurm.environment["PATH"] = f"{self.path / 'bin'}:{os.environ['PATH']}"
         self.until(self.slurm.is_ready)
 
@@ -129,7 +160,7 @@ class SlurmTest(ProgramTest):
         self.fail(f"waited in vain; {self.slurm.jobs()}; {self.logs()}")
 
     def logs(self):
-        return "".join(log.read_text() for log in sorted(self.path.glob("log-*.txt")))
+        return "".join(log.read_text() for log in sorted(self.path.glob("logs/*.txt")))
 
     def process_of(self, region):
         """The process that renders a region; none if it does not run."""
@@ -156,7 +187,7 @@ class SlurmTest(ProgramTest):
 
     def test_a_shot_survives_what_a_farm_does_to_it(self):
         out, _ = self.run_pelage("farm", "plan", "scene.yaml", "-o", "shot.%04d.exr", "--json", *SMALL, "--frames", "1-2",
-                                 "--regions", "2x2", "--threads", "1", "--every", "0.2s")
+                                 "--regions", "2x2", "--threads", "1", "--memory", "500M", "--every", "0.2s")
         (self.path / "plan.json").write_text(out)
         tasks = {task["name"]: task for task in json.loads(out)["tasks"]}
         killed, stopped, cancelled = (tasks[f"render-0001-{place}"] for place in ("r0c0", "r0c1", "r1c0"))
@@ -169,7 +200,7 @@ class SlurmTest(ProgramTest):
         if (process := run_until_saved(killed)):
             os.kill(process, signal.SIGKILL)
         if run_until_saved(stopped):  # what Slurm does ahead of the time limit
-            self.slurm.call("scancel", "--batch", "--signal=TERM", "--name", stopped["name"], check=False)
+            self.slurm.call("scancel", "--batch", "--signal=USR1", "--name", stopped["name"], check=False)
         self.until(lambda: self.slurm.jobs().get(killed["name"], ["", "", "BeginTime"])[2] == "BeginTime")
         self.checkpoint(killed).write_bytes(self.checkpoint(killed).read_bytes()[:-100])
         self.slurm.start_delayed()
@@ -188,7 +219,7 @@ class SlurmTest(ProgramTest):
         self.finish()
         for name, inode in finished.items():
             self.assertEqual((self.path / tasks[name]["output"]).stat().st_ino, inode, name)
-            self.assertIn("is finished, skipped", (self.path / f"log-{name}.txt").read_text())
+            self.assertIn("is finished, skipped", (self.path / "logs" / f"{name}.txt").read_text())
         self.render(*SMALL, "--frames", "1-2", "-o", "whole.%04d.exr")
         for frame in ("0001", "0002"):
             self.assertEqual(exr_pixels(self.path / f"shot.{frame}.exr"), exr_pixels(self.path / f"whole.{frame}.exr"))
