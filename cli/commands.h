@@ -15,6 +15,7 @@ int run_trace(const Options& options);
 int run_compare(const Options& options);
 int run_info(const Options& options);
 int run_merge(const Options& options);
+int run_farm(const Options& options);
 int run_convert(const Options& options);
 int run_motion_blur(const Options& options);
 int run_stereo(const Options& options);

@@ -23,6 +23,7 @@ struct Texts {
   PostTexts post;
   PictureTexts picture;
   std::string checkpoint_every;
+  FarmTexts farm;
 };
 
 inline constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";

@@ -30,6 +30,8 @@ int run(const pelage::Options& options) {
       return pelage::run_compare(options);
     case Command::kInfo:
       return pelage::run_info(options);
+    case Command::kFarm:
+      return pelage::run_farm(options);
     case Command::kMerge:
       return pelage::run_merge(options);
     case Command::kConvert:

@@ -212,6 +212,17 @@ void add_rib(CLI::App& app, Options& options, Texts& texts) {
       options.rib);
 }
 
+void add_farm(CLI::App& app, Options& options, Texts& texts) {
+  CLI::App* farm = app.add_subcommand("farm", "Divide a shot into tasks for the queue of a render farm");
+  add_farm_flags(*farm, options.farm, texts.farm);
+  add_scene_flags(*farm, options, texts);
+  farm->add_option("-o,--output", options.output, "Output file; %04d is the frame number")
+      ->required()
+      ->type_name("FILE.%04d.exr");
+  farm->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
+  add_parallel_flags(*farm, options, texts, "Memory budget of each task, such as 512M or 4G");
+}
+
 void add_manual(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* manual = app.add_subcommand("manual", "Print every scene key with type, default, unit and range");
   manual->add_option("SECTION", texts.section, "Print only this section, such as camera, curl or map field");
@@ -229,27 +240,20 @@ void add_commands(CLI::App& app, Options& options, Texts& texts) {
   add_info(app, options, texts);
   add_merge(app, options, texts);
   add_rib(app, options, texts);
+  add_farm(app, options, texts);
   add_convert(app, options, texts);
   add_post(app, options, texts);
   add_manual(app, options, texts);
 }
 
 const std::map<std::string, Command>& command_names() {
-  static const std::map<std::string, Command> names{{"render", Command::kRender},
-                                                    {"view", Command::kView},
-                                                    {"why", Command::kWhy},
-                                                    {"grow", Command::kGrow},
-                                                    {"measure", Command::kMeasure},
-                                                    {"trace", Command::kTrace},
-                                                    {"compare", Command::kCompare},
-                                                    {"info", Command::kInfo},
-                                                    {"merge", Command::kMerge},
-                                                    {"convert", Command::kConvert},
-                                                    {"motionblur", Command::kMotionBlur},
-                                                    {"stereo", Command::kStereo},
-                                                    {"rib", Command::kRib},
-                                                    {"procedural", Command::kProcedural},
-                                                    {"manual", Command::kManual}};
+  static const std::map<std::string, Command> names{
+      {"render", Command::kRender},   {"view", Command::kView},       {"why", Command::kWhy},
+      {"grow", Command::kGrow},       {"measure", Command::kMeasure}, {"trace", Command::kTrace},
+      {"compare", Command::kCompare}, {"info", Command::kInfo},       {"merge", Command::kMerge},
+      {"farm", Command::kFarm},       {"convert", Command::kConvert}, {"motionblur", Command::kMotionBlur},
+      {"stereo", Command::kStereo},   {"rib", Command::kRib},         {"procedural", Command::kProcedural},
+      {"manual", Command::kManual}};
   return names;
 }
 
@@ -312,6 +316,7 @@ void interpret(const Texts& texts, Options& options) {
   }
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
+  interpret_farm(texts.farm, options.farm);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;
@@ -322,6 +327,11 @@ void interpret(const Texts& texts, Options& options) {
 }
 
 }  // namespace
+
+std::string progress_name(ProgressStyle style) {
+  const bool named = style != ProgressStyle::kAuto && style != ProgressStyle::kQuiet;
+  return named ? kProgressNames[static_cast<size_t>(style)] : "";
+}
 
 std::optional<Options> parse_options(const std::vector<std::string>& arguments, std::ostream& out) {
   Options options;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/checkpoint_flags.h"
+#include "cli/farm_flags.h"
 #include "cli/picture_flags.h"
 #include "cli/rib_flags.h"
 #include "geom/strands.h"
@@ -28,6 +29,7 @@ enum class Command {
   kCompare,
   kInfo,
   kMerge,
+  kFarm,
   kConvert,
   kMotionBlur,
   kStereo,
@@ -50,6 +52,9 @@ enum class ProgressStyle {
   kTractor,  ///< "TR_PROGRESS 007%" for each percent of the run, on standard output
   kQuiet,    ///< nothing
 };
+
+/// Returns the name that --progress has for a style; nothing for kAuto and kQuiet.
+std::string progress_name(ProgressStyle style);
 
 /// The whole command line. Each command reads only the members that concern it; the other members keep their
 /// defaults.
@@ -105,7 +110,8 @@ struct Options {
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
 
-  RibOptions rib;  ///< rib, procedural: their flags
+  RibOptions rib;    ///< rib, procedural: their flags
+  FarmOptions farm;  ///< farm: its flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/cli/farm_test.py.
+#include "cli/farm_flags.h"
+
+#include <charconv>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "base/error.h"
+#include "base/nearest_name.h"
+#include "cli/checkpoint_flags.h"
+#include "world/frames.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kMaxDivisions = 256;
+
+/// Reads "4x3". Returns false for other texts.
+bool parse_regions(const std::string& text, int& columns, int& rows) {
+  const char* end = text.data() + text.size();
+  const auto [x, error] = std::from_chars(text.data(), end, columns);
+  if (error != std::errc() || x == end || *x != 'x') return false;
+  const auto [stop, second] = std::from_chars(x + 1, end, rows);
+  const auto fits = [](int count) { return count >= 1 && count <= kMaxDivisions; };
+  return second == std::errc() && stop == end && fits(columns) && fits(rows);
+}
+
+}  // namespace
+
+void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
+  farm.add_option("ACTION", texts.action, "plan: print the tasks of a shot")->required();
+  farm.add_option("--regions", texts.regions,
+                  "Divide each frame into columns x rows, such as 4x4 (default: one task per frame)")
+      ->type_name("COLUMNSxROWS");
+  farm.add_option("--dir", options.folder,
+                  "Folder for checkpoints, regions and statistics; one per shot (default: farm)")
+      ->type_name("DIR");
+  farm.add_option("--every", texts.every,
+                  "Time between two checkpoints, such as 60s, 5m or 2h (default: 60s)")
+      ->type_name("TIME");
+  farm.add_flag("--json", options.json, "Print JSON (default: a command per line, for a shell)");
+}
+
+void interpret_farm(const FarmTexts& texts, FarmOptions& options) {
+  if (!texts.action.empty() && texts.action != "plan") {
+    throw Error(ErrorKind::kArguments, "farm: unknown action " + quote(texts.action) +
+                                           suggest(texts.action, std::vector<std::string>{"plan"}));
+  }
+  if (options.folder.empty()) throw Error(ErrorKind::kArguments, "--dir: the name of the folder is empty");
+  if (has_frame_pattern(options.folder))
+    throw Error(ErrorKind::kArguments,
+                "--dir " + quote(options.folder) + ": all frames share the folder, without a frame number");
+  if (!texts.regions.empty() && !parse_regions(texts.regions, options.columns, options.rows)) {
+    throw Error(ErrorKind::kArguments,
+                "--regions: expected columns and rows such as 4x4, got " + quote(texts.regions));
+  }
+  CheckpointOptions checkpoint;
+  interpret_checkpoint(texts.every, checkpoint);
+  options.every_s = checkpoint.every_s;
+}
+
+}  // namespace pelage

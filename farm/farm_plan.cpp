@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/farm_plan.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "world/frames.h"
+
+namespace pelage {
+namespace {
+
+constexpr int kBlock = 16;  // pixels
+
+/// Borders of `count` parts of a side, or of fewer if there are not as many blocks.
+std::vector<int> borders(int pixels, int count) {
+  const int blocks = (pixels + kBlock - 1) / kBlock;
+  const int parts = std::clamp(count, 1, blocks);
+  std::vector<int> result;
+  for (int i = 0; i <= parts; ++i)
+    result.push_back(std::min(pixels, static_cast<int>(int64_t{blocks} * i / parts) * kBlock));
+  return result;
+}
+
+void append(std::vector<std::string>& command, const std::vector<std::string>& more) {
+  command.insert(command.end(), more.begin(), more.end());
+}
+
+std::string in_folder(const FarmRequest& request, const std::string& place) {
+  return (std::filesystem::path(request.folder) / place).string();
+}
+
+/// Writes a name so that frame_file_name() returns it unchanged.
+std::string escaped(const std::string& name) {
+  std::string result;
+  for (const char c : name) result += c == '%' ? std::string("%%") : std::string(1, c);
+  return result;
+}
+
+FarmTask grow_task(const FarmRequest& request) {
+  FarmTask task;
+  task.name = "grow";
+  task.command = {request.program, "grow", request.scene};
+  append(task.command, request.arguments);
+  append(task.command, {"--frames", print_frames({request.frames})});
+  append(task.command, request.flags);
+  task.memory = request.memory;
+  return task;
+}
+
+FarmTask render_task(const FarmRequest& request, int frame, const std::string& suffix,
+                     const std::optional<PixelBox>& region, const std::string& output) {
+  FarmTask task;
+  const std::string name = fmt::format("{:04}{}", frame, suffix);
+  task.name = "render-" + name;
+  task.frame = frame;
+  task.region = region;
+  task.output = output;
+  if (request.grows) task.after = {"grow"};
+  task.command = {request.program, "render", request.scene};
+  append(task.command, request.arguments);
+  append(task.command, {"--frames", fmt::format("{}", frame), "-o", escaped(output)});
+  if (region)
+    append(task.command,
+           {"--region", fmt::format("{},{},{},{}", region->x0, region->y0, region->x1, region->y1)});
+  if (request.saves) {
+    append(task.command, {"--checkpoint", in_folder(request, "checkpoints"), "--every",
+                          fmt::format("{}s", request.every_s), "--resume"});
+  } else {
+    task.command.emplace_back("--skip-existing");
+  }
+  append(task.command, {"--stats", in_folder(request, "stats/" + name + ".json")});
+  append(task.command, request.flags);
+  task.memory = request.memory;
+  return task;
+}
+
+void add_regions(const FarmRequest& request, int frame, const std::vector<PixelBox>& boxes,
+                 std::vector<FarmTask>& tasks) {
+  FarmTask merge;
+  merge.name = fmt::format("merge-{:04}", frame);
+  merge.frame = frame;
+  merge.output = frame_file_name(request.output, frame);
+  merge.command = {request.program, "merge"};
+  const auto columns = static_cast<size_t>(
+      std::count_if(boxes.begin(), boxes.end(), [](const PixelBox& box) { return box.y0 == 0; }));
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const std::string suffix = fmt::format("-r{}c{}", i / columns, i % columns);
+    const std::string piece = in_folder(request, fmt::format("pieces/{:04}{}.exr", frame, suffix));
+    tasks.push_back(render_task(request, frame, suffix, boxes[i], piece));
+    merge.after.push_back(tasks.back().name);
+    merge.command.push_back(piece);
+  }
+  append(merge.command, {"-o", merge.output});
+  append(merge.command, request.flags);
+  tasks.push_back(std::move(merge));
+}
+
+}  // namespace
+
+std::vector<PixelBox> divide_picture(int width, int height, int columns, int rows) {
+  const std::vector<int> x = borders(width, columns), y = borders(height, rows);
+  std::vector<PixelBox> boxes;
+  for (size_t j = 0; j + 1 < y.size(); ++j) {
+    for (size_t i = 0; i + 1 < x.size(); ++i) boxes.push_back({x[i], y[j], x[i + 1], y[j + 1]});
+  }
+  return boxes;
+}
+
+std::vector<FarmTask> make_farm_plan(const FarmRequest& request) {
+  const std::vector<PixelBox> boxes =
+      divide_picture(request.width, request.height, request.columns, request.rows);
+  std::vector<FarmTask> tasks;
+  if (request.grows) tasks.push_back(grow_task(request));
+  for (const int frame : request.frames) {
+    if (boxes.size() > 1) {
+      add_regions(request, frame, boxes, tasks);
+    } else {
+      tasks.push_back(render_task(request, frame, "", {}, frame_file_name(request.output, frame)));
+    }
+  }
+  return tasks;
+}
+
+std::string shell_line(const std::vector<std::string>& command) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,:=@%+";
+  std::string line;
+  for (const std::string& word : command) {
+    if (!line.empty()) line += ' ';
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+}  // namespace pelage
