@@ -8,9 +8,9 @@
 
 namespace pelage {
 
-/// Sorts like std::sort, in place, with all threads of the job. The order of equal elements is unspecified, but
-/// does not depend on the number of threads. Throws Error (kStopped) once the user has asked to stop; the order
-/// of the elements is then unspecified.
+/// Sorts like std::sort, in place, with all threads of the job. The order of equal elements is unspecified,
+/// but does not depend on the number of threads. Throws Error (kStopped) once the user has asked to stop; the
+/// order of the elements is then unspecified.
 template <class Iterator, class Less>
 void stoppable_sort(const Job& job, Iterator begin, Iterator end, const Less& less) {
   constexpr size_t kMaxPieces = 8, kMinToSplit = size_t(1) << 14;
@@ -36,8 +36,8 @@ void stoppable_sort(const Job& job, Iterator begin, Iterator end, const Less& le
   for (; count >= kMinToSplit && pieces < kMaxPieces; pieces *= 2) {
     for_each_of(pieces, [&](size_t piece, const auto& compare) {
       const size_t halves = 2 * pieces;
-      std::nth_element(border(2 * piece, halves), border(2 * piece + 1, halves), border(2 * piece + 2, halves),
-                       compare);
+      std::nth_element(border(2 * piece, halves), border(2 * piece + 1, halves),
+                       border(2 * piece + 2, halves), compare);
     });
   }
   for_each_of(pieces, [&](size_t piece, const auto& compare) {

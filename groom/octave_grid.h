@@ -32,8 +32,8 @@ class OctaveGrid {
   /// Returns the distance from a candidate to the nearest follicle, divided by the smaller of their spacings.
   /// Returns `radius` if there is none within `radius`. Ignores follicles whose normals differ by more than
   /// 60 degrees from the candidate's normal. Stops at the first follicle that is much nearer than `radius`,
-  /// even if another follicle may be nearer still. Ignores the first `skipped` follicles. Thread safe while no
-  /// other thread calls insert() or rebuild().
+  /// even if another follicle may be nearer still. Ignores the first `skipped` follicles. Thread safe while
+  /// no other thread calls insert() or rebuild().
   float nearest(const FollicleCandidate& candidate, float radius, uint32_t skipped = 0) const;
 
  private:
@@ -47,7 +47,8 @@ class OctaveGrid {
 
   static size_t head_count(size_t expected) { return std::max<size_t>(std::bit_ceil(2 * expected), 64); }
   void link(uint32_t item);
-  /// `best` or the smaller distance to a follicle of the list that begins with `item`, up to follicle `skipped`.
+  /// `best` or the smaller distance to a follicle of the list that begins with `item`, up to follicle
+  /// `skipped`.
   float nearest_in(uint32_t item, uint32_t skipped, const FollicleCandidate& candidate, const V3f& normal,
                    float best) const;
   int octave_of(float spacing) const;
@@ -57,8 +58,8 @@ class OctaveGrid {
   float smallest_;
   float cell_ = 1;
   unsigned octaves_ = 0;  // bit k is set if octave k holds follicles
-  // First item of the list of each cell, in which later follicles precede earlier ones; the entries of 16 cells
-  // in a row along x are adjacent.
+  // First item of the list of each cell, in which later follicles precede earlier ones; the entries of 16
+  // cells in a row along x are adjacent.
   std::vector<uint32_t> heads_;
   std::vector<Item> items_;
 };

@@ -192,7 +192,8 @@ void ViewServer::State::send_layers(const std::vector<std::string>& names, httpl
     };
     if (names.empty() || !std::all_of(names.begin(), names.end(), will_have))
       return refuse(404, "the picture has no such layer", response);
-    response.status = 204;  // not an error, which browsers would report to the user: the next picture has them
+    response.status =
+        204;  // not an error, which browsers would report to the user: the next picture has them
     return;
   }
   send(layer_bytes(*picture, names), "application/octet-stream", response);

@@ -24,9 +24,9 @@ struct GatherParams {
   bool cells = true;                           ///< whether neighbouring thin strands share light
   float min_width = 0;                         ///< width at which the camera sees thinner strands, pixels
   float light_rays = 3;                        ///< mean count of shadow rays per visible sample
-  float paths = 1;  ///< mean count of indirect paths per visible sample, before roulette
+  float paths = 1;            ///< mean count of indirect paths per visible sample, before roulette
   bool cache = false;         ///< whether indirect paths end in the reflection cache
-  float cache_paths = 0.25f;   ///< paths that fill the cache / camera samples
+  float cache_paths = 0.25f;  ///< paths that fill the cache / camera samples
   ByteSize memory{};          ///< max memory of the cache; 0: an eighth of `render.memory`
   static const Schema<GatherParams>& schema();
 };
