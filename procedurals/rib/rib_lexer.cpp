@@ -233,6 +233,10 @@ void RibLexer::define_string(int code_bytes) {
   } else {
     fail("expected the string that a code stands for");
   }
+  // A definition may repeat an earlier one, so that a short file could define long strings without end.
+  defined_bytes_ += text_.size();
+  if (defined_bytes_ > kMaxRibDefinitions)
+    fail(fmt::format("the strings that codes stand for have more than {} bytes", kMaxRibDefinitions));
   (code_bytes == 0 ? requests_ : strings_)[code] = text_;
 }
 

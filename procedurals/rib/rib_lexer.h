@@ -15,6 +15,7 @@ enum class RibToken { kRequest, kString, kInteger, kFloat, kFloats, kOpen, kClos
 /// Max number of elements of an array, and of bytes of a string. A file that claims more is refused.
 inline constexpr uint64_t kMaxRibCount = 1'000'000'000;
 inline constexpr uint64_t kMaxRibString = uint64_t(1) << 24;
+inline constexpr uint64_t kMaxRibDefinitions = uint64_t(1) << 26;  ///< bytes of all strings that have codes
 
 /// Splits a RIB file into tokens [RISPEC 3.2, C.2]. Text and binary encodings may be mixed. A float array of
 /// the binary encoding is one token kFloats, without brackets. All errors are Error (kInput) with file, line
@@ -58,6 +59,7 @@ class RibLexer {
   double number_ = 0;
   std::vector<float> floats_;
   std::map<uint64_t, std::string> requests_, strings_;  // of the binary encoding, by code
+  uint64_t defined_bytes_ = 0;                          // of all definitions in requests_ and strings_ so far
 };
 
 }  // namespace pelage

@@ -107,6 +107,15 @@ TEST(RibLexer, CutOffBinaryDataIsAnError) {
             "a.rib:1:1: a string claims 4294967295 bytes; the limit is 16 MiB");
 }
 
+TEST(RibLexer, DefinitionsThatRepeatALongStringAreLimited) {
+  constexpr uint32_t kLong = uint32_t(1) << 24;
+  std::string bytes = std::string("\xcd\x00", 2) + "\xa3" + big_endian(kLong, 4) + std::string(kLong, 'x');
+  for (const char code : {1, 2, 3}) bytes += std::string("\xcd") + code + std::string("\xcf\x00", 2);
+  EXPECT_EQ(tokens(bytes), "");
+  bytes += std::string("\xcd\x04\xcf\x00", 4);
+  EXPECT_NE(failure(bytes).find("the strings that codes stand for have more than"), std::string::npos);
+}
+
 TEST(RibLexer, RefusesWhatIsNoFile) {
   const Files files;
   EXPECT_NE(error_of([&] { RibLexer lexer(files.folder.path()); }).find("it is a folder"), std::string::npos);
