@@ -92,7 +92,7 @@ std::string plan_json(const std::vector<FarmTask>& tasks, int threads) {
 }  // namespace
 
 int run_farm(const Options& options) {
-  // The style is that of the tasks.
+  // --progress sets the style of the tasks; this command itself shows plain progress or none.
   const bool quiet = options.progress == ProgressStyle::kQuiet;
   ProgressDisplay display(quiet ? ProgressStyle::kQuiet : ProgressStyle::kPlain, [] { return false; });
   const SceneDescription scene = read_scene(options, display);

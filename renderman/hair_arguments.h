@@ -13,7 +13,7 @@ namespace pelage {
 
 /// The arguments of a procedural in a RIB file: "rat.yaml character=rat coat=under frame=3". They are divided
 /// at blanks. Single quotes keep blanks together: 'my scene.yaml' 'set=materials.fur={model: deon}'. Between
-/// single quotes, two of them stand for one.
+/// single quotes, '' is one single quote.
 struct HairArguments {
   std::string scene;
   std::vector<Override> overrides;  ///< set=key=value, and memory=512M as an override of render.memory

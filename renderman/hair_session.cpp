@@ -121,7 +121,7 @@ Strands HairSession::grow(const CoatTree& tree, size_t leaf) const {
 }
 
 std::shared_ptr<const HairSession> HairSessions::of(const HairArguments& arguments) {
-  HairArguments key;  // without what does not concern the scene
+  HairArguments key;  // only the arguments that select the scene
   key.scene = arguments.scene;
   key.overrides = arguments.overrides;
   key.threads = arguments.threads;

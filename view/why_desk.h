@@ -12,11 +12,11 @@
 
 namespace pelage {
 
-/// Questions of clients why a pixel is what it is, for the thread that renders. Thread safety: all members
-/// may be called from any thread.
+/// Passes the questions of clients ("explain pixel x, y") to the thread that renders, and its answers back.
+/// Thread safety: all members may be called from any thread.
 class WhyDesk {
  public:
-  /// Asks why pixel (x, y) is what it is, and waits for the answer. Returns a refusal if other clients wait
+  /// Asks for an explanation of pixel (x, y), and waits for it. Returns a refusal if other clients wait
   /// for too many answers, if the answer takes too long, or once `gives_up` returns true, which is called
   /// every few milliseconds.
   CommandAnswer ask(int x, int y, const std::function<bool()>& gives_up);

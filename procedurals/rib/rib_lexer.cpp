@@ -236,7 +236,7 @@ void RibLexer::define_string(int code_bytes) {
   // A definition may repeat an earlier one, so that a short file could define long strings without end.
   defined_bytes_ += text_.size();
   if (defined_bytes_ > kMaxRibDefinitions)
-    fail(fmt::format("the strings that codes stand for have more than {} bytes", kMaxRibDefinitions));
+    fail(fmt::format("the strings defined for codes have more than {} bytes in total", kMaxRibDefinitions));
   (code_bytes == 0 ? requests_ : strings_)[code] = text_;
 }
 

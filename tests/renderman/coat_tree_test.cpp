@@ -44,8 +44,8 @@ TEST_F(CoatTrees, PartsAreTheWhole) {
   }
 }
 
-// Boxes of parts are enlarged by 2^-21 of their largest coordinate (geom/curve_bounds.h), and so is that of
-// all strands; they cannot differ by more than the sum of both.
+// Every box is enlarged by 2^-21 of its largest coordinate (geom/curve_bounds.h): the boxes of parts and the
+// box of all strands. So they differ by at most twice this amount.
 TEST_F(CoatTrees, BoxesContainTheStrandsAndAreTight) {
   Box3f all;
   for (size_t leaf = 0; leaf < tree_.all().end; ++leaf) {

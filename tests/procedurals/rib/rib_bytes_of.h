@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/temporary_folder.h"
+#include "procedurals/rib/rib_reader.h"
 
 namespace pelage::rib_test {
 
@@ -23,6 +24,19 @@ struct Files {
     return folder.path() / name;
   }
 };
+
+/// All statements of a file with this text.
+inline std::vector<RibStatement> statements_of(const std::string& text) {
+  const Files files;
+  RibReader reader(files.write(text));
+  std::vector<RibStatement> all;
+  RibStatement one;
+  while (reader.next(one)) {
+    one.file = "a.rib";
+    all.push_back(one);
+  }
+  return all;
+}
 
 inline std::string gzipped(const std::string& bytes) {
   z_stream stream{};

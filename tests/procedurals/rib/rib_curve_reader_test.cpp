@@ -15,18 +15,6 @@ namespace {
 
 using namespace rib_test;
 
-std::vector<RibStatement> requests(const std::string& text) {
-  const Files files;
-  RibReader reader(files.write(text));
-  std::vector<RibStatement> all;
-  RibStatement one;
-  while (reader.next(one)) {
-    one.file = "a.rib";
-    all.push_back(one);
-  }
-  return all;
-}
-
 RibBasis basis(const char* name, int step) {
   RibBasis basis = *RibBasis::named(name);
   basis.step = step;
@@ -34,7 +22,7 @@ RibBasis basis(const char* name, int step) {
 }
 
 RibCurveSet read(const std::string& text, const RibBasis& basis) {
-  std::vector<RibStatement> all = requests(text);
+  std::vector<RibStatement> all = statements_of(text);
   return read_curves(all, RibDeclarations(), basis);
 }
 
@@ -195,14 +183,14 @@ TEST(RibCurveReader, WidthsOfOpenSplinesContinueBeyondTheJoints) {
 }
 
 TEST(RibCurveReader, MotionHasAKeyPerSample) {
-  std::vector<RibStatement> all = requests(
+  std::vector<RibStatement> all = statements_of(
       "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0] \"constantwidth\" 1\n"
       "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 1 1 0 1]");
   const Strands strands(read_curves(all, RibDeclarations(), {}).strands);
   EXPECT_EQ(strands.motion_keys(), 2);
   EXPECT_EQ(strands.point(1, 1), V3f(1, 0, 1));
   EXPECT_EQ(strands.radius(1, 1), 0.5f);
-  all = requests(
+  all = statements_of(
       "Curves \"linear\" [2] \"nonperiodic\" \"P\" [0 0 0 1 0 0]\n"
       "Curves \"linear\" [3] \"nonperiodic\" \"P\" [0 0 1 1 0 1 2 0 1]");
   EXPECT_NE(error_of([&] { read_curves(all, RibDeclarations(), {}); }).find("same numbers of points"),

@@ -113,7 +113,8 @@ TEST(RibLexer, DefinitionsThatRepeatALongStringAreLimited) {
   for (const char code : {1, 2, 3}) bytes += std::string("\xcd") + code + std::string("\xcf\x00", 2);
   EXPECT_EQ(tokens(bytes), "");
   bytes += std::string("\xcd\x04\xcf\x00", 4);
-  EXPECT_NE(failure(bytes).find("the strings that codes stand for have more than"), std::string::npos);
+  EXPECT_NE(failure(bytes).find("the strings defined for codes have more than 67108864 bytes in total"),
+            std::string::npos);
 }
 
 TEST(RibLexer, RefusesWhatIsNoFile) {

@@ -11,14 +11,7 @@ namespace {
 using namespace rib_test;
 
 RibMesh read(const std::string& text) {
-  const Files files;
-  RibReader reader(files.write(text));
-  std::vector<RibStatement> all;
-  RibStatement one;
-  while (reader.next(one)) {
-    one.file = "a.rib";
-    all.push_back(one);
-  }
+  std::vector<RibStatement> all = statements_of(text);
   return read_mesh(all, RibDeclarations());
 }
 

@@ -10,22 +10,13 @@ namespace {
 
 using namespace rib_test;
 
-std::vector<RibStatement> requests(const std::string& bytes) {
-  const Files files;
-  RibReader reader(files.write(bytes));
-  std::vector<RibStatement> all;
-  RibStatement request;
-  while (reader.next(request)) all.push_back(request);
-  return all;
-}
-
 std::string failure(const std::string& bytes) {
-  const std::string text = error_of([&] { requests(bytes); });
+  const std::string text = error_of([&] { statements_of(bytes); });
   return text.substr(text.find("a.rib") == std::string::npos ? 0 : text.find("a.rib"));
 }
 
 TEST(RibReader, RequestsEndWhereTheNextBegins) {
-  const auto all = requests("WorldBegin Translate 0 0\n5 WorldEnd");
+  const auto all = statements_of("WorldBegin Translate 0 0\n5 WorldEnd");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].name, "WorldBegin");
   EXPECT_EQ(all[1].arguments.size(), 3u);
@@ -36,7 +27,7 @@ TEST(RibReader, RequestsEndWhereTheNextBegins) {
 }
 
 TEST(RibReader, AnArrayWithOneFloatIsAnArrayOfFloats) {
-  const auto all = requests("A [1 2] [1 2.5 3] [\"a\" \"b\"] [] 7");
+  const auto all = statements_of("A [1 2] [1 2.5 3] [\"a\" \"b\"] [] 7");
   ASSERT_EQ(all.size(), 1u);
   const auto& a = all[0].arguments;
   ASSERT_EQ(a.size(), 5u);
@@ -50,7 +41,7 @@ TEST(RibReader, AnArrayWithOneFloatIsAnArrayOfFloats) {
 }
 
 TEST(RibReader, BinaryArraysAreArrays) {
-  const auto all = requests("A " + binary_floats({1, 2, 3}) + " 4");
+  const auto all = statements_of("A " + binary_floats({1, 2, 3}) + " 4");
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].arguments.size(), 2u);
   EXPECT_EQ(all[0].arguments[0].floats, (std::vector<float>{1, 2, 3}));
