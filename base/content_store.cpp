@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
 #include <ctime>
-#include <thread>
 #include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/lease.h"
 #include "base/shared_folders.h"
 #include "base/stored_file_format.h"
 #include "base/temporary_file.h"
@@ -162,45 +160,17 @@ bool ContentStore::store(const std::string& kind, const ContentHash& key,
   return entry.commit(warn);
 }
 
-ContentStore::Lock::Lock(Lock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)) {}
-
-ContentStore::Lock::~Lock() {
-  if (descriptor_ < 0) return;
-  // While it is still locked: a process waiting for it then sees that its name is gone, and starts again.
-  ::unlink(path_.c_str());
-  ::close(descriptor_);
-}
+ContentStore::Lock::Lock(std::unique_ptr<Lease> lease) : lease_(std::move(lease)) {}
+ContentStore::Lock::Lock(Lock&&) noexcept = default;
+ContentStore::Lock::~Lock() = default;
 
 ContentStore::Lock ContentStore::lock(const std::string& kind, const ContentHash& key,
                                       const std::function<bool()>& cancelled,
                                       std::chrono::milliseconds patience) const {
-  const auto give_up = std::chrono::steady_clock::now() + patience;
-  Lock lock;
-  lock.path_ = folder_ / ("." + kind + "-" + to_string(key) + format::kLockEnding);
   std::error_code ignored;
   std::filesystem::create_directories(folder_, ignored);
-  for (;;) {
-    const int descriptor = ::open(lock.path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0) return lock;
-    bool mine = false;
-    while (!(mine = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) &&
-           (errno == EWOULDBLOCK || errno == EINTR) && std::chrono::steady_clock::now() < give_up &&
-           !cancelled()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    struct stat held {
-    }, named{};
-    const bool current = mine && ::fstat(descriptor, &held) == 0 &&
-                         ::lstat(lock.path_.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
-                         held.st_dev == named.st_dev;
-    if (current) {
-      lock.descriptor_ = descriptor;
-      return lock;
-    }
-    ::close(descriptor);
-    if (!mine || std::chrono::steady_clock::now() >= give_up || cancelled()) return lock;
-  }
+  const std::string name = "." + kind + "-" + to_string(key) + format::kLockEnding;
+  return Lock(Lease::take(folder_ / name, cancelled, patience));
 }
 
 ContentStore::Removed ContentStore::remove_unused(const std::filesystem::path& file,

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@
 #include "base/stored_sections.h"
 
 namespace pelage {
+
+class Lease;
 
 /// Called with one line of text for each problem that does not stop the run.
 using WarningSink = std::function<void(const std::string& line)>;
@@ -110,28 +113,28 @@ class ContentStore {
   bool store(const std::string& kind, const ContentHash& key,
              std::span<const std::span<const std::byte>> sections, const WarningSink& warn) const;
 
-  /// A lock on one entry. The process (or thread) that computes the entry holds the lock.
+  /// A lock on one entry: a Lease. The process (or thread) that computes the entry holds the lock.
   class Lock {
    public:
     Lock(Lock&& other) noexcept;
     ~Lock();
     /// Whether lock() obtained the lock. False when the folder cannot be written, the timeout expired or the
     /// wait was cancelled. Two processes may then compute the same entry, with the same result.
-    bool held() const { return descriptor_ >= 0; }
+    bool held() const { return lease_ != nullptr; }
 
    private:
     friend class ContentStore;
-    Lock() = default;
-    int descriptor_ = -1;
-    std::filesystem::path path_;
+    explicit Lock(std::unique_ptr<Lease> lease);
+    std::unique_ptr<Lease> lease_;
   };
-  /// Locks an entry. Waits until no other process holds the lock, `patience` has passed or `cancelled`
-  /// returns true; see Lock::held(). Afterwards, try to open the entry again, because another process may
-  /// have stored the entry meanwhile. The system releases the locks of a process that dies.
+  /// Locks an entry. Waits until no process of any machine holds the lock, `patience` has passed or
+  /// `cancelled` returns true; see Lock::held(). Afterwards, try to open the entry again, because another
+  /// process may have stored the entry meanwhile. The lock of a process that dies is released at once on its
+  /// own machine, and expires after half a minute for other machines.
   Lock lock(
       const std::string& kind, const ContentHash& key,
       const std::function<bool()>& cancelled = [] { return false; },
-      std::chrono::milliseconds patience = std::chrono::minutes(2)) const;
+      std::chrono::milliseconds patience = std::chrono::hours(1)) const;
 
   /// Removes what processes leave behind when they are killed: their temporary files (see
   /// sweep_temporaries()), and lock files that have not been modified for longer than `age`.

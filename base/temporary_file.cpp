@@ -33,19 +33,6 @@ void keep_name_characters(std::string& text) {
   text.resize(std::min(text.size(), kLongestHost));
 }
 
-/// Distinguishes this machine from others with access to the same folder: its name or, since many are called
-/// "localhost", the number that its system generated at boot. Contains no '-'.
-std::string machine_name() {
-  std::array<char, 256> buffer{};
-  std::string name;
-  if (::gethostname(buffer.data(), buffer.size() - 1) == 0) name = buffer.data();
-  keep_name_characters(name);
-  if (!name.empty() && !name.starts_with("localhost")) return name;
-  std::ifstream("/proc/sys/kernel/random/boot_id") >> name;
-  keep_name_characters(name);
-  return name;
-}
-
 std::string random_digits() {
   uint64_t bits = 0;
   if (::getentropy(&bits, sizeof bits) != 0) bits = static_cast<uint64_t>(::getpid());
@@ -91,6 +78,19 @@ void remove_if_dead(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+// The name of the machine or, since many are called "localhost", the number that its system generated at
+// boot.
+std::string machine_name() {
+  std::array<char, 256> buffer{};
+  std::string name;
+  if (::gethostname(buffer.data(), buffer.size() - 1) == 0) name = buffer.data();
+  keep_name_characters(name);
+  if (!name.empty() && !name.starts_with("localhost")) return name;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> name;
+  keep_name_characters(name);
+  return name;
+}
 
 TemporaryFile create_temporary(const std::filesystem::path& target) {
   std::string ending = target.extension().string();

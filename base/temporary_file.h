@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace pelage {
@@ -20,6 +21,10 @@ struct TemporaryFile {
 /// Creates a temporary file for `target`. The caller must rename or remove the file, and close the
 /// descriptor, which releases the lock.
 TemporaryFile create_temporary(const std::filesystem::path& target);
+
+/// Returns a name that distinguishes this machine from others with access to the same folder. It contains no
+/// '-' and no blank.
+std::string machine_name();
 
 /// Removes the temporary files that killed processes left in `folder`. A file is removed only if this user
 /// made it on this machine with create_temporary(), the process that made it no longer exists, and nobody
