@@ -2,7 +2,9 @@
 // Tested in tests/cli/farm_test.py.
 #include "cli/farm_flags.h"
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <vector>
 
 #include <CLI/App.hpp>
@@ -18,6 +20,7 @@ namespace pelage {
 namespace {
 
 constexpr int kMaxDivisions = 256;
+constexpr const char* kActions[] = {"plan", "submit", "status", "cancel"};
 
 /// Reads "4x3". Returns false for other texts.
 bool parse_regions(const std::string& text, int& columns, int& rows) {
@@ -32,7 +35,10 @@ bool parse_regions(const std::string& text, int& columns, int& rows) {
 }  // namespace
 
 void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
-  farm.add_option("ACTION", texts.action, "plan: print the tasks of a shot")->required();
+  farm.add_option(
+          "ACTION", texts.action,
+          "plan: print the tasks of a shot; submit: give them to Slurm; status, cancel: of a submitted shot")
+      ->required();
   farm.add_option("--regions", texts.regions,
                   "Divide each frame into columns x rows, such as 4x4 (default: one task per frame)")
       ->type_name("COLUMNSxROWS");
@@ -42,14 +48,35 @@ void add_farm_flags(CLI::App& farm, FarmOptions& options, FarmTexts& texts) {
   farm.add_option("--every", texts.every,
                   "Time between two checkpoints, such as 60s, 5m or 2h (default: 60s)")
       ->type_name("TIME");
-  farm.add_flag("--json", options.json, "Print JSON (default: a command per line, for a shell)");
+  farm.add_flag("--json", options.json, "plan, status: print JSON (default: a command per line, or text)");
+  farm.add_option("--partition", options.partition, "submit: partition of Slurm")->type_name("NAME");
+  farm.add_option("--time", options.time,
+                  "submit: time limit of a task, in minutes or as Slurm reads it; a task that meets it "
+                  "continues later")
+      ->type_name("TIME");
+  farm.add_option("--sbatch", options.sbatch,
+                  "submit: further option of sbatch, such as --sbatch=--qos=low; repeatable")
+      ->allow_extra_args(false)
+      ->type_name("OPTION");
+  farm.add_option("--retries", options.retries,
+                  "submit: how often a task that was stopped or killed is started again (default: 9)")
+      ->check(CLI::Range(0, 1000))
+      ->type_name("N");
+  farm.add_flag("--dry-run", options.dry_run, "submit: print the scripts, and submit nothing");
 }
 
-void interpret_farm(const FarmTexts& texts, FarmOptions& options) {
-  if (!texts.action.empty() && texts.action != "plan") {
-    throw Error(ErrorKind::kArguments, "farm: unknown action " + quote(texts.action) +
-                                           suggest(texts.action, std::vector<std::string>{"plan"}));
+void interpret_farm(const FarmTexts& texts, const std::string& output, FarmOptions& options) {
+  if (texts.action.empty()) return;  // another command
+  const auto action = std::find(std::begin(kActions), std::end(kActions), texts.action);
+  if (action == std::end(kActions)) {
+    const std::vector<std::string> names(std::begin(kActions), std::end(kActions));
+    throw Error(ErrorKind::kArguments,
+                "farm: unknown action " + quote(texts.action) + suggest(texts.action, names));
   }
+  options.action = static_cast<FarmAction>(action - std::begin(kActions));
+  const bool makes = options.action == FarmAction::kPlan || options.action == FarmAction::kSubmit;
+  if (makes && output.empty())
+    throw Error(ErrorKind::kArguments, "farm " + texts.action + ": -o is required; see 'pelage farm --help'");
   if (options.folder.empty()) throw Error(ErrorKind::kArguments, "--dir: the name of the folder is empty");
   if (has_frame_pattern(options.folder))
     throw Error(ErrorKind::kArguments,

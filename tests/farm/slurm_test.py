@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A shot on a real Slurm: the scripts of docs/FARM.md submit the tasks of a plan, of which some are killed, stopped,
-damaged or cancelled. Starts and ends its own Slurm on this machine, and therefore runs only as root with PELAGE_SLURM=1,
-where Slurm is installed. Run: slurm_test.py PROGRAM"""
+"""A shot on a real Slurm: `pelage farm submit`, and tasks that are killed, stopped, damaged or cancelled. Starts and ends
+its own Slurm on this machine, and therefore runs only as root with PELAGE_SLURM=1, where Slurm is installed.
+Run: slurm_test.py PROGRAM"""
 import json
 import os
 import pathlib
-import re
 import shutil
 import signal
 import subprocess
@@ -19,8 +18,10 @@ sys.path.insert(0, str(ROOT / "tests" / "cli"))
 from program_scene import ProgramTest, exr_pixels  # noqa: E402
 
 ProgramTest.PELAGE = sys.argv.pop(1)
-NEEDED = ("slurmctld", "slurmd", "munged", "sbatch", "jq")
+NEEDED = ("slurmctld", "slurmd", "munged", "sbatch")
 SMALL = ["--set", "image={width: 160, height: 96}", "--set", "render.samples=3000"]
+SHOT = ["-o", "shot.%04d.exr", *SMALL, "--frames", "1-2", "--regions", "2x2", "--threads", "1", "--memory", "500M",
+        "--every", "0.2s"]
 CONFIG = """ClusterName=pelage
 SlurmctldHost=%(host)s(127.0.0.1)
 SlurmUser=root
@@ -85,8 +86,8 @@ class Slurm:
         return self.call("sinfo", "-h", "-o", "%T", check=False).strip() == "idle"
 
     def jobs(self):
-        """Id, state and reason of each job that is not over, by name."""
-        lines = self.call("squeue", "-h", "-o", "%j|%i|%T|%r").splitlines()
+        """Id, state and reason of each array element that is not over, by the name of its log."""
+        lines = self.call("squeue", "-h", "-r", "-o", "%j-%K|%i|%T|%r").splitlines()
         return {name: rest for name, *rest in (line.split("|") for line in lines)}
 
     def start_delayed(self):
@@ -132,25 +133,16 @@ class Slurm:
 
 
 @unittest.skipUnless(os.environ.get("PELAGE_SLURM") == "1", "starts the daemons of Slurm only with PELAGE_SLURM=1")
-@unittest.skipUnless(all(map(shutil.which, NEEDED)) and os.geteuid() == 0, "needs root and Slurm: slurm-wlm munge jq")
+@unittest.skipUnless(all(map(shutil.which, NEEDED)) and os.geteuid() == 0, "needs root and Slurm: slurm-wlm munge")
 class SlurmTest(ProgramTest):
     def setUp(self):
         super().setUp()
         folder = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         self.addCleanup(folder.cleanup)
-        (self.path / "bin").mkdir()
-        (self.path / "bin" / "pelage").symlink_to(self.PELAGE)
-        self.write_scripts()
         self.slurm = Slurm(pathlib.Path(folder.name))
         self.addCleanup(self.slurm.end)
         self.slurm.start()
-        self.slurm.environment["PATH"] = f"{self.path / 'bin'}:{os.environ['PATH']}"
         self.until(self.slurm.is_ready)
-
-    def write_scripts(self):
-        blocks = re.findall(r"```sh\n(.*?)```", (ROOT / "docs" / "FARM.md").read_text(), re.DOTALL)
-        for block in blocks:
-            (self.path / re.search(r"^# (\w+\.sh)", block, re.MULTILINE).group(1)).write_text(block)
 
     def until(self, condition):
         """Waits for a condition; the limit is far beyond what it can take."""
@@ -161,14 +153,14 @@ class SlurmTest(ProgramTest):
         self.fail(f"waited in vain; {self.slurm.jobs()}; {self.logs()}")
 
     def logs(self):
-        return "".join(log.read_text() for log in sorted(self.path.glob("logs/*.txt")))
+        return "".join(log.read_text() for log in sorted(self.path.glob("farm/logs/*.txt")))
 
     def process_of(self, region):
         """The process that renders a region; none if it does not run."""
         for status in pathlib.Path("/proc").glob("[0-9]*"):
             try:
                 words = (status / "cmdline").read_text().split("\0")
-                if words[0] == "pelage" and region in words and os.readlink(status / "cwd") == str(self.path.resolve()):
+                if words[0].endswith("pelage") and region in words and os.readlink(status / "cwd") == str(self.path.resolve()):
                     return int(status.name)
             except OSError:
                 pass
@@ -177,8 +169,15 @@ class SlurmTest(ProgramTest):
     def checkpoint(self, task):
         return self.path / "farm/checkpoints" / f"frame-{task['frame']:04}-{'-'.join(map(str, task['region']))}.checkpoint"
 
+    def farm(self, *arguments):
+        return self.slurm.call(self.PELAGE, "farm", *arguments, cwd=self.path)
+
     def submit(self):
-        self.slurm.call("bash", "submit.sh", "plan.json", cwd=self.path)
+        self.farm("submit", "scene.yaml", *SHOT)
+
+    def states(self):
+        tasks = json.loads(self.farm("status", "farm", "--json"))["tasks"]
+        return {task["name"]: task for task in tasks}
 
     def finish(self):
         def is_over():
@@ -187,31 +186,38 @@ class SlurmTest(ProgramTest):
         self.until(is_over)
 
     def test_a_shot_survives_what_a_farm_does_to_it(self):
-        out, _ = self.run_pelage("farm", "plan", "scene.yaml", "-o", "shot.%04d.exr", "--json", *SMALL, "--frames", "1-2",
-                                 "--regions", "2x2", "--threads", "1", "--memory", "500M", "--every", "0.2s")
-        (self.path / "plan.json").write_text(out)
-        tasks = {task["name"]: task for task in json.loads(out)["tasks"]}
-        killed, stopped, cancelled = (tasks[f"render-0001-{place}"] for place in ("r0c0", "r0c1", "r1c0"))
         self.submit()
+        tasks = {task["name"]: task for task in json.loads((self.path / "farm/plan.json").read_text())["tasks"]}
+        killed, stopped, cancelled = (tasks[f"render-0001-{place}"] for place in ("r0c0", "r0c1", "r1c0"))
+        element = {"render-0001-r0c0": "render-0001-1", "render-0001-r0c1": "render-0001-2", "render-0001-r1c0": "render-0001-3"}
+
+        def job(task):
+            return self.slurm.jobs().get(element[task["name"]])
 
         def run_until_saved(task):
-            self.until(lambda: self.checkpoint(task).exists() or not task["name"] in self.slurm.jobs())
+            self.until(lambda: self.checkpoint(task).exists() or not job(task))
             return self.process_of(",".join(map(str, task["region"])))
 
         if (process := run_until_saved(killed)):
             os.kill(process, signal.SIGKILL)
         if run_until_saved(stopped):  # what Slurm does ahead of the time limit
-            self.slurm.call("scancel", "--batch", "--signal=USR1", "--name", stopped["name"], check=False)
+            self.slurm.call("scancel", "--batch", "--signal=USR1", job(stopped)[0], check=False)
         run_until_saved(cancelled)
-        self.slurm.call("scancel", "--name", cancelled["name"])
-        self.until(lambda: self.slurm.jobs().get(killed["name"], ["", "", "BeginTime"])[2] == "BeginTime")
+        self.slurm.call("scancel", job(cancelled)[0], check=False)
+        self.until(lambda: (job(killed) or ["", "", "BeginTime"])[2] == "BeginTime")
         self.checkpoint(killed).write_bytes(self.checkpoint(killed).read_bytes()[:-100])
+        self.assertEqual(self.states()[killed["name"]]["state"], "queued again")
         self.finish()
         self.assertFalse((self.path / "shot.0001.exr").exists())
         self.assertTrue((self.path / "shot.0002.exr").exists())
         log = self.logs()
         self.assertIn("damaged cache file", log)
         self.assertIn("is continued", log)
+        states = self.states()
+        self.assertEqual(states[cancelled["name"]]["state"], "cancelled")
+        self.assertEqual(states["merge-0001"]["state"], "cancelled")
+        self.assertEqual(states["merge-0002"]["state"], "done")
+        self.assertEqual({states[task["name"]]["starts"] for task in (killed, stopped)}, {2})
         finished = {name: (self.path / task["output"]).stat().st_ino for name, task in tasks.items()
                     if "region" in task and task is not cancelled}
 
@@ -219,10 +225,21 @@ class SlurmTest(ProgramTest):
         self.finish()
         for name, inode in finished.items():
             self.assertEqual((self.path / tasks[name]["output"]).stat().st_ino, inode, name)
-            self.assertIn("is finished, skipped", (self.path / "logs" / f"{name}.txt").read_text())
+        self.assertEqual(self.logs().count("is finished, skipped"), len(finished))
+        self.assertEqual({task["state"] for task in self.states().values()}, {"done"})
+        self.assertIn("10 done", (self.path / "farm/index.html").read_text())
         self.render(*SMALL, "--frames", "1-2", "-o", "whole.%04d.exr")
         for frame in ("0001", "0002"):
             self.assertEqual(exr_pixels(self.path / f"shot.{frame}.exr"), exr_pixels(self.path / f"whole.{frame}.exr"))
+
+    def test_a_cancelled_shot_leaves_the_queue(self):
+        self.submit()
+        self.until(lambda: any(job[1] == "RUNNING" for job in self.slurm.jobs().values()))
+        self.assertIn("still in the queue", self.slurm.call(self.PELAGE, "farm", "submit", "scene.yaml", *SHOT,
+                                                            cwd=self.path, check=False))
+        self.assertIn("cancelled", self.farm("cancel", "farm"))
+        self.until(lambda: not self.slurm.jobs())
+        self.assertIn("cancelled", {task["state"] for task in self.states().values()})
 
 
 if __name__ == "__main__":

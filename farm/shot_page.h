@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "farm/shot_state.h"
+
+namespace pelage {
+
+/// Pictures of the page: paths relative to the page, by frame.
+using PagePictures = std::map<int, std::string>;
+
+/// Brings the thumbnails of all finished frames in `folder`/thumbs up to date, and returns them. Pictures
+/// that cannot be read have none.
+PagePictures update_thumbnails(const ShotState& shot, const std::filesystem::path& folder);
+
+/// Returns a page that shows a shot: frames with thumbnails, times, memory, regions and failures. It needs no
+/// server and no script. `folder`: of the shot; the ends of the logs of failed tasks are read there. `now`:
+/// in seconds since 1970.
+std::string shot_page(const ShotState& shot, const std::filesystem::path& folder,
+                      const PagePictures& pictures, int64_t now);
+
+/// Returns the last lines of the log of a task, for a message.
+std::string end_of_log(const std::filesystem::path& log);
+
+}  // namespace pelage

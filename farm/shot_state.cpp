@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "farm/shot_state.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "farm/slurm_jobs.h"
+
+namespace pelage {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+  try {
+    return read_file(path);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+std::string argument_after(const FarmTask& task, std::string_view flag) {
+  const auto found = std::find(task.command.begin(), task.command.end(), flag);
+  return found == task.command.end() || found + 1 == task.command.end() ? "" : *(found + 1);
+}
+
+void add_statistics(const std::filesystem::path& path, TaskState& state) {
+  const nlohmann::json json = nlohmann::json::parse(text_of(path), nullptr, false);
+  if (!json.is_object()) return;
+  const auto number = [&](const char* key) {
+    const auto value = json.find(key);
+    return value != json.end() && value->is_number() ? value->get<double>() : 0.0;
+  };
+  state.cpu_s = number("cpu_s");
+  state.peak_bytes = static_cast<int64_t>(number("peak_rss_bytes"));
+}
+
+/// The numbers of the jobs of each name.
+std::map<std::string, std::vector<int64_t>> read_jobs(const std::filesystem::path& folder) {
+  std::map<std::string, std::vector<int64_t>> jobs;
+  std::istringstream lines(text_of(folder / "jobs"));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int64_t number = 0;
+    std::string name;
+    if (words >> number >> name) jobs[name].push_back(number);
+  }
+  return jobs;
+}
+
+// A queue knows more than the notes of a task that has not ended by itself.
+void apply_queue(const QueuedElements& queue, const std::vector<int64_t>& numbers, size_t element,
+                 TaskState& state) {
+  if (state.stage == TaskStage::kDone || state.stage == TaskStage::kFailed) return;
+  const std::string* found = nullptr;
+  for (const int64_t number : numbers) {
+    const auto at = queue.find({number, static_cast<int64_t>(element) + 1});
+    if (at != queue.end()) found = &at->second;
+  }
+  if (!found) {
+    state.stage = state.stage == TaskStage::kRunning ? TaskStage::kLost : TaskStage::kCancelled;
+  } else if (*found == "PENDING") {
+    state.stage = state.starts > 0 ? TaskStage::kQueuedAgain : TaskStage::kWaiting;
+  } else if (*found == "RUNNING" && state.starts > 0 && state.stage != TaskStage::kQueuedAgain) {
+    state.stage = TaskStage::kRunning;
+  }
+}
+
+}  // namespace
+
+std::string_view stage_name(TaskStage stage) {
+  constexpr std::string_view kNames[] = {"waiting",   "running", "queued again", "done",
+                                         "cancelled", "failed",  "lost"};
+  return kNames[static_cast<size_t>(stage)];
+}
+
+int64_t ShotState::count(TaskStage stage) const {
+  return std::count_if(tasks.begin(), tasks.end(), [&](const TaskState& t) { return t.stage == stage; });
+}
+
+QueuedElements parse_queue(std::string_view text) {
+  QueuedElements queue;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int64_t job = 0, element = 0;
+    std::string state;
+    if (words >> job >> element >> state) queue[{job, element}] = state;
+  }
+  return queue;
+}
+
+TaskState read_events(std::string_view text, int64_t now) {
+  TaskState state;
+  std::istringstream lines{std::string(text)};
+  int64_t start = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    int64_t time = 0;
+    std::string event;
+    if (!(words >> time >> event)) continue;
+    if (event == "start") {
+      std::string attempt;
+      words >> attempt >> state.host;
+      state.stage = TaskStage::kRunning;
+      ++state.starts;
+      start = time;
+      if (state.began == 0) state.began = time;
+    } else if (event == "end" && words >> state.exit_code) {
+      state.stage = state.exit_code == 0 ? TaskStage::kDone : TaskStage::kFailed;
+      if (start > 0) state.busy_s += static_cast<double>(time - start);
+      start = 0;
+      state.ended = time;
+    } else if (event == "cancelled") {
+      state.stage = TaskStage::kCancelled;
+    } else if (event == "requeued") {
+      state.stage = TaskStage::kQueuedAgain;
+    }
+  }
+  if (state.stage == TaskStage::kRunning && start > 0) state.busy_s += static_cast<double>(now - start);
+  return state;
+}
+
+ShotState read_shot_state(const std::filesystem::path& folder, const std::optional<QueuedElements>& queue,
+                          int64_t now) {
+  const std::filesystem::path file = folder / "plan.json";
+  if (std::error_code error; !std::filesystem::exists(file, error)) {
+    throw Error(ErrorKind::kInput, {folder.string(), 0, 0},
+                "is not the folder of a shot that `pelage farm submit` has made: it has no plan.json");
+  }
+  ShotState shot;
+  shot.plan = parse_plan(read_file(file), file);
+  shot.tasks.resize(shot.plan.tasks.size());
+  const auto numbers = read_jobs(folder);
+  for (const SlurmJob& job : slurm_jobs(shot.plan)) {
+    const auto submitted = numbers.find(job.name);
+    for (size_t i = 0; i < job.tasks.size(); ++i) {
+      const FarmTask& task = shot.plan.tasks[job.tasks[i]];
+      TaskState& state = shot.tasks[job.tasks[i]];
+      state = read_events(text_of(folder / "state" / task.name), now);
+      state.log = log_name(job, i);
+      if (const std::string stats = argument_after(task, "--stats"); !stats.empty())
+        add_statistics(shot.plan.folder / stats, state);
+      if (queue && submitted != numbers.end()) apply_queue(*queue, submitted->second, i, state);
+    }
+  }
+  std::istringstream(text_of(folder / "reserved")) >> shot.reserved_bytes;
+  return shot;
+}
+
+std::vector<int64_t> read_job_numbers(const std::filesystem::path& folder) {
+  std::vector<int64_t> all;
+  for (const auto& [name, numbers] : read_jobs(folder)) all.insert(all.end(), numbers.begin(), numbers.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+}  // namespace pelage

@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pelage farm submit`, `status` and `cancel` with programs that stand in for Slurm: sbatch runs each job at once.
+tests/farm/slurm_test.py does the same with a real Slurm. Run: farm_submit_test.py PROGRAM"""
+import json
+import os
+import sys
+import unittest
+
+from program_scene import ProgramTest, exr_pixels
+
+ProgramTest.PELAGE = sys.argv.pop(1)
+SMALL = ["--set", "image={width: 64, height: 48}"]
+SHOT = ["-o", "a b.%04d.exr", "--frames", "1-2", "--threads", "1", *SMALL]
+
+# Runs the elements of an array one after the other, like a Slurm whose jobs never wait. $FAIL: an element that is killed
+# the first time. A job that queues itself again is run again.
+SBATCH = r"""#!/bin/bash
+echo "$@" >> "$FAKE/calls"
+for word; do
+  case $word in --array=*) last=${word##*-} ;; --*) ;; *) break ;; esac
+  shift
+done
+number=$(($(cat "$FAKE/number" 2>/dev/null || echo 100) + 1)); echo $number > "$FAKE/number"
+for ((i = 1; i <= last; i++)); do
+  rm -f "$FAKE/again"; restarts=0
+  while :; do
+    SLURM_ARRAY_TASK_ID=$i SLURM_JOB_ID=$number SLURM_RESTART_COUNT=$restarts bash "$@" >> "$FAKE/log" 2>&1
+    [ -e "$FAKE/again" ] || break
+    rm "$FAKE/again"; restarts=$((restarts + 1))
+  done
+done
+echo "$number;cluster"
+"""
+
+
+class FarmSubmit(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.bin = self.path / "bin"
+        self.bin.mkdir()
+        os.environ["FAKE"] = str(self.bin)
+        self.old = os.environ["PATH"]
+        os.environ["PATH"] = f"{self.bin}:{self.old}"
+        self.addCleanup(os.environ.__setitem__, "PATH", self.old)
+        self.fake("sbatch", SBATCH)
+        self.fake("scontrol", '#!/bin/sh\ntouch "$FAKE/again"\n')
+        self.fake("squeue", '#!/bin/sh\ncat "$FAKE/queue" 2>/dev/null\nexit 0\n')
+        self.fake("scancel", '#!/bin/sh\necho "$@" >> "$FAKE/cancelled"\n: > "$FAKE/queue"\n')
+
+    def fake(self, name, text):
+        (self.bin / name).write_text(text)
+        (self.bin / name).chmod(0o755)
+
+    def farm(self, *arguments, code=0):
+        return self.run_pelage("farm", *arguments, code=code)
+
+    def state(self, folder="farm"):
+        return {t["name"]: t for t in json.loads(self.farm("status", folder, "--json")[0])["tasks"]}
+
+    def test_a_shot_is_rendered_merged_and_shown(self):
+        out, _ = self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1", "--partition", "fur", "--time", "5",
+                           "--sbatch=--qos=low")
+        self.assertIn("6 tasks in 4 jobs", out)
+        calls = (self.bin / "calls").read_text()
+        self.assertEqual(calls.count("--partition=fur"), 4)
+        self.assertEqual(calls.count("--time=5"), 4)
+        self.assertEqual(calls.count("--qos=low"), 4)
+        self.assertEqual(calls.count("--dependency=afterok:101 "), 1)
+        self.assertEqual(calls.count("--array=1-2"), 2)
+        states = self.state()
+        self.assertEqual({t["state"] for t in states.values()}, {"done"})
+        self.assertGreater(states["render-0001-r0c0"]["peak_rss_bytes"], 1 << 20)
+        self.render(*SMALL, "--frames", "1-2", "-o", "whole.%04d.exr")
+        for frame in ("0001", "0002"):
+            self.assertEqual(exr_pixels(self.path / f"a b.{frame}.exr"), exr_pixels(self.path / f"whole.{frame}.exr"))
+            self.assertTrue((self.path / "farm/thumbs" / f"{frame}.png").exists())
+        page = (self.path / "farm/index.html").read_text()
+        self.assertIn("6 done", page)
+        self.assertIn("thumbs/0002.png", page)
+        self.assertIn("6 tasks: 6 done", self.farm("status", "farm")[0])
+
+    def test_a_killed_task_is_queued_again_and_a_bad_one_is_not(self):
+        self.fake("pelage", '#!/bin/bash\n[ -e "$FAKE/killed" ] || { touch "$FAKE/killed"; kill -9 $$; }\nexit 0\n')
+        self.farm("submit", "scene.yaml", *SHOT)
+        tasks = self.path / "farm/tasks/render-part0"
+        tasks.write_text(tasks.read_text().replace(str(self.PELAGE), str(self.bin / "pelage"), 1))
+        (self.path / "farm/state/render-0001").unlink()
+        os.environ["SLURM_ARRAY_TASK_ID"] = "1"
+        self.addCleanup(os.environ.pop, "SLURM_ARRAY_TASK_ID")
+        for _ in range(2):  # killed, and then queued again
+            os.spawnlp(os.P_WAIT, "bash", "bash", str(self.path / "farm/task.sh"), str(tasks))
+        events = (self.path / "farm/state/render-0001").read_text()
+        self.assertEqual([line.split()[1] for line in events.splitlines()], ["start", "end", "requeued", "start", "end"])
+        self.assertEqual(self.state()["render-0001"]["starts"], 2)
+        page = self.farm("status", "farm") and (self.path / "farm/index.html").read_text()
+        self.assertIn("started 2 times", page)
+
+        (self.bin / "again").unlink()  # by scontrol requeue
+
+        (self.path / "scene.yaml").write_text("nonsense")
+        self.farm("submit", "scene.yaml", *SHOT, code=3)  # refused before anything is submitted
+        tasks.write_text("render-0001 false\nrender-0002 sh -c 'echo scene.yaml:1:1: bad; exit 3'\n")
+        os.environ["SLURM_ARRAY_TASK_ID"] = "2"
+        with open(self.path / "farm/logs/render-part0-2.txt", "w") as log:
+            pid = os.fork()
+            if pid == 0:
+                os.dup2(log.fileno(), 1)
+                os.execlp("bash", "bash", str(self.path / "farm/task.sh"), str(tasks))
+            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 3)
+        self.assertFalse((self.bin / "again").exists())
+        self.assertEqual(self.state()["render-0002"]["state"], "failed")
+        self.assertIn("scene.yaml:1:1: bad", self.farm("status", "farm")[0])
+
+    def test_nothing_is_submitted_in_a_dry_run(self):
+        out, _ = self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x2", "--dry-run")
+        for text in "#!/bin/bash", "render-0002-r1c1 ", "submit merge-0002 1 ", "--mem=":
+            self.assertIn(text, out)
+        self.assertFalse((self.path / "farm").exists())
+        self.assertFalse((self.bin / "calls").exists())
+
+    def test_cancel_ends_only_what_is_queued(self):
+        self.farm("submit", "scene.yaml", *SHOT)
+        (self.bin / "queue").write_text("101 1 RUNNING\n77 1 RUNNING\n")
+        self.assertIn("still in the queue", self.farm("submit", "scene.yaml", *SHOT, code=2)[1])
+        self.assertIn("1 job cancelled", self.farm("cancel", "farm")[0])
+        self.assertEqual((self.bin / "cancelled").read_text(), "101\n")
+        self.assertIn("0 jobs cancelled", self.farm("cancel", "farm")[0])
+        self.farm("submit", "scene.yaml", *SHOT)  # finished tasks end at once
+        self.assertIn("is finished, skipped", (self.bin / "log").read_text())
+
+    def test_status_needs_no_slurm(self):
+        self.farm("submit", "scene.yaml", *SHOT)
+        (self.bin / "squeue").unlink()
+        self.assertEqual({t["state"] for t in self.state().values()}, {"done"})
+
+    def test_a_shot_that_slurm_refuses(self):
+        self.fake("sbatch", "#!/bin/sh\necho 'sbatch: error: invalid partition' >&2\nexit 1\n")
+        self.assertIn("invalid partition", self.farm("submit", "scene.yaml", *SHOT, code=1)[1])
+
+    def test_mistakes(self):
+        self.assertIn("did you mean 'status'?", self.farm("statsu", "farm", code=2)[1])
+        self.assertIn("is not the folder of a shot", self.farm("status", ".", code=3)[1])
+        self.assertIn("is not the folder of a shot", self.farm("cancel", "nowhere", code=3)[1])
+        self.assertIn("-o is required", self.farm("submit", "scene.yaml", code=2)[1])
+        (self.bin / "sbatch").unlink()
+        os.environ["PATH"] = f"{self.bin}:/nowhere"
+        self.assertIn("this machine has no Slurm", self.farm("submit", "scene.yaml", *SHOT, code=1)[1])
+
+
+if __name__ == "__main__":
+    unittest.main()
