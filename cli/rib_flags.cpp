@@ -6,7 +6,25 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "procedurals/rib/rib_programs.h"
+
 namespace pelage {
+
+void add_rib_use_flags(CLI::App& command, RibUseOptions& options) {
+  command
+      .add_option("--materials", options.materials,
+                  "YAML file: from the shaders of RIB files to materials (docs/RIB.md)")
+      ->type_name("FILE.yaml");
+  command.add_flag("--allow-procedurals", options.allow_procedurals,
+                   "Run the programs that RIB files name (RunProgram)");
+}
+
+RibUse rib_use(const RibUseOptions& options) {
+  RibUse use;
+  use.materials = options.materials;
+  if (options.allow_procedurals) use.programs = std::make_shared<RibPrograms>();
+  return use;
+}
 
 void add_rib_flags(CLI::App& rib, RibOptions& options) {
   rib.add_flag("--ascii", options.ascii, "Write text instead of the binary encoding");

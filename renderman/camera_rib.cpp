@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "renderman/frame_coats.h"
+#include "world/frame_coats.h"
 
 namespace pelage {
 namespace {

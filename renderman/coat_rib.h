@@ -7,8 +7,8 @@
 
 #include "base/job.h"
 #include "renderman/coat_tree.h"
-#include "renderman/hair_arguments.h"
 #include "renderman/rib_file.h"
+#include "world/hair_arguments.h"
 
 namespace pelage {
 

@@ -6,15 +6,10 @@
 #include <vector>
 
 #include "procedurals/procedural.h"
-#include "renderman/frame_coats.h"
+#include "world/frame_coats.h"
+#include "world/leaf_range.h"
 
 namespace pelage {
-
-/// Consecutive leaves of a coat: first <= leaf < end.
-struct LeafRange {
-  size_t first = 0, end = 0;
-  size_t count() const { return end - first; }
-};
 
 /// The leaves of one coat in one frame as procedurals, with their exact boxes. Neighbouring leaves are close
 /// to each other, so ranges of leaves form a tree: split() divides a range into up to eight ranges.

@@ -6,7 +6,6 @@
 
 #include "base/memory_budget.h"
 #include "base/nearest_name.h"
-#include "procedurals/detail_policy.h"
 
 namespace pelage {
 namespace {
@@ -20,29 +19,7 @@ SceneDescription load(const HairArguments& arguments) {
   return scene;
 }
 
-/// A camera so far from `box` that everything in it has the same size.
-LodView far_view(const Box3f& box, float pixels_per_unit) {
-  const float distance = 1e3f * std::max(1e-6f, box.size().length());
-  LodView view;
-  view.open.position = box.center() + V3f(0, 0, distance);
-  view.open.focal_pixels = pixels_per_unit * distance;
-  view.close = view.open;
-  return view;
-}
-
 }  // namespace
-
-Simplification HairFrame::simplification(const FrameCoat& coat, float pixels_per_unit,
-                                         const Workers& workers) const {
-  SimplificationParams params = lod_;
-  params.motion_blur = params.depth_of_field = params.back_facing = false;
-  const Box3f box = coat.skin->bound(BoundSpan::kShutter);
-  MemoryLedger ledger;
-  NoProgress progress;
-  const Job job{workers, ledger, progress};
-  DetailPolicy policy(params, far_view(box, pixels_per_unit), V2f(0), job);
-  return policy.simplification(*coat.coat, coat.rest.get(), *coat.skin);
-}
 
 std::shared_ptr<const CoatTree> HairFrame::tree(size_t coat, const HairDetail& detail,
                                                 const Workers& workers) const {
@@ -55,7 +32,7 @@ std::shared_ptr<const CoatTree> HairFrame::tree(size_t coat, const HairDetail& d
   std::optional<Simplification> lod;
   if (detail.kind == HairDetail::Kind::kSceneCamera) lod = of.lod;
   if (detail.kind == HairDetail::Kind::kScale)
-    lod.emplace(simplification(of, detail.pixels_per_unit, workers));
+    lod.emplace(scale_detail(of, lod_, detail.pixels_per_unit, workers));
   trees_.emplace_back(key, std::make_shared<const CoatTree>(of, lod));
   const auto made = trees_.back().second;
   if (trees_.size() > std::max(kTreesKept, 2 * parts_.coats.size())) trees_.pop_front();
@@ -69,7 +46,9 @@ std::shared_ptr<const HairFrame> HairSession::frame(int frame, const std::string
   const std::lock_guard lock(mutex_);
   std::shared_ptr<const HairFrame> found = frames_[{frame, character}].lock();
   if (!found) {
-    FrameParts parts = pose_frame(scene_, *assets_, frame, job(), character);
+    std::set<std::string> only;
+    if (!character.empty()) only.insert(character);
+    FrameParts parts = pose_frame(scene_, *assets_, frame, job(), only);
     if (!character.empty() && parts.skins.empty()) {
       throw Error(ErrorKind::kArguments, "procedural: there is no character " + quote(character) +
                                              suggest(character, scene_.characters.names()));

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "renderman/coat_tree.h"
-#include "renderman/frame_coats.h"
-#include "renderman/hair_arguments.h"
+#include "world/frame_coats.h"
+#include "world/hair_arguments.h"
 
 namespace pelage {
 
@@ -36,8 +36,6 @@ class HairFrame {
   std::shared_ptr<const CoatTree> tree(size_t coat, const HairDetail& detail, const Workers& workers) const;
 
  private:
-  Simplification simplification(const FrameCoat& coat, float pixels_per_unit, const Workers& workers) const;
-
   const FrameParts parts_;
   const SimplificationParams lod_;
   mutable std::mutex mutex_;  // guards the following

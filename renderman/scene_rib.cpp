@@ -5,10 +5,10 @@
 
 #include "base/version.h"
 #include "renderman/camera_rib.h"
-#include "renderman/frame_coats.h"
 #include "renderman/shading_rib.h"
 #include "renderman/skin_rib.h"
 #include "renderman/yaml_text.h"
+#include "world/frame_coats.h"
 #include "world/frames.h"
 
 namespace pelage {

@@ -2,6 +2,7 @@
 // Tested in tests/renderman/scene_rib_test.cpp.
 #include "renderman/shading_rib.h"
 
+#include <numbers>
 #include <optional>
 
 #include "base/value_readers.h"
@@ -59,11 +60,16 @@ struct LightWriter {
     rib.parameter("float intensity").numbers({intensity});
     rib.parameter("string pelage").texts({yaml_text(block)});
   }
-  void begin_area(const Rgb& radiance, float intensity) const {
+  /// `axis`: direction of emission; 0 for all directions. `area`: as seen from there.
+  void begin_area(const Rgb& radiance, float intensity, const V3f& from, const V3f& axis, float area) const {
     rib.request("AttributeBegin");
     rib.request("Attribute").text("identifier").parameter("string name").texts({name});
     rib.request("AreaLightSource").text("arealight").integer(handle);
     parameters(radiance, intensity);
+    // For renderers whose lights are points.
+    rib.parameter("point from").numbers({from.x, from.y, from.z});
+    rib.parameter("vector axis").numbers({axis.x, axis.y, axis.z});
+    rib.parameter("float area").numbers({area});
   }
   void end_area() const {
     rib.request("AttributeEnd");
@@ -71,8 +77,8 @@ struct LightWriter {
   }
 
   void operator()(const RectangleLightParams& p) const {
-    begin_area(p.radiance, p.intensity.at(frame));
     const V3f center = p.position.at(frame), normal = (p.look_at.at(frame) - center).normalized();
+    begin_area(p.radiance, p.intensity.at(frame), center, normal, p.size.x * p.size.y);
     V3f x = p.up.cross(normal), y;
     if (x.length() > 1e-6f * p.up.length()) {
       x.normalize();
@@ -89,8 +95,9 @@ struct LightWriter {
     end_area();
   }
   void operator()(const SphereLightParams& p) const {
-    begin_area(p.radiance, p.intensity.at(frame));
     const V3f center = p.position.at(frame);
+    begin_area(p.radiance, p.intensity.at(frame), center, V3f(0),
+               std::numbers::pi_v<float> * p.radius * p.radius);
     rib.request("Translate").number(center.x).number(center.y).number(center.z);
     rib.request("Sphere").number(p.radius).number(-p.radius).number(p.radius).number(360);
     end_area();

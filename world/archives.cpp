@@ -2,6 +2,8 @@
 #include "world/archives.h"
 
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include "procedurals/pose_cache.h"
 #include "procedurals/posed_character_skin.h"
 #include "procedurals/rib/rib_reading.h"
+#include "world/archive_coats.h"
 #include "world/character_transform.h"
 #include "world/compose.h"
 
@@ -71,16 +74,45 @@ size_t material_of(const SceneDescription& scene, const ArchiveParams& params, c
   return index;
 }
 
-void add_coat(const std::string& name, const RibCoat& coat, size_t material, World& world) {
-  FurPart fur{name + "." + coat.name, {}, material, nullptr, coat.tint};
-  fur.procedurals.push_back(rib_procedural(coat));
+/// `strands`: number of strands before level of detail.
+void add_fur(FurPart fur, int64_t strands, World& world) {
+  Box3f box;
+  for (const auto& procedural : fur.procedurals) box.extendBy(procedural->bound(BoundSpan::kShutter));
   ++world.counts.characters;
-  if (world.scene.camera.may_see(fur.procedurals.back()->bound(BoundSpan::kShutter)))
-    ++world.counts.characters_in_frame;
-  const auto strands = static_cast<int64_t>(fur.procedurals.back()->counts().strands);
+  if (world.scene.camera.may_see(box)) ++world.counts.characters_in_frame;
   world.counts.strands_described += strands;
   world.counts.strands_unique += strands;
   world.scene.fur.push_back(std::move(fur));
+}
+
+int64_t strand_count(const ArchiveCoat& coat) {
+  const auto leaves = coat.coat.coat->follicles().leaves();
+  const LeafRange range = coat.leaves.value_or(LeafRange{0, leaves.size()});
+  int64_t count = 0;
+  for (size_t leaf = range.first; leaf < range.end; ++leaf)
+    count += static_cast<int64_t>(leaves[leaf].end - leaves[leaf].begin);
+  return count;
+}
+
+void add_procedurals(const SceneDescription& scene, const std::string& name, const ArchiveParams& params,
+                     const Archive& archive, const Job& job, World& world) {
+  const RibShutter shutter{scene.camera.shutter};
+  std::set<const PosedCharacterSkin*> charged;
+  for (const ArchiveCoat& coat : archive.procedurals->coats) {
+    const RibOwnProcedural& request = archive.rib->own_procedurals[coat.procedural];
+    if (charged.insert(coat.coat.skin.get()).second)
+      world.charges.emplace_back(job.ledger, MemoryTag::kSkins,
+                                 static_cast<int64_t>(coat.coat.skin->bytes()));
+    FurPart fur = archive_fur(name + "." + coat.coat.character + "." + coat.coat.groom, coat, request,
+                              material_of(scene, params, *archive.rib, request.material), shutter);
+    // The skin below the coat is a mesh of the file. It has the level of detail of its densest coat.
+    for (SkinPart& skin : world.scene.skins) {
+      if (fur.lod && skin.name == name + "." + coat.skin &&
+          (!skin.lod || fur.lod->depth() > skin.lod->depth()))
+        skin.lod = fur.lod;
+    }
+    add_fur(std::move(fur), strand_count(coat), world);
+  }
 }
 
 CharacterPose pose_of(const RibSkin& skin, const LimitSurface& rest) {
@@ -107,6 +139,7 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
   const RibTransform placement = placement_of(scene, params.transform, frame);
   const ContentHash key = key_of(params, placement, frame, scene.camera.shutter);
   if (archive.rib && archive.key == key) return;
+  const auto earlier = archive.procedurals;  // its scenes are used again
   archive = {};
   const std::string what = fmt::format("reading archive '{}'", name);
   RibReadOptions options;
@@ -114,6 +147,8 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
   options.shutter = scene.camera.shutter;
   options.placement = placement;
   options.mirror_left_handed = scene.from_rib;
+  options.programs = scene.programs;
+  options.max_request_bytes = std::numeric_limits<size_t>::max();  // `reserve` knows the limit
   options.reserve = [&](size_t bytes) { require_room(job.ledger, static_cast<int64_t>(bytes), what); };
   options.check_stop = [&] { job.check_stop(); };
   auto rib = std::make_shared<RibScene>(read_rib(params.rib.path, options));
@@ -131,6 +166,9 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
     require_room(job.ledger, static_cast<int64_t>(bytes), what);
   }
   archive.charge = MemoryCharge(job.ledger, MemoryTag::kGrooms, static_cast<int64_t>(bytes));
+  if (!rib->own_procedurals.empty())
+    archive.procedurals = std::make_shared<const ArchiveProcedurals>(
+        pose_procedurals(*rib, scene, job, earlier ? earlier->scenes : ArchiveScenes()));
   archive.rib = std::move(rib);
   archive.key = key;
 }
@@ -149,8 +187,13 @@ void add_archive(const SceneDescription& scene, const std::string& name, const A
   }
   for (const RibCoat& coat : rib.coats) {
     if (coat.batches.empty() && coat.deferred.empty()) continue;
-    add_coat(name, coat, material_of(scene, params, rib, coat.material), world);
+    FurPart fur{
+        name + "." + coat.name, {}, material_of(scene, params, rib, coat.material), nullptr, coat.tint};
+    fur.procedurals.push_back(rib_procedural(coat));
+    const auto strands = static_cast<int64_t>(fur.procedurals.back()->counts().strands);
+    add_fur(std::move(fur), strands, world);
   }
+  if (archive.procedurals) add_procedurals(scene, name, params, archive, job, world);
 }
 
 }  // namespace pelage

@@ -15,12 +15,14 @@
 namespace pelage {
 
 struct World;
+struct ArchiveProcedurals;
 
 /// The contents of a RIB file in one frame, in world space.
 struct Archive {
   ContentHash key;  ///< of everything from which it is made
   std::shared_ptr<const RibScene> rib;
   std::vector<std::shared_ptr<const LimitSurface>> surfaces;  ///< of the skins, at shutter open
+  std::shared_ptr<const ArchiveProcedurals> procedurals;      ///< own procedurals; null without any
   MemoryCharge charge;
 };
 

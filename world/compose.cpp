@@ -84,6 +84,7 @@ class Composer {
       FurPart fur{
           character.name + "." + groom.name, {}, material_index(scene_, groom.value), skin.rest, tint};
       fur.scale = posed->scale();
+      fur.skin = static_cast<uint32_t>(own);
       if (reduced) {
         fur.lod = detail_.simplification(*coat, skin.rest.get(), *posed);
         std::optional<Simplification>& densest = world_.scene.skins[own].lod;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tested in tests/world/scene_schema_test.cpp.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -199,15 +200,28 @@ void collect_files(const Value& value, std::set<std::string>& files) {
   }
 }
 
+/// The value of `render.memory` before it is checked; the default without one. 0 means no limit.
+size_t memory_of(const std::string& text) {
+  const size_t bytes = parse_bytes(text).value_or(RenderParams().memory.bytes);
+  return bytes > 0 ? bytes : std::numeric_limits<size_t>::max();
+}
+
 /// A scene file, or a RIB file as a scene, with the overrides.
 std::optional<Value> any_document(const std::filesystem::path& path, const std::vector<Override>& overrides,
-                                  Problems& problems, RenamedKeys& renamed) {
+                                  const RibUse& use, Problems& problems, RenamedKeys& renamed) {
   if (!is_rib(path)) {
     std::optional<Value> document = load_document(path, overrides, problems, &renamed);
-    if (document) add_archive_materials(*document, renamed.warnings);
+    const Value* render = document ? document->find("render") : nullptr;
+    const Value* memory = render ? render->find("memory") : nullptr;
+    if (document)
+      add_archive_materials(*document, use, memory_of(memory ? memory->text() : ""), renamed.warnings);
     return document;
   }
-  Value document = rib_document(path, renamed.warnings);
+  std::string memory;
+  for (const Override& override : overrides) {
+    if (override.key == "render.memory") memory = override.value;
+  }
+  Value document = rib_document(path, use, memory_of(memory), renamed.warnings);
   rename_old_keys(document, renamed, problems);
   DocumentLimits limits;
   for (const Override& override : overrides) {
@@ -226,15 +240,17 @@ std::vector<std::filesystem::path> files_of(const Value& document, const std::fi
 
 }  // namespace
 
-SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides) {
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides,
+                            const RibUse& use) {
   Problems problems;
   SceneDescription scene;
   RenamedKeys renamed{SceneDescription::schema()};
-  if (const std::optional<Value> document = any_document(path, overrides, problems, renamed)) {
+  if (const std::optional<Value> document = any_document(path, overrides, use, problems, renamed)) {
     const ContentHash hash = document_hash(*document);
     scene.parts = scene_parts(*document);
     scene.files = files_of(*document, path);
     scene.from_rib = is_rib(path);
+    scene.programs = use.programs;
     scene.hash = fmt::format("{:016x}{:016x}", hash.high, hash.low);
     // If a block could not be read, references to its names would be reported as unknown too.
     if (SceneDescription::schema().read(*document, scene, problems)) {

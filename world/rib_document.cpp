@@ -159,22 +159,30 @@ Value option_block(const RibScene& rib, const char* name, const SourcePosition& 
   return option == rib.options.end() ? Value::map(at, {}) : rib_block(option->second.front());
 }
 
-RibScene read_description(const std::filesystem::path& path, const std::optional<int>& frame, bool mirror) {
+RibScene read_description(const std::filesystem::path& path, const std::optional<int>& frame, bool mirror,
+                          const RibUse& use, size_t max_request_bytes) {
   RibReadOptions options;
   options.frame = frame;
   options.geometry = false;
   options.mirror_left_handed = mirror;
+  options.programs = use.programs;
+  options.max_request_bytes = max_request_bytes;
   return read_rib(path, options);
 }
 
-void add_materials_and_lights(const RibScene& rib, Value& document, Value& table,
+RibMaterials materials_of(const RibUse& use) {
+  return RibMaterials(use.materials.empty() ? RibMaterialTable() : RibMaterialTable(use.materials));
+}
+
+void add_materials_and_lights(const RibScene& rib, RibMaterials own, Value& document, Value& table,
                               std::vector<Problem>& warnings) {
   const SourcePosition at = document.position();
   Value materials = Value::map(at, {}), lights = Value::map(at, {});
   for (const RibMaterial& material : rib.materials) {
-    add_entry(materials, material.name, rib_material(material, warnings));
+    add_entry(materials, material.name, own.material(material, warnings));
     add_entry(table, material.name, rib_text(at, material.name));
   }
+  own.finish(warnings);
   for (const RibLight& light : rib.lights) {
     if (std::optional<Value> block = rib_light(light, warnings))
       add_entry(lights, light.name, std::move(*block));
@@ -190,9 +198,10 @@ bool is_rib(const std::filesystem::path& path) {
   return name.ends_with(".rib") || name.ends_with(".rib.gz");
 }
 
-Value rib_document(const std::filesystem::path& path, std::vector<Problem>& warnings) {
+Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t max_request_bytes,
+                   std::vector<Problem>& warnings) {
   const SourcePosition at{path.string(), 1, 1};
-  RibScene rib = read_description(path, {}, true);
+  RibScene rib = read_description(path, {}, true, use, max_request_bytes);
   if (!rib.camera.stated)
     throw Error(ErrorKind::kInput, {path.string(), 0, 0},
                 "the file has no WorldBegin, and so no camera; use it in a scene: "
@@ -210,7 +219,8 @@ Value rib_document(const std::filesystem::path& path, std::vector<Problem>& warn
   std::string list;
   for (const int frame : frames) {
     list += (list.empty() ? "" : ",") + std::to_string(frame);
-    if (frames.size() > 1) picture.add_frame(frame, read_description(path, frame, true).camera);
+    if (frames.size() > 1)
+      picture.add_frame(frame, read_description(path, frame, true, use, max_request_bytes).camera);
   }
   Value document = Value::map(at, {});
   add_entry(document, "pelage", rib_number(at, 1));
@@ -224,7 +234,7 @@ Value rib_document(const std::filesystem::path& path, std::vector<Problem>& warn
     if (!block.entries().empty()) add_entry(document, name, std::move(block));
   }
   Value table = Value::map(at, {}), archive = Value::map(at, {}), archives = Value::map(at, {});
-  add_materials_and_lights(rib, document, table, warnings);
+  add_materials_and_lights(rib, materials_of(use), document, table, warnings);
   add_entry(archive, "rib", rib_text(at, path.filename().string()));
   if (!table.entries().empty()) add_entry(archive, "materials", std::move(table));
   const std::string name = path.filename().string();
@@ -233,10 +243,12 @@ Value rib_document(const std::filesystem::path& path, std::vector<Problem>& warn
   return document;
 }
 
-void add_archive_materials(Value& document, std::vector<Problem>& warnings) {
+void add_archive_materials(Value& document, const RibUse& use, size_t max_request_bytes,
+                           std::vector<Problem>& warnings) {
   Value* archives = document.find("archives");
   if (!archives || !archives->is_map()) return;
   Value added = Value::map(archives->position(), {});
+  RibMaterials own_materials = materials_of(use);
   for (Value::Entry& entry : archives->entries()) {
     const Value* file = entry.value.find("rib");
     if (!file || !file->is_scalar() || file->text().empty()) continue;  // the schema reports it
@@ -246,7 +258,7 @@ void add_archive_materials(Value& document, std::vector<Problem>& warnings) {
     std::filesystem::path path = by_flag ? std::filesystem::path(file->text()) : folder / file->text();
     RibScene rib;
     try {
-      rib = read_description(path, {}, false);
+      rib = read_description(path, {}, false, use, max_request_bytes);
     } catch (const Error& error) {
       if (error.problems().size() != 1 || error.problems()[0].position.line > 0) throw;
       throw Error(ErrorKind::kInput, named_at, error.what());
@@ -260,9 +272,10 @@ void add_archive_materials(Value& document, std::vector<Problem>& warnings) {
       const std::string name = entry.key + "." + material.name;
       add_entry(*table, material.name, rib_text(named_at, name));
       const Value* own = document.find("materials");
-      if (!own || !own->find(name)) add_entry(added, name, rib_material(material, warnings));
+      if (!own || !own->find(name)) add_entry(added, name, own_materials.material(material, warnings));
     }
   }
+  own_materials.finish(warnings);
   if (added.entries().empty()) return;
   if (!document.find("materials")) add_entry(document, "materials", Value::map(added.position(), {}));
   Value* materials = document.find("materials");

@@ -16,15 +16,7 @@ Value settings_block(const RibShader& shader) {
   Value block = Value::map(shader.position, {});
   for (const RibSetting& setting : shader.settings) {
     if (setting.name == "name" || setting.name == "__name") continue;
-    if (setting.strings.size() == 1) {
-      add_entry(block, setting.name, rib_text(setting.position, setting.strings[0]));
-    } else if (setting.numbers.size() == 1) {
-      add_entry(block, setting.name, rib_number(setting.position, setting.numbers[0]));
-    } else if (!setting.numbers.empty()) {
-      std::vector<Value> items;
-      for (const float x : setting.numbers) items.push_back(rib_number(setting.position, x));
-      add_entry(block, setting.name, Value::list(setting.position, std::move(items)));
-    }
+    if (std::optional<Value> value = rib_setting(setting)) add_entry(block, setting.name, std::move(*value));
   }
   return block;
 }
@@ -50,6 +42,15 @@ void add_entry(Value& map, std::string key, Value value) {
   map.entries().push_back({std::move(key), position, std::move(value)});
 }
 
+std::optional<Value> rib_setting(const RibSetting& setting) {
+  if (setting.strings.size() == 1) return rib_text(setting.position, setting.strings[0]);
+  if (setting.numbers.size() == 1) return rib_number(setting.position, setting.numbers[0]);
+  if (setting.numbers.empty()) return {};
+  std::vector<Value> items;
+  for (const float x : setting.numbers) items.push_back(rib_number(setting.position, x));
+  return Value::list(setting.position, std::move(items));
+}
+
 Value rib_block(const RibSetting& setting) {
   Problems problems;
   DocumentLimits limits;
@@ -62,8 +63,11 @@ Value rib_block(const RibSetting& setting) {
   return std::move(*value);
 }
 
-Value rib_material(const RibMaterial& material, std::vector<Problem>& warnings) {
+Value RibMaterials::material(const RibMaterial& material, std::vector<Problem>& warnings) {
   const RibShader* shader = material.shader.get();
+  names_.insert(material.name);
+  if (shader) names_.insert(shader->name);
+  if (std::optional<Value> own = table_.find(material)) return std::move(*own);
   if (shader && is_block(shader->find("pelage"))) return rib_block(*shader->find("pelage"));
   if (shader && shader->find("model")) return settings_block(*shader);
   const SourcePosition position = shader ? shader->position : SourcePosition{};
@@ -77,10 +81,11 @@ Value rib_material(const RibMaterial& material, std::vector<Problem>& warnings) 
     add_entry(block, "color",
               rib_vector(position, V3f(material.color.x, material.color.y, material.color.z)));
   }
-  if (shader)
-    warnings.push_back({position, "shader " + quote(shader->name) + " is not known; it is drawn as " +
-                                      (material.fibre ? "cone-shell" : "lambert") +
-                                      " with the colour of the file"});
+  if (shader && unknown_.insert(shader->name).second)
+    warnings.push_back(
+        {position, "shader " + quote(shader->name) + " is not known; it is drawn as " +
+                       (material.fibre ? "cone-shell" : "lambert") +
+                       " with the colour of the file (--materials maps shaders to materials)"});
   return block;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "base/value.h"
 #include "base/vector.h"
 #include "procedurals/rib/rib_scene.h"
+#include "world/rib_material_table.h"
 
 namespace pelage {
 
@@ -23,8 +25,24 @@ void add_entry(Value& map, std::string key, Value value);
 /// Throws Error (kInput).
 Value rib_block(const RibSetting& setting);
 
-/// Returns the block of a material, and appends a warning if its shader is not known.
-Value rib_material(const RibMaterial& material, std::vector<Problem>& warnings);
+/// Returns the value of a setting: a text, a number or a list of numbers; nullopt for several texts.
+std::optional<Value> rib_setting(const RibSetting& setting);
+
+/// Makes materials of the surfaces of all RIB files of a scene.
+class RibMaterials {
+ public:
+  explicit RibMaterials(RibMaterialTable table) : table_(std::move(table)) {}
+  /// Returns the block of a material: that of the table, of Pelage, of the shader's parameter "model", or the
+  /// default. Appends a warning if the shader is not known: one per name of a shader.
+  Value material(const RibMaterial& material, std::vector<Problem>& warnings);
+  /// Appends a warning for each entry of the table that was not used.
+  void finish(std::vector<Problem>& warnings) const { table_.warn_of_unused(names_, warnings); }
+
+ private:
+  const RibMaterialTable table_;
+  std::set<std::string> names_, unknown_;  // of shaders and materials; of unknown shaders
+};
+
 /// Returns the block of a light; empty, with a warning, if it is not supported.
 std::optional<Value> rib_light(const RibLight& light, std::vector<Problem>& warnings);
 

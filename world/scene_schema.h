@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "render/scene/render_params.h"
 #include "scene/document.h"
 #include "world/frames.h"
+#include "world/rib_use.h"
 #include "world/scene_changes.h"
 
 namespace pelage {
@@ -117,8 +119,9 @@ struct SceneDescription {
   /// All files that this process reads for the scene: the scene file, its included files, and the assets
   /// (asset_files()).
   std::vector<std::filesystem::path> files;
-  bool from_rib = false;  ///< whether the scene is a RIB file (is_rib())
-  SceneParts parts;       ///< hashes of the parts of the document, to compare scenes
+  bool from_rib = false;                  ///< whether the scene is a RIB file (is_rib())
+  std::shared_ptr<RibPrograms> programs;  ///< RibUse::programs
+  SceneParts parts;                       ///< hashes of the parts of the document, to compare scenes
   /// One per use of an old name of a key, with the current name, and per setting without effect.
   std::vector<Problem> warnings;
   static const Schema<SceneDescription>& schema();
@@ -131,7 +134,8 @@ void check_references(const SceneDescription& scene, Problems& problems);
 
 /// Reads a scene file with its includes, or a RIB file (rib_document()), applies the overrides, and checks
 /// everything that can be checked without the assets. Throws Error (kInput) with all mistakes, in the order
-/// of the file.
-SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {});
+/// of the file. `use`: what the user states about its RIB files.
+SceneDescription load_scene(const std::filesystem::path& path, const std::vector<Override>& overrides = {},
+                            const RibUse& use = {});
 
 }  // namespace pelage

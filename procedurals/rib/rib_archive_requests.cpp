@@ -11,7 +11,6 @@
 #include "procedurals/rib/rib_interpreter.h"
 
 namespace pelage {
-
 std::filesystem::path RibInterpreter::find_file(const std::string& name, const RibStatement& request) const {
   std::error_code ignored;
   if (name.empty() || name.find('\0') != std::string::npos) request.fail("expected the name of a file");
@@ -49,30 +48,42 @@ void RibInterpreter::procedural(const Call& call) {
   if (request.arguments.empty() || request.arguments[0].is_number())
     request.fail("expected a kind of procedural");
   const std::string kind = request.arguments[0].strings[0];
-  std::string file;
+  std::vector<std::string> words;  // file, program or plugin, and its arguments
+  Box3f bound;
   if (request.name == "Procedural") {
     if (request.arguments.size() != 3 || request.arguments[1].is_number() || request.arguments[1].size() == 0)
       request.fail("expected a kind, an array of strings and a bound of six numbers");
-    const RibOperand& bound = request.arguments[2];
-    if (!bound.is_number() || bound.size() != 6)
-      request.fail(bound, "a bound is six numbers, got " + bound.describe());
-    file = request.arguments[1].strings[0];
+    const RibOperand& box = request.arguments[2];
+    if (!box.is_number() || box.size() != 6)
+      request.fail(box, "a bound is six numbers, got " + box.describe());
+    words = request.arguments[1].strings;
+    bound = Box3f(V3f(box.number(0), box.number(2), box.number(4)),
+                  V3f(box.number(1), box.number(3), box.number(5)));
   } else {
+    std::string file, data;
     for (const RibSetting& setting : settings_of(request, 2)) {
-      if (setting.name == "filename" && setting.strings.size() == 1) file = setting.strings[0];
+      if (setting.strings.size() != 1) continue;
+      if (setting.name == "filename" || setting.name == "dsoname" || setting.name == "programname")
+        file = setting.strings[0];
+      if (setting.name == "data") data = setting.strings[0];
     }
+    words = {file, data};
   }
-  if (kind != "DelayedReadArchive" && kind != "DelayedReadArchive2") {
-    warn_once("procedural " + kind, request.position(),
-              "a procedural of kind " + quote(kind) + " runs code; skipped");
-    return;
+  words.resize(std::max<size_t>(words.size(), 2));
+  if (kind == "DelayedReadArchive" || kind == "DelayedReadArchive2") {
+    defer_archive(find_file(words[0], request), request, nullptr);
+    run_waiting_programs();
+  } else if (is_own_procedural(kind, words[0])) {
+    add_own_procedural(words[1], request);
+  } else {
+    foreign_procedural(kind, words, bound, request);
   }
-  defer_archive(find_file(file, request), request);
 }
 
 // The archive is executed now, in place. Its meshes and lights are kept; of each batch of its strands, only
 // the size and the box are kept.
-void RibInterpreter::defer_archive(const std::filesystem::path& path, const RibStatement& request) {
+void RibInterpreter::defer_archive(const std::filesystem::path& path, const RibStatement& request,
+                                   std::shared_ptr<const RibReply> reply) {
   if (!options_.geometry || in_deferred_) {
     const RibAttributes saved = now_;
     read_file(path, &request);
@@ -81,6 +92,7 @@ void RibInterpreter::defer_archive(const std::filesystem::path& path, const RibS
   }
   auto archive = std::make_shared<RibDeferredArchive>();
   archive->path = path;
+  archive->reply = std::move(reply);
   archive->context = context_;
   // Batches of the archive are not mixed with those of the file around it.
   batches_.finish();
@@ -92,7 +104,11 @@ void RibInterpreter::defer_archive(const std::filesystem::path& path, const RibS
     own.deferred.push_back({archive, number++, rib_counts(batch), exact_bounds(batch)});
   };
   const RibAttributes saved = now_;
+  const size_t largest = largest_request_;
+  largest_request_ = 0;
   read_file(path, &request);
+  archive->request_bytes = largest_request_;
+  largest_request_ = std::max(largest, largest_request_);
   now_ = saved;
   batches_.finish();
   take_ = nullptr;

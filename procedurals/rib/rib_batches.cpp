@@ -82,6 +82,7 @@ void drop_bad(StrandArrays& a, size_t& dropped) {
     }
     kept.first_point.push_back(kept.first_point.back() + static_cast<uint32_t>(end - begin));
     kept.ids.push_back(a.ids[s]);
+    if (!a.roots.empty()) kept.roots.push_back(a.roots[s]);
     if (!a.root_uv.empty()) kept.root_uv.push_back(a.root_uv[s]);
     for (size_t i = 0; i < a.attributes.size(); ++i)
       append_values(a.attributes[i], a, s, s + 1, kept.attributes[i]);

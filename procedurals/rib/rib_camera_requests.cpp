@@ -106,13 +106,15 @@ void RibInterpreter::option(const Call& call) {
     if (kind == "pelage") {
       const std::string name = setting.name;
       scene_.options[name] = {std::move(setting)};
-    } else if (setting.name == "archive" && setting.strings.size() == 1) {
-      context_.search_path.clear();
+    } else if ((setting.name == "archive" || setting.name == "procedural") && setting.strings.size() == 1) {
+      std::vector<std::string>& folders =
+          setting.name == "archive" ? context_.search_path : context_.program_path;
+      folders.clear();
       const std::string& path = setting.strings[0];
       for (size_t at = 0; at <= path.size();) {
         const size_t end = std::min(path.find(':', at), path.size());
         const std::string folder = path.substr(at, end - at);
-        if (!folder.empty() && folder != "@" && folder != "&") context_.search_path.push_back(folder);
+        if (!folder.empty() && folder != "@" && folder != "&") folders.push_back(folder);
         at = end + 1;
       }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The strands of RIB files as procedurals.
 #include <algorithm>
+#include <limits>
 
 #include "geom/curve_bounds.h"
 #include "geom/strand_merge.h"
@@ -46,7 +47,7 @@ class RibArchiveBatch final : public Procedural {
   size_t temporary_bytes() const override {
     const size_t floats =
         4 * batch_.counts.points * batch_.counts.motion_keys + batch_.counts.attribute_floats;
-    return 4 * sizeof(float) * floats;
+    return 4 * sizeof(float) * floats + batch_.archive->request_bytes;
   }
   size_t bytes() const override { return sizeof(*this); }
 
@@ -113,6 +114,8 @@ StrandCounts rib_counts(const Strands& strands) {
 
 Strands RibDeferredArchive::read(size_t batch, const StrandCounts& expected) const {
   RibReadOptions options;
+  options.max_request_bytes =
+      std::numeric_limits<size_t>::max();  // was checked when the archive was measured
   RibInterpreter interpreter(options, context);
   std::optional<Strands> found;
   size_t number = 0;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/memory_budget.h"
 #include "base/nearest_name.h"
 
 namespace pelage {
@@ -116,13 +117,21 @@ void RibInterpreter::read_file(const std::filesystem::path& path, const RibState
   }
   scene_.files.insert(path);
   reading_.push_back(identity);
-  RibReader reader(path);
   RibStatement request;
+  RibReader reader(path, [&](size_t bytes) { allow_request(request, bytes); });
   while (!stopped_ && reader.next(request)) {
     if (options_.check_stop && ++statements_ % 64 == 0) options_.check_stop();
     execute(request);
   }
   reading_.pop_back();
+}
+
+void RibInterpreter::allow_request(const RibStatement& request, size_t bytes) {
+  if (bytes > options_.max_request_bytes)
+    request.fail(fmt::format("one request may take {} of memory (render.memory)",
+                             memory_text(static_cast<int64_t>(options_.max_request_bytes))));
+  if (options_.reserve) options_.reserve(kept_bytes_ + bytes);
+  largest_request_ = std::max(largest_request_, bytes);
 }
 
 void RibInterpreter::keep(const RibStatement& request, std::vector<RibStatement>& list) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "procedurals/rib/rib_programs.h"
 #include "procedurals/rib/rib_reading.h"
 #include "procedurals/rib/rib_state.h"
 
@@ -15,6 +17,8 @@ namespace pelage {
 struct RibDeferredArchive {
   std::filesystem::path path;
   RibContext context;
+  size_t request_bytes = 0;               ///< memory of its largest request
+  std::shared_ptr<const RibReply> reply;  ///< if `path` is the reply of a program: keeps the file
   /// Reads one batch again. Throws Error (kInput) if the file has changed.
   Strands read(size_t batch, const StrandCounts& expected) const;
 };
@@ -67,6 +71,7 @@ class RibInterpreter {
   void warn_once(const std::string& kind, const SourcePosition& position, const std::string& message);
   void skipped(const RibStatement& request);
   void keep(const RibStatement& request, std::vector<RibStatement>& list);
+  void allow_request(const RibStatement& request, size_t bytes);
 
   // blocks (rib_blocks.cpp)
   void begin_block(const Call& call);
@@ -115,7 +120,25 @@ class RibInterpreter {
   void read_archive(const Call& call);
   void procedural(const Call& call);
   std::filesystem::path find_file(const std::string& name, const RibStatement& request) const;
-  void defer_archive(const std::filesystem::path& path, const RibStatement& request);
+  void defer_archive(const std::filesystem::path& path, const RibStatement& request,
+                     std::shared_ptr<const RibReply> reply);
+
+  // procedurals that run code (rib_program_requests.cpp)
+  /// A request to a program. Programs run one after the other, and not while another reply is read: that
+  /// reply is read again for each of its batches, but the programs that it names are not asked again.
+  struct WaitingProgram {
+    RibStatement request;  ///< of a file of the user, also if a reply asks
+    std::string command, line;
+    RibAttributes attributes;
+    size_t depth = 0;
+  };
+  void add_own_procedural(const std::string& arguments, const RibStatement& request);
+  static bool is_own_procedural(const std::string& kind, const std::string& program);
+  void foreign_procedural(const std::string& kind, const std::vector<std::string>& words, const Box3f& bound,
+                          const RibStatement& request);
+  void run_waiting_programs();
+  void run_program(WaitingProgram waiting);
+  float detail_of(const Box3f& bound) const;
 
   void ignore(const Call&) {}
 
@@ -140,6 +163,10 @@ class RibInterpreter {
   std::map<std::string, std::vector<RibStatement>> objects_;
   bool replaying_ = false;
   SourcePosition opened_at_;  // of the motion block or object
+  std::deque<WaitingProgram> programs_;
+  size_t program_depth_ = 0;              // replies around the one that is read
+  const RibStatement* asking_ = nullptr;  // request to which the reply that is read belongs; null: none
+  size_t largest_request_ = 0;            // bytes of the arguments, if more than 1 MiB
   size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, statements_ = 0;
 
   RibCamera camera_;

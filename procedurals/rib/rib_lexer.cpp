@@ -97,7 +97,12 @@ RibToken RibLexer::read_number() {
   if (stop != end || (error != std::errc() && error != std::errc::result_out_of_range) ||
       is_letter(begin[*begin == '-' ? 1 : 0]))
     fail(quote({digits, length}) + " is not a number");
-  if (error != std::errc()) fail(quote({digits, length}) + " is too large or too small for a number");
+  if (error != std::errc()) {
+    // With at most 128 characters, only the exponent can make a number too large or too small.
+    const size_t exponent = std::string_view(begin, end).find_first_of("eE");
+    if (begin[exponent + 1] != '-') fail(quote({digits, length}) + " is too large for a number");
+    number_ = 0;
+  }
   return RibToken::kFloat;
 }
 
@@ -214,6 +219,7 @@ RibToken RibLexer::read_binary_floats(int length_bytes) {
   uint8_t raw[4 * kBlock];
   while (floats_.size() < count) {
     const size_t before = floats_.size(), some = std::min<uint64_t>(kBlock, count - before);
+    if (grows_) grows_(4 * some);
     bytes_.take_binary(raw, 4 * some, "an array");
     floats_.resize(before + some);
     for (size_t i = 0; i < some; ++i) floats_[before + i] = std::bit_cast<float>(big_endian(raw + 4 * i));

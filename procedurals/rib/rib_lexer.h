@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,7 +23,10 @@ inline constexpr uint64_t kMaxRibDefinitions = uint64_t(1) << 26;  ///< bytes of
 /// and column. In binary parts, the column is the number of bytes since the last line feed of the text.
 class RibLexer {
  public:
-  explicit RibLexer(const std::filesystem::path& path) : bytes_(path) {}
+  /// `grows`: called with the number of bytes before a float array takes this much more memory; may throw.
+  RibLexer(const std::filesystem::path& path, std::function<void(size_t bytes)> grows)
+      : bytes_(path), grows_(std::move(grows)) {}
+  explicit RibLexer(const std::filesystem::path& path) : RibLexer(path, {}) {}
 
   /// Reads the next token. The values of the token are valid until the next call.
   RibToken next();
@@ -31,6 +35,8 @@ class RibLexer {
   int64_t integer() const { return integer_; }                  ///< of kInteger
   double number() const { return number_; }                     ///< of kFloat
   const std::vector<float>& floats() const { return floats_; }  ///< of kFloats
+  /// Exchanges the values of kFloats for other memory, which is reused.
+  void swap_floats(std::vector<float>& other) { floats_.swap(other); }
   /// Position of the first byte of the token.
   SourcePosition position() const { return {bytes_.file(), line_, column_}; }
   int line() const { return line_; }
@@ -53,6 +59,7 @@ class RibLexer {
   uint64_t unsigned_operand(int bytes);
 
   RibBytes bytes_;
+  std::function<void(size_t)> grows_;
   int line_ = 1, column_ = 1;
   std::string text_;
   int64_t integer_ = 0;

@@ -108,7 +108,13 @@ void check_type(RibStatement& request, const std::string& name, const RibDeclara
 }  // namespace
 
 std::optional<RibDeclaration> parse_declaration(std::string_view text) {
-  std::vector<std::string_view> words = words_of(text);
+  // "float [ 2 ]" and "float[2]" are the same.
+  std::string tight;
+  for (const std::string_view word : words_of(text)) {
+    const bool joins = tight.empty() || word.front() == '[' || word.front() == ']' || tight.back() == '[';
+    tight += (joins ? "" : " ") + std::string(word);
+  }
+  std::vector<std::string_view> words = words_of(tight);
   RibDeclaration declaration;
   if (!words.empty()) {
     if (const std::optional<RibClass> frequency = class_of(words.front())) {
@@ -116,9 +122,8 @@ std::optional<RibDeclaration> parse_declaration(std::string_view text) {
       words.erase(words.begin());
     }
   }
-  if (words.empty() || words.size() > 2) return {};
+  if (words.size() != 1) return {};
   std::string type(words[0]);
-  if (words.size() == 2) type += words[1];  // "float [2]"
   int count = 1;
   if (const size_t bracket = type.find('['); bracket != std::string::npos) {
     const char *begin = type.data() + bracket + 1, *end = type.data() + type.size();
@@ -155,7 +160,7 @@ std::vector<RibNamedValue> RibDeclarations::parameters(RibStatement& request, si
     const std::string& text = token.strings.front();
     if (i + 1 == request.arguments.size()) request.fail(token, "parameter " + quote(text) + " has no value");
     RibNamedValue parameter{text, {}, nullptr};
-    const size_t blank = text.find_last_of(" \t");
+    const size_t blank = text.find_last_of(" \t\n\r]");  // "float[2]st" needs no blank
     if (blank == std::string::npos) {
       const auto known = table_.find(text);
       if (known == table_.end()) {
@@ -164,8 +169,8 @@ std::vector<RibNamedValue> RibDeclarations::parameters(RibStatement& request, si
       }
       parameter.declaration = known->second;
     } else {
-      const auto inline_declaration = parse_declaration(std::string_view(text).substr(0, blank));
-      if (!inline_declaration)
+      const auto inline_declaration = parse_declaration(std::string_view(text).substr(0, blank + 1));
+      if (!inline_declaration || blank + 1 == text.size())
         request.fail(token, quote(text) +
                                 " does not declare a parameter; expected a class, a type and a "
                                 "name, such as \"varying float width\"");

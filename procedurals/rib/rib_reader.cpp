@@ -69,6 +69,7 @@ void RibReader::read_array(RibStatement& request) {
     if (token == RibToken::kEnd || token == RibToken::kRequest) fail("an array has no closing bracket");
     if (token == RibToken::kOpen || token == RibToken::kFloats) fail("an array within an array");
     if (argument.size() >= kMaxRibCount) fail("an array has more than 1,000,000,000 elements");
+    charge(token == RibToken::kString ? sizeof(std::string) + lexer_.text().size() : sizeof(int64_t));
     if (token == RibToken::kString) {
       if (argument.is_number() && argument.size() > 0) fail("an array of numbers contains a string");
       argument.kind = RibOperand::Kind::kStrings;
@@ -102,7 +103,7 @@ void RibReader::read_value(RibStatement& request, RibToken token) {
   } else if (token == RibToken::kFloats) {
     argument.kind = RibOperand::Kind::kFloats;
     argument.is_array = true;
-    argument.floats = lexer_.floats();
+    lexer_.swap_floats(argument.floats);
   } else {
     throw Error(ErrorKind::kInput, lexer_.position(), "a closing bracket without an opening one");
   }
@@ -119,6 +120,8 @@ bool RibReader::next(RibStatement& request) {
   request.line = lexer_.line();
   request.column = lexer_.column();
   used_ = 0;
+  charged_ = 0;
+  allowed_ = kUnchecked;
   for (ahead_ = lexer_.next(); ahead_ != RibToken::kRequest && ahead_ != RibToken::kEnd;
        ahead_ = lexer_.next())
     read_value(request, ahead_);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,13 @@ struct RibStatement {
 /// Reads a RIB file request by request. Does not know what requests mean. Throws Error (kInput).
 class RibReader {
  public:
-  explicit RibReader(const std::filesystem::path& path) : lexer_(path) {}
+  /// `check`: called before the arguments of one request take more than 1 MiB, and again before they take
+  /// twice as much as it was called with. May throw. A short compressed file may have huge arguments.
+  RibReader(const std::filesystem::path& path, std::function<void(size_t bytes)> check)
+      : lexer_(path, [this](size_t bytes) { charge(bytes); }), check_(std::move(check)) {}
+  explicit RibReader(const std::filesystem::path& path) : RibReader(path, {}) {}
+  RibReader(const RibReader&) = delete;
+  RibReader& operator=(const RibReader&) = delete;
 
   /// Reads the next request into `request`, whose memory is reused. Returns false at the end of the file.
   bool next(RibStatement& request);
@@ -62,7 +69,18 @@ class RibReader {
   void append_number(RibOperand& argument);
   void read_value(RibStatement& request, RibToken token);
 
+  /// Counts bytes of the arguments of a request before they are taken.
+  void charge(size_t bytes) {
+    charged_ += bytes;
+    if (charged_ <= allowed_) return;
+    while (allowed_ < charged_) allowed_ *= 2;
+    if (check_) check_(allowed_);
+  }
+
+  static constexpr size_t kUnchecked = size_t(1) << 20;
   RibLexer lexer_;
+  std::function<void(size_t)> check_;
+  size_t charged_ = 0, allowed_ = kUnchecked;
   bool started_ = false;
   RibToken ahead_ = RibToken::kEnd;  // the token after the last argument
   size_t used_ = 0;                  // arguments of the present request

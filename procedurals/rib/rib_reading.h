@@ -10,6 +10,8 @@
 
 namespace pelage {
 
+class RibPrograms;
+
 /// How a RIB file is read.
 struct RibReadOptions {
   /// Number of the frame (FrameBegin) to read; if the file has frames, but not this one, only what is outside
@@ -21,7 +23,10 @@ struct RibReadOptions {
   /// Whether a file with a camera in a left-handed world is mirrored (z becomes -z), so that a right-handed
   /// camera sees the same picture.
   bool mirror_left_handed = false;
-  size_t max_points = 1'000'000'000;          ///< of all strands and meshes together
+  size_t max_points = 1'000'000'000;           ///< of all strands and meshes together
+  size_t max_request_bytes = size_t(4) << 30;  ///< memory of the arguments of one request
+  /// Runs programs that the file names; null: such procedurals are skipped, with a warning.
+  std::shared_ptr<RibPrograms> programs;
   std::function<void(size_t bytes)> reserve;  ///< called with the bytes of all geometry so far; may throw
   std::function<void()> check_stop;           ///< called often; may throw
 };

@@ -76,6 +76,17 @@ struct RibCoat {
   StrandScale scale;
 };
 
+/// A request Procedural that asks for the plugin libpelage_ri.so or the program `pelage procedural`. Pelage
+/// does not run them. The room world/ knows what the arguments mean, and grows the coats itself.
+struct RibOwnProcedural {
+  std::string arguments;
+  SourcePosition position;
+  std::filesystem::path folder;  ///< of the file that was given first
+  size_t material = 0;
+  Rgb tint{1};
+  RibTransform to_world;
+};
+
 /// A mesh with its positions at evenly spaced times from shutter open to close.
 struct RibSkin {
   std::string name;
@@ -111,6 +122,7 @@ struct RibScene {
   std::vector<RibMaterial> materials;
   std::vector<RibLight> lights;
   std::vector<RibCoat> coats;
+  std::vector<RibOwnProcedural> own_procedurals;
   std::vector<RibSkin> skins;
   std::set<std::filesystem::path> files;  ///< all files that were read
   std::vector<Problem> warnings;

@@ -31,8 +31,9 @@ struct RibContext {
   RibAttributes attributes;
   RibDeclarations declarations;
   std::map<std::string, RibTransform> spaces;
-  std::vector<std::string> search_path;
-  std::filesystem::path folder;  ///< of the file that was given first
+  std::vector<std::string> search_path;   ///< of archives
+  std::vector<std::string> program_path;  ///< of procedurals
+  std::filesystem::path folder;           ///< of the file that was given first
   RibShutter shutter;
   RibTransform world;                        ///< from the world of the file to the world of the scene
   std::map<std::string, uint64_t> next_ids;  ///< of strands without ids, by coat

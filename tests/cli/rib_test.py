@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Scenes written as RIB, and replies to a renderer's requests. Run: rib_test.py PROGRAM"""
 import gzip
+import json
 import re
 import subprocess
 import sys
@@ -30,6 +31,41 @@ class RibTest(ProgramTest):
     def test_expanded_and_compressed(self):
         self.rib("-o", "a.rib.gz", "--ascii", "--expand")
         self.assertEqual(self.strands(gzip.decompress((self.path / "a.rib.gz").read_bytes()).decode()), 400)
+
+    def test_pelage_grows_its_own_procedurals(self):
+        self.rib("-o", "a.rib")
+        tiny = ("--quiet", "--set", "image.width=24", "--set", "image.height=16", "--stats", "s.json")
+        self.run_pelage("render", "a.rib", "-o", "a.exr", *tiny)
+        of_rib = json.loads((self.path / "s.json").read_text())
+        self.run_pelage("render", "scene.yaml", "-o", "b.exr", *tiny)
+        of_scene = json.loads((self.path / "s.json").read_text())
+        self.assertEqual(of_rib["strands_described"], 400)
+        self.assertEqual(of_rib["strands_described"], of_scene["strands_described"])
+        self.assertEqual(of_rib["strands_generated"], of_scene["strands_generated"])
+
+    def test_programs_run_only_when_they_are_allowed(self):
+        (self.path / "gen").write_text("""#!/bin/sh
+while read -r detail arguments; do
+  echo "ran $arguments" >> log
+  echo 'Curves "linear" [2 2] "nonperiodic" "P" [0 0 0 0 1 0 1 0 0 1 1 0] "constantwidth" 0.1'
+  printf '\\377'
+done
+""")
+        (self.path / "gen").chmod(0o755)
+        (self.path / "a.rib").write_text('Format 8 8 1 Projection "perspective" Translate 0 0 5 WorldBegin\n'
+                                         'LightSource "ambientlight" 1\nSurface "straw" "float gloss" 0.25\n'
+                                         'Procedural "RunProgram" ["gen" "hay"] [0 1 0 1 0 1]\nWorldEnd\n')
+        render = ("render", "a.rib", "-o", "a.exr", "--set", "render.samples=1", "--progress", "plain")
+        err = self.run_pelage(*render, "--stats", "s.json")[1]
+        self.assertIn("runs code; skipped (--allow-procedurals", err)
+        self.assertEqual(json.loads((self.path / "s.json").read_text())["strands_described"], 0)
+        self.assertFalse((self.path / "log").exists())
+        (self.path / "t.yaml").write_text("straw: {model: cone-shell, color: $Color, diffuse: $gloss}\n")
+        err = self.run_pelage(*render, "--stats", "s.json", "--allow-procedurals", "--materials", "t.yaml",
+                              "--preview")[1]
+        self.assertNotIn("warning", err)
+        self.assertEqual(json.loads((self.path / "s.json").read_text())["strands_described"], 2)
+        self.assertEqual((self.path / "log").read_text(), "ran hay\n")
 
     def test_archives_are_beside_the_file(self):
         self.rib("-o", "a.rib", "--ascii", "--archives", "--set", "grooms.coat.leaf_strands=100")

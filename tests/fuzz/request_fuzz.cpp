@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/check.h"
 #include "base/error.h"
-#include "renderman/hair_arguments.h"
 #include "tests/fuzz/fuzz_targets.h"
+#include "world/hair_arguments.h"
 
 namespace pelage {
 

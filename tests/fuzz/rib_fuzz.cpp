@@ -54,7 +54,7 @@ void fuzz_rib(std::span<const uint8_t> bytes) {
   }
   try {
     std::vector<Problem> warnings;
-    const Value document = rib_document(path, warnings);
+    const Value document = rib_document(path, {}, size_t(1) << 26, warnings);
     SceneDescription scene;
     Problems problems;
     if (SceneDescription::schema().read(document, scene, problems)) check_references(scene, problems);

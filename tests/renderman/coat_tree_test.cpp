@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/curve_bounds.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {

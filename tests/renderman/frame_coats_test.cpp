@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderman/frame_coats.h"
+#include "world/frame_coats.h"
 
 #include <gtest/gtest.h>
 
 #include "renderman/coat_tree.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {
@@ -42,10 +42,10 @@ TEST(FrameCoats, OneCharacterAlone) {
   QuietJob job;
   const SceneDescription scene = load_scene(files.scene());
   const auto assets = load_assets(scene, job);
-  const FrameParts parts = pose_frame(scene, *assets, 1, job, "post");
+  const FrameParts parts = pose_frame(scene, *assets, 1, job, {"post"});
   ASSERT_EQ(parts.coats.size(), 1u);
   EXPECT_EQ(parts.coats[0].groom, "whiskers");
-  EXPECT_TRUE(pose_frame(scene, *assets, 1, job, "nobody").coats.empty());
+  EXPECT_TRUE(pose_frame(scene, *assets, 1, job, {"nobody"}).coats.empty());
 }
 
 TEST(FrameCoats, MotionTimesCoverTheShutter) {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderman/hair_node.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/procedurals/rib/rib_tokens.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {

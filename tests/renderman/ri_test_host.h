@@ -8,7 +8,7 @@
 
 #include "base/module.h"
 #include "renderman/plugin/ri_host.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 

@@ -5,7 +5,7 @@
 #include <zlib.h>
 
 #include "tests/procedurals/rib/rib_tokens.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {
@@ -160,6 +160,38 @@ TEST_F(SceneRib, ProceduralsNameTheSceneAndTheirBoxes) {
     EXPECT_TRUE(box.intersects(V3f(strand.points[0], strand.points[1], strand.points[2]))) << id;
   }
   EXPECT_LT(box.size().x, 6);
+}
+
+// Every way of writing coats gives Pelage the strands, skins and counts of the scene itself.
+TEST_F(SceneRib, PelageReadsTheSceneBack) {
+  const std::vector<Override> far{{"render.lod.enabled", "true"}, {"camera.position", "[30, 20, 80]"}};
+  QuietJob job;
+  for (const bool lod : {false, true}) {
+    const std::vector<Override> overrides = lod ? far : std::vector<Override>();
+    for (const RibCoats coats : {RibCoats::kProcedurals, RibCoats::kArchives, RibCoats::kExpanded}) {
+      const std::filesystem::path file =
+          write("back.rib", {{RibEncoding::kBinary, false}, coats, lod}, overrides).at(0);
+      const SceneDescription scene = load_scene(file);
+      EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front().message;
+      const auto assets = load_assets(scene, job);
+      const World world = compose(scene, *assets, 1, job);
+      ASSERT_EQ(world.scene.fur.size(), 2u);
+      ASSERT_EQ(world.scene.skins.size(), 2u);
+      for (const FurPart& part : world.scene.fur) {
+        StrandsById strands;
+        for (const auto& procedural : part.procedurals) {
+          for (const auto& leaf : procedural->split()) add_strands(leaf->generate(), strands);
+        }
+        EXPECT_EQ(strands, picture_strands(files_.scene(), part.name.substr(5), 1, overrides)) << part.name;
+        const auto& own = world.scene.skins[part.name == "back.walker.coat" ? 0 : 1];
+        if (coats == RibCoats::kProcedurals && lod && part.lod) {
+          ASSERT_TRUE(own.lod) << "the skin below a reduced coat is reduced too";
+          EXPECT_EQ(own.lod->depth(), part.lod->depth());
+        }
+        EXPECT_EQ(part.lod.has_value(), coats == RibCoats::kProcedurals && lod);
+      }
+    }
+  }
 }
 
 TEST_F(SceneRib, ExpandedAndArchivedCoatsHaveAllStrands) {

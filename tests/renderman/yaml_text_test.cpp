@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/document_hash.h"
-#include "tests/renderman/furry_scene.h"
+#include "tests/world/furry_scene.h"
 
 namespace pelage {
 namespace {

@@ -86,7 +86,15 @@ TEST(RibDeferred, CodeIsNotRun) {
                            "Procedural \"RunProgram\" [\"touch /tmp/x\" \"\"] [0 1 0 1 0 1]"),
                {});
   ASSERT_EQ(scene.warnings.size(), 1u);
-  EXPECT_EQ(scene.warnings[0].message, "a procedural of kind 'RunProgram' runs code; skipped");
+  EXPECT_EQ(
+      scene.warnings[0].message,
+      "a procedural of kind 'RunProgram' runs code; skipped (--allow-procedurals runs the programs that "
+      "the file names)");
+  EXPECT_EQ(read_rib(files.write("Procedural \"DynamicLoad\" [\"x.so\" \"\"] [0 1 0 1 0 1]"), {})
+                .warnings.at(0)
+                .message,
+            "a procedural of kind 'DynamicLoad' calls functions of its renderer, which Pelage does not have; "
+            "skipped");
   EXPECT_NE(error_of([&] {
               read_rib(files.write("Procedural \"DelayedReadArchive\" [\"b.rib\"] [0 1]"), {});
             }).find("a bound is six numbers, got an array of 2 integers"),

@@ -84,13 +84,24 @@ TEST(RibLexer, ErrorsHavePositions) {
   EXPECT_EQ(failure("Scale 1\n  2x"), "a.rib:2:3: '2x' is not a number");
   EXPECT_EQ(failure("Scale -"), "a.rib:1:7: '-' is not a number");
   EXPECT_EQ(failure("Scale nan"), "no error") << "nan is a request";
-  EXPECT_EQ(failure("Scale 1e999"), "a.rib:1:7: '1e999' is too large or too small for a number");
+  EXPECT_EQ(failure("Scale 1e999"), "a.rib:1:7: '1e999' is too large for a number");
+  EXPECT_EQ(failure("Scale -1e999"), "a.rib:1:7: '-1e999' is too large for a number");
   EXPECT_EQ(failure("\n\"abc"), "a.rib:2:1: a string has no closing quote");
   EXPECT_EQ(failure("\xa6\x01"), "a.rib:1:1: the file uses request code 1 before it defines it");
   EXPECT_EQ(failure("\xcf\x01"), "a.rib:1:1: the file uses string code 1 before it defines it");
   EXPECT_EQ(failure("\xb0"), "a.rib:1:1: byte 176 has no meaning in a RIB file");
   EXPECT_EQ(failure("\xcc\x01 5"), "a.rib:1:1: expected the string that a code stands for");
   EXPECT_EQ(failure("a\x01"), "a.rib:1:2: expected a request, a value or a parameter, got a byte 1");
+}
+
+TEST(RibLexer, TooSmallNumbersAreZero) {
+  for (const char* text : {"1e-400", "-1E-400", "+.5e-99999999999999999999", "0e-500", "4e-324"}) {
+    const Files files;
+    RibLexer lexer(files.write(text));
+    ASSERT_EQ(lexer.next(), RibToken::kFloat) << text;
+    EXPECT_EQ(static_cast<float>(lexer.number()), 0.0f) << text;
+    EXPECT_EQ(lexer.next(), RibToken::kEnd) << text;
+  }
 }
 
 TEST(RibLexer, CutOffBinaryDataIsAnError) {

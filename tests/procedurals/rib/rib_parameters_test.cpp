@@ -72,5 +72,26 @@ TEST(RibParameters, WrongTypesAreErrors) {
             "such as \"varying float width\"");
 }
 
+TEST(RibParameters, BlanksAroundTheCountOfAnArray) {
+  for (const char* text :
+       {"varying float[2]", "varying float [2]", "varying float[ 2 ]", " varying\tfloat [ 2]\n"}) {
+    const auto declaration = parse_declaration(text);
+    ASSERT_TRUE(declaration) << text;
+    EXPECT_EQ(declaration->components, 2) << text;
+    EXPECT_EQ(declaration->frequency, RibClass::kVarying) << text;
+  }
+  for (const char* text : {"float[2", "float 2]", "float[2] [2]", "float[]", "float[2 3]", "[2]"})
+    EXPECT_FALSE(parse_declaration(text)) << text;
+  const RibDeclarations declarations;
+  for (const char* token : {"uniform float[ 2 ] st", "uniform float[2]st", "uniform float [2]\tst"}) {
+    RibStatement one = statements_of("A \"" + std::string(token) + "\" [1 2]")[0];
+    std::vector<std::string> undeclared;
+    const auto found = declarations.parameters(one, 0, undeclared);
+    ASSERT_EQ(found.size(), 1u) << token;
+    EXPECT_EQ(found[0].name, "st");
+    EXPECT_EQ(found[0].declaration.components, 2);
+  }
+}
+
 }  // namespace
 }  // namespace pelage

@@ -260,6 +260,43 @@ TEST(RibReading, ArchivesAreFoundOnTheSearchPath) {
   EXPECT_EQ(scene.files.size(), 2u);
 }
 
+// A compressed file of a few kilobytes can have arguments of gigabytes, before there are any strands to
+// count.
+TEST(RibReading, TheArgumentsOfOneRequestAreLimited) {
+  constexpr uint32_t kCount = 8'000'000;
+  std::string text_array = "[", strings = "[";
+  for (int i = 0; i < 1'000'000; ++i) text_array += "0 ", strings += "\"\" ";
+  const std::string binary =
+      std::string("\xcb") + big_endian(kCount, 4) + std::string(size_t(4) * kCount, '\0');
+  std::string parts = "Curves \"linear\"";
+  for (int i = 0; i < 8; ++i)
+    parts += std::string("\xcb") + big_endian(kCount / 8, 4) + std::string(size_t(kCount) / 2, '\0');
+  for (const std::string& file : {"Curves \"linear\" " + binary, "Curves \"linear\" " + text_array + "]",
+                                  "Curves \"linear\" " + strings + "]", parts}) {
+    const std::string bytes = gzipped(file);
+    ASSERT_LT(bytes.size(), 100'000u);
+    RibReadOptions options;
+    options.max_request_bytes = size_t(4) << 20;
+    EXPECT_EQ(failure(bytes, options),
+              "a.rib:1:1: Curves: one request may take 4.0 MiB of memory (render.memory)");
+    size_t most = 0;
+    options = {};
+    options.reserve = [&](size_t taken) {
+      most = std::max(most, taken);
+      if (taken > (size_t(4) << 20)) throw Error(ErrorKind::kMemory, "no room");
+    };
+    EXPECT_EQ(failure(bytes, options), "another kind: no room");
+    EXPECT_LE(most, size_t(8) << 20) << "asked before it is taken, in steps of a factor of two";
+  }
+  // What fits is read, and the next request has all the room again.
+  RibReadOptions options;
+  options.max_request_bytes = size_t(4) << 20;
+  std::string two;
+  for (int i = 0; i < 2; ++i)
+    two += "Unknown \xcb" + big_endian(900'000, 4) + std::string(size_t(3'600'000), '\0') + "\n";
+  EXPECT_EQ(failure(two, options), "no error");
+}
+
 TEST(RibReading, TextBinaryAndCompressedFilesGiveTheSameStrands) {
   const std::vector<float> points{0, 0, 0, .1f, 1, .3f, 1, 2, 3.7f, -4, 5, 6e-3f};
   std::string text = "Basis \"b-spline\" 1 \"b-spline\" 1 Curves \"cubic\" [4] \"nonperiodic\" \"P\" [";

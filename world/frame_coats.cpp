@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderman/frame_coats.h"
+// Tested in tests/renderman/frame_coats_test.cpp.
+#include "world/frame_coats.h"
+
+#include <algorithm>
 
 #include "procedurals/detail_policy.h"
 #include "world/drawn_characters.h"
@@ -72,10 +75,31 @@ class FramePoser {
   std::shared_ptr<PoseCache> poses_;
 };
 
+/// A camera so far from `box` that everything in it has the same size.
+LodView far_view(const Box3f& box, float pixels_per_unit) {
+  const float distance = 1e3f * std::max(1e-6f, box.size().length());
+  LodView view;
+  view.open.position = box.center() + V3f(0, 0, distance);
+  view.open.focal_pixels = pixels_per_unit * distance;
+  view.close = view.open;
+  return view;
+}
+
 }  // namespace
 
+Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, float pixels_per_unit,
+                            const Workers& workers) {
+  params.motion_blur = params.depth_of_field = params.back_facing = false;
+  const Box3f box = coat.skin->bound(BoundSpan::kShutter);
+  MemoryLedger ledger;
+  NoProgress progress;
+  const Job job{workers, ledger, progress};
+  DetailPolicy policy(params, far_view(box, pixels_per_unit), V2f(0), job);
+  return policy.simplification(*coat.coat, coat.rest.get(), *coat.skin);
+}
+
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
-                      const std::string& only) {
+                      const std::set<std::string>& only) {
   const std::vector<DrawnCharacter> drawn = drawn_characters(scene, assets);
   FramePoser poser(scene, assets, frame, job);
   const std::vector<bool> full =
@@ -83,7 +107,7 @@ FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, doubl
   FrameParts parts;
   for (size_t i = 0; i < drawn.size(); ++i) {
     job.check_stop();
-    if (only.empty() || only == drawn[i].name)
+    if (only.empty() || only.contains(drawn[i].name))
       poser.add(drawn[i], scene.render.lod.enabled && !full[i], parts);
   }
   return parts;

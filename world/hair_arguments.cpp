@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "renderman/hair_arguments.h"
+#include "world/hair_arguments.h"
 
 #include <charconv>
 

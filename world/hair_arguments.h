@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "renderman/coat_tree.h"
 #include "scene/document.h"
+#include "world/leaf_range.h"
 
 namespace pelage {
 

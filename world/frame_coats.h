@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,11 +46,17 @@ struct FrameParts {
   std::vector<FrameCoat> coats;
 };
 
-/// Poses the characters of a frame like compose(), but without materials and lights. `only`: if not empty,
-/// the name of the only character to pose. Throws Error: kInput for missing or damaged poses, kStopped when
-/// the job is stopped.
+/// Poses the characters of a frame like compose(), but without materials and lights. `only`: the names of
+/// the characters to pose; empty: all. Throws Error: kInput for missing or damaged poses, kStopped when the
+/// job is stopped.
 FrameParts pose_frame(const SceneDescription& scene, const Assets& assets, double frame, const Job& job,
-                      const std::string& only = {});
+                      const std::set<std::string>& only = {});
+
+/// Returns the level of detail of a coat where the picture has `pixels_per_unit` everywhere, by the rule of
+/// `render.lod` but without regard to motion, focus and facing, for which only a camera has values.
+/// `workers`: for measuring properties of the coat.
+Simplification scale_detail(const FrameCoat& coat, SimplificationParams params, float pixels_per_unit,
+                            const Workers& workers);
 
 /// Returns the times of the motion keys of a part with this number of keys: evenly spaced over the shutter,
 /// in frames relative to the frame.
