@@ -18,6 +18,7 @@
 #include "render/frame/sample_schedule.h"
 #include "render/gather/gather_loop.h"
 #include "render/path/path_tracer.h"
+#include "render/path/visibility_pilots.h"
 #include "render/sampling/adaptive_rule.h"
 
 namespace pelage {
@@ -80,6 +81,31 @@ TileCosts gather(const RenderScene& scene, FrameGeometry& geometry, const FrameO
   return loop.costs();
 }
 
+/// Prepares what the scene asks for to save shadow rays. Returns false when cancelled.
+bool prepare_shadows(const RenderScene& scene, FrameGeometry& geometry, const Job& job,
+                     std::unique_ptr<const VisibilityTable>& table, PathOptions& path,
+                     FrameStatistics& statistics) try {
+  if (const SkinBallUse use = scene.render.ball_use(scene.skins.size()); use != SkinBallUse::kOff) {
+    const Stopwatch clock;
+    SkinShadows& shadows = geometry.shadows(scene, job);
+    path.known.balls = &shadows;
+    shadows.set_shells({});
+    if (use == SkinBallUse::kFractional && scene.lights.size() > 0)
+      shadows.set_shells(VisibilityPilots(scene, geometry.accel(), path).fit_shells(job, statistics));
+    statistics.stages_s["skin balls"] += clock.seconds();
+  }
+  if (scene.render.learned_visibility != LearnedUse::kOff && scene.lights.size() > 0) {
+    const Stopwatch clock;
+    table = VisibilityPilots(scene, geometry.accel(), path).learn(job, statistics);
+    path.known.visibility = table.get();
+    statistics.stages_s["pilot rays"] += clock.seconds();
+  }
+  return true;
+} catch (const Error& error) {
+  if (error.kind() != ErrorKind::kStopped) throw;
+  return false;
+}
+
 }  // namespace
 
 void check_region(const ImageParams& image, const RenderParams& render, const PixelBox& region) {
@@ -124,13 +150,16 @@ FrameResult render_frame(const RenderScene& scene, const Job& job, const FrameOp
   FrameResult result{Film(width, height, layers, job.ledger), window};
   GatherLoop::Memory tiles = gathers ? GatherLoop::reserve_tiles(scene, job) : GatherLoop::Memory{};
   if (!geometry) geometry = FrameGeometry::make(scene, job, result.statistics, kept);
-  result.partial = geometry == nullptr;
+  FrameOptions used = options;
+  std::unique_ptr<const VisibilityTable> table;
+  result.partial = !geometry || !prepare_shadows(scene, *geometry, job, table, used.path, result.statistics);
   if (result.partial) return result;
 
   const double prepared_s = clock.seconds();
   const double prepared_cpu_s = geometry->growth_cpu_s();
-  const TileCosts costs = gathers ? gather(scene, *geometry, options, tiles, job, clock, result)
-                                  : trace_paths(scene, *geometry, options, job, clock, result);
+  const TileCosts costs = gathers ? gather(scene, *geometry, used, tiles, job, clock, result)
+                                  : trace_paths(scene, *geometry, used, job, clock, result);
+  result.statistics.occlusion += costs.occlusion;
   result.statistics.cpu_s += render_seconds(costs, geometry->growth_cpu_s() - prepared_cpu_s);
   geometry->add_to(result.statistics);
   result.statistics.stages_s["render"] += clock.seconds() - prepared_s;

@@ -77,6 +77,14 @@ void add_errors(const ShadingRuns& all, Columns& columns) {
 void add_work(Columns& columns) {
   for (const std::string kind : {"camera", "shadow", "indirect"})
     columns.add_number("rays_" + kind, kind + " rays", "rays." + kind);
+  columns.add("candidates_proved", "candidates proved", Quantity::kRatio, [](const ShadingRun& run) {
+    const double drawn = run.outcome.number("shadow_candidates");
+    return drawn > 0 ? run.outcome.number("shadow_candidates_proved") / drawn : NAN;
+  });
+  columns.add_number("rays_proved", "rays proved", "rays_skipped_skin");
+  columns.add_number("rays_learned", "rays ended by learning", "rays_skipped_learned");
+  columns.add_number("rays_modelled", "rays modelled", "rays_modelled");
+  columns.add_number("rays_pilot", "pilot rays", "pilot_rays");
   columns.add_number("knots", "knots", "knots");
   columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");

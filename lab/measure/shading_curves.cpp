@@ -2,6 +2,7 @@
 #include "lab/measure/shading_curves.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,42 @@ ShadingCurve gather_with(const char* key, const std::string& value) {
   return curve;
 }
 
+/// A curve with both kinds of known occlusion switched on or off. `ball`: render.skin_ball; `learned`:
+/// render.learned_visibility.
+ShadingCurve with_known(ShadingCurve curve, const char* ball, const char* learned) {
+  curve.settings.insert(curve.settings.begin(),
+                        {{"render.skin_ball", ball}, {"render.learned_visibility", learned}});
+  return curve;
+}
+
+/// `path` and `gather` with what may save shadow rays: each idea alone, and both together.
+std::vector<ShadingCurve> occlusion_curves() {
+  const auto by_path = [](const char* id, const char* title, const char* ball, const char* learned) {
+    return with_known(path(id, title, "drawn"), ball, learned);
+  };
+  const auto by_gather = [](const char* id, const char* title, const char* ball, const char* learned) {
+    return with_known(gather(id, title), ball, learned);
+  };
+  return {by_path("skin_ball", "path, skin_ball: exact", "exact", "false"),
+          by_path("learned", "path, learned_visibility: true", "off", "true"),
+          by_path("skin_ball_learned", "path, skin_ball: exact, learned_visibility: true", "exact", "true"),
+          by_path("fractional", "path, skin_ball: fractional", "fractional", "false"),
+          by_path("reject", "path, learned_visibility: reject", "off", "reject"),
+          by_gather("gather_skin_ball", "gather, skin_ball: exact", "exact", "false"),
+          by_gather("gather_skin_ball_learned", "gather, skin_ball: exact, learned_visibility: true", "exact",
+                    "true"),
+          by_gather("gather_fractional", "gather, skin_ball: fractional", "fractional", "false")};
+}
+
+/// `path` or `gather` with the opposite of one switch of the scene.
+ShadingCurve switched(ShadingCurve curve, const char* key, bool scene_value) {
+  const char* value = scene_value ? "false" : "true";
+  curve.id = curve.gather ? fmt::format("gather_{}", key) : key;
+  curve.title += fmt::format(", {}: {}", key, value);
+  curve.settings.emplace_back(fmt::format("render.{}", key), value);
+  return curve;
+}
+
 }  // namespace
 
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
@@ -44,10 +81,14 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
       gather_with("cells", own.cells ? "false" : "true"),
       gather_with("light_rays", fmt::format("{:g}", own.light_rays / 2)),
       gather_with("paths", fmt::format("{:g}", own.paths / 2)),
-      gather_with("cache", own.cache ? "false" : "true"),
+      gather_with("cache", own.uses_cache(scene.render.bounces) ? "false" : "true"),
       gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
   curves.back().settings.back().second = "drawn";
+  for (const ShadingCurve& curve : {curves[0], gather("", "gather")})
+    curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
+  for (ShadingCurve& curve : curves) curve = with_known(std::move(curve), "off", "false");
+  for (ShadingCurve& curve : occlusion_curves()) curves.push_back(std::move(curve));
   std::erase_if(curves, [&](const ShadingCurve& curve) {
     return !parts.empty() && curve.id != "path" &&
            std::find(parts.begin(), parts.end(), curve.id) == parts.end();

@@ -59,7 +59,11 @@ class Sweep {
   }
 
   static ShadingCurve reference() {
-    return {"reference", "reference", {{"render.integrator", "path"}, {"image.filter_samples", "splatted"}}};
+    return {"reference",
+            "reference",
+            {{"render.integrator", "path"},
+             {"image.filter_samples", "splatted"},
+             {"render.screen_door", "false"}}};
   }
 
   /// Each variant has another seed, so that no two pictures share noise.

@@ -33,6 +33,9 @@ struct Ray {
   uint32_t random = 0;  ///< determines at which semi-transparent crossings closest() stops; unused when
                         ///< everything is opaque
   StrandStart start = {};
+  /// Whether this is a shadow ray or an indirect ray, for which an accelerator may simplify strands
+  /// (ResidentChunksOptions). Rays that decide what the camera sees are not secondary.
+  bool secondary = false;
 };
 
 enum class HitKind : uint8_t { kNone, kStrand, kSkin };

@@ -157,6 +157,40 @@ struct EmbreeChunk::Filters {
     report.reject();
   }
 
+  /// For secondary rays that see strands through a screen door.
+  static void keep_nearest_at_door(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    const auto& query = report.query<NearestQuery>();
+    if (is_exit(query.chunk, report) || !meets_door(query, report)) {
+      report.reject();
+    } else {
+      keep_nearest(arguments);
+    }
+  }
+  static void block_at_door(const RTCFilterFunctionNArguments* arguments) noexcept {
+    const EmbreeReport report(arguments);
+    const auto& query = report.query<LightQuery>();
+    if (query.is_start(report) || !meets_door(query, report)) report.reject();
+  }
+  static bool meets_door(const Query& query, const EmbreeReport& report) {
+    const EmbreeChunk& chunk = query.chunk;
+    const PackedStrands::Place place = chunk.strands_->locate(report.primitive());
+    const float opacity = chunk.strands_->opacity(place, report.u());
+    if (opacity >= 1) return true;
+    if (is_exit(chunk, report)) return false;
+    float h = -report.v();
+    if (chunk.v_is_no_offset()) {
+      Hit hit;
+      hit.distance = query.distance_of(report);
+      hit.segment = place.segment;
+      hit.u = report.u();
+      Strands strand;
+      chunk.strands_->copy_strand(place.strand, strand);
+      h = offset_across(strand, chunk.options_.shape == CurveShape::kRound, query.ray, hit, report.normal());
+    }
+    return chunk.door(place.strand).blocks(h, opacity);
+  }
+
   /// Where a ray leaves a round strand. The crossing was counted on entry.
   static bool is_exit(const EmbreeChunk& chunk, const EmbreeReport& report) {
     return chunk.options_.shape == CurveShape::kRound && report.faces_away();
@@ -206,54 +240,6 @@ EmbreeChunk::~EmbreeChunk() {
   rtcReleaseScene(scene_);
 }
 
-void EmbreeChunk::build() {
-  scene_ = rtcNewScene(device_.get());
-  if (!scene_) return;
-  rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_COMPACT | kEmbreeFilterFlag));
-  if (strands_) {
-    add_curves();
-  } else {
-    add_skin();
-  }
-  rtcCommitScene(scene_);
-}
-
-void EmbreeChunk::add_curves() {
-  const PackedStrands& strands = *strands_;
-  if (strands.segment_count() == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), embree_curve_type(strands.basis(), options_.shape));
-  if (!geometry) return;
-  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(strands.motion_keys()));
-  for (int key = 0; key < strands.motion_keys(); ++key) {
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(key),
-                               RTC_FORMAT_FLOAT4, strands.vertices(key), 0, 4 * sizeof(float),
-                               strands.vertex_count());
-  }
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, strands.segments(), 0,
-                             sizeof(uint32_t), strands.segment_count());
-  rtcSetGeometryTessellationRate(geometry, static_cast<float>(options_.tessellation_rate));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
-  rtcReleaseGeometry(geometry);
-}
-
-void EmbreeChunk::add_skin() {
-  if (skin_.triangle_count() == 0) return;
-  RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  if (!geometry) return;
-  rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(skin_.motion_keys));
-  for (int key = 0; key < skin_.motion_keys; ++key) {
-    const float* positions = &skin_.positions[static_cast<size_t>(key) * skin_.vertex_count() * 3];
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, static_cast<unsigned>(key),
-                               RTC_FORMAT_FLOAT3, positions, 0, 3 * sizeof(float), skin_.vertex_count());
-  }
-  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, skin_.triangles.data(), 0,
-                             3 * sizeof(uint32_t), skin_.triangle_count());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene_, geometry);
-  rtcReleaseGeometry(geometry);
-}
-
 bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGeometry& met) const {
   RTCRayHit r;
   Ray here = ray;
@@ -262,7 +248,11 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
   r.ray = embree_ray(here, before_);
   if (before_ > 0) r.ray.tfar = std::nextafter(r.ray.tfar, std::numeric_limits<float>::infinity());
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  NearestQuery query(opaque() ? Filters::keep_nearest : Filters::keep_nearest_stopping, *this, ray, nearest);
+  const bool through_door = sees_door(ray);
+  NearestQuery query(opaque()       ? Filters::keep_nearest
+                     : through_door ? Filters::keep_nearest_at_door
+                                    : Filters::keep_nearest_stopping,
+                     *this, ray, nearest);
   embree_intersect(scene_, query, r);
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
 
@@ -280,24 +270,20 @@ bool EmbreeChunk::closest(const Ray& ray, FurRays&, NearestSoFar& nearest, HitGe
   hit.start = start_on(strand, static_cast<float>(hit.segment) + hit.u);
   hit.strand_index = strand;
   strands_->copy_strand(strand, met.strand);
-  if (options_.shape == CurveShape::kRound || strands_->basis() == CurveBasis::kLinear) {
+  if (v_is_no_offset()) {
     const V3f normal(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
     hit.v = offset_across(met.strand, options_.shape == CurveShape::kRound, ray, hit, normal);
   }
+  if (through_door)
+    hit.v = door(strand).offset_inside(hit.v, strands_->opacity({strand, hit.segment}, hit.u));
   return true;
 }
 
-/// Finds the boxes that visit_primitives() tests.
-void EmbreeChunk::add_triangle_boxes() {
-  triangle_boxes_.resize((skin_.triangle_count() + kTrianglesPerBox - 1) / kTrianglesPerBox);
-  const size_t vertices = skin_.vertex_count();
-  for (size_t i = 0; i < skin_.triangles.size(); ++i) {
-    for (int key = 0; key < skin_.motion_keys; ++key) {
-      const float* p = &skin_.positions[(static_cast<size_t>(key) * vertices + skin_.triangles[i]) * 3];
-      triangle_boxes_[i / (3 * kTrianglesPerBox)].extendBy(V3f(p[0], p[1], p[2]));
-    }
-  }
+bool EmbreeChunk::v_is_no_offset() const {
+  return options_.shape == CurveShape::kRound || strands_->basis() == CurveBasis::kLinear;
 }
+
+ScreenDoor EmbreeChunk::door(uint32_t strand) const { return ScreenDoor(strands_->id(strand), part_); }
 
 bool EmbreeChunk::visit_primitives(const Beam& beam, PrimitiveSink& sink) const {
   if (strands_) return false;
@@ -327,7 +313,8 @@ bool EmbreeChunk::stops(uint32_t random, uint32_t primitive, float u) const {
 bool EmbreeChunk::collect(const Ray& ray, FurRays&, Crossings& crossings) const {
   RTCRay r = embree_ray(ray, before_);
   const bool asks = !opaque() || starts_here(ray);
-  LightQuery query(asks ? Filters::collect_crossings : nullptr, *this, ray, crossings);
+  const auto ask = sees_door(ray) ? Filters::block_at_door : Filters::collect_crossings;
+  LightQuery query(asks ? ask : nullptr, *this, ray, crossings);
   embree_occluded(scene_, query, r);
   return r.tfar >= 0;
 }

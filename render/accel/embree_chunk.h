@@ -7,6 +7,7 @@
 #include "render/accel/chunk_geometry.h"
 #include "render/accel/embree_device.h"
 #include "render/accel/packed_strands.h"
+#include "render/accel/screen_door.h"
 #include "render/scene/render_params.h"
 
 namespace pelage {
@@ -15,6 +16,7 @@ struct EmbreeChunkOptions {
   CurveShape shape = CurveShape::kFlat;
   int tessellation_rate = 8;  ///< number of straight pieces of a flat segment; see EmbreeCurves
   bool compact_attributes = true;
+  bool screen_door = false;  ///< secondary rays see strands through a ScreenDoor
 };
 
 /// The contents of a resident chunk: packed strands or a skin, and a compact Embree scene over them. All
@@ -78,6 +80,9 @@ class EmbreeChunk final : public ChunkGeometry {
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
   bool starts_here(const Ray& ray) const { return strands_ && ray.start.chunk == number_; }
   bool is_start(const Ray& ray, uint32_t primitive, float u, float distance) const;
+  bool v_is_no_offset() const;  // whether Embree's v of a strand is not h
+  ScreenDoor door(uint32_t strand) const;
+  bool sees_door(const Ray& ray) const { return options_.screen_door && ray.secondary && !opaque(); }
 
   EmbreeChunkOptions options_;
   const EmbreeDevice& device_;

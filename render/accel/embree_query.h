@@ -22,6 +22,11 @@ class EmbreeReport {
   uint32_t primitive() const { return RTCHitN_primID(arguments_->hit, 1, 0); }
   float distance() const { return RTCRayN_tfar(arguments_->ray, 1, 0); }
   float u() const { return RTCHitN_u(arguments_->hit, 1, 0); }
+  float v() const { return RTCHitN_v(arguments_->hit, 1, 0); }
+  V3f normal() const {
+    return {RTCHitN_Ng_x(arguments_->hit, 1, 0), RTCHitN_Ng_y(arguments_->hit, 1, 0),
+            RTCHitN_Ng_z(arguments_->hit, 1, 0)};
+  }
   /// Whether the surface faces away from the ray's origin, as it does where a ray leaves a round strand.
   bool faces_away() const {
     return RTCHitN_Ng_x(arguments_->hit, 1, 0) * RTCRayN_dir_x(arguments_->ray, 1, 0) +

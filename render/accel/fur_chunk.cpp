@@ -68,6 +68,19 @@ class FurChunk::CollectingFilter final : public FurFilter {
   Crossings& crossings_;
 };
 
+/// Accepts the crossings with the opaque parts of strands.
+class FurChunk::ScreenDoorFilter final : public FurFilter {
+ public:
+  explicit ScreenDoorFilter(const FurChunk& chunk) : chunk_(chunk) {}
+  bool accepts(const FurHit& hit) override {
+    const PackedStrands::Place place = chunk_.strands_.locate(hit.number);
+    return chunk_.door(place.strand).blocks(hit.h, chunk_.strands_.opacity(place, hit.u));
+  }
+
+ private:
+  const FurChunk& chunk_;
+};
+
 FurChunk::FurChunk(ChunkContents contents, uint32_t number, const FurGrid& grid,
                    const FurChunkOptions& options)
     : FurChunk(FurContents(std::move(std::get<FurContents>(contents.geometry))), contents.part, number, grid,
@@ -79,7 +92,8 @@ FurChunk::FurChunk(const FurContents& grown, uint32_t part, uint32_t number, con
       number_(number),
       strands_(grown.strands, grown.opacity, options.compact_attributes),
       tree_(SnappedStrands(grown.strands, grid), options.tree),
-      places_(tree_.view(), static_cast<uint32_t>(strands_.segment_count())) {
+      places_(tree_.view(), static_cast<uint32_t>(strands_.segment_count())),
+      screen_door_(options.screen_door) {
   bytes_ = sizeof(*this) + strands_.bytes() - sizeof(strands_) + tree_.bytes() + places_.bytes();
   build_peak_ = sizeof(*this) + bytes_of(grown) + strands_.bytes() +
                 SnappedStrands::bytes(grown.strands.strand_count()) +
@@ -141,9 +155,12 @@ bool FurChunk::closest(const Ray& ray, FurRays& rays, NearestSoFar& nearest, Hit
   const FurTreeView& tree = tree_.view();
   const FurRay* prepared = tree.nodes ? rays.prepare(tree, here, start_of(ray)) : nullptr;
   if (!prepared) return false;
-  StoppingFilter filter(*this, false, ray.random);
+  const bool through_door = sees_door(ray);
+  StoppingFilter stopping(*this, false, ray.random);
+  ScreenDoorFilter door(*this);
+  FurFilter& filter = through_door ? static_cast<FurFilter&>(door) : stopping;
   const FurHit found = closest_fur(tree, *prepared, strands_.opaque() ? nullptr : &filter);
-  if (!found || !keep(found, nearest)) return false;
+  if (!found || !keep(found, through_door, nearest)) return false;
   strand(nearest.hit.strand_index, met.strand);
   return true;
 }
@@ -222,9 +239,13 @@ Hit FurChunk::hit_of(const FurHit& found) const {
 }
 
 /// Replaces `nearest` by a hit that precedes it. Returns whether it did.
-bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
+bool FurChunk::keep(const FurHit& found, bool through_door, NearestSoFar& nearest) const {
   NearestSoFar candidate;
   candidate.hit = hit_of(found);
+  if (through_door) {
+    const PackedStrands::Place place = strands_.locate(found.number);
+    candidate.hit.v = door(place.strand).offset_inside(found.h, strands_.opacity(place, found.u));
+  }
   if (!nearest.comes_after(candidate)) return false;
   nearest = candidate;
   return true;
@@ -233,9 +254,13 @@ bool FurChunk::keep(const FurHit& found, NearestSoFar& nearest) const {
 bool FurChunk::collect(const Ray& ray, FurRays& rays, Crossings& crossings) const {
   const FurTreeView& tree = tree_.view();
   const FurRay* prepared = tree.nodes ? rays.prepare(tree, ray, start_of(ray)) : nullptr;
-  CollectingFilter filter(*this, crossings);
+  CollectingFilter collecting(*this, crossings);
+  ScreenDoorFilter door(*this);
+  FurFilter& filter = sees_door(ray) ? static_cast<FurFilter&>(door) : collecting;
   return !prepared || !fur_occludes(tree, *prepared, strands_.opaque() ? nullptr : &filter);
 }
+
+ScreenDoor FurChunk::door(uint32_t strand) const { return ScreenDoor(strands_.id(strand), part_); }
 
 CrossingPlace FurChunk::crossing(PackedStrands::Place place, float u) const {
   return {strands_.id(place.strand), part_, place.segment + joint_beside(u)};

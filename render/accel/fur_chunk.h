@@ -10,6 +10,7 @@
 #include "render/accel/fur/fur_segment_lookup.h"
 #include "render/accel/fur/fur_tree.h"
 #include "render/accel/packed_strands.h"
+#include "render/accel/screen_door.h"
 #include "render/accel/widened_fur.h"
 
 namespace pelage {
@@ -21,6 +22,7 @@ struct FurChunkOptions {
   bool compact_attributes = true;
   /// The min width at which the camera sees strands; empty: strands keep their widths.
   std::optional<MinWidth> min_width = {};
+  bool screen_door = false;  ///< secondary rays see strands through a ScreenDoor
 };
 
 /// A chunk of fur: a fur tree, which has the only copy of the points, and the strands' data for shading (ids,
@@ -41,6 +43,8 @@ class FurChunk final : public ChunkGeometry {
 
   /// Undoes widen().
   void unwiden();
+  /// Sets FurChunkOptions::screen_door. Call before other threads use the chunk.
+  void set_screen_door(bool on) { screen_door_ = on; }
   /// Gives the chunk the numbers of another frame (see the constructor and ChunkContents::part). Call before
   /// other threads use the chunk.
   void renumber(uint32_t part, uint32_t number) {
@@ -83,20 +87,24 @@ class FurChunk final : public ChunkGeometry {
  private:
   class StoppingFilter;
   class CollectingFilter;
+  class ScreenDoorFilter;
 
   FurChunk(const FurContents& grown, uint32_t part, uint32_t number, const FurGrid& grid,
            const FurChunkOptions& options);
   FurStart start_of(const Ray& ray) const;
-  bool keep(const FurHit& found, NearestSoFar& nearest) const;
+  bool keep(const FurHit& found, bool through_door, NearestSoFar& nearest) const;
+  bool sees_door(const Ray& ray) const { return screen_door_ && ray.secondary && !strands_.opaque(); }
   Hit hit_of(const FurHit& found) const;
   bool stops_unwidened(uint32_t random, uint32_t primitive, float u) const;
   CrossingPlace crossing(PackedStrands::Place place, float u) const;
+  ScreenDoor door(uint32_t strand) const;
 
   uint32_t part_, number_;
   PackedStrands strands_;
   FurTree tree_;
   FurSegmentLookup places_;
   std::unique_ptr<const WidenedFur> widened_;
+  bool screen_door_ = false;
   size_t bytes_ = 0, build_peak_ = 0;
 };
 

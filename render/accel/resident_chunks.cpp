@@ -85,6 +85,7 @@ void ResidentChunks::adopt(std::vector<KeptChunk> kept, const MemoryLedger& ledg
     if (!fur || !boxes_.in_fur_tree(chunk) || (options_.eager && !measured)) continue;
     fur->unwiden();
     if (fur_.min_width) fur->widen(*fur_.min_width);
+    fur->set_screen_door(fur_.screen_door);
     const auto bytes = static_cast<int64_t>(fur->bytes());
     const auto limit = static_cast<int64_t>(options_.memory_limit);
     if (limit > 0 && ledger.budgeted() + bytes > limit) continue;

@@ -73,6 +73,7 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
   options.kind = scene.render.accel;
   options.chunk.shape = scene.render.curves;
   options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
+  options.chunk.screen_door = options.fur.screen_door = scene.render.screen_door;
   if (const float width = scene.render.min_width(); width > 0)
     options.fur.min_width = MinWidth{scene.camera.lod_view(), width};
   options.eager = scene.render.bounds == BoundingStrategy::kNone;

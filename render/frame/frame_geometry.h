@@ -9,6 +9,7 @@
 #include "render/accel/chunk_accel.h"
 #include "render/frame/frame_chunks.h"
 #include "render/frame/frame_statistics.h"
+#include "render/frame/skin_shadows.h"
 
 namespace pelage {
 
@@ -38,6 +39,12 @@ class FrameGeometry {
   const Accel& accel() const { return accel_; }
   /// Returns the chunks of accel(), for callers that need strands and boxes.
   const ResidentChunks& chunks() const { return accel_.chunks(); }
+  /// Returns the balls inside the skins of the scene. Computes them at the first call; not thread-safe.
+  /// Throws the errors of SkinShadows.
+  SkinShadows& shadows(const RenderScene& scene, const Job& job) {
+    if (!shadows_) shadows_ = std::make_unique<SkinShadows>(scene, job);
+    return *shadows_;
+  }
   /// Returns whether all chunks together fit `render.memory`, so that none is ever evicted.
   bool fits() const { return chunks().fits(); }
   /// Returns the CPU seconds spent on growing and evicting chunks so far.
@@ -61,6 +68,7 @@ class FrameGeometry {
   std::shared_ptr<const FurChunkFile> stored_;
   MemoryCharge stored_charge_;
   ChunkAccel accel_;
+  std::unique_ptr<SkinShadows> shadows_;  // null: not needed so far
 };
 
 }  // namespace pelage

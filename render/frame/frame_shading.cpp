@@ -14,7 +14,9 @@
 #include "geom/root_detail.h"
 #include "geom/strand_point.h"
 #include "render/frame/skin_point.h"
+#include "render/frame/skin_shadows.h"
 #include "render/frame/strand_fields.h"
+#include "render/frame/visibility_table.h"
 
 namespace pelage {
 namespace {
@@ -104,8 +106,8 @@ Rgb tinted(const Rgb& color, const Rgb& tint) {
 
 }  // namespace
 
-FrameShading::FrameShading(const RenderScene& scene)
-    : scene_(scene), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
+FrameShading::FrameShading(const RenderScene& scene, const KnownOcclusion& known)
+    : scene_(scene), known_(known), fibres_(scene.materials.size()), skins_(scene.materials.size()) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     if (const FibreParams* fibre = fibre_params(scene.materials[i])) {
       fibres_[i].emplace(Fibre{FibreMaterial(scene.materials[i]), fibre->color, constant_of(fibre->color),
@@ -220,8 +222,12 @@ ScatterPoint FrameShading::skin_point(const Ray& ray, const Hit& hit, const Skin
 }
 
 ScatterPoint FrameShading::scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const {
-  return hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand)
-                                      : skin_point(ray, hit, met.triangle);
+  ScatterPoint point =
+      hit.kind == HitKind::kStrand ? fibre_point(ray, hit, met.strand) : skin_point(ray, hit, met.triangle);
+  if (known_.balls) point.set_shadow(known_.balls->below(hit, met, ray.time));
+  if (known_.visibility)
+    point.set_learned(known_.visibility->find(point.position(), hit.kind == HitKind::kStrand));
+  return point;
 }
 
 Rgb FrameShading::color(const Hit& hit, const HitGeometry& met) const {

@@ -8,6 +8,7 @@
 #include "render/accel/accel.h"
 #include "render/fibre/fibre_material.h"
 #include "render/film/film.h"
+#include "render/frame/known_occlusion.h"
 #include "render/light/scatter_point.h"
 #include "render/scene/render_scene.h"
 
@@ -18,7 +19,8 @@ namespace pelage {
 /// any thread.
 class FrameShading {
  public:
-  explicit FrameShading(const RenderScene& scene);
+  /// `known`: stored in the points of scatter_point(). Must outlive this object.
+  explicit FrameShading(const RenderScene& scene, const KnownOcclusion& known = {});
 
   /// Returns position and scattering at a hit, as the next vertex of a path.
   ScatterPoint scatter_point(const Ray& ray, const Hit& hit, const HitGeometry& met) const;
@@ -52,6 +54,7 @@ class FrameShading {
   V2f motion_in_image(const V3f& position, const V3f& shutter_motion, float time) const;
 
   const RenderScene& scene_;
+  const KnownOcclusion known_;
   std::vector<std::optional<Fibre>> fibres_;  // by material
   std::vector<std::optional<Skin>> skins_;    // by material
 };

@@ -10,6 +10,7 @@ FrameStatistics& FrameStatistics::operator+=(const FrameStatistics& other) {
   reads += other.reads;
   trace += other.trace;
   rays += other.rays;
+  occlusion += other.occlusion;
   cpu_s += other.cpu_s;
   samples_rejected += other.samples_rejected;
   knots += other.knots;

@@ -9,6 +9,7 @@
 #include "procedurals/growth_counts.h"
 #include "render/accel/trace_counts.h"
 #include "render/frame/knot_statistics.h"
+#include "render/frame/occlusion_counts.h"
 #include "render/frame/ray_statistics.h"
 #include "render/frame/reflection_statistics.h"
 #include "render/frame/render_seconds.h"
@@ -22,6 +23,7 @@ struct FrameStatistics {
   StoredReads reads;  ///< chunks that were read from render.bvh.file
   TraceCounts trace;
   RayStatistics rays;
+  OcclusionCounts occlusion;
   RenderSeconds cpu_s;                     ///< CPU seconds of tiles; `residency` counts growth
   int64_t samples_rejected = 0;            ///< camera samples that were not finite; a bug if not 0
   std::map<std::string, double> stages_s;  ///< wall-clock seconds, by name of the stage

@@ -23,10 +23,12 @@ struct SampleScratch {
   TileCosts costs;
 
   /// All rays are traced by these two members, so that each is counted and may be timed.
-  Hit closest(RayKind kind, const Accel& accel, const Ray& ray) {
+  Hit closest(RayKind kind, const Accel& accel, Ray ray) {
+    ray.secondary = kind != RayKind::kCamera;
     return costs.rays.measure(kind, thread.counts, [&] { return accel.closest(ray, thread); });
   }
-  float light_through(const Accel& accel, const Ray& shadow) {
+  float light_through(const Accel& accel, Ray shadow) {
+    shadow.secondary = true;
     return costs.rays.measure(RayKind::kShadow, thread.counts,
                               [&] { return accel.transmittance(shadow, thread); });
   }

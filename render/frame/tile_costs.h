@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/process_usage.h"
+#include "render/frame/occlusion_counts.h"
 #include "render/frame/ray_meter.h"
 
 namespace pelage {
@@ -10,10 +11,12 @@ namespace pelage {
 /// Cost of tracing tiles, of one thread or summed over threads.
 struct TileCosts {
   RayMeter rays;
+  OcclusionCounts occlusion;
   double cpu_s = 0;  ///< CPU seconds, including the rays and the growth of chunks
 
   TileCosts& operator+=(const TileCosts& other) {
     rays += other.rays;
+    occlusion += other.occlusion;
     cpu_s += other.cpu_s;
     return *this;
   }

@@ -26,9 +26,7 @@ std::vector<Tile> tiles_of(const PixelBox& film) {
   return tiles;
 }
 
-bool uses_cache(const RenderScene& scene) {
-  return scene.render.gather.cache && scene.render.gather.reuse && scene.render.bounces > 0;
-}
+bool uses_cache(const RenderScene& scene) { return scene.render.gather.uses_cache(scene.render.bounces); }
 
 }  // namespace
 

@@ -24,7 +24,7 @@ GatherTile::GatherTile(const RenderScene& scene, const Accel& accel, const Resid
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      shading_(scene),
+      shading_(scene, options.known),
       camera_(scene, accel, layers.splat.has_value()),
       points_(scene, shading_, camera_, samples_at_once(scene)),
       shadow_rays_(scene, accel),

@@ -97,7 +97,9 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       if (++traced % kRaysPerCheck == 0 && job.progress.cancelled()) return false;
       const LightRay& ray = samples.light_rays[index];
       const VisiblePoint& point = samples.points[ray.point];
-      const float through = thread.light_through(accel_, point.ray(ray.ray));
+      const bool is_modelled = ray.modelled >= 0;
+      thread.costs.occlusion.rays_modelled += is_modelled ? 1 : 0;
+      const float through = is_modelled ? ray.modelled : thread.light_through(accel_, point.ray(ray.ray));
       const auto factor = static_cast<float>(times * choice.step() / of_ray);
       light.add_ray(knot, samples.zone(point), ray.light, ray.lobes, factor, through);
     }

@@ -58,6 +58,7 @@ struct LightRay {
   /// lobe group. It uses the colours of the chosen candidate only. Its luminance is `unoccluded`.
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
+  float modelled = -1;  ///< ScatterPoint::modelled_light(); negative: the ray must be traced
 };
 
 /// The camera samples of a tile, with the points and lights that they see. Used by one thread at a time.

@@ -82,13 +82,13 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   visible.random = from.ray.random;
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
-  find_light(point, stream, scratch, visible, tile);
+  find_light(point, stream, scratch, thread, visible, tile);
   tile.points.push_back(visible);
 }
 
 /// Evaluates the light at a visible point as if nothing blocked it, and draws the rays that leave the point.
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
-                               VisiblePoint& visible, TileSamples& tile) const {
+                               SampleScratch& thread, VisiblePoint& visible, TileSamples& tile) const {
   const size_t lights = scene_.lights.size();
   const size_t first = tile.unoccluded.size(), first_ray = tile.light_rays.size();
   tile.unoccluded.resize(first + lights * kLobeGroups, Rgb(0));
@@ -120,6 +120,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
   seek(stream, kLight);
   direct_.propose(
       point, stream.next2d(), [](const FibreValue& value) { return value.pdf; }, scratch.direct);
+  thread.costs.occlusion.add_candidates(direct_.candidates(), scratch.direct.proved);
   for (const LightPoint& to : scratch.direct.points) {
     propose(to.light, to.value.lobes, to.arriving * direct_.candidate_weight(), to.direction, to.distance);
   }
@@ -131,6 +132,10 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
     visible.scattered = {point.start(sample->wi), sample->wi, std::numeric_limits<float>::infinity()};
     direct_.find_lights(point, sample->wi, visible.scattered.far, value.pdf, scratch.direct,
                         [&](size_t light, const LightHit& hit, float weight) {
+                          if (point.is_shadowed(sample->wi, hit.distance * DirectLight::kJustBefore)) {
+                            ++thread.costs.occlusion.rays_proved;
+                            return;
+                          }
                           propose(light, visible.weights, hit.radiance * weight, sample->wi, hit.distance);
                         });
   }
@@ -141,6 +146,7 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
     if (!(ray.unoccluded > 0)) continue;
     for (Rgb& lobe : ray.lobes) lobe *= ray.unoccluded;
     ray.ray.origin = point.start(ray.ray.direction);
+    ray.modelled = point.modelled_light(ray.ray.direction, ray.ray.far).value_or(-1.0f);
     tile.light_rays[kept++] = ray;
   }
   tile.light_rays.resize(kept);

@@ -48,8 +48,8 @@ class VisiblePoints {
 
  private:
   uint32_t knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const;
-  void find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch, VisiblePoint& visible,
-                  TileSamples& tile) const;
+  void find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch, SampleScratch& thread,
+                  VisiblePoint& visible, TileSamples& tile) const;
 
   const RenderScene& scene_;
   const FrameShading& shading_;

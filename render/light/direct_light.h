@@ -23,17 +23,20 @@ enum class DirectTechniques { kBoth, kLightsOnly, kLobesOnly };
 /// A point on a light that a shadow ray may be traced to.
 struct LightPoint {
   size_t light = 0;
-  V3f direction{0};     ///< unit, from the scatter point
-  float distance = 0;   ///< from the scatter point
-  FibreValue value;     ///< scattering of light from this direction
-  Rgb arriving{0};      ///< radiance * weight of the technique / density of one point
-  float luminance = 0;  ///< of the light that is scattered to the viewer: value.total() * arriving
+  uint32_t stratum = 0;  ///< of LearnedVisibility
+  float factor = 1;      ///< LearnedVisibility::factor() of the light and stratum
+  V3f direction{0};      ///< unit, from the scatter point
+  float distance = 0;    ///< from the scatter point
+  FibreValue value;      ///< scattering of light from this direction
+  Rgb arriving{0};       ///< radiance * weight of the technique / density of one point
+  float luminance = 0;   ///< of the light that is scattered to the viewer: value.total() * arriving
 };
 
 /// Memory of one thread, reused for each scatter point.
 struct DirectLightScratch {
   std::vector<float> probabilities;  ///< probability of selecting each light at the current point
   std::vector<LightPoint> points;
+  uint32_t proved = 0;  ///< count of candidates that the last propose() left out because the skin blocks them
 };
 
 /// Estimates direct light at a scatter point with two techniques, weighted by the power heuristic [Veach97,
@@ -59,6 +62,8 @@ class DirectLight {
   static constexpr float kJustBefore = 1 - 1e-4f;
 
   DirectTechniques techniques() const { return techniques_; }
+  /// Returns the count of candidates that propose() draws.
+  uint32_t candidates() const { return rays_ * kCandidates; }
   /// Returns the weight of one candidate: 1 / count of candidates, because direct light is their mean.
   float candidate_weight() const { return 1 / static_cast<float>(rays_ * kCandidates); }
 
@@ -69,16 +74,19 @@ class DirectLight {
         point.position(), [&](const V3f& wi) { return point.eval(wi).pdf; }, scratch.probabilities);
   }
 
-  /// Draws the candidate points into scratch.points. Returns the sum of LightPoint::luminance over them,
-  /// which is 0 where no light arrives. `u`: two random numbers in [0, 1). `lobe_pdf(value)` must return the
-  /// density with which lobe sampling draws a direction whose scattering is `value`.
+  /// Draws the candidate points into scratch.points, without those that ScatterPoint::is_shadowed(): they
+  /// would contribute nothing, so leaving them out changes no expected value. Returns the sum of
+  /// LightPoint::luminance over them, which is 0 where no light arrives. `u`: two random numbers in [0, 1).
+  /// `lobe_pdf(value)` must return the density with which lobe sampling draws a direction whose scattering is
+  /// `value`.
   template <class LobePdf>
   double propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                  DirectLightScratch& scratch) const;
 
-  /// Selects candidates as targets of shadow rays, and calls `shadow(target, factor)` for each of them. If
-  /// nothing blocks the shadow ray, the light that arrives is target.arriving * factor. `total`: the result
-  /// of propose(). `u`: a random number in [0, 1).
+  /// Selects candidates as targets of shadow rays: as many as the max count of rays, or fewer on average if
+  /// their factors are below 1. Calls `shadow(target, factor)` for each of them. If nothing blocks the shadow
+  /// ray, the light that arrives is target.arriving * factor. `total`: the result of propose(). `u`: a random
+  /// number in [0, 1).
   template <class Shadow>
   void choose(double total, float u, const DirectLightScratch& scratch, const Shadow& shadow) const;
 
@@ -104,7 +112,7 @@ class DirectLight {
   }
   template <class LobePdf>
   std::optional<LightPoint> light_point(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
-                                        const DirectLightScratch& scratch) const;
+                                        DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
   const uint32_t rays_;
@@ -114,8 +122,9 @@ class DirectLight {
 template <class LobePdf>
 double DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobePdf& lobe_pdf,
                             DirectLightScratch& scratch) const {
-  const uint32_t count = rays_ * kCandidates;
+  const uint32_t count = candidates();
   scratch.points.clear();
+  scratch.proved = 0;
   double total = 0;
   for (uint32_t k = 0; k < count; ++k) {
     // Each point alone is uniformly distributed; together they form a lattice that takes the lights in turn.
@@ -133,15 +142,21 @@ double DirectLight::propose(const ScatterPoint& point, const V2f& u, const LobeP
 template <class LobePdf>
 std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, const V2f& u,
                                                    const LobePdf& lobe_pdf,
-                                                   const DirectLightScratch& scratch) const {
+                                                   DirectLightScratch& scratch) const {
   const LightSet::Choice choice = LightSet::choose(scratch.probabilities, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
   const auto seen = lights_.light(choice.light).sample(point.position(), {choice.remapped, u.y});
   if (!seen || !(seen->pdf > 0)) return std::nullopt;
   const auto sample = point.exit().toward(*seen);
   if (!sample) return std::nullopt;
+  if (point.is_shadowed(sample->direction, sample->distance * kJustBefore)) {
+    ++scratch.proved;
+    return std::nullopt;
+  }
   LightPoint result;
   result.light = choice.light;
+  result.stratum = LearnedVisibility::stratum({choice.remapped, u.y});
+  result.factor = point.learned().factor(choice.light, result.stratum);
   result.direction = sample->direction;
   result.distance = sample->distance;
   result.value = point.eval(sample->direction);
@@ -158,12 +173,15 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
 template <class Shadow>
 void DirectLight::choose(double total, float u, const DirectLightScratch& scratch,
                          const Shadow& shadow) const {
-  // Points are drawn in proportion to the unoccluded light that they contribute.
+  // Points are drawn in proportion to the unoccluded light that they contribute, times the learned factor.
+  // The step does not depend on the factors, so points that are probably blocked also get fewer rays in
+  // total.
   SystematicChoice choice(total / rays_, u);
   const auto count = static_cast<float>(rays_ * kCandidates);
   for (const LightPoint& point : scratch.points) {
-    const uint32_t chosen = choice.times(point.luminance);
-    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (point.luminance * count)));
+    const float mass = point.luminance * point.factor;
+    const uint32_t chosen = choice.times(mass);
+    if (chosen > 0) shadow(point, static_cast<float>(chosen * choice.step() / (mass * count)));
   }
 }
 
@@ -173,6 +191,7 @@ void DirectLight::find_lights(const ScatterPoint& point, const V3f& direction, f
   const V3f from = point.exit().origin(direction);
   for (size_t i = 0; i < lights_.size(); ++i) {
     const Light& light = lights_.light(i);
+    if (light.is_infinitely_far() && std::isfinite(distance)) continue;
     const auto hit = light.intersect(from, direction);
     if (!hit || hit->distance > distance || !(max_component(hit->radiance) > 0)) continue;
     float weight = 1;

@@ -43,6 +43,10 @@ float EnvironmentLight::pdf(const V3f&, const V3f& direction) const {
   return map_ ? map_->pdf(map_->texel_of(to_map(direction))) : 1.0f / (4.0f * kPi);
 }
 
+float EnvironmentLight::pdf_of_hit(const V3f& from, const V3f& direction, const LightHit& hit) const {
+  return map_ ? map_->pdf(hit.radiance) : pdf(from, direction);
+}
+
 std::optional<LightHit> EnvironmentLight::intersect(const V3f&, const V3f& direction) const {
   return LightHit{kInfinity, map_ ? map_->radiance(map_->texel_of(to_map(direction))) : radiance_};
 }

@@ -26,8 +26,10 @@ class EnvironmentLight final : public Light {
                    const M33f& to_world, bool visible, MemoryLedger& ledger,
                    const std::function<void()>& check_stop = {});
 
+  bool is_infinitely_far() const override { return true; }
   std::optional<LightSample> sample(const V3f& from, const V2f& u) const override;
   float pdf(const V3f& from, const V3f& direction) const override;
+  float pdf_of_hit(const V3f& from, const V3f& direction, const LightHit& hit) const override;
   std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const override;
   float importance(const V3f& from) const override;
   std::optional<V3f> middle(const V3f&) const override { return std::nullopt; }

@@ -67,7 +67,7 @@ struct ExitCircle {
 
   /// Returns the density of toward() for the line in direction `wi`, which intersects the light at `hit`.
   float pdf(const Light& light, const V3f& wi, const LightHit& hit) const {
-    if (radius == 0 || std::isinf(hit.distance)) return light.pdf(center, wi);
+    if (radius == 0 || std::isinf(hit.distance)) return light.pdf_of_hit(center, wi, hit);
     LightSample seen;
     seen.direction = origin(wi) + hit.distance * wi - center;
     seen.distance = seen.direction.length();

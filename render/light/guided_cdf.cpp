@@ -7,6 +7,22 @@
 #include "render/sampling/warp.h"
 
 namespace pelage {
+namespace {
+
+/// Returns the index of the first entry above `u` from `low` on; `high` if there is none before it. The loop
+/// has no branch that depends on the entries, so the processor need not wait for one entry to ask for the
+/// next: several searches in large tables overlap.
+size_t first_above(std::span<const float> cdf, size_t low, size_t high, float u) {
+  for (size_t count = high - low; count > 0;) {
+    const size_t half = count / 2;
+    const bool above = cdf[low + half] > u;
+    low = above ? low : low + half + 1;
+    count = above ? half : count - half - 1;
+  }
+  return low;
+}
+
+}  // namespace
 
 double make_guided_cdf(std::span<float> weights, std::span<uint32_t> guide) {
   double total = 0;
@@ -36,8 +52,7 @@ GuidedSample sample_guided(std::span<const float> cdf, std::span<const uint32_t>
   while (low > 0 && cdf[low - 1] > u) --low;
   size_t high = cell + 1 < guide.size() ? std::min<size_t>(guide[cell + 1] + 1, cdf.size()) : cdf.size();
   while (high < cdf.size() && cdf[high - 1] <= u) ++high;
-  const auto entry = std::upper_bound(cdf.begin() + low, cdf.begin() + high, u);
-  const size_t index = std::min(static_cast<size_t>(entry - cdf.begin()), cdf.size() - 1);
+  const size_t index = std::min(first_above(cdf, low, high, u), cdf.size() - 1);
   const float before = index > 0 ? cdf[index - 1] : 0.0f;
   const float width = cdf[index] - before;
   return {index, width > 0 ? std::clamp((u - before) / width, 0.0f, kBelowOne) : u};

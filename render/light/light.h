@@ -34,11 +34,18 @@ class Light {
   const std::string& name() const { return name_; }
   /// Returns whether camera rays see the light.
   bool visible() const { return visible_; }
+  /// Returns whether the light is infinitely far away, so that any surface on a line to it is nearer.
+  virtual bool is_infinitely_far() const { return false; }
   /// Samples a direction from `from` to the light; empty when its light cannot reach `from`. `u`: two random
   /// numbers in [0, 1).
   virtual std::optional<LightSample> sample(const V3f& from, const V2f& u) const = 0;
   /// Returns the density of sample() for `direction`, per solid angle.
   virtual float pdf(const V3f& from, const V3f& direction) const = 0;
+  /// Returns the same as pdf(). `hit`: the result of intersect() for the same line; some lights need no
+  /// second search then.
+  virtual float pdf_of_hit(const V3f& from, const V3f& direction, const LightHit& /*hit*/) const {
+    return pdf(from, direction);
+  }
   /// Intersects the light with an infinite ray. `direction`: unit. Empty when no light of this emitter
   /// arrives at `from` along the ray.
   virtual std::optional<LightHit> intersect(const V3f& from, const V3f& direction) const = 0;

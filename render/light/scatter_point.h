@@ -8,6 +8,8 @@
 
 #include "render/fibre/fibre_bsdf.h"
 #include "render/light/exit_circle.h"
+#include "render/light/learned_visibility.h"
+#include "render/light/skin_shadow.h"
 #include "render/surface/glossy.h"
 #include "render/surface/lambert.h"
 
@@ -61,6 +63,25 @@ class ScatterPoint {
     return as_fibre(std::get_if<GlossyBsdf>(&bsdf_)->sample(u));
   }
 
+  /// Stores the ball inside the skin below this point.
+  void set_shadow(const SkinShadow& shadow) { shadow_ = shadow; }
+  /// Returns whether the skin blocks a ray from start(wi) for certain (SkinShadow::blocks()).
+  bool is_shadowed(const V3f& wi, float far) const {
+    return shadow_.ball.radius > 0 && shadow_.blocks(start(wi), wi, far);
+  }
+
+  const SkinShadow& shadow() const { return shadow_; }
+  /// Returns the fraction of light that arrives along a ray from start(wi), by the shell of the coat. Empty
+  /// if there is none, so that the ray must be traced.
+  std::optional<float> modelled_light(const V3f& wi, float far) const {
+    if (!(shadow_.shell.thickness > 0)) return std::nullopt;
+    if (is_shadowed(wi, far)) return 0.0f;
+    return shadow_.shell.transmittance(shadow_.ball, start(wi), wi, far);
+  }
+  void set_learned(const LearnedVisibility& learned) { learned_ = learned; }
+  /// Returns what is known about the visibility of lights from here.
+  const LearnedVisibility& learned() const { return learned_; }
+
   /// Returns the origin of a ray towards `wi`. For a fibre, the origin is on the circle where light leaves
   /// (see ExitCircle), slightly outside the surface so that the fibre does not shadow itself. Light that
   /// arrives uniformly across the width of a fibre also leaves uniformly. Unlike the circle of exit(), this
@@ -98,6 +119,8 @@ class ScatterPoint {
   V3f surface_;
   ExitCircle exit_;
   bool can_hit_own_strand_ = false;
+  SkinShadow shadow_;
+  LearnedVisibility learned_;
   std::variant<FibreBsdf, LambertBsdf, GlossyBsdf> bsdf_;
 };
 

@@ -2,6 +2,7 @@
 // Tested in tests/render/path/path_furnace_test.cpp.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "render/light/light_set.h"
@@ -15,7 +16,7 @@ void seen_lights(const LightSet& lights, const V3f& origin, const V3f& direction
                  const Found& found) {
   for (size_t i = 0; i < lights.size(); ++i) {
     const Light& light = lights.light(i);
-    if (!light.visible()) continue;
+    if (!light.visible() || (light.is_infinitely_far() && std::isfinite(distance))) continue;
     const auto hit = light.intersect(origin, direction);
     if (hit && !(hit->distance > distance)) found(i, hit->radiance);
   }

@@ -54,7 +54,7 @@ PathTracer::PathTracer(const RenderScene& scene, const Accel& accel, const FilmL
     : scene_(scene),
       accel_(accel),
       layers_(layers),
-      shading_(scene),
+      shading_(scene, options.known),
       camera_(scene, accel, layers.splat.has_value()),
       walk_(scene, accel, shading_, options) {}
 

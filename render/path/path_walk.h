@@ -114,6 +114,14 @@ class PathWalk {
     if (options_.direct != DirectTechniques::kLobesOnly) sample_lights(point, path, lights, scratch, sink);
     return sample_lobes(point, path, lights, scratch, sink);
   }
+  /// Returns the fraction of light that arrives along a shadow ray from `point`. Traces the ray unless the
+  /// coat has a shell.
+  float light_through(const ScatterPoint& point, const Ray& ray, SampleScratch& scratch) const {
+    const std::optional<float> modelled = point.modelled_light(ray.direction, ray.far);
+    if (!modelled) return scratch.light_through(accel_, ray);
+    ++scratch.costs.occlusion.rays_modelled;
+    return *modelled;
+  }
   float arriving_pdf(const FibreValue& value, const PathState& path) const;
   Ray leaving_ray(const ScatterPoint& point, const V3f& direction, const PathState& path) const;
   void sample_lights(const ScatterPoint& point, PathState& path, DirectLightScratch& lights,
@@ -157,13 +165,17 @@ void PathWalk<Sink>::sample_lights(const ScatterPoint& point, PathState& path, D
   seek(path, kLight);
   const auto lobe_pdf = [&](const FibreValue& value) { return arriving_pdf(value, path); };
   const double total = direct_.propose(point, path.stream.next2d(), lobe_pdf, lights);
+  scratch.costs.occlusion.add_candidates(direct_.candidates(), lights.proved);
   if (!(total > 0)) return;
   seek(path, kLightChoice);
+  bool is_traced = false;
   direct_.choose(total, path.stream.next1d(), lights, [&](const LightPoint& to, float factor) {
+    is_traced = true;
     Ray ray = leaving_ray(point, to.direction, path);
     ray.far = to.distance * DirectLight::kJustBefore;
-    sink.shadow(path, to, factor, scratch.light_through(accel_, ray));
+    sink.shadow(path, to, factor, light_through(point, ray, scratch));
   });
+  scratch.costs.occlusion.rays_ended += is_traced ? 0 : 1;
 }
 
 /// Reports the lights that a ray drawn from the lobes of the current vertex `point` hits before `distance`.
@@ -179,7 +191,9 @@ void PathWalk<Sink>::meet_lights(const ScatterPoint& point, const Ray& ray, floa
                         if (shadowed) {
                           Ray shadow = ray;
                           shadow.far = hit.distance * DirectLight::kJustBefore;
-                          through = scratch.light_through(accel_, shadow);
+                          const bool proved = point.is_shadowed(shadow.direction, shadow.far);
+                          scratch.costs.occlusion.rays_proved += proved ? 1 : 0;
+                          through = proved ? 0 : light_through(point, shadow, scratch);
                         }
                         sink.met(path, light, hit.radiance, weight, through);
                       });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -18,91 +19,107 @@ namespace pelage {
 namespace {
 
 constexpr int kSide = 16;      // of a tile, in pixels
-constexpr size_t kBatch = 64;  // tiles whose tables are added up at once
-/// Fraction of `render.memory` that the cache may take, unless `gather.memory` is set: 1 / kMemoryShare.
-constexpr int64_t kMemoryShare = 8;
+constexpr size_t kBatch = 32;  // tiles whose tables are added up at once
+constexpr double kAtOnce = 4;  // paths per pixel that a tile adds to a table at once
+/// Max count of cells: per pixel, and in the smallest picture. Beyond, the smallest cells are dropped, so
+/// that the limit depends on the picture alone.
+constexpr size_t kCellsPerPixel = 4, kFewestCells = size_t{1} << 15;
 
 double paths_per_pixel(const RenderParams& render) {
   return double{render.gather.cache_paths} * render.samples;
 }
 
-/// Upper bound of the memory of the cache.
-int64_t max_bytes(const RenderScene& scene) {
-  const double paths = std::ceil(paths_per_pixel(scene.render) * scene.image.width * scene.image.height);
-  const auto cells = static_cast<size_t>(paths) * std::tuple_size_v<CellPath>;
-  return static_cast<int64_t>(ReflectionTable::max_bytes(cells, scene.lights.size()));
+/// How many times tiles are visited, so that the tables of a batch stay small.
+uint32_t rounds(const RenderParams& render) {
+  return static_cast<uint32_t>(std::max(1.0, std::ceil(paths_per_pixel(render) / kAtOnce)));
 }
 
-int64_t limit_of(const RenderScene& scene) {
-  const auto own = static_cast<int64_t>(scene.render.gather.memory.bytes);
-  const auto all = static_cast<int64_t>(scene.render.memory.bytes);
-  const int64_t limit = own > 0 ? own : all / kMemoryShare;
-  return limit > 0 ? std::min(limit, max_bytes(scene)) : max_bytes(scene);
+/// Max count of cells that one batch of tiles adds.
+size_t cells_of_batch(const RenderScene& scene) {
+  const double paths = paths_per_pixel(scene.render) / rounds(scene.render) * kSide * kSide + 1;
+  return kBatch * static_cast<size_t>(std::ceil(paths)) * std::tuple_size_v<CellPath>;
+}
+
+size_t max_cells(const RenderScene& scene) {
+  const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
+  const double paths = std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels));
+  const size_t limit = std::max(kFewestCells, kCellsPerPixel * pixels);
+  return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
+}
+
+/// Upper bound of the memory of the cache while it is filled.
+int64_t max_bytes(const RenderScene& scene) {
+  const size_t lights = scene.lights.size(), batch = cells_of_batch(scene);
+  constexpr size_t kDoubling = 3;  // vectors of the tables of tiles grow: the old array beside the new one
+  return static_cast<int64_t>(ReflectionTable::max_bytes(max_cells(scene) + batch, lights) +
+                              kDoubling * ReflectionTable::max_bytes(batch, lights));
 }
 
 }  // namespace
 
 MemoryCharge CacheFill::reserve(const RenderScene& scene, const Job& job) {
-  return pelage::reserve(job.ledger, MemoryTag::kReflectionCache, limit_of(scene), "the reflection cache");
+  const auto limit = static_cast<int64_t>(scene.render.gather.memory.bytes);
+  const int64_t needed = max_bytes(scene);
+  if (limit > 0 && needed > limit) {
+    throw Error(ErrorKind::kMemory,
+                fmt::format("the reflection cache may need {}, but render.gather.memory is {}; {}M suffices, "
+                            "and so does render.gather.cache: false",
+                            memory_text(needed), memory_text(limit), (needed >> 20) + 1));
+  }
+  return pelage::reserve(job.ledger, MemoryTag::kReflectionCache, needed,
+                         "the reflection cache (render.gather.cache: false needs none)");
 }
 
 CacheFill::CacheFill(const RenderScene& scene, const Accel& accel, bool splatted, const PathOptions& options)
     : scene_(scene),
-      shading_(scene),
+      shading_(scene, options.known),
       camera_(scene, accel, splatted),
       paths_(scene, accel, shading_, camera_, options) {}
 
-void CacheFill::check_room(int64_t bytes) const {
-  const int64_t limit = limit_of(scene_);
-  if (bytes <= limit) return;
-  throw Error(ErrorKind::kMemory,
-              fmt::format("the reflection cache needs more than {}; render.gather.memory: {}M suffices, "
-                          "and so does render.gather.cache: false",
-                          memory_text(limit), (max_bytes(scene_) >> 20) + 1));
-}
-
 void CacheFill::run(MemoryCharge reserved, const Job& job, const Stopwatch& clock,
                     std::optional<ReflectionCache>& cache) {
-  const size_t lights = scene_.lights.size();
   const std::vector<Tile> tiles = tiles_along_curve(scene_.image.width, scene_.image.height, kSide);
-  const int columns = (scene_.image.width + kSide - 1) / kSide;
-  const auto place = [&](const Tile& tile) {
-    return static_cast<size_t>(tile.y0 / kSide * columns + tile.x0 / kSide);
-  };
-  std::vector<ReflectionTable> tables(tiles.size());
-  ReflectionTable sum(lights);
+  ReflectionTable sum(scene_.lights.size(), max_cells(scene_) + cells_of_batch(scene_));
   scratch_ = std::vector<ReflectionPaths::Scratch>(static_cast<size_t>(job.workers.thread_count()));
-  job.progress.begin("reflection cache", static_cast<double>(tiles.size()));
-  for (size_t first = 0; first < tiles.size(); first += kBatch) {
-    const auto begin = tiles.begin() + static_cast<std::ptrdiff_t>(first);
-    const std::vector<Tile> batch(
-        begin, begin + static_cast<std::ptrdiff_t>(std::min(kBatch, tiles.size() - first)));
-    const PassEnd end = trace_tiles(
-        batch, job, clock, std::numeric_limits<double>::infinity(), [&](const Tile& tile, int worker) {
-          ReflectionPaths::Scratch& scratch = scratch_[static_cast<size_t>(worker)];
-          const TileTimer timer(scratch.costs);
-          scratch.thread.worker = worker;
-          ReflectionTable& table = tables[place(tile)];
-          table = ReflectionTable(lights);
-          return paths_.trace(tile, paths_per_pixel(scene_.render), job, scratch, table);
-        });
-    if (end != PassEnd::kDone) break;
-    int64_t bytes = 0;
-    for (const Tile& tile : batch) {
-      bytes += static_cast<int64_t>(tables[place(tile)].bytes());
-      sum.add(std::exchange(tables[place(tile)], ReflectionTable()));
+  const uint32_t count = rounds(scene_.render);
+  job.progress.begin("reflection cache", static_cast<double>(tiles.size()) * count);
+  PassEnd end = PassEnd::kDone;
+  for (uint32_t round = 0; round < count && end == PassEnd::kDone; ++round) {
+    for (size_t first = 0; first < tiles.size() && end == PassEnd::kDone; first += kBatch) {
+      const auto begin = tiles.begin() + static_cast<std::ptrdiff_t>(first);
+      const size_t size = std::min(kBatch, tiles.size() - first);
+      end = trace_batch({begin, begin + static_cast<std::ptrdiff_t>(size)}, round, job, clock, sum);
+      job.progress.advance(static_cast<double>(size));
     }
-    check_room(bytes + static_cast<int64_t>(sum.bytes()));
-    job.progress.advance(static_cast<double>(batch.size()));
   }
   job.progress.end();
-  if (!job.progress.cancelled()) {
-    reserved = {};
-    const auto bytes = static_cast<int64_t>(sum.bytes());
-    MemoryCharge charge(job.ledger, MemoryTag::kReflectionCache, bytes);
-    cells_ = static_cast<int64_t>(sum.size());
-    cache.emplace(scene_, std::move(sum), std::move(charge));
-  }
+  if (job.progress.cancelled()) return;
+  reserved = {};
+  const auto bytes = static_cast<int64_t>(sum.bytes());
+  MemoryCharge charge(job.ledger, MemoryTag::kReflectionCache, bytes);
+  cells_ = static_cast<int64_t>(sum.size());
+  cache.emplace(scene_, std::move(sum), std::move(charge));
+}
+
+/// Traces the paths of a round of some tiles, and adds them to `sum` in the order of the tiles.
+PassEnd CacheFill::trace_batch(const std::vector<Tile>& batch, uint32_t round, const Job& job,
+                               const Stopwatch& clock, ReflectionTable& sum) {
+  const int columns = (scene_.image.width + kSide - 1) / kSide;
+  const auto place = [&](const Tile& tile) { return tile.y0 / kSide * columns + tile.x0 / kSide; };
+  std::map<int, ReflectionTable> tables;
+  for (const Tile& tile : batch) tables.emplace(place(tile), ReflectionTable(scene_.lights.size()));
+  const ReflectionPaths::Share share{round, paths_per_pixel(scene_.render) / rounds(scene_.render)};
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const PassEnd end = trace_tiles(batch, job, clock, kNever, [&](const Tile& tile, int worker) {
+    ReflectionPaths::Scratch& scratch = scratch_[static_cast<size_t>(worker)];
+    const TileTimer timer(scratch.costs);
+    scratch.thread.worker = worker;
+    return paths_.trace(tile, share, job, scratch, tables.at(place(tile)));
+  });
+  if (end != PassEnd::kDone) return end;
+  for (const Tile& tile : batch) sum.add(tables.at(place(tile)));
+  while (sum.size() > max_cells(scene_)) sum.drop_smallest();
+  return end;
 }
 
 TileCosts CacheFill::costs() const {

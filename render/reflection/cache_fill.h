@@ -8,6 +8,7 @@
 #include "base/job.h"
 #include "base/stopwatch.h"
 #include "render/frame/frame_statistics.h"
+#include "render/frame/tile_pass.h"
 #include "render/reflection/reflection_cache.h"
 
 namespace pelage {
@@ -17,15 +18,16 @@ namespace pelage {
 /// threads.
 class CacheFill {
  public:
-  /// Reserves memory for the cache. Call before chunks take the rest of the memory. Throws Error (kMemory)
-  /// when it does not fit.
+  /// Reserves the memory that the cache may need while it is filled: an upper bound that depends only on the
+  /// picture and the lights. Call before chunks take the rest of the memory. Throws Error (kMemory) when it
+  /// does not fit.
   static MemoryCharge reserve(const RenderScene& scene, const Job& job);
 
   /// Keeps references to its arguments, except `options`. `splatted`: see CameraSamples.
   CacheFill(const RenderScene& scene, const Accel& accel, bool splatted, const PathOptions& options);
 
   /// Traces all paths and puts their light into `cache`. Leaves it empty when `job` was cancelled.
-  /// `reserved`: the result of reserve(). Throws Error (kMemory) when the cells need more than was reserved.
+  /// `reserved`: the result of reserve().
   void run(MemoryCharge reserved, const Job& job, const Stopwatch& clock,
            std::optional<ReflectionCache>& cache);
   /// Returns the costs of all threads, and adds their counts to `statistics`.
@@ -33,7 +35,8 @@ class CacheFill {
   void add_to(FrameStatistics& statistics) const;
 
  private:
-  void check_room(int64_t bytes) const;
+  PassEnd trace_batch(const std::vector<Tile>& batch, uint32_t round, const Job& job, const Stopwatch& clock,
+                      ReflectionTable& sum);
 
   const RenderScene& scene_;
   const FrameShading shading_;

@@ -2,6 +2,7 @@
 // Tested in tests/render/reflection/reflection_cache_test.cpp.
 #include "render/reflection/reflection_paths.h"
 
+#include <cmath>
 #include <optional>
 
 #include "base/hash.h"
@@ -55,17 +56,18 @@ ReflectionPaths::ReflectionPaths(const RenderScene& scene, const Accel& accel, c
       keys_(scene),
       walk_(scene, accel, shading, options) {}
 
-bool ReflectionPaths::trace(const Tile& tile, double paths, const Job& job, Scratch& scratch,
+bool ReflectionPaths::trace(const Tile& tile, const Share& share, const Job& job, Scratch& scratch,
                             ReflectionTable& table) const {
   const uint64_t random =
       hash64(random_use("paths of reflections"), static_cast<uint64_t>(scene_.render.seed),
-             static_cast<uint32_t>(tile.x0), static_cast<uint32_t>(tile.y0));
+             static_cast<uint32_t>(tile.x0), static_cast<uint32_t>(tile.y0), share.round);
+  const auto samples = static_cast<uint32_t>(std::ceil(share.paths));  // at most, of a pixel
   SystematicChoice choice(1, unit_float(random));
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0; x < tile.x1; ++x) {
       if (job.progress.cancelled()) return false;
-      const uint32_t count = choice.times(static_cast<float>(paths));
-      for (uint32_t i = 0; i < count; ++i) follow(x, y, i, scratch, table);
+      const uint32_t count = choice.times(static_cast<float>(share.paths));
+      for (uint32_t i = 0; i < count; ++i) follow(x, y, samples * share.round + i, scratch, table);
     }
   }
   return true;

@@ -28,9 +28,16 @@ class ReflectionPaths {
     std::vector<Rgb> reflected;  // by the second surface of a path, by light
   };
 
-  /// Traces the paths of the pixels of a tile, and adds them to `table`. `paths`: mean count per pixel.
-  /// Returns false when `job` was cancelled.
-  bool trace(const Tile& tile, double paths, const Job& job, Scratch& scratch, ReflectionTable& table) const;
+  /// The part of all paths that is traced at once.
+  struct Share {
+    uint32_t round = 0;  ///< number of the part
+    double paths = 0;    ///< mean count per pixel
+  };
+
+  /// Traces a share of the paths of the pixels of a tile, and adds them to `table`. Returns false when `job`
+  /// was cancelled.
+  bool trace(const Tile& tile, const Share& share, const Job& job, Scratch& scratch,
+             ReflectionTable& table) const;
 
  private:
   class Recorder;

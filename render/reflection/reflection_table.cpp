@@ -10,9 +10,15 @@ constexpr size_t kFewSlots = 16;
 
 }  // namespace
 
+ReflectionTable::ReflectionTable(size_t lights, size_t room) : lights_(lights) {
+  cells_.reserve(room);
+  radiance_.reserve(room * lights);
+}
+
 void ReflectionTable::add(std::span<const uint64_t> cells, float weight, std::span<const Rgb> radiance) {
-  for (size_t level = 0; level < cells.size(); ++level) {
-    const size_t i = insert(cells[level], cells[std::min(level + 1, cells.size() - 1)]);
+  for (size_t level = smallest_; level < cells.size(); ++level) {
+    const size_t outer = std::min(level + 1, cells.size() - 1);
+    const size_t i = insert(cells[level], cells[outer], static_cast<uint32_t>(level));
     ++cells_[i].paths;
     cells_[i].weight += weight;
     for (size_t light = 0; light < lights_; ++light)
@@ -23,12 +29,27 @@ void ReflectionTable::add(std::span<const uint64_t> cells, float weight, std::sp
 void ReflectionTable::add(const ReflectionTable& other) {
   for (size_t from = 0; from < other.size(); ++from) {
     const Cell& cell = other.cells_[from];
-    const size_t i = insert(cell.key, cell.outer);
+    if (cell.level < smallest_) continue;
+    const size_t i = insert(cell.key, cell.outer, cell.level);
     cells_[i].paths += cell.paths;
     cells_[i].weight += cell.weight;
     for (size_t light = 0; light < lights_; ++light)
       radiance_[i * lights_ + light] += other.radiance_[from * lights_ + light];
   }
+}
+
+void ReflectionTable::drop_smallest() {
+  ++smallest_;
+  size_t kept = 0;
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i].level < smallest_) continue;
+    for (size_t light = 0; light < lights_; ++light)
+      radiance_[kept * lights_ + light] = radiance_[i * lights_ + light];
+    cells_[kept++] = cells_[i];
+  }
+  cells_.resize(kept);
+  radiance_.resize(kept * lights_);
+  index_again(index_.size());
 }
 
 void ReflectionTable::finish(float blend) {
@@ -59,10 +80,10 @@ size_t ReflectionTable::find(uint64_t key) const {
   }
 }
 
-size_t ReflectionTable::insert(uint64_t key, uint64_t outer) {
+size_t ReflectionTable::insert(uint64_t key, uint64_t outer, uint32_t level) {
   const size_t found = find(key);
   if (found < cells_.size()) return found;
-  cells_.push_back({key, outer});
+  cells_.push_back({key, outer, 0, 0, level});
   radiance_.resize(cells_.size() * lights_, Rgb(0));
   if (2 * cells_.size() > index_.size()) {
     index_again(index_.empty() ? kFewSlots : 2 * index_.size());
@@ -76,6 +97,7 @@ size_t ReflectionTable::insert(uint64_t key, uint64_t outer) {
 }
 
 void ReflectionTable::index_again(size_t slots) {
+  index_ = {};
   index_.assign(slots, 0);
   const size_t mask = slots - 1;
   for (size_t i = 0; i < cells_.size(); ++i) {
@@ -86,14 +108,12 @@ void ReflectionTable::index_again(size_t slots) {
 }
 
 size_t ReflectionTable::bytes() const {
-  return index_.capacity() * sizeof(uint32_t) + cells_.capacity() * sizeof(Cell) +
-         radiance_.capacity() * sizeof(Rgb);
+  return index_.size() * sizeof(uint32_t) + cells_.size() * (sizeof(Cell) + lights_ * sizeof(Rgb));
 }
 
 size_t ReflectionTable::max_bytes(size_t cells, size_t lights) {
-  // Vectors grow by doubling: the old array of half the size exists beside the new one. The index has four
-  // slots per cell at most.
-  return 3 * cells * (sizeof(Cell) + lights * sizeof(Rgb)) + (4 * cells + 2 * kFewSlots) * sizeof(uint32_t);
+  // The index has four slots per cell at most.
+  return cells * (sizeof(Cell) + lights * sizeof(Rgb)) + (4 * cells + 2 * kFewSlots) * sizeof(uint32_t);
 }
 
 }  // namespace pelage

@@ -57,12 +57,15 @@ const Schema<GatherParams>& GatherParams::schema() {
     s.key("cache", &GatherParams::cache,
           {.help = "true: indirect paths end at the second surface. The light that this surface reflects is "
                    "read from a cache of cells about 8 pixels large, which paths of the whole picture fill "
-                   "first. Glossy skins are not cached. Needs `reuse: true`"});
+                   "first. Glossy skins are not cached. Needs `reuse: true`",
+           .default_text = "true with at least 8 `bounces`"});
     s.key("cache_paths", &GatherParams::cache_paths,
           {.help = "Paths that fill the cache, per camera sample", .min = 0.001, .max = 64});
     s.key("memory", &GatherParams::memory,
-          {.help = "Maximum memory of the cache. A cache that needs more is refused with an error",
-           .default_text = "an eighth of `render.memory`"});
+          {.help = "Maximum memory of the cache. Pelage reserves about 250 bytes per pixel with one light, "
+                   "and 50 more "
+                   "with each other light. If that does not fit, it refuses to render",
+           .default_text = "what `render.memory` leaves"});
     return s;
   }();
   return table;

@@ -56,6 +56,31 @@ const Schema<BvhParams>& BvhParams::schema() {
   return table;
 }
 
+namespace {
+
+/// What saves shadow rays and makes them cheaper.
+void add_occlusion_keys(Schema<RenderParams>& s) {
+  s.key("skin_ball", &RenderParams::skin_ball,
+        {.help = "Balls inside closed skins that replace shadow rays. `exact`: a ray that a ball proves "
+                 "blocked is not traced, and points on lights behind it are not chosen; the picture has "
+                 "the same mean. `fractional`: no shadow ray of a point with a ball is "
+                 "traced; the fur dims light by its path through a shell around the ball "
+                 "(approximate). `off`: every shadow ray is traced",
+         .default_text = "exact with `integrator: gather` and at most 8 skins; otherwise off"});
+  s.key("learned_visibility", &RenderParams::learned_visibility,
+        {.help = "`true`: pilot rays learn, before the picture is rendered, which parts of lights are "
+                 "visible from where; shadow rays to parts that are probably hidden are then traced less "
+                 "often, with the same mean of the picture. `reject`: never traced if all pilot rays "
+                 "missed, which darkens the picture. With `integrator: gather`, only indirect paths use "
+                 "it"});
+  s.key("screen_door", &RenderParams::screen_door,
+        {.help = "For shadow rays and indirect rays, strands that are not opaque become opaque strands "
+                 "whose width is width times opacity. These rays then end at the first strand, which saves "
+                 "time; the mean light stays the same. Camera rays still see semi-transparent strands"});
+}
+
+}  // namespace
+
 const Schema<RenderParams>& RenderParams::schema() {
   static const Schema<RenderParams> table = [] {
     Schema<RenderParams> s("render", "Rendering method, quality and limits.");
@@ -95,6 +120,7 @@ const Schema<RenderParams>& RenderParams::schema() {
                    "many bounces",
            .min = 0,
            .max = 1024});
+    add_occlusion_keys(s);
     s.key("clamp_indirect", &RenderParams::clamp_indirect,
           {.unit = "radiance",
            .help = "Maximum luminance of the indirect light of one path. It removes fireflies and darkens "

@@ -29,6 +29,18 @@ template <>
 struct EnumNames<CurveShape> {
   static constexpr const char* names[] = {"flat", "round"};
 };
+/// How the balls inside skins replace shadow rays.
+enum class SkinBallUse { kOff, kExact, kFractional };
+template <>
+struct EnumNames<SkinBallUse> {
+  static constexpr const char* names[] = {"off", "exact", "fractional"};
+};
+/// How visibility that pilot rays have learned chooses shadow rays.
+enum class LearnedUse { kOff, kOn, kReject };
+template <>
+struct EnumNames<LearnedUse> {
+  static constexpr const char* names[] = {"false", "true", "reject"};
+};
 /// Returns whether strands are stored in Pelage's own fur trees rather than in Embree. The picture is the
 /// same, except for rounding at the edges of strands.
 inline bool in_fur_trees(AccelKind accel, CurveShape curves) {
@@ -72,13 +84,16 @@ struct RenderParams {
   CurveShape curves = CurveShape::kFlat;
   int samples = 64;  ///< count per pixel; with adaptive sampling, the max count
   std::optional<AdaptiveParams> adaptive;
-  float time_limit = 0;      ///< seconds; 0: no limit
-  int light_samples = 1;     ///< shadow rays per vertex of a path
-  int bounces = 4;           ///< max scatterings after the first; 0: direct light only
+  float time_limit = 0;   ///< seconds; 0: no limit
+  int light_samples = 1;  ///< shadow rays per vertex of a path
+  int bounces = 4;        ///< max scatterings after the first; 0: direct light only
+  std::optional<SkinBallUse> skin_ball;  ///< empty: see ball_use()
+  LearnedUse learned_visibility = LearnedUse::kOff;
   float clamp_indirect = 0;  ///< max luminance of the indirect light of one path; 0: no limit
   int64_t seed = 0;
   ByteSize memory{uint64_t(4) << 30};
   BvhParams bvh;
+  bool screen_door = false;  ///< secondary rays see strands that are not opaque as opaque, but narrower
   bool compact_attributes = true;
   BoundingStrategy bounds = BoundingStrategy::kExact;
   float bounds_factor = 1;  ///< scale of boxes with BoundingStrategy::kUser
@@ -89,6 +104,14 @@ struct RenderParams {
   bool draws_visible() const {
     return gather.visibility.value_or(GatherVisibility::kRaster) == GatherVisibility::kRaster &&
            in_fur_trees(accel, curves);
+  }
+  /// Max count of skins that have balls by default: a crowd would spend more time on them than it saves.
+  static constexpr size_t kFewSkins = 8;
+  /// Returns what balls inside `skins` skins are used for. By default, `path` traces every ray, because it is
+  /// the reference of all faster methods.
+  SkinBallUse ball_use(size_t skins) const {
+    const bool pays = integrator == Integrator::kGather && skins <= kFewSkins;
+    return skin_ball.value_or(pays ? SkinBallUse::kExact : SkinBallUse::kOff);
   }
   /// Returns the width, in pixels, at which the camera sees thinner strands; 0: strands keep their widths.
   float min_width() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct FurPart {
   Rgb tint{1};                             ///< multiplies the colour of the strands
   std::optional<Simplification> lod = {};  ///< reduction of detail; empty: not reduced
   float scale = 1;                         ///< size of the posed skin relative to `rest`
+  std::optional<uint32_t> skin = {};       ///< index in RenderScene::skins of the skin below the strands
 };
 
 /// A skin. `rest` provides the rest positions of hits; its topology provides the texture coordinates of hits.

@@ -34,5 +34,19 @@ TEST(ShadingCurves, ChangeOneSettingOfTheScene) {
   EXPECT_FALSE(curves[0].gather);
 }
 
+TEST(ShadingCurves, SwitchWhatTheSceneDoesNot) {
+  SceneDescription scene;
+  const std::vector<ShadingCurve> off = shading_curves(scene, {"screen_door"});
+  ASSERT_EQ(off.size(), 2u);
+  EXPECT_EQ(off[1].title, "path, screen_door: true");
+  EXPECT_EQ(off[1].settings.back(), std::pair(std::string("render.screen_door"), std::string("true")));
+  EXPECT_FALSE(off[1].gather);
+  scene.render.screen_door = true;
+  const std::vector<ShadingCurve> on = shading_curves(scene, {"gather_screen_door"});
+  ASSERT_EQ(on.size(), 2u);
+  EXPECT_EQ(on[1].title, "gather, screen_door: false");
+  EXPECT_TRUE(on[1].gather);
+}
+
 }  // namespace
 }  // namespace pelage

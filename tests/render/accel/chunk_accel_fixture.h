@@ -86,6 +86,7 @@ class ChunkAccelTest : public testing::Test {
     for (uint64_t i = 0; i < rays; ++i) {
       Ray ray = i % 2 == 0 ? random_ray(seed, i) : inner_ray(seed, i);
       if (i % 5 == 0) ray.far = 3 + ray.direction.x;
+      ray.secondary = secondary_;
       const Hit ha = a.closest(ray, ta), hb = b.closest(ray, tb);
       ASSERT_EQ(ha.kind, hb.kind) << i;
       ASSERT_EQ(ha.part, hb.part) << i;
@@ -133,6 +134,7 @@ class ChunkAccelTest : public testing::Test {
   Workers workers_{2};
   MemoryLedger ledger_;
   WarningCounter progress_;
+  bool secondary_ = false;  // Ray::secondary of the rays of expect_same()
 };
 
 inline constexpr AccelKind kAccelKinds[] = {AccelKind::kEmbree, AccelKind::kFur};

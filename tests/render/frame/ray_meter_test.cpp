@@ -121,7 +121,7 @@ RayMeter some_rays() {
 }
 
 TEST(RenderSeconds, AddUpToTheCpuTimeWithoutGrowth) {
-  const TileCosts tiles{some_rays(), 7};
+  const TileCosts tiles{some_rays(), {}, 7};
   const RenderSeconds parts = render_seconds(tiles, 3);
   EXPECT_EQ(parts.camera_rays, tiles.rays.seconds(RayKind::kCamera));
   EXPECT_EQ(parts.shadow_rays, 0);
@@ -135,8 +135,8 @@ TEST(RenderSeconds, NeverExceedTheCpuTime) {
   const RayMeter rays = some_rays();
   const double rays_s = rays.seconds(RayKind::kCamera);
   ASSERT_GT(rays_s, 0);
-  EXPECT_DOUBLE_EQ(render_seconds({rays, 3 + rays_s / 4}, 3).total(), rays_s / 4);
-  EXPECT_EQ(render_seconds({rays, rays_s / 4}, 1).total(), 0);
+  EXPECT_DOUBLE_EQ(render_seconds({rays, {}, 3 + rays_s / 4}, 3).total(), rays_s / 4);
+  EXPECT_EQ(render_seconds({rays, {}, rays_s / 4}, 1).total(), 0);
 }
 
 }  // namespace

@@ -50,6 +50,20 @@ TEST(ReflectionCache, ARegionHasThePixelsOfThePicture) {
   }
 }
 
+TEST(ReflectionCache, IsUsedFromEightBouncesOn) {
+  GatherParams params;
+  EXPECT_FALSE(params.uses_cache(7));
+  EXPECT_TRUE(params.uses_cache(8));
+  params.cache = true;
+  EXPECT_TRUE(params.uses_cache(1));
+  EXPECT_FALSE(params.uses_cache(0));
+  params.reuse = false;
+  EXPECT_FALSE(params.uses_cache(8));
+  params = {};
+  params.cache = false;
+  EXPECT_FALSE(params.uses_cache(8));
+}
+
 TEST(ReflectionCache, SavesRaysInPaleFur) {
   PathScene scene(24, 24);
   scene.camera.fov = 16;
@@ -58,6 +72,7 @@ TEST(ReflectionCache, SavesRaysInPaleFur) {
   scene.render.integrator = Integrator::kGather;
   scene.render.bounces = 12;
   scene.render.gather.cache_paths = 0.25f;
+  scene.render.gather.cache = false;
   scene.run();
   const RayStatistics whole = scene.statistics.rays;
   EXPECT_EQ(scene.statistics.reflections.lookups, 0);

@@ -90,6 +90,40 @@ TEST(ReflectionTable, SmallCellsBorrowPathsOfTheCellsAroundThem) {
   EXPECT_FLOAT_EQ(mean(3), (4 * 6 + 4 * ((4 * 6 + 4 * all) / 8)) / 8);
 }
 
+TEST(ReflectionTable, WithoutSmallCellsTheOthersStayAsTheyWere) {
+  const auto add = [](ReflectionTable& table, uint64_t i) {
+    const uint64_t cells[] = {mix64(i % 50), mix64(1000 + i % 10), mix64(2000 + i % 5)};
+    const Rgb light[] = {Rgb(static_cast<float>(i % 7)), Rgb(1)};
+    table.add(cells, 1 + static_cast<float>(i % 3), light);
+  };
+  ReflectionTable whole(2), before(2), within(2), part(2);
+  for (uint64_t i = 0; i < 600; ++i) {
+    add(whole, i);
+    if (i == 200) within.drop_smallest();
+    add(i < 300 ? before : part, i);
+    add(within, i);
+  }
+  before.drop_smallest();
+  before.add(part);
+  ASSERT_EQ(whole.size(), 65u);
+  for (const ReflectionTable* table : {&before, &within}) {
+    ASSERT_EQ(table->size(), 15u);
+    for (size_t i = 0; i < table->size(); ++i) {
+      const size_t same = whole.find(table->cell(i).key);
+      ASSERT_LT(same, whole.size());
+      EXPECT_EQ(table->find(table->cell(i).key), i);
+      EXPECT_EQ(table->cell(i).weight, whole.cell(same).weight);
+      EXPECT_EQ(table->radiance(i)[0], whole.radiance(same)[0]);
+    }
+    EXPECT_EQ(table->find(mix64(0)), table->size());
+  }
+  for (int i = 0; i < 2; ++i) before.drop_smallest();
+  EXPECT_EQ(before.size(), 0u);
+  EXPECT_EQ(before.find(mix64(2000)), 0u);
+  add(before, 7);
+  EXPECT_EQ(before.size(), 0u);
+}
+
 TEST(ReflectionTable, ACellWithoutWeightReflectsNothing) {
   ReflectionTable table(1);
   const Rgb light[] = {Rgb(3)};

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/frame_estimate_test.cpp.
+#include "render/frame_estimate.h"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "base/heap.h"
+#include "base/memory_budget.h"
+#include "base/parallel.h"
+#include "base/process_usage.h"
+#include "image/exr_writing.h"
+#include "procedurals/bounds_file.h"
+#include "render/accel/resident_chunks.h"
+#include "render/film/film.h"
+#include "render/frame/frame_chunks.h"
+#include "render/frame/frame_layers.h"
+#include "render/frame/frame_window.h"
+#include "render/gather/gather_loop.h"
+
+namespace pelage {
+namespace {
+
+// Code, tables of libraries and stacks that a render touches after the scene has been read: about 5 MiB in a
+// picture of a few strands, and more with all kinds of lights and maps.
+constexpr int64_t kLibraries = int64_t{8} << 20, kThread = int64_t{2} << 20;
+constexpr int kSampledFur = 24, kSampledSkins = 8;  // chunks to grow
+// Rough CPU seconds: of a channel of a pixel in a file, of a camera sample, and of each bounce after it.
+constexpr double kWrittenValue_s = 1e-7;
+constexpr double kPathSample_s = 4e-6, kPathBounce_s = 2e-6, kGatherSample_s = 2.5e-6;
+
+/// A kind of chunk, fur or skin: its chunks are `first` to `last` - 1.
+struct Kind {
+  uint32_t first = 0, last = 0;
+  double bytes = 0, peak_bytes = 0, cpu_s = 0;  // of all chunks; peak_bytes: while one is made
+};
+
+/// Size of a chunk from its counts, in arbitrary units.
+double weight(const ChunkCounts& n) {
+  return static_cast<double>(n.points * static_cast<size_t>(n.motion_keys) + 2 * n.strands + n.triangles);
+}
+
+/// A chunk that was selected, once or several times.
+struct Selected {
+  uint32_t chunk = 0;
+  int times = 0;
+};
+
+/// Selects chunks with probabilities proportional to their weights: at even steps of the summed weight.
+std::vector<Selected> select(const std::vector<double>& weights, const Kind& kind, double all, int count) {
+  std::vector<Selected> chosen;
+  double sum = 0;
+  int step = 0;
+  for (uint32_t chunk = kind.first; chunk < kind.last; ++chunk) {
+    sum += weights[chunk];
+    int times = 0;
+    for (; step < count && sum > all * (step + 0.5) / count; ++step) ++times;
+    if (times > 0) chosen.push_back({chunk, times});
+  }
+  return chosen;
+}
+
+/// Grows a selection of chunks. With selection probabilities proportional to weights, the mean of
+/// bytes / weight times the sum of the weights is an unbiased estimate of the bytes of all chunks
+/// [HansenHurwitz43].
+void sample(const ResidentChunks& chunks, const std::vector<double>& weights, int count, const Job& job,
+            Kind& kind) {
+  const double all = std::accumulate(weights.begin() + kind.first, weights.begin() + kind.last, 0.0);
+  const std::vector<Selected> chosen = select(weights, kind, all, count);
+  std::vector<Kind> found(chosen.size());
+  job.for_each(chosen.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      const double began = thread_cpu_seconds();
+      chunks.visit(chosen[i].chunk, range.worker, [&](const ChunkGeometry& chunk) {
+        found[i].bytes = static_cast<double>(chunk.bytes());
+        found[i].peak_bytes = static_cast<double>(chunk.build_peak_bytes());
+        return 0;
+      });
+      found[i].cpu_s = thread_cpu_seconds() - began;
+    }
+  });
+  for (size_t i = 0; i < chosen.size(); ++i) {
+    const double share = static_cast<double>(chosen[i].times) / count;
+    const double scale = share * all / weights[chosen[i].chunk];
+    kind.bytes += found[i].bytes * scale;
+    kind.cpu_s += found[i].cpu_s * scale;
+    kind.peak_bytes += found[i].peak_bytes * share;
+  }
+}
+
+FilmLayers layers_of(const RenderScene& scene) {
+  std::vector<FilmLayers::LightInfo> lights;
+  for (size_t i = 0; i < scene.lights.size(); ++i)
+    lights.push_back({scene.lights.light(i).name(), scene.lights.light(i).visible()});
+  return frame_layers(scene.image, scene.render, lights, scene.materials);
+}
+
+ResidentChunksOptions options_of(const RenderScene& scene, const FrameChunks& chunks, const Job& job) {
+  ResidentChunksOptions options;
+  options.kind = scene.render.accel;
+  options.chunk.shape = scene.render.curves;
+  options.chunk.compact_attributes = options.fur.compact_attributes = scene.render.compact_attributes;
+  if (const float width = scene.render.min_width(); width > 0)
+    options.fur.min_width = MinWidth{scene.camera.lod_view(), width};
+  options.memory_limit = scene.render.memory.bytes;
+  options.threads = job.workers.thread_count();
+  options.opaque = chunks.opaque();
+  return options;
+}
+
+/// Adds the fine boxes of leaves, and the memory and time of measuring them.
+void add_measuring(const RenderScene& scene, const FrameChunks& chunks, const Job& job, Kind& fur,
+                   FrameEstimate& estimate) {
+  const BoundingStrategy strategy = scene.render.bounds;
+  if (!measures_strands(strategy)) return;
+  size_t segments = 0, unknown = 0, block = 0;
+  std::set<std::pair<uint64_t, uint64_t>> read;
+  const auto ignore = [](const std::string&) {};
+  for (uint32_t leaf = 0; leaf < chunks.leaves().size(); ++leaf) {
+    const ChunkCounts n = chunks.counts(leaf);
+    segments += n.segments;
+    block = std::max(block, n.growth_bytes + measuring_bytes(chunks.leaves()[leaf]->counts()));
+    const std::optional<BoundsRecord> record = chunks.leaves()[leaf]->bounds_record();
+    if (record && read.contains({record->key.high, record->key.low})) continue;
+    if (record && !read_bounds(*record, bound_span(strategy), bound_keys(strategy), ignore).empty())
+      read.insert({record->key.high, record->key.low});
+    else
+      unknown += n.segments;
+  }
+  constexpr double kFineBytes = 0.25;  // per segment: FineBoxes
+  estimate.box_bytes += static_cast<int64_t>(kFineBytes * static_cast<double>(segments));
+  estimate.measuring_bytes = static_cast<int64_t>(block) * job.workers.thread_count();
+  estimate.measuring_cpu_s = fur.cpu_s * static_cast<double>(unknown) / std::max(1.0, double(segments));
+}
+
+void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& job,
+                FrameEstimate& estimate) {
+  BoundingCounts counts;
+  const ResidentChunks resident(chunks.bounds(job, counts), chunks, options_of(scene, chunks, job), job);
+  std::vector<double> weights;
+  for (uint32_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    const ChunkCounts n = chunks.counts(chunk);
+    weights.push_back(weight(n));
+    estimate.strands += static_cast<int64_t>(n.strands);
+  }
+  const auto leaves = static_cast<uint32_t>(chunks.leaves().size());
+  Kind fur{0, leaves}, skins{leaves, static_cast<uint32_t>(chunks.size())};
+  sample(resident, weights, kSampledFur, job, fur);
+  sample(resident, weights, kSampledSkins, job, skins);
+  estimate.chunks = static_cast<int64_t>(chunks.size());
+  estimate.box_bytes = static_cast<int64_t>(chunks.bytes() + resident.boxes().bytes_bound() +
+                                            resident.boxes().tree()->bytes());
+  const double growing = job.workers.thread_count() * std::max(fur.peak_bytes, skins.peak_bytes);
+  estimate.chunk_bytes = static_cast<int64_t>(fur.bytes + skins.bytes + growing);
+  estimate.growing_cpu_s = fur.cpu_s + skins.cpu_s;
+  add_measuring(scene, chunks, job, fur, estimate);
+}
+
+double tracing_s(const RenderScene& scene, const PixelBox& pixels) {
+  const RenderParams& render = scene.render;
+  const double samples = double(pixels.width()) * pixels.height() * render.samples;
+  return samples * (render.integrator == Integrator::kGather
+                        ? kGatherSample_s
+                        : kPathSample_s + kPathBounce_s * std::min(render.bounces, 4));
+}
+
+}  // namespace
+
+int64_t FrameEstimate::peak_bytes() const {
+  const int64_t rendering = box_bytes + std::max(measuring_bytes, buffer_bytes + chunk_bytes);
+  return std::max(preparing_bytes,
+                  scene_bytes + library_bytes + film_bytes + std::max(rendering, writing_bytes));
+}
+
+FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
+                             const std::optional<PixelBox>& region) {
+  FrameEstimate estimate;
+  job.ledger.set_limit(scene.render.memory.bytes);
+  const FilmLayers layers = layers_of(scene);
+  const FrameWindow window = frame_window(scene.image.width, scene.image.height, region, layers.splat);
+  estimate.film_bytes = Film::bytes_needed(window.film.width(), window.film.height(), layers);
+  const MemoryCharge film = reserve(job.ledger, MemoryTag::kFilm, estimate.film_bytes, "the frame buffer");
+  const int64_t before = job.ledger.budgeted();
+  GatherLoop::Memory tiles;
+  if (scene.render.integrator == Integrator::kGather) tiles = GatherLoop::reserve_tiles(scene, job);
+  estimate.buffer_bytes = job.ledger.budgeted() - before;
+
+  FrameChunks chunks(scene, job);
+  trim_heap();
+  estimate.scene_bytes = current_rss_bytes();
+  estimate.preparing_bytes = peak_rss_bytes();
+  const int64_t taken = job.ledger.budgeted();
+  chunks.bound_coarsely();
+  add_chunks(scene, chunks, job, estimate);
+  if (const int64_t limit = job.ledger.limit(); limit > 0) {
+    const int64_t room = std::max<int64_t>(0, limit - taken - estimate.box_bytes);
+    estimate.fits = estimate.chunk_bytes <= room;
+    estimate.chunk_bytes = std::min(estimate.chunk_bytes, room);
+  }
+  estimate.library_bytes = kLibraries + kThread * job.workers.thread_count();
+  MemoryLedger none;
+  const std::vector<ExrChannel> channels = Film(1, 1, layers, none).exr_pixels({0, 0, 0, 0});
+  estimate.writing_bytes =
+      exr_writing_bytes(channels, window.region.width(), window.region.height(), job.workers.thread_count());
+  estimate.tracing_cpu_s = tracing_s(scene, window.traced);
+  estimate.writing_cpu_s =
+      kWrittenValue_s * static_cast<double>(channels.size()) * window.region.width() * window.region.height();
+  return estimate;
+}
+
+}  // namespace pelage
