@@ -11,8 +11,8 @@
 
 namespace pelage {
 
-void add_scene_flags(CLI::App& command, Options& options, Texts& texts) {
-  command.add_option("SCENE", options.input, "Scene file")->required();
+void add_scene_flags(CLI::App& command, Options& options, Texts& texts, const char* scene_help) {
+  command.add_option("SCENE", options.input, scene_help)->required();
   // Not greedy: `--set a=1 scene.yaml` must not consume the scene.
   command.add_option("--set", texts.set, "Override a scene value: a.b.c=value; repeatable")
       ->allow_extra_args(false)

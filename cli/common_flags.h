@@ -29,7 +29,8 @@ struct Texts {
 inline constexpr const char* kMemoryHelp = "Memory budget, such as 512M or 4G (sets render.memory)";
 
 /// Adds SCENE and --set.
-void add_scene_flags(CLI::App& command, Options& options, Texts& texts);
+void add_scene_flags(CLI::App& command, Options& options, Texts& texts,
+                     const char* scene_help = "Scene file");
 /// Adds --threads, --quiet and --progress.
 void add_thread_flags(CLI::App& command, Options& options, Texts& texts);
 /// Adds --memory and the flags of add_thread_flags().

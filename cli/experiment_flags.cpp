@@ -63,7 +63,7 @@ void add_experiment_flags(CLI::App& measure, Options& options) {
           "--parts", options.parts,
           "lod: run only these parts (of crowd, detail, wedge, dolly). shading: run only these variants "
           "beside path (of splatted, adaptive, gather, visibility, reuse, spacing, skin_spacing, cells, "
-          "light_rays, paths, cache, drawn)")
+          "light_rays, paths, cache, drawn, screen_door, gather_screen_door)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("PARTS");

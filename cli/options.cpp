@@ -29,6 +29,7 @@ constexpr const char* kProgressNames[] = {"auto", "bar", "plain", "json", "alfre
 void add_render(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* render = app.add_subcommand("render", "Render a scene to EXR, PNG or JPEG files");
   add_scene_flags(*render, options, texts);
+  add_rib_use_flags(*render, options.rib_in);
   render
       ->add_option("-o,--output", options.output,
                    "Output file (default: the scene's name and .exr); .png and .jpg hold the beauty as a "
@@ -36,6 +37,10 @@ void add_render(CLI::App& app, Options& options, Texts& texts) {
       ->type_name("FILE.%04d.exr");
   render->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_picture_flags(*render, options.picture, texts.picture);
+  CLI::Option* estimate =
+      render->add_flag("--estimate", options.picture.estimate,
+                       "Render nothing; print the memory and, roughly, the time that each frame takes");
+  render->add_flag("--json", options.json, "Print the estimate as JSON")->needs(estimate);
   add_checkpoint_flags(*render, options.checkpoint, texts.checkpoint_every);
   add_run_flags(*render, options, texts);
 }
@@ -59,6 +64,7 @@ void add_view(CLI::App& app, Options& options, Texts& texts) {
 void add_why(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* why = app.add_subcommand("why", "Explain a pixel: its strand, material, light and cost");
   add_scene_flags(*why, options, texts);
+  add_rib_use_flags(*why, options.rib_in);
   why->add_option("X", options.pixel_x, "Column of the pixel; 0 is the leftmost")
       ->required()
       ->check(whole_number());
@@ -76,6 +82,7 @@ void add_grow(CLI::App& app, Options& options, Texts& texts) {
   CLI::App* grow = app.add_subcommand(
       "grow", "Fill the caches of a scene (strand offsets, bounding boxes) or write strand files");
   add_scene_flags(*grow, options, texts);
+  add_rib_use_flags(*grow, options.rib_in);
   CLI::Option* file =
       grow->add_option("-o,--output", options.output, "Strand file to write (.hair or .tfx): all strands")
           ->type_name("FILE");
@@ -213,11 +220,12 @@ void add_rib(CLI::App& app, Options& options, Texts& texts) {
 }
 
 void add_farm(CLI::App& app, Options& options, Texts& texts) {
-  CLI::App* farm = app.add_subcommand("farm", "Divide a shot into tasks for the queue of a render farm");
+  CLI::App* farm = app.add_subcommand(
+      "farm", "Divide a shot into tasks for the queue of a render farm; run them on Slurm");
   add_farm_flags(*farm, options.farm, texts.farm);
-  add_scene_flags(*farm, options, texts);
+  add_scene_flags(*farm, options, texts, "Scene file; for status and cancel, the folder of the shot (--dir)");
+  add_rib_use_flags(*farm, options.rib_in);
   farm->add_option("-o,--output", options.output, "Output file; %04d is the frame number")
-      ->required()
       ->type_name("FILE.%04d.exr");
   farm->add_option("--frames", texts.frames, "Frames: 1-48, 1-48x2 or 1,5,9-12")->type_name("FRAMES");
   add_parallel_flags(*farm, options, texts, "Memory budget of each task, such as 512M or 4G");
@@ -316,7 +324,7 @@ void interpret(const Texts& texts, Options& options) {
   }
   interpret_picture(texts.picture, options);
   interpret_checkpoint(texts.checkpoint_every, options.checkpoint);
-  interpret_farm(texts.farm, options.farm);
+  interpret_farm(texts.farm, options.output, options.farm);
   for (const std::string& word : texts.section)
     options.section += (options.section.empty() ? "" : " ") + word;
   if (!texts.stats.empty()) options.stats = texts.stats;

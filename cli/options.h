@@ -77,7 +77,7 @@ struct Options {
   std::string bind;  ///< view: address of the server; empty: 127.0.0.1
 
   int pixel_x = 0, pixel_y = 0;  ///< why: the pixel, from the upper left corner
-  bool json = false;             ///< why: whether to print JSON
+  bool json = false;             ///< why, render --estimate: whether to print JSON
 
   Experiment experiment = Experiment::kBounds;  ///< measure: the experiment
   int repeat = 3;                               ///< measure: runs of each variant
@@ -110,8 +110,9 @@ struct Options {
   std::vector<std::string> pieces;  ///< merge: the files to merge
   MergeParams merge;                ///< merge: its parameters
 
-  RibOptions rib;    ///< rib, procedural: their flags
-  FarmOptions farm;  ///< farm: its flags
+  RibUseOptions rib_in;  ///< render, why, grow, farm: flags for RIB files that the scene reads
+  RibOptions rib;        ///< rib, procedural: their flags
+  FarmOptions farm;      ///< farm: its flags
 
   std::string section;    ///< manual: the section to print
   bool markdown = false;  ///< manual: whether to print Markdown

@@ -75,8 +75,9 @@ void interpret_picture(const PictureTexts& texts, Options& options) {
 SceneDescription read_picture_scene(const Options& options, Progress& progress) {
   const PictureOptions& picture = options.picture;
   Options resized = options;
+  const RibUse use = rib_use(options.rib_in);
   if (picture.scale || picture.preview) {
-    const SceneDescription whole = load_scene(options.input, options.overrides);
+    const SceneDescription whole = load_scene(options.input, options.overrides, use);
     const double scale = picture.scale.value_or(kPreviewScale);
     const auto set = [&](const char* key, int value) {
       resized.overrides.push_back({key, fmt::format("{}", value)});
@@ -86,7 +87,7 @@ SceneDescription read_picture_scene(const Options& options, Progress& progress) 
     if (picture.preview && !picture.samples)
       set("render.samples", std::min(whole.render.samples, kPreviewSamples));
   }
-  SceneDescription scene = read_scene(resized, progress);
+  SceneDescription scene = read_scene(resized, progress, use);
   if (picture.region) check_region(scene.image, scene.render, *picture.region);
   return scene;
 }

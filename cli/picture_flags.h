@@ -23,6 +23,7 @@ struct PictureOptions {
   std::optional<PixelBox> region;  ///< --region: the only pixels to render, in pixels of the scaled picture
   bool preview = false;            ///< --preview
   bool skip_existing = false;      ///< --skip-existing: render no frame whose file is complete
+  bool estimate = false;           ///< --estimate: print memory and time instead of rendering
 };
 
 /// Values of these flags that are still text.

@@ -4,7 +4,11 @@
 namespace pelage {
 
 SceneDescription read_scene(const Options& options, Progress& progress) {
-  SceneDescription scene = load_scene(options.input, options.overrides);
+  return read_scene(options, progress, rib_use(options.rib_in));
+}
+
+SceneDescription read_scene(const Options& options, Progress& progress, const RibUse& use) {
+  SceneDescription scene = load_scene(options.input, options.overrides, use);
   for (const Problem& warning : scene.warnings)
     progress.warn(to_string(warning.position) + ": " + warning.message);
   return scene;

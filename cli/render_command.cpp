@@ -11,6 +11,7 @@
 #include "cli/output_files.h"
 #include "cli/picture_flags.h"
 #include "cli/progress_display.h"
+#include "cli/render_estimate.h"
 #include "cli/run.h"
 #include "image/display_image.h"
 #include "image/exr_file.h"
@@ -146,6 +147,7 @@ int run_render(const Options& options) {
   if (std::filesystem::path(output).extension() != ".exr" && !is_display_image(output)) {
     throw Error(ErrorKind::kArguments, "-o " + output + ": pictures are written as .exr, .png or .jpg");
   }
+  if (options.picture.estimate) return print_estimate(scene, options, run);
   check_output_pattern(output, scene.frames);
   check_files(options, scene, output);
 

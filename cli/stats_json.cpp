@@ -98,6 +98,12 @@ std::string statistics_json(const Statistics& s) {
       {"reflection_lookups", s.frames.reflections.lookups},
       {"reflections_found", s.frames.reflections.found},
       {"rays", rays_json(s.frames.rays)},
+      {"shadow_candidates", s.frames.occlusion.candidates},
+      {"shadow_candidates_proved", s.frames.occlusion.candidates_proved},
+      {"rays_skipped_skin", s.frames.occlusion.rays_proved},
+      {"rays_skipped_learned", s.frames.occlusion.rays_ended},
+      {"rays_modelled", s.frames.occlusion.rays_modelled},
+      {"pilot_rays", s.frames.occlusion.pilot_rays},
       {"stages_s", stages_json(s)},
   };
   if (!s.process.timeline.empty()) {

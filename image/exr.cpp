@@ -16,6 +16,7 @@
 #include "image/exr_errors.h"
 #include "image/exr_file.h"
 #include "image/exr_header.h"
+#include "image/exr_writing.h"
 
 namespace pelage {
 namespace {
@@ -35,6 +36,11 @@ int64_t bytes_of_pixel(const std::vector<ExrChannel>& channels) {
   for (const ExrChannel& channel : channels)
     bytes += sizeof(float) + (channel.type == ChannelType::kHalf ? sizeof(half) : 0);
   return bytes;
+}
+
+/// Memory of the rows that are made and written at once.
+int64_t bytes_of_rows(const std::vector<ExrChannel>& channels, int width, int height, int threads) {
+  return bytes_of_pixel(channels) * width * std::min(kRowsPerThread * threads, height);
 }
 
 /// Locations of all channels' rows, for the writer.
@@ -109,9 +115,8 @@ void write_exr(const std::filesystem::path& path, const PixelBox& data, const Pi
   const int threads = workers.thread_count(), step = kRowsPerThread * threads;
   std::vector<ExrChannel> channels = rows(0, 0);
   ExrWriter writer(path, {{}, {}, data, display, described(channels), attributes, {}}, threads);
-  const MemoryCharge charge(
-      ledger, MemoryTag::kFilm,
-      writer.buffer_bytes() + bytes_of_pixel(channels) * width * std::min(step, height));
+  const MemoryCharge charge(ledger, MemoryTag::kFilm,
+                            writer.buffer_bytes() + bytes_of_rows(channels, width, height, threads));
   for (int y = 0; y < height; y += step) {
     const int count = std::min(step, height - y);
     channels = rows(y, y + count);
@@ -119,6 +124,12 @@ void write_exr(const std::filesystem::path& path, const PixelBox& data, const Pi
                  workers);
   }
   writer.commit();
+}
+
+int64_t exr_writing_bytes(const std::vector<ExrChannel>& channels, int width, int height, int threads) {
+  return exr_buffer_bytes({{}, {}, {0, 0, width, height}, {0, 0, width, height}, described(channels), {}, {}},
+                          threads) +
+         bytes_of_rows(channels, width, height, threads);
 }
 
 void write_exr(const std::filesystem::path& path, const ExrImage& image) {

@@ -23,6 +23,7 @@
 #include "image/exr_errors.h"
 #include "image/exr_header.h"
 #include "image/exr_stream.h"
+#include "image/exr_writing.h"
 
 namespace pelage {
 namespace {
@@ -210,6 +211,12 @@ ExrWriter::ExrWriter(std::filesystem::path path, const ExrReader& source, std::v
     }
     return std::make_unique<File>(path_, headers, std::move(described), library_threads(threads));
   });
+}
+
+int64_t exr_buffer_bytes(const ExrPart& part, int threads) {
+  Imf::Header header;
+  header.compression() = Imf::ZIP_COMPRESSION;
+  return bytes_of_blocks(header, part, library_threads(threads));
 }
 
 int64_t ExrWriter::buffer_bytes() const { return file_->buffer_bytes; }

@@ -119,10 +119,11 @@ class Measure(unittest.TestCase):
 
     def test_shading(self):
         self.measure("shading", "scene.yaml", "-o", "out", "--repeat", "1", "--quiet", "--samples", "16,4",
-                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache", "--set", "image.width=48",
+                     "--reference-samples", "64", "--parts", "splatted,adaptive,gather,reuse,cache,skin_ball_learned", "--set", "image.width=48",
                      "--set", "image.height=32", "--set", "render.gather.cache_paths=32")
         rows = {row["variant"]: row for row in self.read("out")["rows"]}
-        curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true"]
+        curves = ["path", "path, splatted", "path, adaptive", "gather", "gather, reuse: false", "gather, cache: true",
+                  "path, skin_ball: exact, learned_visibility: true"]
         names = ["warm-up", "reference-a", "reference-b"]
         for curve in curves:
             names += [f"{curve}, 4", f"{curve}, 16"] + ([f"{curve}, 16, other seed"] if "gather" in curve else [])
@@ -148,6 +149,7 @@ class Measure(unittest.TestCase):
                 self.assertEqual(many["knots"], 0)
                 self.assertIsNone(many["reuse_bias"])
             self.assertIsNone(few["reuse_bias"])
+            self.assertEqual(many["rays_pilot"] > 0, "learned" in curve)
         self.assertEqual(rows["gather, reuse: false, 16"]["samples_per_knot"], 1)
         self.assertGreater(rows["gather, 16"]["samples_per_knot"], 1)
         cached = rows["gather, cache: true, 16"]
