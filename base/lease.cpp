@@ -74,36 +74,40 @@ std::string content_of(const std::filesystem::path& path) {
   return file.number() < 0 ? std::string() : content_of(file.number());
 }
 
-/// Removes the lease if it still has the content that was seen, and not that of a new holder.
-void remove_expired(const std::filesystem::path& path, const std::string& content) {
-  if (content_of(path) != content) return;
+/// Removes the lease if it still has the content that was seen, and not that of a new holder. Returns false
+/// if the folder does not let this process remove it.
+bool remove_expired(const std::filesystem::path& path, const std::string& content) {
+  if (content_of(path) != content) return true;
   const std::filesystem::path aside =
       path.parent_path() / (path.stem().string() + "." + random_name() + path.extension().string());
-  if (::rename(path.c_str(), aside.c_str()) != 0) return;
+  if (::rename(path.c_str(), aside.c_str()) != 0) return errno != EACCES && errno != EPERM;
   // A new holder may have come between: its lease is put back.
   if (content_of(aside) != content) (void)!::link(aside.c_str(), path.c_str());
   ::unlink(aside.c_str());
+  return true;
 }
 
-/// Looks at a lease that another holder has, and removes it if that holder is gone.
-void look(const std::filesystem::path& path, const LeaseTiming& timing, Seen& seen) {
+/// Looks at a lease that another holder has, and removes it if that holder is gone. Returns false if this
+/// process may not: waiting would then have no end.
+bool look(const std::filesystem::path& path, const LeaseTiming& timing, Seen& seen) {
   const Descriptor file(open_again(path));
   struct stat info {};
-  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return;
+  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return errno != EACCES;
   std::string content = content_of(file.number());
   const bool is_of_this_machine = content.starts_with(machine_name() + " ");
   // The holder locks the file before it writes its name.
   if (is_of_this_machine && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) {
-    if (still_named(file.number(), path)) ::unlink(path.c_str());
-    return;
+    if (!still_named(file.number(), path)) return true;
+    return ::unlink(path.c_str()) == 0 || (errno != EACCES && errno != EPERM);
   }
   const auto now = Clock::now();
   if (seen.file != info.st_ino || seen.content != content) {
     seen = {info.st_ino, std::move(content), now};
   } else if (now - seen.since > timing.expiry) {
-    remove_expired(path, seen.content);
-    seen = {};
+    const std::string expired = std::exchange(seen, {}).content;
+    return remove_expired(path, expired);
   }
+  return true;
 }
 
 }  // namespace
@@ -157,7 +161,7 @@ std::unique_ptr<Lease> Lease::take(const std::filesystem::path& path, const std:
       continue;
     }
     if (errno != EEXIST) return nullptr;
-    look(path, timing, seen);
+    if (!look(path, timing, seen)) return nullptr;
     if (cancelled() || Clock::now() >= give_up) return nullptr;
     std::this_thread::sleep_for(poll);
   }

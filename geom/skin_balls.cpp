@@ -75,8 +75,11 @@ struct SkinBalls::Sample {
 
 struct SkinBalls::Builder {
   Builder(const SkinMesh& skin, const Box3f& box, float size, const Job& job)
-      : mesh(skin), cell_size(size), start_radius(0.5f * box.size().length()), winding(skin, 0) {
-    for (int key = 0; key < mesh.motion_keys; ++key) trees.emplace_back(mesh, key, &job);
+      : mesh(skin), cell_size(size), start_radius(0.5f * box.size().length()) {
+    for (int key = 0; key < mesh.motion_keys; ++key) {
+      trees.emplace_back(mesh, key, &job);
+      windings.emplace_back(mesh, key);
+    }
     for (int key = 0; key + 1 < mesh.motion_keys; ++key) {
       Box3f moves;
       for (size_t v = 0; v < mesh.vertex_count(); ++v)
@@ -95,9 +98,9 @@ struct SkinBalls::Builder {
 
   const SkinMesh& mesh;
   float cell_size, start_radius, rounding = 0;
-  WindingNumbers winding;
-  std::vector<ClosestPointTree> trees;  // by motion key
-  std::vector<Box3f> displacements;     // of all vertices, from each motion key to the next
+  std::vector<ClosestPointTree> trees;   // by motion key
+  std::vector<WindingNumbers> windings;  // by motion key
+  std::vector<Box3f> displacements;      // of all vertices, from each motion key to the next
 };
 
 /// Divides large triangles so that every cell gets a point, and takes the point nearest to its middle.
@@ -108,7 +111,7 @@ std::vector<std::pair<uint64_t, SkinBalls::Sample>> SkinBalls::Builder::samples(
     const V3f a = mesh.position(v[0]), b = mesh.position(v[1]), c = mesh.position(v[2]);
     if (!((b - a).cross(c - a).length() > 0)) continue;
     const float longest = std::max({(b - a).length(), (c - b).length(), (a - c).length()});
-    const int parts = std::clamp(static_cast<int>(std::ceil(longest / cell_size)), 1, 512);
+    const int parts = static_cast<int>(std::clamp(std::ceil(longest / cell_size), 1.0f, 512.0f));
     for (int i = 0; i < parts; ++i) {
       for (int j = 0; j < 2 * (parts - i) - 1; ++j) {
         // The middle of a small triangle: point up where j is even, down where it is odd.
@@ -133,7 +136,8 @@ std::vector<std::pair<uint64_t, SkinBalls::Sample>> SkinBalls::Builder::samples(
 
 /// Shrinks a ball with its center on the inner normal [Ma12]. Every center on the way, with its distance from
 /// the surface as radius, is an empty ball. Returns the one that hides most directions from a point above the
-/// skin, rather than the last one: small bumps of a tessellation would make the last one too small.
+/// skin, rather than the last one: small bumps of a tessellation would make the last one too small. The first
+/// centers may be outside the skin, beyond a limb.
 SkinBall SkinBalls::Builder::shrink(const V3f& from, const V3f& normal, int key) const {
   SkinBall best;
   float hidden = 0, radius = start_radius;
@@ -143,7 +147,7 @@ SkinBall SkinBalls::Builder::shrink(const V3f& from, const V3f& normal, int key)
     nearest.distance = radius;
     const bool found = trees[static_cast<size_t>(key)].closest(center, radius, nearest);
     const float sine = nearest.distance / (radius + kHeight * cell_size);
-    if (sine > hidden) {
+    if (sine > hidden && windings[static_cast<size_t>(key)].at(center) != 0) {
       hidden = sine;
       best = {center, nearest.distance};
     }
@@ -180,8 +184,7 @@ float SkinBalls::Builder::radius(const Sample& sample, std::span<V3f> centers) c
     smallest = std::min(smallest, 0.5f * (clear[k] + clear[k + 1] - moves));
   }
   const float radius = smallest * (1 - kMargin) - rounding;
-  if (!(radius > 0) || winding.at(centers[0]) == 0) return 0;
-  return radius;
+  return radius > 0 ? radius : 0.0f;
 }
 
 SkinBalls::SkinBalls(const SkinMesh& mesh, const Job& job) : keys_(mesh.motion_keys) {
@@ -276,8 +279,9 @@ size_t SkinBalls::bytes() const {
 }
 
 size_t SkinBalls::temporary_bytes(const SkinMesh& mesh) {
-  // Per triangle: a tree for each motion key, edges of is_closed(), columns of WindingNumbers.
-  const size_t per_triangle = 96 * static_cast<size_t>(mesh.motion_keys) + 36 + 16;
+  // Per triangle: a tree and the columns of WindingNumbers for each motion key, building the last tree, edges
+  // of is_closed().
+  const size_t per_triangle = (80 + 56) * static_cast<size_t>(mesh.motion_keys) + 48 + 36;
   return mesh.triangle_count() * per_triangle + static_cast<size_t>(4 * kMaxCells) * 128;
 }
 

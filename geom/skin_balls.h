@@ -17,7 +17,8 @@ struct SkinBall {
   float radius = 0;
 };
 
-/// For each cell of a closed skin, a large ball inside the skin that touches, or nearly touches, the cell.
+/// For each cell of a closed skin, a ball inside the skin below the cell: of the balls that the search meets,
+/// the one that hides most directions from a point above the skin.
 ///
 /// Balls are found by shrinking: a ball with its center on the inner normal of a skin point becomes smaller
 /// until no other skin point is inside [Ma12]. Cells are the cubes of a grid over the skin at shutter open.

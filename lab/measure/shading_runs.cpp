@@ -63,6 +63,8 @@ class Sweep {
             "reference",
             {{"render.integrator", "path"},
              {"image.filter_samples", "splatted"},
+             {"render.skin_ball", "off"},
+             {"render.learned_visibility", "false"},
              {"render.screen_door", "false"}}};
   }
 

@@ -13,9 +13,10 @@ namespace pelage {
 /// So such a ray ends at its first crossing instead of passing through many strands.
 ///
 /// The opaque part of the width is a window. Its place across the strand is a random number of the strand,
-/// and a window that reaches beyond one edge continues at the other. Whatever the rays are, the mean
-/// transmittance over these random numbers is the product of 1 - opacity over the crossings. If all windows
-/// were in the middle of their strands, strands that coincide would cover each other.
+/// and a window that reaches beyond one edge continues at the other. For a ray that crosses each strand at
+/// most once, the mean transmittance over these random numbers is the product of 1 - opacity over the
+/// crossings. Two crossings of one strand share its random number. If all windows were in the middle of their
+/// strands, strands that coincide would cover each other.
 class ScreenDoor {
  public:
   explicit ScreenDoor(uint64_t strand_id, uint32_t part)

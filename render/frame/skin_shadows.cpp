@@ -22,7 +22,9 @@ V3f position_at_open(const Hit& hit, const SkinMesh& triangle) {
 
 SkinShadows::SkinShadows(const RenderScene& scene, const Job& job) : scene_(scene) {
   balls_.resize(scene.skins.size());
-  // Many skins concurrently, if their temporary memory fits; few skins one after the other, with all threads.
+  charges_.resize(scene.skins.size());
+  // Many skins concurrently, if their temporary memory fits; few skins one after the other; only
+  // the search for balls then uses all threads.
   const auto threads = static_cast<size_t>(job.workers.thread_count());
   size_t largest = 0;
   for (const SkinPart& part : scene.skins) largest = std::max(largest, part.skin->temporary_bytes({}));
@@ -31,30 +33,30 @@ SkinShadows::SkinShadows(const RenderScene& scene, const Job& job) : scene_(scen
   if (together) {
     const Workers alone = Workers::alone();
     job.for_each(balls_.size(), 1, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i)
-        balls_[i] = make(scene.skins[i], {alone, job.ledger, job.progress});
+      for (size_t i = range.begin; i < range.end; ++i) balls_[i] = make(i, {alone, job.ledger, job.progress});
     });
   } else {
-    for (size_t i = 0; i < balls_.size(); ++i) balls_[i] = make(scene.skins[i], job);
+    for (size_t i = 0; i < balls_.size(); ++i) balls_[i] = make(i, job);
   }
-  size_t bytes = balls_.size() * sizeof(balls_[0]);
-  for (const auto& balls : balls_) bytes += balls ? balls->bytes() : 0;
-  charge_ = MemoryCharge(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(bytes));
 }
 
-std::unique_ptr<const SkinBalls> SkinShadows::make(const SkinPart& part, const Job& job) const {
+std::unique_ptr<const SkinBalls> SkinShadows::make(size_t skin, const Job& job) {
+  const SkinPart& part = scene_.skins[skin];
   job.check_stop();
   const auto temporary = static_cast<int64_t>(part.skin->temporary_bytes({}));
   MemoryCharge tessellating =
-      reserve(job.ledger, MemoryTag::kSkins, temporary, "tessellating the skin of " + part.name + " for its skin balls");
+      reserve(job.ledger, MemoryTag::kSkins, temporary,
+              "tessellating the skin of " + part.name + " (render.skin_ball: off needs none)");
   const SkinMesh mesh = part.skin->tessellate({}, scene_.camera.view());
   tessellating = {};
+  const std::string purpose = "the skin balls of " + part.name + " (render.skin_ball: off needs none)";
   const auto bytes = static_cast<int64_t>(mesh.bytes() + SkinBalls::temporary_bytes(mesh));
-  const MemoryCharge building =
-      reserve(job.ledger, MemoryTag::kSkins, bytes,
-              "the skin balls of " + part.name + " (render.skin_ball: off needs none)");
+  MemoryCharge building = reserve(job.ledger, MemoryTag::kSkins, bytes, purpose);
   auto balls = std::make_unique<const SkinBalls>(mesh, job);
-  return balls->size() > 0 ? std::move(balls) : nullptr;
+  building = {};
+  if (balls->size() == 0) return nullptr;
+  charges_[skin] = reserve(job.ledger, MemoryTag::kSkins, static_cast<int64_t>(balls->bytes()), purpose);
+  return balls;
 }
 
 SkinShadow SkinShadows::below(const Hit& hit, const HitGeometry& met, float time) const {

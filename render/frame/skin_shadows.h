@@ -27,12 +27,12 @@ class SkinShadows {
   SkinShadow below(const Hit& hit, const HitGeometry& met, float time) const;
 
  private:
-  std::unique_ptr<const SkinBalls> make(const SkinPart& part, const Job& job) const;
+  std::unique_ptr<const SkinBalls> make(size_t skin, const Job& job);
 
   const RenderScene& scene_;
   std::vector<std::unique_ptr<const SkinBalls>> balls_;  // by skin
   std::vector<CoatShell> shells_;                        // by skin
-  MemoryCharge charge_;
+  std::vector<MemoryCharge> charges_;                    // by skin: its balls
 };
 
 }  // namespace pelage

@@ -62,7 +62,7 @@ void VisibilityTable::freeze(LearnedUse use) {
       factors_[i] = static_cast<uint8_t>(std::lround(255 * std::min(factor, 1.0f)));
     }
   }
-  tallies_ = {};
+  std::vector<Tally>().swap(tallies_);
 }
 
 LearnedVisibility VisibilityTable::find(const V3f& position, bool on_strand) const {

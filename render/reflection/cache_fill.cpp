@@ -42,7 +42,11 @@ size_t cells_of_batch(const RenderScene& scene) {
 
 size_t max_cells(const RenderScene& scene) {
   const size_t pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
-  const double paths = std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels));
+  const auto across = [](int side) { return static_cast<double>((side + kSide - 1) / kSide); };
+  // Each tile of each round may round its count of paths up.
+  const double tiles = across(scene.image.width) * across(scene.image.height);
+  const double paths =
+      std::ceil(paths_per_pixel(scene.render) * static_cast<double>(pixels)) + tiles * rounds(scene.render);
   const size_t limit = std::max(kFewestCells, kCellsPerPixel * pixels);
   return static_cast<size_t>(std::min(static_cast<double>(limit), paths * std::tuple_size_v<CellPath>));
 }

@@ -85,6 +85,7 @@ size_t ReflectionTable::insert(uint64_t key, uint64_t outer, uint32_t level) {
   if (found < cells_.size()) return found;
   cells_.push_back({key, outer, 0, 0, level});
   radiance_.resize(cells_.size() * lights_, Rgb(0));
+  most_ = std::max(most_, cells_.size());
   if (2 * cells_.size() > index_.size()) {
     index_again(index_.empty() ? kFewSlots : 2 * index_.size());
   } else {
@@ -97,7 +98,7 @@ size_t ReflectionTable::insert(uint64_t key, uint64_t outer, uint32_t level) {
 }
 
 void ReflectionTable::index_again(size_t slots) {
-  index_ = {};
+  std::vector<uint32_t>().swap(index_);  // before the new one is made
   index_.assign(slots, 0);
   const size_t mask = slots - 1;
   for (size_t i = 0; i < cells_.size(); ++i) {
@@ -108,7 +109,7 @@ void ReflectionTable::index_again(size_t slots) {
 }
 
 size_t ReflectionTable::bytes() const {
-  return index_.size() * sizeof(uint32_t) + cells_.size() * (sizeof(Cell) + lights_ * sizeof(Rgb));
+  return index_.size() * sizeof(uint32_t) + most_ * (sizeof(Cell) + lights_ * sizeof(Rgb));
 }
 
 size_t ReflectionTable::max_bytes(size_t cells, size_t lights) {

@@ -43,8 +43,8 @@ class ReflectionTable {
   const Cell& cell(size_t index) const { return cells_[index]; }
   /// Returns the sums or, after finish(), the estimates of a cell, by light.
   const Rgb* radiance(size_t index) const { return radiance_.data() + index * lights_; }
-  /// Returns the memory of the cells that are stored, in bytes. Reserved memory that was never written does
-  /// not count, because the system has not provided it yet.
+  /// Returns the memory of the cells that were ever stored at the same time, in bytes. Reserved memory that
+  /// was never written does not count, because the system has not provided it yet.
   size_t bytes() const;
   /// Returns an upper bound of bytes() of a table with room for `cells` cells that has no more cells.
   static size_t max_bytes(size_t cells, size_t lights);
@@ -58,6 +58,7 @@ class ReflectionTable {
   uint32_t smallest_ = 0;        // level of the smallest cells
   std::vector<uint32_t> index_;  // open addressing: 1 + index of a cell, or 0; its size is a power of two
   std::vector<Cell> cells_;
+  size_t most_ = 0;            // cells that were ever stored at the same time
   std::vector<Rgb> radiance_;  // by cell and light
 };
 

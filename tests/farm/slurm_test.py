@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A shot on a real Slurm: `pelage farm submit`, and tasks that are killed, stopped, damaged or cancelled. Starts and ends
-its own Slurm on this machine, and therefore runs only as root with PELAGE_SLURM=1, where Slurm is installed.
+its own Slurm on this machine, and therefore runs only as root with PELAGE_SLURM=1, where Slurm is installed. With
+PELAGE_SOAK, the shot has 12 frames.
 Run: slurm_test.py PROGRAM"""
 import json
 import os
@@ -20,7 +21,8 @@ from program_scene import ProgramTest, exr_pixels  # noqa: E402
 ProgramTest.PELAGE = sys.argv.pop(1)
 NEEDED = ("slurmctld", "slurmd", "munged", "sbatch")
 SMALL = ["--set", "image={width: 160, height: 96}", "--set", "render.samples=3000"]
-SHOT = ["-o", "shot.%04d.exr", *SMALL, "--frames", "1-2", "--regions", "2x2", "--threads", "1", "--memory", "500M",
+FRAMES = 12 if os.environ.get("PELAGE_SOAK") else 2
+SHOT = ["-o", "shot.%04d.exr", *SMALL, "--frames", f"1-{FRAMES}", "--regions", "2x2", "--threads", "1", "--memory", "500M",
         "--every", "0.2s"]
 CONFIG = """ClusterName=pelage
 SlurmctldHost=%(host)s(127.0.0.1)
@@ -188,8 +190,8 @@ class SlurmTest(ProgramTest):
     def test_a_shot_survives_what_a_farm_does_to_it(self):
         self.submit()
         tasks = {task["name"]: task for task in json.loads((self.path / "farm/plan.json").read_text())["tasks"]}
-        killed, stopped, cancelled = (tasks[f"render-0001-{place}"] for place in ("r0c0", "r0c1", "r1c0"))
-        element = {"render-0001-r0c0": "render-0001-1", "render-0001-r0c1": "render-0001-2", "render-0001-r1c0": "render-0001-3"}
+        killed, stopped, cancelled = (tasks[f"render-{place}"] for place in ("0001-r0c0", "0001-r0c1", "0002-r1c1"))
+        element = {"render-0001-r0c0": "render-0001-1", "render-0001-r0c1": "render-0001-2", "render-0002-r1c1": "render-0002-4"}
 
         def job(task):
             return self.slurm.jobs().get(element[task["name"]])
@@ -198,25 +200,24 @@ class SlurmTest(ProgramTest):
             self.until(lambda: self.checkpoint(task).exists() or not job(task))
             return self.process_of(",".join(map(str, task["region"])))
 
+        self.slurm.call("scancel", job(cancelled)[0])  # it waits for those of the first frame
         if (process := run_until_saved(killed)):
             os.kill(process, signal.SIGKILL)
         if run_until_saved(stopped):  # what Slurm does ahead of the time limit
             self.slurm.call("scancel", "--batch", "--signal=USR1", job(stopped)[0], check=False)
-        run_until_saved(cancelled)
-        self.slurm.call("scancel", job(cancelled)[0], check=False)
         self.until(lambda: (job(killed) or ["", "", "BeginTime"])[2] == "BeginTime")
         self.checkpoint(killed).write_bytes(self.checkpoint(killed).read_bytes()[:-100])
         self.assertEqual(self.states()[killed["name"]]["state"], "queued again")
         self.finish()
-        self.assertFalse((self.path / "shot.0001.exr").exists())
-        self.assertTrue((self.path / "shot.0002.exr").exists())
+        self.assertTrue((self.path / "shot.0001.exr").exists())
+        self.assertFalse((self.path / "shot.0002.exr").exists())
         log = self.logs()
         self.assertIn("damaged cache file", log)
         self.assertIn("is continued", log)
         states = self.states()
         self.assertEqual(states[cancelled["name"]]["state"], "cancelled")
-        self.assertEqual(states["merge-0001"]["state"], "cancelled")
-        self.assertEqual(states["merge-0002"]["state"], "done")
+        self.assertEqual(states["merge-0001"]["state"], "done")
+        self.assertEqual(states["merge-0002"]["state"], "cancelled")
         self.assertEqual({states[task["name"]]["starts"] for task in (killed, stopped)}, {2})
         finished = {name: (self.path / task["output"]).stat().st_ino for name, task in tasks.items()
                     if "region" in task and task is not cancelled}
@@ -227,10 +228,28 @@ class SlurmTest(ProgramTest):
             self.assertEqual((self.path / tasks[name]["output"]).stat().st_ino, inode, name)
         self.assertEqual(self.logs().count("is finished, skipped"), len(finished))
         self.assertEqual({task["state"] for task in self.states().values()}, {"done"})
-        self.assertIn("10 done", (self.path / "farm/index.html").read_text())
-        self.render(*SMALL, "--frames", "1-2", "-o", "whole.%04d.exr")
-        for frame in ("0001", "0002"):
-            self.assertEqual(exr_pixels(self.path / f"shot.{frame}.exr"), exr_pixels(self.path / f"whole.{frame}.exr"))
+        self.assertIn(f"{5 * FRAMES} done", (self.path / "farm/index.html").read_text())
+        self.check_pictures()
+
+    def check_pictures(self):
+        """Every picture of the shot equals that of one uninterrupted run."""
+        self.render(*SMALL, "--frames", f"1-{FRAMES}", "-o", "whole.%04d.exr")
+        for frame in range(1, FRAMES + 1):
+            self.assertEqual(exr_pixels(self.path / f"shot.{frame:04}.exr"), exr_pixels(self.path / f"whole.{frame:04}.exr"))
+
+    def test_a_full_disk_delays_a_shot(self):
+        pieces = self.path / "farm/pieces"
+        pieces.mkdir(parents=True)
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(pieces)], check=False).returncode:
+            self.skipTest("cannot mount a small disk here")
+        self.addCleanup(subprocess.run, ["umount", "-l", str(pieces)], check=False)
+        self.submit()
+        self.until(lambda: "No space left on device" in self.logs())
+        self.until(lambda: any(job[2] == "BeginTime" for job in self.slurm.jobs().values()))
+        subprocess.run(["mount", "-o", "remount,size=256m", str(pieces)], check=True)
+        self.finish()
+        self.assertEqual({task["state"] for task in self.states().values()}, {"done"})
+        self.check_pictures()
 
     def test_a_cancelled_shot_leaves_the_queue(self):
         self.submit()

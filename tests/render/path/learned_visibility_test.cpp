@@ -68,6 +68,7 @@ TEST(LearnedVisibilityPath, IsRefusedWithoutRoom) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::kMemory);
+    EXPECT_NE(std::string(error.what()).find("learning the visibility"), std::string::npos) << error.what();
   }
 }
 
