@@ -74,13 +74,16 @@ std::string content_of(const std::filesystem::path& path) {
   return file.number() < 0 ? std::string() : content_of(file.number());
 }
 
+/// Whether the last call failed because the file is no longer there.
+bool is_gone() { return errno == ENOENT || errno == ESTALE; }
+
 /// Removes the lease if it still has the content that was seen, and not that of a new holder. Returns false
 /// if the folder does not let this process remove it.
 bool remove_expired(const std::filesystem::path& path, const std::string& content) {
   if (content_of(path) != content) return true;
   const std::filesystem::path aside =
       path.parent_path() / (path.stem().string() + "." + random_name() + path.extension().string());
-  if (::rename(path.c_str(), aside.c_str()) != 0) return errno != EACCES && errno != EPERM;
+  if (::rename(path.c_str(), aside.c_str()) != 0) return is_gone();
   // A new holder may have come between: its lease is put back.
   if (content_of(aside) != content) (void)!::link(aside.c_str(), path.c_str());
   ::unlink(aside.c_str());
@@ -92,13 +95,13 @@ bool remove_expired(const std::filesystem::path& path, const std::string& conten
 bool look(const std::filesystem::path& path, const LeaseTiming& timing, Seen& seen) {
   const Descriptor file(open_again(path));
   struct stat info {};
-  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return errno != EACCES;
+  if (file.number() < 0 || ::fstat(file.number(), &info) != 0) return is_gone();
   std::string content = content_of(file.number());
   const bool is_of_this_machine = content.starts_with(machine_name() + " ");
   // The holder locks the file before it writes its name.
   if (is_of_this_machine && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) {
     if (!still_named(file.number(), path)) return true;
-    return ::unlink(path.c_str()) == 0 || (errno != EACCES && errno != EPERM);
+    return ::unlink(path.c_str()) == 0 || is_gone();
   }
   const auto now = Clock::now();
   if (seen.file != info.st_ino || seen.content != content) {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/counted.h"
@@ -50,11 +51,19 @@ ShellResult run_shell(const std::string& command) {
 
 bool has_program(const std::string& name) { return run_shell("command -v " + name).succeeded; }
 
-/// The elements that the queue has; nothing where there is no Slurm, or it does not answer.
-std::optional<QueuedElements> ask_queue() {
+/// The folder of a shot, without a slash at its end.
+fs::path folder_of_shot(const fs::path& given) {
+  const fs::path folder = fs::absolute(given).lexically_normal();
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+/// The elements that the queue has of the user who submitted the shot; nothing where there is no Slurm, or it
+/// does not answer.
+std::optional<QueuedElements> ask_queue(const fs::path& folder) {
   if (!has_program("squeue")) return {};
-  const ShellResult result =
-      run_shell(fmt::format("squeue -h -r -u {} -o '%F %K %T' 2>/dev/null", ::geteuid()));
+  struct stat jobs {};
+  const uid_t owner = ::stat((folder / "jobs").c_str(), &jobs) == 0 ? jobs.st_uid : ::geteuid();
+  const ShellResult result = run_shell(fmt::format("squeue -h -r -u {} -o '%F %K %T' 2>/dev/null", owner));
   if (!result.succeeded) return {};
   return parse_queue(result.output);
 }
@@ -114,7 +123,7 @@ void write_shot(const fs::path& folder, const FarmPlan& plan, const std::vector<
 }
 
 void check_free(const fs::path& folder) {
-  const auto queue = ask_queue();
+  const auto queue = ask_queue(folder);
   if (queue && !jobs_in_queue(folder, *queue).empty()) {
     throw Error(ErrorKind::kArguments,
                 folder.string() + ": jobs of this shot are still in the queue; `pelage farm cancel " +
@@ -172,7 +181,7 @@ void print_text(const ShotState& shot, const fs::path& folder) {
 }  // namespace
 
 int submit_shot(const Options& options) {
-  const fs::path folder = fs::absolute(options.farm.folder).lexically_normal();
+  const fs::path folder = folder_of_shot(options.farm.folder);
   if (!options.farm.dry_run && !has_program("sbatch")) {
     throw Error(ErrorKind::kFailed,
                 "sbatch is not in PATH: this machine has no Slurm; `pelage farm plan` prints the tasks for "
@@ -212,9 +221,9 @@ int submit_shot(const Options& options) {
 }
 
 int show_shot(const Options& options) {
-  const fs::path folder = fs::absolute(options.input).lexically_normal();
+  const fs::path folder = folder_of_shot(options.input);
   const auto now = static_cast<int64_t>(std::time(nullptr));
-  const ShotState shot = read_shot_state(folder, ask_queue(), now);
+  const ShotState shot = read_shot_state(folder, ask_queue(folder), now);
   const fs::path page = folder / "index.html";
   write_file(page, shot_page(shot, folder, update_thumbnails(shot, folder), now));
   if (options.farm.json) {
@@ -227,11 +236,11 @@ int show_shot(const Options& options) {
 }
 
 int cancel_shot(const Options& options) {
-  const fs::path folder = fs::absolute(options.input).lexically_normal();
+  const fs::path folder = folder_of_shot(options.input);
   read_shot_state(folder, {}, 0);  // refuses other folders
   if (!has_program("scancel"))
     throw Error(ErrorKind::kFailed, "scancel is not in PATH: this machine has no Slurm");
-  const std::optional<QueuedElements> queue = ask_queue();
+  const std::optional<QueuedElements> queue = ask_queue(folder);
   if (!queue) throw Error(ErrorKind::kFailed, "the queue does not answer; nothing was cancelled");
   const std::set<int64_t> jobs = jobs_in_queue(folder, *queue);
   for (const int64_t job : jobs) {

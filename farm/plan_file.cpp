@@ -68,6 +68,11 @@ FarmPlan parse_plan(const std::string& text, const std::filesystem::path& path) 
       const FarmTask& added = plan.tasks.back();
       if (!is_plain_name(added.name) || !names.insert(added.name).second)
         refuse("the name of a task is not valid: " + added.name);
+      for (const std::string& before : added.after) {
+        if (before == added.name || !names.contains(before))
+          refuse("task " + added.name + " comes after " + before + ", which is not before it in the list");
+      }
+      if (added.region && !added.frame) refuse("task " + added.name + " has a region but no frame");
       plan.threads = task.value("threads", 0);
     }
   } catch (const Json::exception& error) {

@@ -67,8 +67,18 @@ std::string log_name(const SlurmJob& job, size_t element) {
 
 std::string task_list(const FarmPlan& plan, const SlurmJob& job) {
   std::string text;
-  for (const size_t task : job.tasks)
-    text += plan.tasks[task].name + " " + shell_line(plan.tasks[task].command) + "\n";
+  for (const size_t task : job.tasks) {
+    text += plan.tasks[task].name + " ";
+    // A line per task: bash reads a line feed, which shell_line() put between quotes, as $'\n'.
+    for (const char c : shell_line(plan.tasks[task].command)) {
+      if (c == '\n') {
+        text += "'$'\\n''";
+      } else {
+        text += c;
+      }
+    }
+    text += "\n";
+  }
   return text;
 }
 
@@ -78,10 +88,12 @@ std::string task_script(const SlurmParams& params) {
 # is cancelled (SIGTERM); both write a checkpoint. Queues it again if it was stopped or killed, but not if it was cancelled.
 folder={0}
 read -r name command < <(sed -n "${{SLURM_ARRAY_TASK_ID}}p" "$1")
+[ "$command" ] || {{ echo "$1 has no line $SLURM_ARRAY_TASK_ID" >&2; exit 1; }}
 note() {{ echo "$(date +%s) $*" >> "$folder/state/$name"; }}
-note start "${{SLURM_RESTART_COUNT:-0}}" "$(hostname -s)" "$SLURM_JOB_ID"
-trap 'signalled=1; note warned; kill -TERM $child' USR1
-trap 'signalled=1; cancelled=1; kill -TERM $child' TERM
+note start "${{SLURM_RESTART_COUNT:-0}}" "${{SLURMD_NODENAME:-$(hostname)}}" "$SLURM_JOB_ID"
+trap 'signalled=1; warned=1; note warned; kill -TERM $child' USR1
+# Slurm also sends SIGTERM at the time limit, to a task that was warned and still writes its checkpoint.
+trap 'signalled=1; [ "$warned" ] || cancelled=1; kill -TERM $child' TERM
 eval "exec $command" &   # exec: signals must reach the command itself
 child=$!
 while :; do
@@ -96,7 +108,8 @@ case $code in
       note cancelled
     elif [ "${{SLURM_RESTART_COUNT:-0}}" -lt {1} ]; then
       note requeued
-      scontrol requeue "$SLURM_JOB_ID"
+      # The number of a job alone may mean the whole array.
+      scontrol requeue "${{SLURM_ARRAY_JOB_ID}}_${{SLURM_ARRAY_TASK_ID}}" || note end "$code"
     fi ;;
 esac
 exit "$code"
@@ -113,9 +126,9 @@ folder={0}
 cd {1}
 submit() {{   # NAME ELEMENTS DEPENDENCY OPTION...: sets $id
   local name=$1 elements=$2 after=$3; shift 3
-  id=$(sbatch --parsable --job-name="$name" --array="1-$elements" --chdir={1} --output="$folder/logs/%x-%a.txt" \
+  id=$(sbatch --parsable --job-name="$name" --array="1-$elements" --chdir={1} --output="${{folder//%/%%}}/logs/%x-%a.txt" \
     --open-mode=append --requeue --signal=B:USR1@{2} ${{after:+--dependency="$after" --kill-on-invalid-dep=yes}} \
-    {3} "$@" "$folder/task.sh" "$folder/tasks/$name")
+    "$@" {3} "$folder/task.sh" "$folder/tasks/$name")
   id=${{id%%;*}}
   echo "$id $name" >> "$folder/jobs"
 }}

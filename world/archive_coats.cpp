@@ -70,7 +70,8 @@ Request parse(const RibOwnProcedural& own, const SceneDescription& picture, cons
   const std::string name = print_hair_arguments(key);
   std::shared_ptr<const ArchiveScene>& scene = scenes[name];
   const auto known = before.find(name);
-  if (!scene && known != before.end()) scene = known->second;
+  if (!scene && known != before.end() && known->second->scene.camera.shutter == picture.camera.shutter)
+    scene = known->second;
   if (!scene) {
     try {
       scene = open_scene(path, key, picture, job);

@@ -169,6 +169,14 @@ TEST(Lease, GivesUpWhereNoFileCanBeMade) {
   EXPECT_EQ(Lease::take("/proc/none/.a.lock", kGoOn, kLong), nullptr);
 }
 
+TEST(Lease, GivesUpWhereItCannotBeRead) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "entry.lock");
+  EXPECT_EQ(Lease::take(
+                folder.path() / "entry.lock", [] { return false; }, std::chrono::hours(1)),
+            nullptr);
+}
+
 TEST(Lease, GivesUpWhenCancelled) {
   const TemporaryFolder folder;
   write_foreign(folder.path() / ".a.lock", "elsewhere 7 1234\n3\n");

@@ -24,7 +24,7 @@ number=$(($(cat "$FAKE/number" 2>/dev/null || echo 100) + 1)); echo $number > "$
 for ((i = 1; i <= last; i++)); do
   rm -f "$FAKE/again"; restarts=0
   while :; do
-    SLURM_ARRAY_TASK_ID=$i SLURM_JOB_ID=$number SLURM_RESTART_COUNT=$restarts bash "$@" >> "$FAKE/log" 2>&1
+    SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_JOB_ID=$number SLURM_JOB_ID=$number SLURM_RESTART_COUNT=$restarts bash "$@" >> "$FAKE/log" 2>&1
     [ -e "$FAKE/again" ] || break
     rm "$FAKE/again"; restarts=$((restarts + 1))
   done
@@ -43,7 +43,7 @@ class FarmSubmit(ProgramTest):
         os.environ["PATH"] = f"{self.bin}:{self.old}"
         self.addCleanup(os.environ.__setitem__, "PATH", self.old)
         self.fake("sbatch", SBATCH)
-        self.fake("scontrol", '#!/bin/sh\ntouch "$FAKE/again"\n')
+        self.fake("scontrol", '#!/bin/sh\necho "$@" > "$FAKE/again"\n')
         self.fake("squeue", '#!/bin/sh\ncat "$FAKE/queue" 2>/dev/null\nexit 0\n')
         self.fake("scancel", '#!/bin/sh\necho "$@" >> "$FAKE/cancelled"\n: > "$FAKE/queue"\n')
 
@@ -85,8 +85,9 @@ class FarmSubmit(ProgramTest):
         tasks = self.path / "farm/tasks/render-part0"
         tasks.write_text(tasks.read_text().replace(str(self.PELAGE), str(self.bin / "pelage"), 1))
         (self.path / "farm/state/render-0001").unlink()
-        os.environ["SLURM_ARRAY_TASK_ID"] = "1"
+        os.environ.update(SLURM_ARRAY_TASK_ID="1", SLURM_ARRAY_JOB_ID="101")
         self.addCleanup(os.environ.pop, "SLURM_ARRAY_TASK_ID")
+        self.addCleanup(os.environ.pop, "SLURM_ARRAY_JOB_ID")
         for _ in range(2):  # killed, and then queued again
             os.spawnlp(os.P_WAIT, "bash", "bash", str(self.path / "farm/task.sh"), str(tasks))
         events = (self.path / "farm/state/render-0001").read_text()
@@ -95,7 +96,9 @@ class FarmSubmit(ProgramTest):
         page = self.farm("status", "farm") and (self.path / "farm/index.html").read_text()
         self.assertIn("started 2 times", page)
 
-        (self.bin / "again").unlink()  # by scontrol requeue
+        again = self.bin / "again"  # by scontrol
+        self.assertEqual(again.read_text(), "requeue 101_1\n")  # not the whole array
+        again.unlink()
 
         (self.path / "scene.yaml").write_text("nonsense")
         self.farm("submit", "scene.yaml", *SHOT, code=3)  # refused before anything is submitted

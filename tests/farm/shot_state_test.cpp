@@ -48,6 +48,10 @@ TEST(ShotState, DamagedPlansAreRefusedByName) {
   std::string hostile = text;
   hostile.replace(hostile.find("render-0001-r0c0"), 16, "../../etc/passwd");
   EXPECT_THROW(parse_plan(hostile, "plan.json"), Error);
+  // A task that does not exist.
+  hostile = text;
+  hostile.replace(hostile.rfind("render-0001-r0c0"), 16, "render-0009-r0c0");
+  EXPECT_THROW(parse_plan(hostile, "plan.json"), Error);
 }
 
 TEST(ShotState, EventsTellWhatHasHappened) {

@@ -71,6 +71,14 @@ TEST(SlurmJobs, EachLineOfAListIsATask) {
   EXPECT_EQ(log_name(jobs[0], 1), "logs/render-0001-2.txt");
 }
 
+TEST(SlurmJobs, ALineFeedInAnArgumentStaysInItsLine) {
+  FarmPlan shot = plan(1, 2);
+  shot.tasks[0].command.push_back("a: {\n b: 1}");
+  const std::string list = task_list(shot, slurm_jobs(shot)[0]);
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2);
+  EXPECT_NE(list.find("'a: {'$'\\n'' b: 1}'"), std::string::npos) << list;
+}
+
 TEST(SlurmJobs, TheScriptSubmitsInOrderWithMemoryAndOptions) {
   const FarmPlan shot = plan(1, 2, true);
   const std::string script = submit_script(shot, slurm_jobs(shot), params());
