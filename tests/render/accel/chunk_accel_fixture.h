@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <string_view>
 
 #include <gtest/gtest.h>
@@ -122,6 +123,28 @@ class ChunkAccelTest : public testing::Test {
     EXPECT_GT(strands, rays / 20);
     EXPECT_GT(lit, rays / 20);
     EXPECT_LT(strands + skins, rays);
+  }
+
+  /// A skin which the ray along_z(x) meets at the same distance, bit by bit, as the first strand of ladder().
+  /// Embree rounds distances of triangles and of curves differently, depending on the instruction set.
+  SkinMesh quad_as_far_as_strand(float x) {
+    const auto distance = [&](const TestChunks& chunks) {
+      TraceThread thread;
+      return make(chunks, chunks.bounds(4))->closest(along_z(x), thread).distance;
+    };
+    TestChunks strand;
+    strand.add_fur(ladder(1), 0);
+    const float wanted = distance(strand);
+    for (int step = 0; step <= 40; ++step) {
+      for (const float sign : {1.0f, -1.0f}) {
+        TestChunks skin;
+        skin.add_skin(quad(sign * static_cast<float>(step) * 0.25f * std::numeric_limits<float>::epsilon()),
+                      0);
+        if (distance(skin) == wanted) return std::get<SkinMesh>(skin.contents[0].geometry);
+      }
+    }
+    ADD_FAILURE() << "no skin has the distance of the strand at x = " << x;
+    return quad(0);
   }
 
   /// From within the scene of random_chunks().

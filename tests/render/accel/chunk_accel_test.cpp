@@ -50,15 +50,16 @@ TEST_F(ChunkAccelTest, RoundStrandsAnswerAsOneScene) {
 }
 
 TEST_F(ChunkAccelTest, EqualDistancesAreDecidedByStrandIdAcrossChunks) {
-  for (int order = 0; order < 4; ++order) {
-    TestChunks chunks;
-    if (order & 2) chunks.add_skin(quad(0), 0);  // at the depth of the first strand
-    chunks.add_fur(ladder(2, order & 1 ? 8 : 3), 0);
-    chunks.add_fur(ladder(2, order & 1 ? 3 : 8), 0);
-    if (!(order & 2)) chunks.add_skin(quad(0), 0);
-    const auto accel = make(chunks, chunks.bounds(4));
-    TraceThread thread;
-    for (float x = 0.1f; x < 6.9f; x += 0.05f) {
+  for (float x = 0.1f; x < 6.9f; x += 0.05f) {
+    const SkinMesh skin = quad_as_far_as_strand(x);
+    for (int order = 0; order < 4; ++order) {
+      TestChunks chunks;
+      if (order & 2) chunks.add_skin(skin, 0);
+      chunks.add_fur(ladder(2, order & 1 ? 8 : 3), 0);
+      chunks.add_fur(ladder(2, order & 1 ? 3 : 8), 0);
+      if (!(order & 2)) chunks.add_skin(skin, 0);
+      const auto accel = make(chunks, chunks.bounds(4));
+      TraceThread thread;
       const Hit hit = accel->closest(along_z(x), thread);
       ASSERT_EQ(hit.kind, HitKind::kStrand) << x;
       EXPECT_EQ(hit.strand_id, 3u) << x;
