@@ -10,13 +10,23 @@ target_precompile_headers(pelage_headers PRIVATE
   <string> <string_view> <utility> <variant> <vector>
   <Imath/ImathBox.h> <Imath/ImathColor.h> <Imath/ImathMatrix.h> <Imath/ImathVec.h>)
 
-# pelage_library(NAME SOURCES ... DEPS rooms... [PUBLIC_LIBS dep...] [PRIVATE_LIBS dep...])
+# Builds with a sanitizer compile eight sources as one, which takes less than half the time. A source listed after
+# ALONE is compiled by itself, because another source of the room has a private name in common with it.
+function(pelage_join_sources target)
+  if(PELAGE_SANITIZE)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
+# pelage_library(NAME SOURCES ... [ALONE ...] DEPS rooms... [PUBLIC_LIBS dep...] [PRIVATE_LIBS dep...])
 # One room as a static library, target pelage_NAME, alias pelage::NAME. DEPS are lower rooms; PUBLIC_LIBS are
 # libraries whose headers our headers show (only Imath, as a rule), PRIVATE_LIBS those that stay inside.
 function(pelage_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;PUBLIC_LIBS;PRIVATE_LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;PUBLIC_LIBS;PRIVATE_LIBS" ${ARGN})
   add_library(pelage_${name} STATIC ${ARG_SOURCES})
   add_library(pelage::${name} ALIAS pelage_${name})
+  pelage_join_sources(pelage_${name} ${ARG_ALONE})
   target_precompile_headers(pelage_${name} REUSE_FROM pelage_headers)
   set_target_properties(pelage_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(pelage_${name} PUBLIC
@@ -34,8 +44,9 @@ endfunction()
 # One test program. Every TEST in it becomes a test of CTest's own; with a sanitizer, where every start of a program
 # costs more than most tests, CTest runs it in a few shards.
 function(pelage_test_program target room label)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;DEPS;LIBS" ${ARGN})
   add_executable(${target} ${ARG_SOURCES})
+  pelage_join_sources(${target} ${ARG_ALONE})
   list(TRANSFORM ARG_DEPS PREPEND pelage_)
   list(TRANSFORM ARG_LIBS PREPEND pelage::dep_)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
@@ -66,8 +77,8 @@ endforeach()
   endforeach()
 endfunction()
 
-# pelage_test(ROOM [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [DEPS rooms...] [LIBS dep...]
-#             [LABEL unit|slow])
+# pelage_test(ROOM [SOURCES ...] [THREADED ...] [STATISTICS ...] [SUPPORT ...] [ALONE ...] [DEPS rooms...]
+#             [LIBS dep...] [LABEL unit|slow])
 # The tests of a room. A source belongs to one of three lists, and so to the builds that can find something in it:
 #   SOURCES     what one thread computes: release and the address sanitizer
 #   THREADED    what several threads share: these two and the thread sanitizer
@@ -75,7 +86,7 @@ endfunction()
 #               code are among the others
 # SUPPORT is compiled into every program of the room.
 function(pelage_test room)
-  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;THREADED;STATISTICS;SUPPORT;ALONE;DEPS;LIBS" ${ARGN})
   if(NOT ARG_LABEL)
     set(ARG_LABEL unit)
   endif()
@@ -84,7 +95,7 @@ function(pelage_test room)
     list(APPEND sources ${ARG_SOURCES})
   endif()
   if(sources)
-    pelage_test_program(test_${room} ${room} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} DEPS ${ARG_DEPS}
+    pelage_test_program(test_${room} ${room} ${ARG_LABEL} SOURCES ${sources} ${ARG_SUPPORT} ALONE ${ARG_ALONE} DEPS ${ARG_DEPS}
                         LIBS ${ARG_LIBS})
   endif()
   if(ARG_STATISTICS AND NOT PELAGE_SANITIZE)
