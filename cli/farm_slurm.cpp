@@ -105,6 +105,41 @@ SlurmParams slurm_params(const Options& options, const fs::path& folder, const R
   return params;
 }
 
+/// CPU seconds of the shot, roughly.
+struct ShotCost {
+  double whole_s = 0;     ///< if its frames were not divided
+  double repeated_s = 0;  ///< that regions add, at most: each starts up, measures boxes and grows all chunks
+};
+
+ShotCost cost_of(const FarmRequest& request, const RunEstimate& estimate) {
+  const auto sampled = static_cast<double>(estimate.frames.size());
+  double repeated_s = estimate.loading_cpu_s + estimate.posing_cpu_s / sampled;
+  for (const FrameEstimate& frame : estimate.estimates)
+    repeated_s += ((request.grows ? 0 : frame.measuring_cpu_s) + frame.growing_cpu_s) / sampled;
+  const auto regions = divide_picture(request.width, request.height, request.columns, request.rows).size();
+  const auto frames = static_cast<double>(request.frames.size());
+  ShotCost cost;
+  for (size_t i = 0; i < estimate.frames.size(); ++i) cost.whole_s += estimate.cpu_s(i) * frames / sampled;
+  cost.repeated_s = repeated_s * static_cast<double>(regions - 1) * frames;
+  return cost;
+}
+
+void print_submitted(const std::string& folder, const FarmPlan& plan, size_t jobs, const SlurmParams& params,
+                     const ShotCost& cost, bool caches) {
+  std::cout << fmt::format(
+      "{}: {} in {}; {} reserved for each render, about {} of CPU time in all\n", params.folder,
+      counted(static_cast<int64_t>(plan.tasks.size()), "task"), counted(static_cast<int64_t>(jobs), "job"),
+      memory_text(static_cast<int64_t>(params.render_bytes)), duration_text(cost.whole_s + cost.repeated_s));
+  constexpr double kMuch = 0.1;
+  if (!caches && cost.repeated_s > kMuch * cost.whole_s) {
+    std::cout << fmt::format(
+        "up to {:.0f} % of the CPU time is what regions repeat; a `cache` in each groom and render.bvh.file "
+        "save most of it\n",
+        100 * cost.repeated_s / (cost.whole_s + cost.repeated_s));
+  }
+  std::cout << "pelage farm status " << shell_line({folder}) << "\n";
+}
+
 void print_scripts(const FarmPlan& plan, const std::vector<SlurmJob>& jobs, const SlurmParams& params) {
   std::cout << "# " << params.folder << "/task.sh\n" << task_script(params) << "\n";
   for (const SlurmJob& job : jobs)
@@ -210,13 +245,7 @@ int submit_shot(const Options& options) {
                                         "; `pelage farm cancel " + folder.string() +
                                         "` cancels those that it did");
   }
-  const double cpu_s = estimate.cpu_s() / static_cast<double>(estimate.frames.size()) *
-                       static_cast<double>(request.frames.size());
-  std::cout << fmt::format("{}: {} in {}; {} reserved for each render, about {} of CPU time in all\n",
-                           folder.string(), counted(static_cast<int64_t>(plan.tasks.size()), "task"),
-                           counted(static_cast<int64_t>(jobs.size()), "job"),
-                           memory_text(static_cast<int64_t>(params.render_bytes)), duration_text(cpu_s));
-  std::cout << "pelage farm status " << shell_line({options.farm.folder}) << "\n";
+  print_submitted(options.farm.folder, plan, jobs.size(), params, cost_of(request, estimate), request.grows);
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "cli/output_files.h"
 #include "cli/run.h"
 #include "post/merge_pieces.h"
+#include "post/piece_headers.h"
 
 namespace pelage {
 
@@ -18,6 +19,10 @@ int run_merge(const Options& options) {
     throw Error(ErrorKind::kArguments, "-o " + options.output + ": merged pictures are written as .exr");
   const std::vector<std::filesystem::path> pieces(options.pieces.begin(), options.pieces.end());
   check_replaces_none("-o", options.output, pieces);
+  if (is_merged(pieces, options.output, options.merge.any_instructions)) {
+    run.display().note(options.output + "  is finished, skipped");
+    return 0;
+  }
   prepare_output(options.output);
   const PixelBox frame = merge_pieces(pieces, options.output, options.merge, run.job());
   if (frame.width() == 0) return SignalGuard::exit_code();

@@ -40,26 +40,28 @@ std::string escaped(const std::string& name) {
   return result;
 }
 
-FarmTask grow_task(const FarmRequest& request) {
+/// Fills the caches of the scene, and measures the boxes of a frame.
+FarmTask grow_task(const FarmRequest& request, const std::string& name, int frame) {
   FarmTask task;
-  task.name = "grow";
+  task.name = name;
   task.command = {request.program, "grow", request.scene};
   append(task.command, request.arguments);
-  append(task.command, {"--frames", print_frames({request.frames})});
+  append(task.command, {"--frames", fmt::format("{}", frame)});
   append(task.command, request.flags);
   task.memory = request.memory;
   return task;
 }
 
 FarmTask render_task(const FarmRequest& request, int frame, const std::string& suffix,
-                     const std::optional<PixelBox>& region, const std::string& output) {
+                     const std::optional<PixelBox>& region, const std::string& output,
+                     const std::string& after) {
   FarmTask task;
   const std::string name = fmt::format("{:04}{}", frame, suffix);
   task.name = "render-" + name;
   task.frame = frame;
   task.region = region;
   task.output = output;
-  if (request.grows) task.after = {"grow"};
+  if (!after.empty()) task.after = {after};
   task.command = {request.program, "render", request.scene};
   append(task.command, request.arguments);
   append(task.command, {"--frames", fmt::format("{}", frame), "-o", escaped(output)});
@@ -80,6 +82,12 @@ FarmTask render_task(const FarmRequest& request, int frame, const std::string& s
 
 void add_regions(const FarmRequest& request, int frame, const std::vector<PixelBox>& boxes,
                  std::vector<FarmTask>& tasks) {
+  std::string grown = request.grows ? "grow" : "";
+  if (request.grows && frame != request.frames.front()) {
+    grown = fmt::format("grow-{:04}", frame);
+    tasks.push_back(grow_task(request, grown, frame));
+    tasks.back().after = {"grow"};
+  }
   FarmTask merge;
   merge.name = fmt::format("merge-{:04}", frame);
   merge.frame = frame;
@@ -90,7 +98,7 @@ void add_regions(const FarmRequest& request, int frame, const std::vector<PixelB
   for (size_t i = 0; i < boxes.size(); ++i) {
     const std::string suffix = fmt::format("-r{}c{}", i / columns, i % columns);
     const std::string piece = in_folder(request, fmt::format("pieces/{:04}{}.exr", frame, suffix));
-    tasks.push_back(render_task(request, frame, suffix, boxes[i], piece));
+    tasks.push_back(render_task(request, frame, suffix, boxes[i], piece, grown));
     merge.after.push_back(tasks.back().name);
     merge.command.push_back(piece);
   }
@@ -114,12 +122,13 @@ std::vector<FarmTask> make_farm_plan(const FarmRequest& request) {
   const std::vector<PixelBox> boxes =
       divide_picture(request.width, request.height, request.columns, request.rows);
   std::vector<FarmTask> tasks;
-  if (request.grows) tasks.push_back(grow_task(request));
+  if (request.grows) tasks.push_back(grow_task(request, "grow", request.frames.front()));
   for (const int frame : request.frames) {
     if (boxes.size() > 1) {
       add_regions(request, frame, boxes, tasks);
     } else {
-      tasks.push_back(render_task(request, frame, "", {}, frame_file_name(request.output, frame)));
+      tasks.push_back(render_task(request, frame, "", {}, frame_file_name(request.output, frame),
+                                  request.grows ? "grow" : ""));
     }
   }
   return tasks;

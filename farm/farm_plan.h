@@ -22,7 +22,7 @@ struct FarmRequest {
   int width = 0, height = 0;  ///< of the picture, in pixels
   int columns = 1, rows = 1;  ///< regions that a picture is divided into
   uint64_t memory = 0;        ///< budget of each task that reads the scene (render.memory), in bytes
-  bool grows = false;         ///< whether a first task fills the caches of the scene
+  bool grows = false;         ///< whether tasks fill the caches of the scene first
   bool saves = true;          ///< whether frames can have checkpoints, see check_saving()
   double every_s = 60;        ///< seconds between two checkpoints
 };
@@ -30,12 +30,12 @@ struct FarmRequest {
 /// A command that one machine runs. It can be run again after any failure: a render continues from its
 /// checkpoint, and a finished one ends at once.
 struct FarmTask {
-  std::string name;  ///< "grow", "render-0001", "render-0001-r0c1" or "merge-0001"
+  std::string name;  ///< "grow", "grow-0002", "render-0001", "render-0001-r0c1" or "merge-0001"
   std::optional<int> frame = {};
   std::optional<PixelBox> region = {};
   std::vector<std::string> command;  ///< program and arguments
   std::vector<std::string> after;    ///< names of the tasks that must be finished before
-  std::string output;                ///< file that the task writes; empty for "grow"
+  std::string output;                ///< picture that the task writes; empty for "grow"
   uint64_t memory = 0;               ///< its memory budget in bytes; 0 for "merge"
 };
 
@@ -44,7 +44,9 @@ struct FarmTask {
 /// boxes.
 std::vector<PixelBox> divide_picture(int width, int height, int columns, int rows);
 
-/// Returns the tasks of a request, each after the tasks that it depends on.
+/// Returns the tasks of a request, each after the tasks that it depends on. The task "grow" fills the caches
+/// of the scene and measures the boxes of the first frame. Where frames are divided, a task "grow-NNNN"
+/// measures the boxes of each other frame, which its regions share; else each render measures its own.
 std::vector<FarmTask> make_farm_plan(const FarmRequest& request);
 
 /// Returns a command as a line for a POSIX shell.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/bounding.h"
 
+#include <optional>
+
 #include "procedurals/measured_bounds.h"
 
 namespace pelage {
@@ -51,6 +53,7 @@ std::vector<ChunkBounds> bound_chunks(const BoundingOptions& options,
   if (measures_strands(options.strategy)) {
     MeasuredBounds measured(options, chunks, [&](const std::string& line) { job.progress.warn(line); });
     measured.read(job);
+    const std::optional<ContentStore::Lock> lock = measured.lock(job);
     measured.measure(job);
     found = measured.counts();
     bounds = std::move(measured).bounds();

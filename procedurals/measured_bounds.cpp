@@ -11,7 +11,6 @@
 #include "procedurals/segment_parts.h"
 
 namespace pelage {
-namespace {}  // namespace
 
 size_t measuring_bytes(const StrandCounts& counts) {
   return (counts.points * counts.motion_keys * 4 + counts.attribute_floats) * sizeof(float) +
@@ -68,11 +67,19 @@ void MeasuredBounds::drop_parts(uint32_t chunk) {
   if (options_.in_one_part) bounds_[chunk] = std::move(bounds_[chunk]).in_one_part();
 }
 
-void MeasuredBounds::read(const Job& job) {
+bool MeasuredBounds::is_known(const BoundsGroup& group) const {
+  return std::any_of(group.chunks.begin(), group.chunks.end(),
+                     [&](uint32_t chunk) { return chunk != kNone && known_[chunk]; });
+}
+
+void MeasuredBounds::read(const Job& job) { read(job, warn_); }
+
+void MeasuredBounds::read(const Job& job, const WarningSink& warn) {
   job.workers.for_each(groups_.size(), 1, [&](WorkRange range) {
     for (size_t f = range.begin; f < range.end && !job.progress.cancelled(); ++f) {
       const BoundsGroup& group = groups_[f];
-      std::vector<ChunkBounds> read = read_bounds(group.record, span_, keys_, warn_);
+      if (is_known(group)) continue;
+      std::vector<ChunkBounds> read = read_bounds(group.record, span_, keys_, warn);
       for (size_t i = 0; i < read.size(); ++i) {
         const uint32_t chunk = group.chunks[i];
         if (chunk == kNone) continue;
@@ -83,6 +90,21 @@ void MeasuredBounds::read(const Job& job) {
       }
     }
   });
+}
+
+std::optional<ContentStore::Lock> MeasuredBounds::lock(const Job& job) {
+  const ContentStore* store = nullptr;
+  ContentHasher missing;
+  missing.add(span_).add(keys_);
+  for (const BoundsGroup& group : groups_) {
+    if (!group.is_complete() || is_known(group)) continue;
+    store = group.record.store.get();
+    missing.add(group.record.key).add(static_cast<uint64_t>(group.record.count));
+  }
+  if (!store) return {};
+  ContentStore::Lock lock = store->lock("boxes", missing.digest(), [&] { return job.progress.cancelled(); });
+  read(job, [](const std::string&) {});  // read() has warned of damaged files
+  return lock;
 }
 
 void MeasuredBounds::measure(const Job& job) {

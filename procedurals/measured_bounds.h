@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace pelage {
 
 /// Determines the boxes of chunks for bound_chunks(), for strategies that measure strands. The boxes of a
 /// chunk are read from a side file that an earlier run wrote; otherwise the chunk is grown and measured. Call
-/// read(), then measure(), then use the results. Warns only once if side files cannot be written.
+/// read(), then lock(), then measure(), then use the results. Warns only once if side files cannot be
+/// written.
 class MeasuredBounds {
  public:
   MeasuredBounds(const BoundingOptions& options, std::span<const Procedural* const> chunks,
@@ -22,6 +24,10 @@ class MeasuredBounds {
 
   /// Reads the boxes of all chunks for which earlier runs wrote side files.
   void read(const Job& job);
+  /// Waits while another process measures the same boxes, and reads what it has written. Hold the lock during
+  /// measure(), so that other processes wait for this one. Empty if no side file is missing. Processes wait
+  /// for each other only if the same files are missing for both, as for the regions of a frame.
+  std::optional<ContentStore::Lock> lock(const Job& job);
   /// Grows and measures the other chunks. Writes each side file as soon as the boxes of all its chunks are
   /// known. Writes a file only if all chunks that belong in it are among `chunks`.
   void measure(const Job& job);
@@ -40,6 +46,8 @@ class MeasuredBounds {
   };
 
   void find_groups();
+  bool is_known(const BoundsGroup& group) const;
+  void read(const Job& job, const WarningSink& warn);
   void keep(uint32_t chunk, ChunkBounds bounds);
   void drop_parts(uint32_t chunk);
   void mark_known(uint32_t chunk);

@@ -3,6 +3,7 @@
 #include "render/frame_estimate.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -29,6 +30,9 @@ constexpr int64_t kLibraries = int64_t{8} << 20, kThread = int64_t{2} << 20;
 constexpr int kSampledFur = 24, kSampledSkins = 8;  // chunks to grow
 // Rough CPU seconds: of a channel of a pixel in a file, of a camera sample, and of each bounce after it.
 constexpr double kWrittenValue_s = 1e-7;
+// Rays per chunk for which two thirds of the memory of all chunks is needed: half as many rays as were
+// measured in crowds with few samples (docs/lab/FARM.md), so that the estimate is rather too large.
+constexpr double kRaysToReach = 5;
 constexpr double kPathSample_s = 4e-6, kPathBounce_s = 2e-6, kGatherSample_s = 2.5e-6;
 
 /// A kind of chunk, fur or skin: its chunks are `first` to `last` - 1.
@@ -158,9 +162,20 @@ void add_chunks(const RenderScene& scene, const FrameChunks& chunks, const Job& 
   add_measuring(scene, chunks, job, fur, estimate);
 }
 
+double sample_count(const RenderScene& scene, const PixelBox& pixels) {
+  return double(pixels.width()) * pixels.height() * scene.render.samples;
+}
+
+/// Fraction of the memory of all chunks that rays need. It is below 1 only if there are few rays for each
+/// chunk, as in a preview of a crowd.
+double reached_fraction(const RenderScene& scene, const PixelBox& pixels, int64_t chunks) {
+  const double rays = sample_count(scene, pixels) * 2 * (1 + scene.render.bounces);
+  return 1 - std::exp(-rays / (kRaysToReach * static_cast<double>(std::max<int64_t>(1, chunks))));
+}
+
 double tracing_s(const RenderScene& scene, const PixelBox& pixels) {
   const RenderParams& render = scene.render;
-  const double samples = double(pixels.width()) * pixels.height() * render.samples;
+  const double samples = sample_count(scene, pixels);
   return samples * (render.integrator == Integrator::kGather
                         ? kGatherSample_s
                         : kPathSample_s + kPathBounce_s * std::min(render.bounces, 4));
@@ -194,6 +209,8 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   const int64_t taken = job.ledger.budgeted();
   chunks.bound_coarsely();
   add_chunks(scene, chunks, job, estimate);
+  estimate.chunk_bytes = static_cast<int64_t>(reached_fraction(scene, window.traced, estimate.chunks) *
+                                              static_cast<double>(estimate.chunk_bytes));
   if (const int64_t limit = job.ledger.limit(); limit > 0) {
     const int64_t room = std::max<int64_t>(0, limit - taken - estimate.box_bytes);
     estimate.fits = estimate.chunk_bytes <= room;

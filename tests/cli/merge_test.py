@@ -54,6 +54,16 @@ class MergeTest(ProgramTest):
         self.render("-o", names[1], "--region", REGIONS[1], "--set", "render.seed=9")
         self.assertIn("piece1.exr: `pelage:sceneHash`", self.run_pelage("merge", *names, "-o", "m.exr", code=3)[1])
 
+    def test_a_finished_picture_is_left(self):
+        names = self.pieces()
+        merge = ("merge", *names, "-o", "m.exr")
+        self.assertNotIn("skipped", self.run_pelage(*merge)[1])
+        inode = (self.path / "m.exr").stat().st_ino
+        self.assertIn("m.exr  is finished, skipped", self.run_pelage(*merge)[1])
+        self.assertEqual((self.path / "m.exr").stat().st_ino, inode)
+        self.render("-o", names[0], "--region", REGIONS[0])  # a piece is newer
+        self.assertNotIn("skipped", self.run_pelage(*merge)[1])
+
     def test_a_piece_is_not_overwritten(self):
         names = self.pieces()
         self.run_pelage("merge", *names, "-o", names[0], code=2)

@@ -44,9 +44,9 @@ TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
   regions.flags = {"--threads", "3"};
   regions.memory = 1000;
   const std::vector<FarmTask> tasks = make_farm_plan(regions);
-  ASSERT_EQ(tasks.size(), 1u + 3 * 5);
+  ASSERT_EQ(tasks.size(), 3u * 6);
   EXPECT_EQ(shell_line(tasks[0].command),
-            "pelage grow rat.yaml --set render.samples=4 --frames 1,2,4 --threads 3");
+            "pelage grow rat.yaml --set render.samples=4 --frames 1 --threads 3");
   EXPECT_EQ(tasks[1].name, "render-0001-r0c0");
   EXPECT_EQ(tasks[1].after, std::vector<std::string>{"grow"});
   EXPECT_EQ(shell_line(tasks[4].command),
@@ -57,6 +57,11 @@ TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
   EXPECT_EQ(shell_line(tasks[5].command),
             "pelage merge farm/pieces/0001-r0c0.exr farm/pieces/0001-r0c1.exr farm/pieces/0001-r1c0.exr "
             "farm/pieces/0001-r1c1.exr -o shot.0001.exr --threads 3");
+  EXPECT_EQ(tasks[6].name, "grow-0002");
+  EXPECT_EQ(shell_line(tasks[6].command),
+            "pelage grow rat.yaml --set render.samples=4 --frames 2 --threads 3");
+  EXPECT_EQ(tasks[6].after, std::vector<std::string>{"grow"});
+  EXPECT_EQ(tasks[7].after, std::vector<std::string>{"grow-0002"});
   EXPECT_EQ(tasks[0].memory, 1000u);
   EXPECT_EQ(tasks[1].memory, 1000u);
   EXPECT_EQ(tasks[5].memory, 0u);
@@ -65,6 +70,14 @@ TEST(FarmPlan, RegionsAreMergedAndCachesComeFirst) {
     for (const std::string& name : task.after) EXPECT_TRUE(before.contains(name)) << task.name;
     EXPECT_TRUE(before.insert(task.name).second);
   }
+}
+
+TEST(FarmPlan, FramesThatAreNotDividedMeasureTheirOwnBoxes) {
+  FarmRequest whole = request();
+  whole.grows = true;
+  const std::vector<FarmTask> tasks = make_farm_plan(whole);
+  ASSERT_EQ(tasks.size(), 4u);
+  for (size_t i = 1; i < 4; ++i) EXPECT_EQ(tasks[i].after, std::vector<std::string>{"grow"});
 }
 
 TEST(FarmPlan, ATaskWritesTheFileThatThePlanNames) {

@@ -34,15 +34,18 @@ SlurmParams params() {
 TEST(SlurmJobs, TheRegionsOfAFrameAreOneArrayAndItsMergeFollows) {
   const FarmPlan shot = plan(2, 3, true);
   const std::vector<SlurmJob> jobs = slurm_jobs(shot);
-  ASSERT_EQ(jobs.size(), 5u);
+  ASSERT_EQ(jobs.size(), 6u);
   EXPECT_EQ(jobs[0].name, "grow");
   EXPECT_EQ(jobs[1].name, "render-0001");
   EXPECT_EQ(jobs[1].tasks, (std::vector<size_t>{1, 2, 3}));
   EXPECT_EQ(jobs[1].after, std::vector<size_t>{0});
   EXPECT_EQ(jobs[2].name, "merge-0001");
   EXPECT_EQ(jobs[2].after, std::vector<size_t>{1});
-  EXPECT_EQ(jobs[3].name, "render-0002");
+  EXPECT_EQ(jobs[3].name, "grow-0002");
+  EXPECT_EQ(jobs[3].after, std::vector<size_t>{0});
+  EXPECT_EQ(jobs[4].name, "render-0002");
   EXPECT_EQ(jobs[4].after, std::vector<size_t>{3});
+  EXPECT_EQ(jobs[5].after, std::vector<size_t>{4});
 }
 
 TEST(SlurmJobs, FramesShareArraysThatSlurmAccepts) {

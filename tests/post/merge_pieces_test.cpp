@@ -2,6 +2,7 @@
 #include "post/merge_pieces.h"
 
 #include <bit>
+#include <chrono>
 #include <cstring>
 #include <limits>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/temporary_folder.h"
+#include "post/piece_headers.h"
 #include "tests/post/exr_pictures.h"
 
 namespace pelage {
@@ -132,6 +134,30 @@ TEST_F(MergePieces, AcceptsAnyInstructionsIfAsked) {
                                      piece("b", {0, 40, 53, 90}, {{"pelage:instructions", "y"}})};
   merge(pieces, {.any_instructions = true});
   EXPECT_EQ(read_exr(path("merged")).attributes.at("pelage:instructions"), ExrAttribute("mixed"));
+}
+
+TEST_F(MergePieces, KnowsThePictureOfThesePieces) {
+  const ExrAttributes seconds{{"pelage:renderSeconds", 0.3f}};
+  const std::vector<fs::path> pieces{piece("a", {0, 0, 53, 40}, seconds),
+                                     piece("b", {0, 40, 53, 90}, seconds)};
+  const auto merged = [&] { return is_merged(pieces, path("merged"), false); };
+  EXPECT_FALSE(merged());
+  merge(pieces);
+  fs::last_write_time(path("merged"), fs::last_write_time(pieces[1]) + std::chrono::seconds(1));
+  EXPECT_TRUE(merged());
+
+  fs::last_write_time(pieces[0], fs::last_write_time(path("merged")));  // a piece that may be newer
+  EXPECT_FALSE(merged());
+  fs::last_write_time(pieces[0], fs::last_write_time(pieces[1]));
+  EXPECT_TRUE(merged());
+
+  fs::copy_file(path("whole"), path("merged"), fs::copy_options::overwrite_existing);  // another picture
+  fs::last_write_time(path("merged"), fs::last_write_time(pieces[1]) + std::chrono::seconds(1));
+  EXPECT_FALSE(merged());
+  merge(pieces);
+  fs::last_write_time(path("merged"), fs::last_write_time(pieces[1]) + std::chrono::seconds(1));
+  fs::remove(pieces[1]);
+  EXPECT_FALSE(merged());
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -164,7 +166,22 @@ TEST_F(RememberedBounds, OfPartOfACoatAreNotWritten) {
   EXPECT_EQ(files().size(), 1u);
 }
 
-// A coat with a cache remembers its boxes there, for that groom in that pose at that length.
+// Regions of a frame that start at the same time.
+TEST_F(RememberedBounds, AreMeasuredByOneOfManyProcesses) {
+  std::array<BoundingCounts, 4> counts;
+  std::vector<std::thread> processes;
+  for (BoundingCounts& each : counts) {
+    processes.emplace_back([this, &each] {
+      const auto bounds = bounds_of(chunks_, {BoundingStrategy::kExact}, 1, expect_no_warning, &each);
+      EXPECT_TRUE(same(bounds, bounds_of(both(), {BoundingStrategy::kExact})));
+    });
+  }
+  for (std::thread& process : processes) process.join();
+  int64_t measured = 0;
+  for (const BoundingCounts& each : counts) measured += each.measured;
+  EXPECT_EQ(measured, static_cast<int64_t>(chunks_.size()));
+  EXPECT_EQ(files().size(), 2u);  // no lock is left
+}
 
 }  // namespace
 }  // namespace pelage

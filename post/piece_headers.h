@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "image/exr_file.h"
+
+namespace pelage {
+
+/// A file that holds a piece of a picture: its data window inside the display window of the picture.
+struct PieceHeader {
+  std::filesystem::path path;
+  ExrPart part;
+};
+
+/// Reads the headers of pieces and checks that they belong together and cover their picture exactly once.
+/// `any_instructions`: whether they may differ in `pelage:instructions`. Throws Error (kInput) naming the
+/// piece that cannot be read, is partial, differs, overlaps, or the pixels that no piece contains.
+std::vector<PieceHeader> read_pieces(const std::vector<std::filesystem::path>& paths, bool any_instructions);
+
+/// Returns the header of the merged picture: that of the first piece, with the sum of `pelage:renderSeconds`
+/// and the max of `pelage:peakMemoryBytes` over all pieces, and the instructions "mixed" if they differ.
+ExrPart merged_header(const std::vector<PieceHeader>& pieces);
+
+/// Returns whether `output` is the picture that merge_pieces() would make from these pieces: it is newer than
+/// all of them, and its header is that of their merge. Returns false if a piece cannot be read or differs.
+bool is_merged(const std::vector<std::filesystem::path>& pieces, const std::filesystem::path& output,
+               bool any_instructions);
+
+}  // namespace pelage
