@@ -75,6 +75,16 @@ TEST(ShotPage, ShowsFailuresWithTheEndOfTheLog) {
   EXPECT_NE(page.find("http-equiv=refresh"), std::string::npos);
 }
 
+TEST(ShotPage, ShowsATaskThatWasKilledBeforeItStartsAgain) {
+  const TemporaryFolder folder;
+  ShotState state = shot(folder.path());
+  state.tasks[1].stage = TaskStage::kQueuedAgain;
+  state.tasks[1].exit_code = 137;
+  const std::string page = shot_page(state, folder.path() / "farm", {}, 0);
+  EXPECT_NE(page.find("Failures and restarts"), std::string::npos);
+  EXPECT_NE(page.find("exit code 137<td>"), std::string::npos) << page;
+}
+
 TEST(ShotPage, AThumbnailIsMadeAnewOnlyWhenItsPictureIsNewer) {
   const TemporaryFolder folder;
   const ShotState state = shot(folder.path());
