@@ -67,7 +67,8 @@ void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, c
   }
   rib.request("ScreenWindow").number(-aspect).number(aspect).number(-1).number(1);
   rib.request("Projection").text("perspective").parameter("float fov").numbers({camera.fov.at(frame)});
-  rib.request("Display").text(picture).text("file").text("rgba");
+  rib.request("Display").text(picture).text("exr").text("rgba");
+  rib.request("Quantize").text("rgba").number(0).number(0).number(0).number(0);  // floats
   write_transform(rib, scene, frame);
 }
 

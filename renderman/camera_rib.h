@@ -10,11 +10,11 @@
 namespace pelage {
 
 /// Writes everything that RI sets before WorldBegin: Format, PixelSamples, Shutter, Clipping, DepthOfField,
-/// ScreenWindow, Projection, Display, and the transform from world to camera space, in a motion block if the
-/// camera moves. Times are in frames relative to the frame.
+/// ScreenWindow, Projection, Display, Quantize, and the transform from world to camera space, in a motion
+/// block if the camera moves. Times are in frames relative to the frame.
 ///
-/// `content`: a box around everything in the scene, for Clipping. `picture`: file name for Display. The field
-/// of view is that at the time of the frame, because RI has no motion of Projection.
+/// `content`: a box around everything in the scene, for Clipping. `picture`: name of the EXR file for
+/// Display. The field of view is that at the time of the frame, because RI has no motion of Projection.
 void write_camera(RibWriter& rib, const SceneDescription& scene, double frame, const Box3f& content,
                   const std::string& picture);
 

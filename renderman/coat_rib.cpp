@@ -42,7 +42,7 @@ void for_each_leaf(const CoatTree& tree, const Job& job,
         reserve(job.ledger, MemoryTag::kChunks, bytes, "growing a leaf of a coat for the RIB file");
     std::vector<Strands> grown(count);
     job.workers.for_each(count, 1, [&](WorkRange range) {
-      for (size_t i = range.begin; i < range.end; ++i) grown[i] = tree.leaf(first + i).generate();
+      for (size_t i = range.begin; i < range.end; ++i) grown[i] = tree.grow(first + i);
     });
     for (size_t i = 0; i < count; ++i) {
       if (grown[i].strand_count() > 0) use(first + i, grown[i]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geom/rest_position.h"
 #include "procedurals/bounding.h"
 #include "procedurals/fur.h"
 #include "procedurals/thinned_fur.h"
@@ -14,7 +15,8 @@ constexpr size_t kChildren = 8;
 
 }  // namespace
 
-CoatTree::CoatTree(const FrameCoat& coat, const std::optional<Simplification>& lod) {
+CoatTree::CoatTree(const FrameCoat& coat, const std::optional<Simplification>& lod)
+    : rest_(coat.at_rest ? nullptr : coat.rest) {
   const size_t count = coat.coat->follicles().leaves().size();
   if (!lod) {
     for (size_t leaf = 0; leaf < count; ++leaf)
@@ -55,9 +57,25 @@ Box3f CoatTree::box(LeafRange range, const Job& job) const {
   return box;
 }
 
+Strands CoatTree::grow(size_t index) const {
+  Strands strands = leaves_[index]->generate();
+  if (!rest_ || !strands.has_roots()) return strands;
+  StrandAttribute rest{std::string(kRestPositions), AttributeClass::kPerStrand, 3, {}};
+  rest.values.reserve(3 * strands.strand_count());
+  for (const RootAddress& root : strands.arrays().roots) {
+    const V3f p = rest_->evaluate(root.face, root.u, root.v).position;
+    rest.values.insert(rest.values.end(), {p.x, p.y, p.z});
+  }
+  StrandArrays arrays = std::move(strands).release();
+  arrays.attributes.push_back(std::move(rest));
+  return Strands(std::move(arrays));
+}
+
 int64_t CoatTree::growth_bytes(size_t index) const {
   const Procedural& leaf = *leaves_[index];
-  return static_cast<int64_t>(2 * measuring_bytes(leaf.counts()) + leaf.temporary_bytes());
+  StrandCounts counts = leaf.counts();
+  if (rest_) counts.attribute_floats += 3 * counts.strands;
+  return static_cast<int64_t>(2 * measuring_bytes(counts) + leaf.temporary_bytes());
 }
 
 }  // namespace pelage

@@ -28,12 +28,16 @@ class CoatTree {
   /// that call must not run a loop at the same time.
   Box3f box(LeafRange range, const Job& job) const;
   const Procedural& leaf(size_t index) const { return *leaves_[index]; }
-  /// Returns the memory that growing a leaf takes, including the result, in bytes.
+  /// Grows a leaf. Its strands have the attribute kRestPositions unless the skin is in its rest pose, because
+  /// other renderers know no skin at rest.
+  Strands grow(size_t index) const;
+  /// Returns the memory that grow() takes, including the result, in bytes.
   int64_t growth_bytes(size_t index) const;
 
  private:
   std::vector<std::unique_ptr<Procedural>> leaves_;
-  mutable std::mutex mutex_;  // guards the boxes; locked while they are measured
+  std::shared_ptr<const LimitSurface> rest_;  // null if the skin is in its rest pose
+  mutable std::mutex mutex_;                  // guards the boxes; locked while they are measured
   mutable std::vector<Box3f> boxes_;
 };
 

@@ -90,7 +90,7 @@ Strands HairSession::grow(const CoatTree& tree, size_t leaf) const {
     grown_.notify_all();
   };
   try {
-    Strands strands = tree.leaf(leaf).generate();
+    Strands strands = tree.grow(leaf);
     end();
     return strands;
   } catch (...) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "renderman/scene_rib.h"
 
+#include <map>
+
 #include <fmt/format.h>
 
 #include "base/version.h"
 #include "renderman/camera_rib.h"
+#include "renderman/mean_color.h"
 #include "renderman/shading_rib.h"
 #include "renderman/skin_rib.h"
 #include "renderman/yaml_text.h"
@@ -46,7 +49,12 @@ class SceneRibWriter {
  public:
   SceneRibWriter(const std::filesystem::path& output, const SceneRibSource& source,
                  const SceneRibOptions& options, const Job& job)
-      : output_(output), source_(source), options_(options), job_(job), document_(document_of(source)) {}
+      : output_(output),
+        source_(source),
+        options_(options),
+        job_(job),
+        document_(document_of(source)),
+        textures_(job.ledger, &job.progress) {}
 
   std::vector<std::filesystem::path> write() {
     std::vector<std::filesystem::path> paths;
@@ -82,7 +90,7 @@ class SceneRibWriter {
     }
   }
 
-  void write_frame(RibWriter& rib, int frame, const std::filesystem::path& path) const {
+  void write_frame(RibWriter& rib, int frame, const std::filesystem::path& path) {
     const FrameParts parts = pose_frame(source_.scene, source_.assets, frame, job_);
     rib.request("FrameBegin").integer(frame);
     write_options(rib);
@@ -102,18 +110,31 @@ class SceneRibWriter {
     rib.request("FrameEnd");
   }
 
-  void begin_part(RibWriter& rib, const std::string& name, const std::string& material,
-                  const Rgb& tint) const {
+  /// The mean colour of a skin's material.
+  Rgb skin_color(const FrameSkin& skin) {
+    const auto [known, is_new] = skin_colors_.try_emplace({skin.skin, skin.material});
+    if (is_new) {
+      const MaterialParams material =
+          with_textures(source_.scene.materials.find(skin.material)->value, textures_);
+      known->second = std::visit(
+          [&](const auto& m) { return mean_color(m.color, *source_.assets.skins.at(skin.skin).rest); },
+          material);
+    }
+    return known->second;
+  }
+
+  void begin_part(RibWriter& rib, const std::string& name, const std::string& material, const Rgb& tint,
+                  const std::optional<Rgb>& mean) const {
     rib.request("AttributeBegin");
     rib.request("Attribute").text("identifier").parameter("string name").texts({name});
     if (tint != Rgb(1))
       rib.request("Attribute").text("pelage").parameter("color tint").numbers({tint.x, tint.y, tint.z});
-    write_material(rib, source_.scene, document_, material, tint);
+    write_material(rib, source_.scene, document_, material, tint, mean);
   }
 
-  void write_skin_part(RibWriter& rib, const FrameSkin& skin) const {
+  void write_skin_part(RibWriter& rib, const FrameSkin& skin) {
     const SkinParams& params = source_.scene.skins.find(skin.skin)->value;
-    begin_part(rib, skin.name, skin.material, skin.tint);
+    begin_part(rib, skin.name, skin.material, skin.tint, skin_color(skin));
     write_skin(rib, source_.assets.skins.at(skin.skin).cage, params.scheme, params.boundary, skin.cages.cages,
                motion_times(source_.scene.camera, static_cast<int>(skin.cages.cages.size())));
     rib.request("AttributeEnd");
@@ -123,7 +144,7 @@ class SceneRibWriter {
     const bool procedural = options_.coats == RibCoats::kProcedurals;
     const CoatTree tree(coat, procedural || options_.lod ? coat.lod : std::nullopt);
     const std::vector<float> times = motion_times(source_.scene.camera, coat.skin->motion_keys());
-    begin_part(rib, coat.character + "." + coat.groom, coat.material, coat.tint);
+    begin_part(rib, coat.character + "." + coat.groom, coat.material, coat.tint, {});
     if (procedural) {
       HairArguments arguments;
       arguments.scene = absolute_text(source_.path);
@@ -150,6 +171,8 @@ class SceneRibWriter {
   const SceneRibOptions& options_;
   const Job& job_;
   const Value document_;
+  TextureLibrary textures_;
+  std::map<std::pair<std::string, std::string>, Rgb> skin_colors_;  // by skin and material
 };
 
 }  // namespace

@@ -113,13 +113,15 @@ struct LightWriter {
 }  // namespace
 
 void write_material(RibWriter& rib, const SceneDescription& scene, const Value& document,
-                    const std::string& name, const Rgb& tint) {
+                    const std::string& name, const Rgb& tint, const std::optional<Rgb>& mean) {
   const Value& block = *document.find("materials")->find(name);
-  if (const Value* color = block.find("color")) {
-    if (const std::optional<Rgb> constant = color_of(*color)) {
-      const Rgb tinted = *constant * tint;
-      rib.request("Color").numbers({tinted.x, tinted.y, tinted.z});
-    }
+  std::optional<Rgb> color = mean;
+  if (const Value* own = block.find("color")) {
+    if (const std::optional<Rgb> constant = color_of(*own)) color = constant;
+  }
+  if (color) {
+    const Rgb tinted = *color * tint;
+    rib.request("Color").numbers({tinted.x, tinted.y, tinted.z});
   }
   const bool fibre = fibre_params(scene.materials.find(name)->value) != nullptr;
   rib.request("Surface").text(fibre ? "pelage_fur" : "pelage_skin");

@@ -37,6 +37,13 @@ Tags tags_of(const ControlMesh& mesh, BoundaryRule boundary) {
   return tags;
 }
 
+std::vector<float> numbers_of(std::span<const V3f> points) {
+  std::vector<float> numbers;
+  numbers.reserve(3 * points.size());
+  for (const V3f& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+  return numbers;
+}
+
 std::vector<int32_t> signed_of(std::span<const uint32_t> values) { return {values.begin(), values.end()}; }
 
 /// One key of a skin, from its sizes on. All keys have the same arguments but for the points.
@@ -45,6 +52,7 @@ struct SkinWriter {
   const char* scheme;
   std::vector<int32_t> sizes = signed_of(mesh.face_sizes), vertices = signed_of(mesh.face_vertices);
   std::vector<float> st;
+  std::vector<float> rest;  // empty at rest
   Tags tags;
 
   void write(RibWriter& rib, std::span<const V3f> cage) const {
@@ -55,10 +63,8 @@ struct SkinWriter {
       const std::vector<int32_t> loops(sizes.size(), 1);
       rib.request("PointsGeneralPolygons").integers(loops).integers(sizes).integers(vertices);
     }
-    std::vector<float> points;
-    points.reserve(3 * cage.size());
-    for (const V3f& p : cage) points.insert(points.end(), {p.x, p.y, p.z});
-    rib.parameter("P").numbers(points);
+    rib.parameter("P").numbers(numbers_of(cage));
+    if (!rest.empty()) rib.parameter("vertex point Pref").numbers(rest);
     if (!st.empty()) rib.parameter("facevarying float[2] st").numbers(st);
   }
 };
@@ -71,9 +77,13 @@ void write_skin(RibWriter& rib, const ControlMesh& mesh, SubdivisionScheme schem
   SkinWriter skin{.mesh = mesh,
                   .scheme = flat ? nullptr : EnumNames<SubdivisionScheme>::names[static_cast<int>(scheme)],
                   .st = {},
+                  .rest = {},
                   .tags = tags_of(mesh, boundary)};
   for (const uint32_t index : mesh.face_uv)
     skin.st.insert(skin.st.end(), {mesh.uv[index].x, mesh.uv[index].y});
+  for (const std::vector<V3f>& cage : cages) {
+    if (cage != mesh.positions) skin.rest = numbers_of(mesh.positions);
+  }
   if (mesh.chaikin_creases)
     rib.request("Attribute").text("pelage").parameter("integer chaikin").integers({1});
   if (cages.size() > 1) rib.request("MotionBegin").numbers(times);

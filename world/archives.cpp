@@ -161,7 +161,7 @@ void load_archive(const SceneDescription& scene, const std::string& name, const 
   for (const RibSkin& skin : rib->skins) {
     const auto topology =
         SurfaceTopology::create(skin.cage, skin.scheme, skin.boundary, to_string(skin.position), job);
-    archive.surfaces.push_back(std::make_shared<const LimitSurface>(topology, skin.keys.front()));
+    archive.surfaces.push_back(std::make_shared<const LimitSurface>(topology, skin.cage.positions));
     bytes += topology->bytes() + archive.surfaces.back()->bytes();
     require_room(job.ledger, static_cast<int64_t>(bytes), what);
   }

@@ -21,7 +21,7 @@ struct ArchiveProcedurals;
 struct Archive {
   ContentHash key;  ///< of everything from which it is made
   std::shared_ptr<const RibScene> rib;
-  std::vector<std::shared_ptr<const LimitSurface>> surfaces;  ///< of the skins, at shutter open
+  std::vector<std::shared_ptr<const LimitSurface>> surfaces;  ///< of the skins: RibSkin::cage
   std::shared_ptr<const ArchiveProcedurals> procedurals;      ///< own procedurals; null without any
   MemoryCharge charge;
 };

@@ -44,19 +44,15 @@ class FramePoser {
     }
     const Rgb tint = character.member ? character.member->tint : Rgb(1);
     PosedCages cages = pose.shutter;
+    const bool at_rest =
+        std::all_of(cages.cages.begin(), cages.cages.end(),
+                    [&](const std::vector<V3f>& cage) { return cage == skin.cage.positions; });
     const auto posed = std::make_shared<PosedCharacterSkin>(std::move(pose), poses_);
     parts.skins.push_back({character.name + "." + part.skin.name, part.skin.name, part.material.name, tint,
-                           std::move(cages), posed});
+                           std::move(cages), at_rest, posed});
     for (const auto& groom : part.grooms.items) {
-      FrameCoat coat{character.name,
-                     groom.name,
-                     groom.value.name,
-                     tint,
-                     assets_.grooms.at(groom.name),
-                     posed,
-                     skin.rest,
-                     {},
-                     {}};
+      FrameCoat coat{character.name, groom.name, groom.value.name, tint, assets_.grooms.at(groom.name),
+                     posed,          skin.rest,  at_rest,          {},   {}};
       if (reduced) {
         coat.lod = detail_.simplification(*coat.coat, skin.rest.get(), *posed);
         coat.direction = detail_.direction(*coat.coat, skin.rest);

@@ -24,6 +24,7 @@ struct FrameSkin {
   std::string material;
   Rgb tint{1};
   PosedCages cages;
+  bool at_rest = false;  ///< whether all cages are the cage at rest
   std::shared_ptr<const PosedCharacterSkin> posed;
 };
 
@@ -35,6 +36,7 @@ struct FrameCoat {
   std::shared_ptr<const Groom> coat;
   std::shared_ptr<const PosedCharacterSkin> skin;
   std::shared_ptr<const LimitSurface> rest;  ///< the skin at rest
+  bool at_rest = false;                      ///< whether `skin` is in this pose at all motion keys
   std::optional<Simplification> lod;         ///< by `render.lod` and its camera; empty: full detail
   std::shared_ptr<const CoatDirection> direction;
   int64_t strands() const { return static_cast<int64_t>(coat->follicles().size()); }

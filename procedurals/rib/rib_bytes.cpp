@@ -14,8 +14,16 @@
 
 namespace pelage {
 
+namespace {
+
+// gzip reaches a factor of 1,000 with constant data. Strands reach 3 to 25.
+constexpr uint64_t kMaxFactor = 200, kUncheckedBytes = uint64_t(64) << 20;
+
+}  // namespace
+
 struct RibBytes::Stream {
   gzFile file = nullptr;
+  uint64_t size = 0, read = 0;  // of the file; bytes of RIB so far
   ~Stream() {
     if (file) gzclose(file);
   }
@@ -30,6 +38,8 @@ RibBytes::RibBytes(const std::filesystem::path& path)
     if (own >= 0) ::close(own);
     throw Error(ErrorKind::kInput, {*file_, 0, 0}, "cannot read: out of file handles or memory");
   }
+  std::error_code ignored;
+  stream_->size = std::filesystem::file_size(path, ignored);
   gzbuffer(stream_->file, 1 << 17);
   buffer_.resize(1 << 17);
   constexpr std::string_view kPointer = "version https://git-lfs";
@@ -47,6 +57,11 @@ bool RibBytes::fill() {
     throw Error(ErrorKind::kInput, position(), "the gzip data is damaged or cut off");
   next_ = 0;
   end_ = static_cast<size_t>(std::max(got, 0));
+  stream_->read += end_;
+  if (!gzdirect(stream_->file) && stream_->read > std::max(kUncheckedBytes, kMaxFactor * stream_->size))
+    throw Error(
+        ErrorKind::kInput, position(),
+        "the gzip data expands to more than 200 times its size; unpack it with gunzip if you trust it");
   return end_ > 0;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "geom/rest_position.h"
 
 namespace pelage {
 namespace {
@@ -59,6 +60,7 @@ std::string declaration(const StrandAttribute& attribute, CurveBasis basis) {
                      : attribute.frequency == AttributeClass::kPerStrand ? "uniform "
                                                                          : per_point(basis);
   if (attribute.name == "color" && attribute.components == 3) return text + "color Cs";
+  if (attribute.name == kRestPositions && attribute.components == 3) return text + "point Pref";
   text += attribute.components == 1 ? "float" : "float[" + std::to_string(attribute.components) + "]";
   return text + " " + ri_name(attribute.name);
 }

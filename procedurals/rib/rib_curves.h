@@ -29,7 +29,8 @@ struct RibParameter {
 ///
 /// Parameters: "P"; "width"; "uniform integer id", the lower 32 bits of the ids, as signed numbers; "uniform
 /// integer id_high", the upper 32 bits, only if any is not 0; "uniform float[2] st", texture coordinates of
-/// the roots; "Cs", the attribute "color"; and all other attributes by their names.
+/// the roots; "Cs", the attribute "color"; "point Pref", the attribute kRestPositions; and all other
+/// attributes by their names.
 struct RibCurves {
   const char* type = "cubic";
   const char* basis = "b-spline";  ///< null for linear curves; the step of both others is 1

@@ -180,7 +180,7 @@ void RibInterpreter::mesh(const Call& call) {
     }
     skin.keys.push_back(std::move(key));
   }
-  mesh.cage.positions = skin.keys.front();
+  mesh.cage.positions = mesh.rest.empty() ? skin.keys.front() : std::move(mesh.rest);
   kept_bytes_ += mesh.cage.bytes() + skin.keys.size() * skin.keys.front().size() * sizeof(V3f);
   if (options_.reserve) options_.reserve(kept_bytes_);
   skin.cage = std::move(mesh.cage);

@@ -114,6 +114,8 @@ void RibInterpreter::read_file(const std::filesystem::path& path, const RibState
     if (reading_.size() >= kMaxFiles) named_at->fail(fmt::format("more than {} nested archives", kMaxFiles));
     if (++archives_ > kMaxArchives)
       named_at->fail(fmt::format("more than {} archives are read", kMaxArchives));
+    if (reading_.size() > 1 && ++inner_archives_ > options_.max_inner_archives)
+      named_at->fail(fmt::format("archives read more than {} archives", options_.max_inner_archives));
   }
   scene_.files.insert(path);
   reading_.push_back(identity);

@@ -167,7 +167,7 @@ class RibInterpreter {
   size_t program_depth_ = 0;              // replies around the one that is read
   const RibStatement* asking_ = nullptr;  // request to which the reply that is read belongs; null: none
   size_t largest_request_ = 0;            // bytes of the arguments, if more than 1 MiB
-  size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, statements_ = 0;
+  size_t kept_bytes_ = 0, points_ = 0, archives_ = 0, inner_archives_ = 0, statements_ = 0;
 
   RibCamera camera_;
   bool in_deferred_ = false, stopped_ = false;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/nearest_name.h"
+#include "geom/rest_position.h"
 
 namespace pelage {
 namespace {
@@ -39,7 +40,7 @@ class MeshReader {
     }
     std::vector<std::string> undeclared;
     parameters_ = declarations_.parameters(request_, parameters, undeclared);
-    mesh_.samples.push_back(positions(request_, parameters_));
+    mesh_.samples.push_back(positions(request_, parameters_, "P"));
     ControlMesh& cage = mesh_.cage;
     cage.positions = mesh_.samples.front();
     if (request_.name == "Polygon") {
@@ -47,16 +48,18 @@ class MeshReader {
       cage.face_vertices.resize(cage.positions.size());
       std::iota(cage.face_vertices.begin(), cage.face_vertices.end(), 0u);
     }
+    add_rest();
     check_faces();
     add_texture_coordinates();
     add_tags();
     return std::move(mesh_);
   }
 
-  static std::vector<V3f> positions(RibStatement& request, const std::vector<RibNamedValue>& parameters) {
-    const RibNamedValue* p = find_parameter(parameters, "P");
+  static std::vector<V3f> positions(RibStatement& request, const std::vector<RibNamedValue>& parameters,
+                                    const char* name) {
+    const RibNamedValue* p = find_parameter(parameters, name);
     if (!p || p->declaration.components != 3 || !p->value->is_number() || p->value->size() % 3 != 0)
-      request.fail("parameter \"P\" must be an array of points");
+      request.fail(fmt::format("parameter \"{}\" must be an array of points", name));
     std::vector<V3f> points(p->value->size() / 3);
     for (size_t i = 0; i < points.size(); ++i) {
       const auto& f = p->value->floats;
@@ -89,6 +92,17 @@ class MeshReader {
     const auto& a = request_.arguments;
     const bool tags = a.size() > 3 && a[3].is_array;
     return tags ? 7 : 3;
+  }
+
+  // Other renderers may have "Pref" of other classes for their shaders; these are not needed here.
+  void add_rest() {
+    const RibNamedValue* rest = find_parameter(parameters_, kRestPositions);
+    if (!rest || rest->declaration.frequency != RibClass::kVertex || rest->declaration.components != 3)
+      return;
+    mesh_.rest = positions(request_, parameters_, "Pref");
+    if (mesh_.rest.size() != mesh_.cage.positions.size())
+      request_.fail(*rest->value, fmt::format("parameter \"Pref\" needs {} points for this mesh, got {}",
+                                              mesh_.cage.positions.size(), mesh_.rest.size()));
   }
 
   // A polygon with holes has several loops; the first one is its outline.
@@ -261,7 +275,8 @@ RibMesh read_mesh(std::span<RibStatement> samples, const RibDeclarations& declar
       first = i;
       if (!sample.arguments[i].is_number() && !sample.arguments[i].is_array) break;
     }
-    mesh.samples.push_back(MeshReader::positions(sample, declarations.parameters(sample, first, undeclared)));
+    mesh.samples.push_back(
+        MeshReader::positions(sample, declarations.parameters(sample, first, undeclared), "P"));
     if (mesh.samples.back().size() != mesh.cage.positions.size())
       sample.fail("the meshes of a motion block must have the same number of points");
   }

@@ -13,7 +13,8 @@ namespace pelage {
 
 /// The mesh of one request, in the space of the request.
 struct RibMesh {
-  ControlMesh cage;  ///< with the positions of the first sample
+  ControlMesh cage;       ///< with the positions of the first sample
+  std::vector<V3f> rest;  ///< positions at rest ("Pref"), as given; empty if they are not
   SubdivisionScheme scheme = SubdivisionScheme::kNone;
   BoundaryRule boundary = BoundaryRule::kEdgeAndCorner;
   std::vector<std::vector<V3f>> samples;  ///< positions at each time of the motion block
@@ -27,6 +28,7 @@ struct RibMesh {
 /// Subdivision meshes have the schemes "catmull-clark", "loop" and "bilinear", and the tags crease, corner,
 /// hole and interpolateboundary; without this last tag, all boundary edges and corners are sharp. Polygons
 /// are not subdivided; holes within polygons are ignored. Texture coordinates are "st", or "s" and "t".
+/// "vertex point Pref" is the mesh at rest.
 RibMesh read_mesh(std::span<RibStatement> samples, const RibDeclarations& declarations);
 
 }  // namespace pelage

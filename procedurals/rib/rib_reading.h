@@ -23,7 +23,9 @@ struct RibReadOptions {
   /// Whether a file with a camera in a left-handed world is mirrored (z becomes -z), so that a right-handed
   /// camera sees the same picture.
   bool mirror_left_handed = false;
-  size_t max_points = 1'000'000'000;           ///< of all strands and meshes together
+  size_t max_points = 1'000'000'000;  ///< of all strands and meshes together
+  size_t max_inner_archives =
+      100'000;  ///< read by archives: 100 small files can double their number 100 times
   size_t max_request_bytes = size_t(4) << 30;  ///< memory of the arguments of one request
   /// Runs programs that the file names; null: such procedurals are skipped, with a warning.
   std::shared_ptr<RibPrograms> programs;

@@ -93,7 +93,7 @@ struct RibSkin {
   size_t material = 0;
   Rgb tint{1};
   SourcePosition position;
-  ControlMesh cage;
+  ControlMesh cage;  ///< with the positions at rest if the file has them, or else those at shutter open
   SubdivisionScheme scheme = SubdivisionScheme::kNone;
   BoundaryRule boundary = BoundaryRule::kEdgeAndCorner;
   std::vector<std::vector<V3f>> keys;

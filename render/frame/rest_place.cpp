@@ -2,6 +2,7 @@
 // Tested in tests/render/gather/coat_cells_test.cpp.
 #include "render/frame/rest_place.h"
 
+#include "geom/rest_position.h"
 #include "render/frame/skin_point.h"
 
 namespace pelage {
@@ -25,8 +26,10 @@ float scale_of(const SkinMesh& triangle, const SurfacePoint& rest) {
 }  // namespace
 
 RestPlace rest_place(const FurPart& part, const Strands& strand) {
-  if (!part.rest || !strand.has_roots())
-    return {strand.point(0), strand.strand_points(0) > 1 ? strand.point(1) - strand.point(0) : V3f(0), 1};
+  if (!part.rest || !strand.has_roots()) {
+    return {rest_position(strand, 0).value_or(strand.point(0)),
+            strand.strand_points(0) > 1 ? strand.point(1) - strand.point(0) : V3f(0), 1};
+  }
   const RootAddress& root = strand.root(0);
   const SurfacePoint at = part.rest->evaluate(root.face, root.u, root.v);
   return {at.position, normal_of(at), part.scale};

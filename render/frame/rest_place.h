@@ -17,8 +17,8 @@ struct RestPlace {
   float scale = 1;  ///< size in world space / size at rest
 };
 
-/// Returns where a strand grows at rest. A strand without a skin has the position of its root and its first
-/// direction.
+/// Returns where a strand grows at rest. A strand without a skin has its attribute kRestPositions or else the
+/// position of its root, and its first direction.
 RestPlace rest_place(const FurPart& part, const Strands& strand);
 /// Returns the rest place of a hit on a skin. A skin without a rest pose is taken as it is hit.
 RestPlace rest_place(const SkinPart& part, const Ray& ray, const Hit& hit, const SkinMesh& triangle);

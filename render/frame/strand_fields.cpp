@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "geom/rest_position.h"
 #include "image/field_nodes.h"
 
 namespace pelage {
@@ -28,7 +29,8 @@ class StrandFieldPoint {
         const RootAddress& root = strands.root(place.strand);
         point_.rest = rest->evaluate(root.face, root.u, root.v).position;
       } else {
-        point_.rest = strands.point(strands.first_point(place.strand));
+        point_.rest =
+            rest_position(strands, place.strand).value_or(strands.point(strands.first_point(place.strand)));
       }
     }
     for (size_t i = 0; i < attributes.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/curve_bounds.h"
+#include "geom/rest_position.h"
 #include "tests/world/furry_scene.h"
 
 namespace pelage {
@@ -60,9 +61,20 @@ TEST_F(CoatTrees, BoxesContainTheStrandsAndAreTight) {
   EXPECT_EQ(tree_.box(tree_.all(), job_), all);
 }
 
+// The same values that a field of the picture's own coat gets.
+TEST_F(CoatTrees, StrandsOfAMovedSkinKnowTheirPlacesAtRest) {
+  const Strands strands = tree_.grow(0);
+  for (size_t s = 0; s < strands.strand_count(); ++s) {
+    const RootAddress& root = strands.root(s);
+    EXPECT_EQ(rest_position(strands, s), parts_.coats[0].rest->evaluate(root.face, root.u, root.v).position);
+  }
+  ASSERT_TRUE(parts_.coats[1].at_rest);
+  EXPECT_FALSE(rest_position(CoatTree(parts_.coats[1], {}).grow(0), 0)) << "the still character needs none";
+}
+
 TEST_F(CoatTrees, MemoryOfALeafIsCountedBeforeItGrows) {
   for (size_t leaf = 0; leaf < tree_.all().end; ++leaf)
-    EXPECT_GE(tree_.growth_bytes(leaf), static_cast<int64_t>(tree_.leaf(leaf).generate().bytes()));
+    EXPECT_GE(tree_.growth_bytes(leaf), static_cast<int64_t>(tree_.grow(leaf).bytes()));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "render/frame/rest_place.h"
 #include "tests/procedurals/rib/rib_tokens.h"
 #include "tests/world/furry_scene.h"
 
@@ -54,6 +55,33 @@ class SceneRib : public testing::Test {
     }
     return found;
   }
+  /// Fields of materials, such as noise, see the places at rest that they see in the scene itself.
+  void expect_places_at_rest(const FurPart& read, const std::vector<Override>& overrides) {
+    QuietJob job;
+    const SceneDescription scene = load_scene(files_.scene(), overrides);
+    const auto assets = load_assets(scene, job);
+    const World world = compose(scene, *assets, 1, job);
+    const bool first = read.name == "back.walker.coat";
+    std::map<uint64_t, V3f> expected;
+    visit_strands(world.scene.fur[first ? 0 : 1],
+                  [&](uint64_t id, const V3f& place) { expected[id] = place; });
+    // The still character has the positions of its roots, which are rounded.
+    visit_strands(read, [&](uint64_t id, const V3f& place) {
+      for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(place[axis], expected.at(id)[axis], 1e-6) << id;
+    });
+  }
+  static void visit_strands(const FurPart& part, const std::function<void(uint64_t, const V3f&)>& visit) {
+    for (const auto& procedural : part.procedurals) {
+      for (const auto& leaf : procedural->split()) {
+        const Strands strands = leaf->generate();
+        Strands one;
+        for (size_t s = 0; s < strands.strand_count(); ++s) {
+          one.assign_strand(strands, s);
+          visit(strands.id(s), rest_place(part, one).position);
+        }
+      }
+    }
+  }
   const FurryScene files_;
 };
 
@@ -61,6 +89,8 @@ TEST_F(SceneRib, CameraProjectsLikeThePicture) {
   const auto rib = requests({}, {{"camera.lens", "{f_stop: 4, focal_length: 5, focus_distance: 7}"}});
   EXPECT_EQ(find(rib, "Format").arguments[0].numbers[0], 48);
   EXPECT_EQ(find(rib, "Format").arguments[1].numbers[0], 32);
+  EXPECT_EQ(find(rib, "Display").arguments[0].texts[0], "a.exr");
+  EXPECT_EQ(find(rib, "Quantize").arguments[1].numbers[0], 0) << "floats";
   EXPECT_EQ(find(rib, "Shutter").arguments[0].numbers[0], -0.25);
   EXPECT_EQ(find(rib, "DepthOfField").arguments[2].numbers[0], 7);
   EXPECT_EQ(
@@ -118,6 +148,14 @@ TEST_F(SceneRib, MaterialsAndLightsAreParametrised) {
   EXPECT_EQ(find(rib, "Sphere").arguments[0].numbers[0], 0.5);
   EXPECT_EQ(find(rib, "LightSource").parameter("string pelage").texts[0],
             "{type: environment, radiance: 0.3}");
+}
+
+TEST_F(SceneRib, SkinsWithoutAConstantColorHaveTheirMean) {
+  const auto rib =
+      requests({}, {{"materials.hide.color", "{ramp: {along: y, knots: [[-0.5, 0.2], [0.5, 0.6]]}}"}});
+  const std::vector<double>& color = find(rib, "Color").arguments[0].numbers;
+  ASSERT_EQ(color.size(), 3u);
+  for (const double channel : color) EXPECT_NEAR(channel, 0.4, 1e-6);  // the cube is symmetric
 }
 
 TEST_F(SceneRib, BlocksOfThePictureTravelAsOptions) {
@@ -183,6 +221,7 @@ TEST_F(SceneRib, PelageReadsTheSceneBack) {
           for (const auto& leaf : procedural->split()) add_strands(leaf->generate(), strands);
         }
         EXPECT_EQ(strands, picture_strands(files_.scene(), part.name.substr(5), 1, overrides)) << part.name;
+        expect_places_at_rest(part, overrides);
         const auto& own = world.scene.skins[part.name == "back.walker.coat" ? 0 : 1];
         if (coats == RibCoats::kProcedurals && lod && part.lod) {
           ASSERT_TRUE(own.lod) << "the skin below a reduced coat is reduced too";

@@ -66,5 +66,21 @@ TEST(SkinRib, MotionAndPolygons) {
   EXPECT_EQ(requests[2].arguments[0].numbers, (std::vector<double>{1, 1}));
 }
 
+TEST(SkinRib, ThePoseAtRestIsWrittenOnlyForOtherPoses) {
+  EXPECT_FALSE(written(SubdivisionScheme::kLoop, BoundaryRule::kEdgeOnly, 1)[1].has("vertex point Pref"));
+  const ControlMesh mesh = two_faces();
+  std::vector<std::vector<V3f>> cages(2, mesh.positions);
+  cages[1][4].z = 1;
+  RibText text;
+  RibWriter rib(text, RibEncoding::kAscii);
+  write_skin(rib, mesh, SubdivisionScheme::kLoop, BoundaryRule::kEdgeOnly, cages, std::vector<float>{0, 1});
+  rib.flush();
+  for (const RibRequest& request : rib_requests(text.text())) {
+    if (request.name != "SubdivisionMesh") continue;
+    EXPECT_EQ(request.parameter("vertex point Pref").numbers,
+              (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0}));
+  }
+}
+
 }  // namespace
 }  // namespace pelage

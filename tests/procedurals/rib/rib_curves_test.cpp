@@ -106,12 +106,14 @@ TEST(RibCurves, AttributesBecomeParameters) {
   arrays.root_uv.assign(4, V2f(0.25f, 0.5f));
   arrays.attributes = {{"color", AttributeClass::kPerPoint, 3, std::vector<float>(36, 0.5f)},
                        {"wet hair", AttributeClass::kPerStrand, 1, {1, 2, 3, 4}},
-                       {"flow", AttributeClass::kConstant, 2, {7, 8}}};
+                       {"flow", AttributeClass::kConstant, 2, {7, 8}},
+                       {"Pref", AttributeClass::kPerStrand, 3, std::vector<float>(12, 2)}};
   const auto requests = rib_requests(written(Strands(arrays), RibEncoding::kAscii));
   EXPECT_EQ(requests[1].parameter("varying color Cs").numbers.size(), 36u);
   EXPECT_EQ(requests[1].parameter("uniform float wet_hair").numbers, (std::vector<double>{1, 2, 3, 4}));
   EXPECT_EQ(requests[1].parameter("constant float[2] flow").numbers, (std::vector<double>{7, 8}));
   EXPECT_EQ(requests[1].parameter("uniform float[2] st").numbers.size(), 8u);
+  EXPECT_EQ(requests[1].parameter("uniform point Pref").numbers, std::vector<double>(12, 2));
 }
 
 TEST(RibCurves, BinaryStrandOfEightPointsTakes160Bytes) {

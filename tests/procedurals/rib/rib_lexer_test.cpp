@@ -139,5 +139,23 @@ TEST(RibLexer, RefusesWhatIsNoFile) {
             std::string::npos);
 }
 
+// A file of 70 kB, of which gzip makes 70 MB.
+TEST(RibLexer, FilesThatExpandTooMuchAreErrors) {
+  const Files files;
+  const std::string block(size_t(1) << 20, ' ');
+  std::string text = "version 3 ";
+  for (int i = 0; i < 63; ++i) text += block;
+  const auto end_of = [&](const std::string& bytes) {
+    RibLexer lexer(files.write(bytes));
+    while (lexer.next() != RibToken::kEnd) {
+    }
+  };
+  end_of(gzipped(text));
+  text += block + block;
+  EXPECT_NE(error_of([&] { end_of(gzipped(text)); }).find("a.rib:1:"), std::string::npos);
+  EXPECT_NE(error_of([&] { end_of(gzipped(text)); }).find("more than 200 times its size"), std::string::npos);
+  end_of(text);  // not compressed
+}
+
 }  // namespace
 }  // namespace pelage

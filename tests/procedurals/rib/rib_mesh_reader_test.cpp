@@ -69,6 +69,17 @@ TEST(RibMeshReader, MotionHasPositionsPerSample) {
             std::string::npos);
 }
 
+TEST(RibMeshReader, PrefIsTheMeshAtRest) {
+  const std::string square = "PointsPolygons [4] [0 1 2 3]" + kSquare;
+  EXPECT_TRUE(read(square).rest.empty());
+  const RibMesh mesh = read(square + " \"vertex point Pref\" [0 0 5 1 0 5 1 1 5 0 1 5]");
+  ASSERT_EQ(mesh.rest.size(), 4u);
+  EXPECT_EQ(mesh.rest[2], V3f(1, 1, 5));
+  EXPECT_EQ(mesh.cage.positions[2], V3f(1, 1, 0));
+  EXPECT_TRUE(read(square + " \"uniform point Pref\" [0 0 5]").rest.empty()) << "for shaders";
+  EXPECT_NE(failure(square + " \"vertex point Pref\" [0 0 5]").find("needs 4 points"), std::string::npos);
+}
+
 TEST(RibMeshReader, MistakesHavePositions) {
   EXPECT_EQ(failure("PointsPolygons [3] [0 1 9]" + kSquare),
             "a.rib:1:1: PointsPolygons: face 0 has vertex 9, but there are only 4 points");

@@ -250,6 +250,23 @@ TEST(RibReading, ArchivesThatReadThemselvesAreErrors) {
             std::string::npos);
 }
 
+TEST(RibReading, ArchivesCannotMultiplyWithoutEnd) {
+  const Files files;
+  for (char c = 'a'; c < 'h'; ++c) {
+    const std::string next = std::string("ReadArchive \"") + static_cast<char>(c + 1) + ".rib\"\n";
+    files.write(next + next, std::string(1, c) + ".rib");
+  }
+  files.write("Color 1 1 1", "h.rib");
+  RibReadOptions options;
+  options.max_inner_archives = 252;  // 4 + 8 + ... + 128
+  EXPECT_EQ(read_rib(files.folder.path() / "a.rib", options).files.size(), 8u);
+  options.max_inner_archives = 251;
+  EXPECT_NE(error_of([&] {
+              read_rib(files.folder.path() / "a.rib", options);
+            }).find("g.rib:2:1: ReadArchive: archives read more than 251 archives"),
+            std::string::npos);
+}
+
 TEST(RibReading, ArchivesAreFoundOnTheSearchPath) {
   const Files files;
   std::filesystem::create_directory(files.folder.path() / "hair");
