@@ -154,10 +154,10 @@ TEST_F(OcclusionDetailTest, NeitherMemoryNorResidencyChangesAHit) {
   }
   lazy.memory_limit = static_cast<uint64_t>(fixed + 16384) + std::max<uint64_t>(largest, working_set / 4);
   const auto some = accel_of(scene, lazy);
-  expect_same(*all, *some, 5, repetitions(1000));
+  expect_same(*all, *some, 5, 60);
   EXPECT_GT(some->chunks().counts().evictions, 0);
   secondary_ = false;
-  expect_same(*all, *some, 6, repetitions(1000));
+  expect_same(*all, *some, 6, 60);
 }
 
 TEST_F(OcclusionDetailTest, NoRayGrowsAChunkThatItDoesNotSee) {
