@@ -7,6 +7,8 @@
 
 #include <Imath/ImathBoxAlgo.h>
 
+#include "procedurals/even_priorities.h"
+
 namespace pelage {
 namespace {
 
@@ -25,6 +27,8 @@ Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
 CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
                        const Simplification& simplification, std::shared_ptr<const CoatDirection> direction)
     : groom_(std::move(groom)), simplification_(simplification), direction_(std::move(direction)) {
+  // Other rays see the strands that their own random numbers select: an approximation does not change them.
+  if (simplification_.fraction() < 1 && !groom_->has_priority_order()) priorities_ = even_priorities(*groom_);
   const Box3f roots = root_box(*groom_, skin);
   if (roots.isEmpty()) return;
   const V3f eye = simplification_.view().open.position;
@@ -33,6 +37,7 @@ CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterS
   const float nearest = beyond.length();
   const float farthest = (eye - roots.center()).length() + half.length();
   const float share = simplification_.max_share(nearest);
+  max_share_ = share;
   first_out_ = share >= 1 ? 1.0f : share + Simplification::fade_half_width(share);
   min_width_factor_ = simplification_.width_factor(share, 0);
   max_width_factor_ = simplification_.max_width_factor(farthest);
@@ -69,7 +74,7 @@ CoatDetail::Choice CoatDetail::choose(size_t leaf, const SkinPose& pose) const {
   Choice choice;
   const size_t count = candidates(leaf);
   for (uint32_t s = 0; s < count; ++s) {
-    const float priority = groom_->priority(begin + s);
+    const float priority = this->priority(begin + s);
     if (priority >= first_out_) continue;
     const RootPlace place = this->place(begin + s, pose);
     const float share = simplification_.share(place);

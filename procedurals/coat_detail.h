@@ -47,16 +47,24 @@ class CoatDetail {
   /// Returns the data of a root from which its level of detail follows. `pose`: as in choose().
   RootPlace place(size_t follicle, const SkinPose& pose) const;
 
+  /// Returns an upper bound of the shares of all strands.
+  float max_share() const { return max_share_; }
   /// Returns an upper bound of the width factors of all strands.
   float max_width_factor() const { return max_width_factor_; }
   /// Returns a lower bound of the width factors of all strands that do not fade.
   float min_width_factor() const { return min_width_factor_; }
 
  private:
+  float priority(size_t follicle) const {
+    return priorities_.empty() ? groom_->priority(follicle) : priorities_[follicle];
+  }
+
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
-  float first_out_ = 1;  // strands with this priority or a larger one are omitted
+  std::vector<float> priorities_;  // by follicle; empty: Groom::priority()
+  float first_out_ = 1;            // strands with this priority or a larger one are omitted
+  float max_share_ = 1;
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };
 

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/detail_policy.h"
 
+#include <cmath>
+
 #include "procedurals/coat_stats.h"
+#include "procedurals/root_spacing.h"
 
 namespace pelage {
+namespace {
 
-Simplification DetailPolicy::simplification(const Groom& groom, const LimitSurface* rest,
-                                            const PosedCharacterSkin& skin) {
+// Fraction of the strands that secondary rays see from afar, and where "afar" begins, in distances between
+// strands.
+constexpr float kDistantFraction = 1.0f / 4, kNearSpacings = 4;
+
+}  // namespace
+
+CoatStats DetailPolicy::stats(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin) {
   auto known = stats_.find(&groom);
   if (known == stats_.end()) {
     known =
@@ -17,13 +26,40 @@ Simplification DetailPolicy::simplification(const Groom& groom, const LimitSurfa
   stats.length *= skin.scale() * skin.length();
   stats.area_share *= skin.length();
   stats.density /= skin.scale() * skin.scale();
+  return stats;
+}
+
+Simplification DetailPolicy::simplification(const Groom& groom, const LimitSurface* rest,
+                                            const PosedCharacterSkin& skin) {
   SimplificationParams params = params_;
   if (groom.role() == StrandRole::kWhisker)
     params.motion_blur = params.depth_of_field = params.back_facing = false;
   const float budget = groom.role() == StrandRole::kGuard     ? params.guard
                        : groom.role() == StrandRole::kWhisker ? params.whisker
                                                               : params.under;
-  return {params, view_, stats, budget};
+  return {params, view_, stats(groom, rest, skin), budget};
+}
+
+/// The mean distance between the strands of a coat at full detail; 0 if unknown.
+float DetailPolicy::spacing(const Groom& groom, const CoatStats& stats, const PosedCharacterSkin& skin) {
+  if (stats.density > 0) return 1 / std::sqrt(stats.density);
+  if (groom.grows_on_skin()) return 0;
+  const auto known = spacings_.find(&groom);
+  if (known != spacings_.end()) return skin.scale() * known->second;
+  return skin.scale() * spacings_.emplace(&groom, root_spacing(groom, job_.workers)).first->second;
+}
+
+std::optional<DetailPolicy::Distant> DetailPolicy::distant(const Groom& groom, const LimitSurface* rest,
+                                                           const PosedCharacterSkin& skin, bool reduced) {
+  if (groom.role() == StrandRole::kWhisker) return {};
+  const CoatStats coat = stats(groom, rest, skin);
+  const float between = spacing(groom, coat, skin);
+  if (!(between > 0)) return {};
+  SimplificationParams full;
+  full.size = full.motion_blur = full.depth_of_field = full.back_facing = false;
+  const Simplification seen =
+      reduced ? simplification(groom, rest, skin) : Simplification(full, view_, coat, 1);
+  return Distant{seen.distant(kDistantFraction), kNearSpacings * between};
 }
 
 std::shared_ptr<const CoatDirection> DetailPolicy::direction(

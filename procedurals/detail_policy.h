@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "base/job.h"
 #include "lod/simplification.h"
@@ -25,17 +26,32 @@ class DetailPolicy {
   /// save nothing.
   Simplification simplification(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
 
+  /// A coat as secondary rays see it from afar.
+  struct Distant {
+    Simplification lod;
+    float from;  ///< distance from the origin of the ray, in scene units: 4 distances between strands
+  };
+  /// Returns how secondary rays see a coat from afar. `reduced`: whether simplification() applies to the coat
+  /// for other rays. Empty if such rays see the same strands as other rays: for whiskers, and where the
+  /// distance between strands is unknown.
+  std::optional<Distant> distant(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin,
+                                 bool reduced);
+
   /// Returns the mean directions of the groom's strands, which motion blur needs. Returns null when they are
   /// not needed: without motion blur, without a skin, and for whiskers.
   std::shared_ptr<const CoatDirection> direction(const Groom& groom,
                                                  const std::shared_ptr<const LimitSurface>& rest);
 
  private:
+  CoatStats stats(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
+  float spacing(const Groom& groom, const CoatStats& stats, const PosedCharacterSkin& skin);
+
   const SimplificationParams params_;
   const LodView view_;
   const bool blurs_;
   const Job& job_;
   std::map<const Groom*, CoatStats> stats_;
+  std::map<const Groom*, float> spacings_;  // of strands without a skin
   std::map<const Groom*, std::shared_ptr<const CoatDirection>> directions_;
 };
 

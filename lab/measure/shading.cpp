@@ -85,6 +85,8 @@ void add_work(Columns& columns) {
   columns.add_number("rays_learned", "rays ended by learning", "rays_skipped_learned");
   columns.add_number("rays_modelled", "rays modelled", "rays_modelled");
   columns.add_number("rays_pilot", "pilot rays", "pilot_rays");
+  columns.add_number("rays_near", "near rays", "rays_near");
+  columns.add_number("rays_far", "far rays", "rays_far");
   columns.add_number("knots", "knots", "knots");
   columns.add("samples_per_knot", "samples per knot", Quantity::kRatio, [](const ShadingRun& run) {
     const double knots = run.outcome.number("knots");

@@ -64,6 +64,31 @@ ShadingCurve switched(ShadingCurve curve, const char* key, bool scene_value) {
   return curve;
 }
 
+/// Everything that may save shadow rays or make them cheaper, switched on together; and all but one of it.
+std::vector<ShadingCurve> together_curves() {
+  const std::pair<const char*, const char*> settings[] = {{"skin_ball", "exact"},
+                                                          {"learned_visibility", "true"},
+                                                          {"screen_door", "true"},
+                                                          {"occlusion_detail", "true"}};
+  const auto all_but = [&](ShadingCurve curve, const std::string& missing) {
+    for (const auto& [key, value] : settings) {
+      const char* off = std::string(key) == "skin_ball" ? "off" : "false";
+      curve.settings.emplace_back(fmt::format("render.{}", key), key == missing ? off : value);
+    }
+    return curve;
+  };
+  std::vector<ShadingCurve> curves{all_but(path("together", "path, together", "drawn"), "")};
+  for (const auto& [key, value] : settings) {
+    const std::string name = std::string(key) == "learned_visibility" ? "learned" : key;
+    ShadingCurve curve = all_but(path("", "path, together without ", "drawn"), key);
+    curve.id = "together_" + name;
+    curve.title += key;
+    curves.push_back(std::move(curve));
+  }
+  curves.push_back(all_but(gather("gather_together", "gather, together"), ""));
+  return curves;
+}
+
 }  // namespace
 
 std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
@@ -85,10 +110,13 @@ std::vector<ShadingCurve> shading_curves(const SceneDescription& scene,
       gather("drawn", "gather, drawn")};
   curves[2].adaptive = true;
   curves.back().settings.back().second = "drawn";
-  for (const ShadingCurve& curve : {curves[0], gather("", "gather")})
+  for (const ShadingCurve& curve : {curves[0], gather("", "gather")}) {
     curves.push_back(switched(curve, "screen_door", scene.render.screen_door));
+    curves.push_back(switched(curve, "occlusion_detail", scene.render.occlusion_detail));
+  }
   for (ShadingCurve& curve : curves) curve = with_known(std::move(curve), "off", "false");
   for (ShadingCurve& curve : occlusion_curves()) curves.push_back(std::move(curve));
+  for (ShadingCurve& curve : together_curves()) curves.push_back(std::move(curve));
   std::erase_if(curves, [&](const ShadingCurve& curve) {
     return !parts.empty() && curve.id != "path" &&
            std::find(parts.begin(), parts.end(), curve.id) == parts.end();

@@ -24,7 +24,9 @@ inline constexpr const char* kShadingParts[] = {"path",
                                                 "cache",
                                                 "drawn",
                                                 "screen_door",
+                                                "occlusion_detail",
                                                 "gather_screen_door",
+                                                "gather_occlusion_detail",
                                                 "skin_ball",
                                                 "learned",
                                                 "skin_ball_learned",
@@ -32,7 +34,13 @@ inline constexpr const char* kShadingParts[] = {"path",
                                                 "reject",
                                                 "gather_skin_ball",
                                                 "gather_skin_ball_learned",
-                                                "gather_fractional"};
+                                                "gather_fractional",
+                                                "together",
+                                                "together_skin_ball",
+                                                "together_learned",
+                                                "together_screen_door",
+                                                "together_occlusion_detail",
+                                                "gather_together"};
 
 /// One way to render, which is measured with several sample counts. Its results are one line in the plots of
 /// error over CPU time.

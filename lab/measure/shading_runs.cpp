@@ -65,7 +65,8 @@ class Sweep {
              {"image.filter_samples", "splatted"},
              {"render.skin_ball", "off"},
              {"render.learned_visibility", "false"},
-             {"render.screen_door", "false"}}};
+             {"render.screen_door", "false"},
+             {"render.occlusion_detail", "false"}}};
   }
 
   /// Each variant has another seed, so that no two pictures share noise.

@@ -34,6 +34,7 @@ struct alignas(64) ChunkAccel::Scratch {
   }
   void next_ray() {
     waiting.clear();
+    distant.clear();
     if (++ray != 0) return;
     std::fill(seen.begin(), seen.end(), 0u);
     ray = 1;
@@ -42,6 +43,7 @@ struct alignas(64) ChunkAccel::Scratch {
   uint32_t ray = 0;            // number of the current ray
   std::vector<uint32_t> seen;  // by chunk: the last ray that visited it
   std::vector<Waiting> waiting;
+  std::vector<Waiting> distant;  // resident chunks that the ray does not see near its origin
 };
 
 ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& grower,
@@ -56,81 +58,146 @@ ChunkAccel::ChunkAccel(std::vector<ChunkBounds> bounds, const ChunkGrower& growe
 
 ChunkAccel::~ChunkAccel() = default;
 
-/// Calls visit(chunk) for every chunk that the ray may hit before far(), which may decrease between visits;
-/// ends when a visit returns false.
+/// The visits of one ray: calls visit(chunk, part of the ray) for every chunk that the ray may hit before
+/// far(), which may decrease between visits; ends when a visit returns false.
+template <class Far, class Visit>
+class ChunkAccel::Visits {
+ public:
+  Visits(const ResidentChunks& chunks, Scratch& scratch, const Ray& ray, ChunkWalk::Order order,
+         TraceThread& thread, const Far& far, const Visit& visit)
+      : chunks_(chunks),
+        boxes_(chunks.boxes()),
+        scratch_(scratch),
+        ray_(ray),
+        sight_(chunks.ranges(), ray),
+        any_(order == ChunkWalk::Order::kLongestFirst),
+        walk_(*boxes_.tree(), ray, order),
+        counts_(thread.counts),
+        far_(far),
+        visit_(visit) {}
+
+  void run() {
+    scratch_.next_ray();
+    if (visit_near() && visit_distant()) visit_waiting();
+    if (sight_.is_limited() && ray_.secondary) ++(met_distant_ ? counts_.rays_far : counts_.rays_near);
+  }
+
+ private:
+  using Waiting = Scratch::Waiting;
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+  /// Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
+  /// that looks for any blocker, `met` becomes the number of fine boxes that it intersects.
+  float enter(uint32_t chunk, const SightRange& seen, float entry, bool resident, uint32_t& met) {
+    entry = std::max(entry, seen.from);
+    if (resident && boxes_.in_fur_tree(chunk)) return entry;
+    const RaySlabs slabs = walk_.slabs().from(seen.from);
+    const float until = std::min(far_(), seen.to);
+    const PartBoxes* learned = boxes_.learned(chunk);
+    if (learned && (!resident || learned->count() >= kFiner * boxes_.parts_in_tree(chunk))) {
+      counts_.box_tests += static_cast<int64_t>(learned->count());
+      entry = learned->enter(slabs, until);
+    }
+    if (resident || !boxes_.has_fine(chunk) || entry == kInfinity) return entry;
+    const FineBoxHits hits =
+        intersect_fine_boxes(boxes_.fine(chunk), slabs, until, any_, counts_.box_tests, boxes_.margin(chunk));
+    met = hits.boxes;
+    return hits.entry;
+  }
+  bool reaches(const SightRange& seen, float entry) const {
+    // The far end of a ray may be infinite too.
+    return entry <= std::min(far_(), seen.to) && entry < kInfinity;
+  }
+  bool visit_one(uint32_t chunk, const SightRange& seen) {
+    ++counts_.chunk_visits;
+    if (!sight_.is_limited()) return visit_(chunk, ray_);
+    met_distant_ |= chunks_.range(chunk).is_distant();
+    return visit_(chunk, sight_.part(seen));
+  }
+
+  /// Visits resident chunks that the ray sees from its origin on, and finds the others.
+  bool visit_near() {
+    uint32_t chunk = 0;
+    float entry = 0;
+    bool goes_on = true;
+    while (goes_on && walk_.next(far_(), chunk, entry)) {
+      if (!scratch_.first_time(chunk)) {
+        // Boxes are not strictly ordered: one of a pending chunk may be entered before those seen so far.
+        // Fine boxes were all tested together.
+        if (boxes_.has_fine(chunk)) continue;
+        for (Waiting& waiting : scratch_.waiting) {
+          if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
+        }
+        continue;
+      }
+      const SightRange seen = sight_.of(chunk);
+      if (seen.is_empty()) continue;
+      const bool resident = chunks_.is_resident(chunk);
+      uint32_t met = kUnknown;
+      entry = enter(chunk, seen, entry, resident, met);
+      if (!reaches(seen, entry)) continue;
+      if (!resident) {
+        scratch_.waiting.push_back({entry, met, chunk});
+      } else if (seen.from > 0) {
+        scratch_.distant.push_back({entry, met, chunk});
+      } else {
+        goes_on = visit_one(chunk, seen);
+      }
+    }
+    counts_.box_tests += walk_.box_tests();
+    return goes_on;
+  }
+  /// Visits resident chunks that the ray sees from a distance on.
+  bool visit_distant() {
+    auto& distant = scratch_.distant;
+    if (!any_) {
+      std::sort(distant.begin(), distant.end(), [](const Waiting& a, const Waiting& b) {
+        return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
+      });
+    }
+    return std::all_of(distant.begin(), distant.end(), [&](const Waiting& next) {
+      return next.entry > far_() || visit_one(next.chunk, sight_.of(next.chunk));
+    });
+  }
+  /// Visits chunks that were not resident.
+  void visit_waiting() {
+    // Nearest first; for occlusion, the most likely blockers first: skins, then chunks with the most
+    // intersected boxes.
+    std::sort(scratch_.waiting.begin(), scratch_.waiting.end(), [&](const Waiting& a, const Waiting& b) {
+      if (any_ && a.boxes != b.boxes) return a.boxes > b.boxes;
+      return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
+    });
+    const float looked_until = far_();
+    for (Waiting& waiting : scratch_.waiting) {
+      if (waiting.entry > far_()) continue;
+      const SightRange seen = sight_.of(waiting.chunk);
+      // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
+      const bool tells_more = far_() < looked_until || boxes_.learned(waiting.chunk);
+      if (tells_more && !reaches(seen, enter(waiting.chunk, seen, waiting.entry, false, waiting.boxes)))
+        continue;
+      ++counts_.absent_visits;
+      if (!visit_one(waiting.chunk, seen)) return;
+    }
+  }
+
+  const ResidentChunks& chunks_;
+  const ChunkBoxes& boxes_;
+  Scratch& scratch_;
+  const Ray& ray_;
+  const Sight sight_;
+  const bool any_;
+  ChunkWalk walk_;
+  TraceCounts& counts_;
+  const Far& far_;
+  const Visit& visit_;
+  bool met_distant_ = false;
+};
+
 template <class Far, class Visit>
 void ChunkAccel::visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,
                               const Visit& visit) const {
-  Scratch& scratch = scratch_[static_cast<size_t>(thread.worker)];
-  scratch.next_ray();
-  const ChunkBoxes& boxes = chunks_.boxes();
-  ChunkWalk walk(*boxes.tree(), ray, order);
-  const bool any = order == ChunkWalk::Order::kLongestFirst;
-  // Distance at which the ray enters the known boxes of the chunk; infinity when it misses them. For a ray
-  // that looks for any blocker, `met` becomes the number of fine boxes that it intersects.
-  const auto enter = [&](uint32_t chunk, float entry, bool resident, uint32_t& met) {
-    const PartBoxes* learned = boxes.learned(chunk);
-    if (learned && (!resident ||
-                    (!boxes.in_fur_tree(chunk) && learned->count() >= kFiner * boxes.parts_in_tree(chunk)))) {
-      thread.counts.box_tests += static_cast<int64_t>(learned->count());
-      entry = learned->enter(walk.slabs(), far());
-    }
-    if (resident || !boxes.has_fine(chunk) || entry == std::numeric_limits<float>::infinity()) return entry;
-    const FineBoxHits hits = intersect_fine_boxes(boxes.fine(chunk), walk.slabs(), far(), any,
-                                                  thread.counts.box_tests, boxes.margin(chunk));
-    met = hits.boxes;
-    return hits.entry;
-  };
-  // The far end of a ray may be infinite too.
-  const auto reaches = [&](float entry) {
-    return entry <= far() && entry < std::numeric_limits<float>::infinity();
-  };
-  const auto visit_one = [&](uint32_t chunk) {
-    ++thread.counts.chunk_visits;
-    return visit(chunk);
-  };
-
-  uint32_t chunk = 0;
-  float entry = 0;
-  bool goes_on = true;
-  while (goes_on && walk.next(far(), chunk, entry)) {
-    if (!scratch.first_time(chunk)) {
-      // Boxes are not strictly ordered: one of a pending chunk may be entered before those seen so far. Fine
-      // boxes were all tested together.
-      if (boxes.has_fine(chunk)) continue;
-      for (Scratch::Waiting& waiting : scratch.waiting) {
-        if (waiting.chunk == chunk) waiting.entry = std::min(waiting.entry, entry);
-      }
-      continue;
-    }
-    const bool resident = chunks_.is_resident(chunk);
-    uint32_t met = kUnknown;
-    entry = enter(chunk, entry, resident, met);
-    if (!reaches(entry)) continue;
-    if (resident) {
-      goes_on = visit_one(chunk);
-    } else {
-      scratch.waiting.push_back({entry, met, chunk});
-    }
-  }
-  thread.counts.box_tests += walk.box_tests();
-  if (!goes_on) return;
-  // Nearest first; for occlusion, the most likely blockers first: skins, then chunks with the most
-  // intersected boxes.
-  using Waiting = Scratch::Waiting;
-  std::sort(scratch.waiting.begin(), scratch.waiting.end(), [any](const Waiting& a, const Waiting& b) {
-    if (any && a.boxes != b.boxes) return a.boxes > b.boxes;
-    return a.entry != b.entry ? a.entry < b.entry : a.chunk < b.chunk;
-  });
-  const float looked_until = far();
-  for (Waiting& waiting : scratch.waiting) {
-    if (waiting.entry > far()) continue;
-    // Meanwhile the ray may have become shorter, and another thread may have grown the chunk.
-    const bool tells_more = far() < looked_until || boxes.learned(waiting.chunk);
-    if (tells_more && !reaches(enter(waiting.chunk, waiting.entry, false, waiting.boxes))) continue;
-    ++thread.counts.absent_visits;
-    if (!visit_one(waiting.chunk)) return;
-  }
+  Visits<Far, Visit>(chunks_, scratch_[static_cast<size_t>(thread.worker)], ray, order, thread, far, visit)
+      .run();
 }
 
 Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
@@ -140,15 +207,21 @@ Hit ChunkAccel::closest(const Ray& ray, TraceThread& thread) const {
   if (!is_finite(ray)) return nearest.hit;
   visit_chunks(
       ray, ChunkWalk::Order::kFrontToBack, thread, [&] { return std::min(ray.far, nearest.hit.distance); },
-      [&](uint32_t chunk) {
+      [&](uint32_t chunk, const Ray& part) {
         const bool found = chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
-          return geometry.closest(ray, rays, nearest, thread.met);
+          return geometry.closest(part, rays, nearest, thread.met);
         });
         if (found) nearest_chunk = chunk;
         return true;
       });
   // Only the final answer counts: other hits on the way depend on the order of visits.
-  if (nearest_chunk) chunks_.mark_hit(*nearest_chunk);
+  if (nearest_chunk) {
+    chunks_.mark_hit(*nearest_chunk);
+    const bool is_distant = nearest.hit.kind == HitKind::kSkin
+                                ? ray.secondary && nearest.hit.distance >= chunks_.farthest_near()
+                                : chunks_.range(*nearest_chunk).is_distant();
+    nearest.hit.start.distant = ray.start.distant || is_distant;
+  }
   return nearest.hit;
 }
 
@@ -159,10 +232,10 @@ float ChunkAccel::transmittance(const Ray& ray, TraceThread& thread) const {
   bool blocked = false;
   visit_chunks(
       ray, ChunkWalk::Order::kLongestFirst, thread, [&] { return ray.far; },
-      [&](uint32_t chunk) {
+      [&](uint32_t chunk, const Ray& part) {
         const size_t before = crossings.reports();
         blocked = !chunks_.visit(chunk, thread.worker, [&](const ChunkGeometry& geometry) {
-          return geometry.collect(ray, rays, crossings);
+          return geometry.collect(part, rays, crossings);
         });
         if (blocked || crossings.reports() != before) chunks_.mark_hit(chunk);
         return !blocked;

@@ -45,6 +45,8 @@ class ChunkAccel final : public Accel {
 
  private:
   struct Scratch;
+  template <class Far, class Visit>
+  class Visits;
 
   template <class Far, class Visit>
   void visit_chunks(const Ray& ray, ChunkWalk::Order order, TraceThread& thread, const Far& far,

@@ -30,6 +30,9 @@ class FrameChunks final : public ChunkGrower {
   }
   ChunkCounts counts(uint32_t chunk) const override;
   StrandScale scale(uint32_t chunk) const override;
+  SightRange range(uint32_t chunk) const override {
+    return is_skin(chunk) ? SightRange{} : ranges_[coats_[chunk]];
+  }
   /// Returns the name of the chunk's coat or skin, such as "walker.under".
   std::string name(uint32_t chunk) const override;
 
@@ -99,6 +102,7 @@ class FrameChunks final : public ChunkGrower {
   std::vector<const Procedural*> leaves_;
   std::vector<uint32_t> parts_;      // index in RenderScene::fur, by leaf
   std::vector<StrandScale> scales_;  // by coat; a coat is a procedural of the scene, before splitting
+  std::vector<SightRange> ranges_;   // by coat
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;
   mutable std::atomic<int64_t> strands_grown_{0}, strands_regrown_{0};

@@ -69,7 +69,7 @@ void VisibilityPilots::follow(size_t pilot, Scratch& scratch, std::vector<PilotR
       leaving.far = far;
       leaving.time = ray.time;
       leaving.random = ray.random + 1;
-      if (!point.can_hit_own_strand()) leaving.start = hit.start;
+      leaving.start = point.can_hit_own_strand() ? hit.start.without_strand() : hit.start;
       return leaving;
     };
     const uint32_t draws = static_cast<uint32_t>(SampleDraw::kFirstVertex) + kVertexDraws * vertex;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "procedurals/root_spacing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kSample = 32, kNeighbours = 8;
+
+/// The follicles with the smallest priorities, which are random numbers of their ids.
+std::vector<size_t> sample(const Groom& groom) {
+  const FollicleTree& follicles = groom.follicles();
+  std::vector<size_t> all(follicles.size());
+  for (size_t f = 0; f < all.size(); ++f) all[f] = f;
+  const size_t count = std::min(kSample, all.size());
+  std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(),
+                    [&](size_t a, size_t b) {
+                      const float of_a = groom.priority(a), of_b = groom.priority(b);
+                      return of_a != of_b ? of_a < of_b : follicles.id(a) < follicles.id(b);
+                    });
+  all.resize(count);
+  return all;
+}
+
+/// Returns the squared distance to the kNeighbours-th nearest other root.
+double distance2_of_last(const Groom& groom, const PosedSkin& rest, size_t follicle) {
+  const V3f from = groom.root(follicle, rest, 0).position;
+  std::array<double, kNeighbours> nearest;
+  nearest.fill(std::numeric_limits<double>::infinity());
+  for (size_t other = 0; other < groom.follicles().size(); ++other) {
+    const double distance2 = (groom.root(other, rest, 0).position - from).length2();
+    if (other == follicle || !(distance2 < nearest.back())) continue;
+    const auto place = std::upper_bound(nearest.begin(), nearest.end(), distance2);
+    std::copy_backward(place, nearest.end() - 1, nearest.end());
+    *place = distance2;
+  }
+  return nearest.back();
+}
+
+}  // namespace
+
+float root_spacing(const Groom& groom, const Workers& workers) {
+  if (groom.follicles().size() <= kNeighbours) return 0;
+  const PosedSkin rest;
+  const std::vector<size_t> roots = sample(groom);
+  std::vector<double> areas(roots.size());
+  workers.for_each(roots.size(), 1, [&](WorkRange range) {
+    for (size_t i = range.begin; i < range.end; ++i)
+      areas[i] = std::numbers::pi * distance2_of_last(groom, rest, roots[i]) / kNeighbours;
+  });
+  double sum = 0;
+  for (const double area : areas) sum += area;
+  return static_cast<float>(std::sqrt(sum / static_cast<double>(areas.size())));
+}
+
+}  // namespace pelage
