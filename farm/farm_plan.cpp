@@ -34,7 +34,7 @@ std::string in_folder(const FarmRequest& request, const std::string& place) {
 }
 
 /// Writes a name so that frame_file_name() returns it unchanged.
-std::string escaped(const std::string& name) {
+std::string percent_escaped(const std::string& name) {
   std::string result;
   for (const char c : name) result += c == '%' ? std::string("%%") : std::string(1, c);
   return result;
@@ -64,7 +64,7 @@ FarmTask render_task(const FarmRequest& request, int frame, const std::string& s
   if (!after.empty()) task.after = {after};
   task.command = {request.program, "render", request.scene};
   append(task.command, request.arguments);
-  append(task.command, {"--frames", fmt::format("{}", frame), "-o", escaped(output)});
+  append(task.command, {"--frames", fmt::format("{}", frame), "-o", percent_escaped(output)});
   if (region)
     append(task.command,
            {"--region", fmt::format("{},{},{},{}", region->x0, region->y0, region->x1, region->y1)});

@@ -36,7 +36,7 @@ table{border-collapse:collapse;width:100%;background:#fff}td,th{border-bottom:1p
 pre{margin:.3em 0;white-space:pre-wrap;background:#f1f1f1;padding:6px;border-radius:4px}
 )";
 
-std::string escaped(std::string_view text) {
+std::string html_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
     if (c == '<')
@@ -133,13 +133,13 @@ std::string frame_html(const ShotState& shot, int number, const Frame& frame, co
     peak = std::max(peak, task.peak_bytes);
     starts += std::max(0, task.starts - 1);
     grid += fmt::format("<a class={} href=\"{}\" title=\"{}: {}\"></a>", css_class(task.stage),
-                        escaped(task.log), shot.plan.tasks[i].name, escaped(details(task)));
+                        html_escaped(task.log), shot.plan.tasks[i].name, html_escaped(details(task)));
   }
   const TaskStage stage = stage_of(shot, frame);
   std::string html = fmt::format("<div class=frame>{}\n",
                                  picture == pictures.end() ? "<div class=none></div>"
                                                            : fmt::format("<img src=\"{}\" alt=\"frame {}\">",
-                                                                         escaped(picture->second), number));
+                                                                         html_escaped(picture->second), number));
   html += fmt::format("<div class=grid style=\"grid-template-columns:repeat({},1fr)\">{}</div>\n",
                       columns_of(shot, frame), grid);
   html += fmt::format("<b>{}</b> {}", number, stage_name(stage));
@@ -159,9 +159,9 @@ std::string problems_html(const ShotState& shot, const std::filesystem::path& fo
                      task.stage == TaskStage::kCancelled || task.stage == TaskStage::kQueuedAgain;
     if (!bad && task.starts < 2) continue;
     rows += fmt::format(
-        "<tr><td><a href=\"{}\">{}</a><td>{}<td>{}", escaped(task.log), shot.plan.tasks[i].name,
-        escaped(details(task)),
-        task.stage == TaskStage::kFailed ? "<pre>" + escaped(end_of_log(folder / task.log)) + "</pre>" : "");
+        "<tr><td><a href=\"{}\">{}</a><td>{}<td>{}", html_escaped(task.log), shot.plan.tasks[i].name,
+        html_escaped(details(task)),
+        task.stage == TaskStage::kFailed ? "<pre>" + html_escaped(end_of_log(folder / task.log)) + "</pre>" : "");
   }
   if (rows.empty()) return {};
   return "<h2>Failures and restarts</h2>\n<table><tr><th>task<th>state<th>end of its log" + rows +
@@ -243,8 +243,8 @@ std::string shot_page(const ShotState& shot, const std::filesystem::path& folder
       "<!doctype html>\n<html lang=en><meta charset=utf-8>{}<title>{} - Pelage "
       "farm</title>\n<style>{}</style>\n"
       "<h1>{}</h1><small>{} tasks in {}; state of {:%Y-%m-%d %H:%M:%S} UTC</small>\n",
-      over ? "" : "<meta http-equiv=refresh content=20>", escaped(name), kStyle, escaped(name),
-      shot.tasks.size(), escaped(shot.plan.folder.string()), fmt::gmtime(static_cast<std::time_t>(now)));
+      over ? "" : "<meta http-equiv=refresh content=20>", html_escaped(name), kStyle, html_escaped(name),
+      shot.tasks.size(), html_escaped(shot.plan.folder.string()), fmt::gmtime(static_cast<std::time_t>(now)));
   html += summary_html(shot) + problems_html(shot, folder) + "<h2>Frames</h2>\n<div class=frames>\n";
   for (const auto& [number, frame] : frames_of(shot)) html += frame_html(shot, number, frame, pictures);
   return html + "</div></html>\n";
