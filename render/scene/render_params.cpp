@@ -92,7 +92,7 @@ const Schema<RenderParams>& RenderParams::schema() {
     s.key(
         "integrator", &RenderParams::integrator,
         {.help = "`path`: every sample of a pixel is a path of its own. `gather`: samples that see the same "
-                 "piece of a strand or skin share shadow rays and indirect light. It needs a third to a half "
+                 "piece of a strand or skin share shadow rays and indirect light. It needs a third to a fifth "
                  "of the time for the same noise, but blurs shadows along strands by `gather.spacing`"});
     s.key("gather", &RenderParams::gather,
           {.help = "Settings of `integrator: gather`", .default_text = "as below"});
