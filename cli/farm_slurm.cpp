@@ -157,9 +157,18 @@ void write_shot(const fs::path& folder, const FarmPlan& plan, const std::vector<
   write_file(folder / "reserved", std::to_string(params.render_bytes) + "\n");
 }
 
+/// Two jobs of the same shot would write the same checkpoints and pieces.
 void check_free(const fs::path& folder) {
+  std::error_code none;
+  if (const auto bytes = fs::file_size(folder / "jobs", none); none || bytes == 0) return;
   const auto queue = ask_queue(folder);
-  if (queue && !jobs_in_queue(folder, *queue).empty()) {
+  if (!queue) {
+    throw Error(ErrorKind::kFailed,
+                folder.string() +
+                    ": the queue does not answer whether earlier jobs of this shot are still "
+                    "in it; try again, or use another --dir");
+  }
+  if (!jobs_in_queue(folder, *queue).empty()) {
     throw Error(ErrorKind::kArguments,
                 folder.string() + ": jobs of this shot are still in the queue; `pelage farm cancel " +
                     folder.string() + "` ends them, or use another --dir");
@@ -222,6 +231,7 @@ int submit_shot(const Options& options) {
                 "sbatch is not in PATH: this machine has no Slurm; `pelage farm plan` prints the tasks for "
                 "other queues");
   }
+  if (!options.farm.dry_run) check_free(folder);
   ProgressDisplay display(ProgressStyle::kQuiet, [] { return false; });
   const SceneDescription scene = read_scene(options, display);
   FarmRequest request = farm_request(options, scene);
@@ -234,7 +244,6 @@ int submit_shot(const Options& options) {
     print_scripts(plan, jobs, params);
     return 0;
   }
-  check_free(folder);
   write_shot(folder, plan, jobs, params);
   const fs::path log = folder / "submit.log";
   const ProcessEnd end =

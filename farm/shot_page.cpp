@@ -136,10 +136,11 @@ std::string frame_html(const ShotState& shot, int number, const Frame& frame, co
                         html_escaped(task.log), shot.plan.tasks[i].name, html_escaped(details(task)));
   }
   const TaskStage stage = stage_of(shot, frame);
-  std::string html = fmt::format("<div class=frame>{}\n",
-                                 picture == pictures.end() ? "<div class=none></div>"
-                                                           : fmt::format("<img src=\"{}\" alt=\"frame {}\">",
-                                                                         html_escaped(picture->second), number));
+  std::string html = fmt::format(
+      "<div class=frame>{}\n",
+      picture == pictures.end()
+          ? "<div class=none></div>"
+          : fmt::format("<img src=\"{}\" alt=\"frame {}\">", html_escaped(picture->second), number));
   html += fmt::format("<div class=grid style=\"grid-template-columns:repeat({},1fr)\">{}</div>\n",
                       columns_of(shot, frame), grid);
   html += fmt::format("<b>{}</b> {}", number, stage_name(stage));
@@ -158,10 +159,11 @@ std::string problems_html(const ShotState& shot, const std::filesystem::path& fo
     const bool bad = task.stage == TaskStage::kFailed || task.stage == TaskStage::kLost ||
                      task.stage == TaskStage::kCancelled || task.stage == TaskStage::kQueuedAgain;
     if (!bad && task.starts < 2) continue;
-    rows += fmt::format(
-        "<tr><td><a href=\"{}\">{}</a><td>{}<td>{}", html_escaped(task.log), shot.plan.tasks[i].name,
-        html_escaped(details(task)),
-        task.stage == TaskStage::kFailed ? "<pre>" + html_escaped(end_of_log(folder / task.log)) + "</pre>" : "");
+    rows += fmt::format("<tr><td><a href=\"{}\">{}</a><td>{}<td>{}", html_escaped(task.log),
+                        shot.plan.tasks[i].name, html_escaped(details(task)),
+                        task.stage == TaskStage::kFailed
+                            ? "<pre>" + html_escaped(end_of_log(folder / task.log)) + "</pre>"
+                            : "");
   }
   if (rows.empty()) return {};
   return "<h2>Failures and restarts</h2>\n<table><tr><th>task<th>state<th>end of its log" + rows +

@@ -51,16 +51,19 @@ std::map<std::string, std::vector<int64_t>> read_jobs(const std::filesystem::pat
   return jobs;
 }
 
-// A queue knows more than the notes of a task that has not ended by itself.
+// A queue knows more than the notes of a task that has not ended by itself, and a task that failed may have
+// been submitted again.
 void apply_queue(const QueuedElements& queue, const std::vector<int64_t>& numbers, size_t element,
                  TaskState& state) {
-  if (state.stage == TaskStage::kDone || state.stage == TaskStage::kFailed) return;
+  if (state.stage == TaskStage::kDone) return;
   const std::string* found = nullptr;
   for (const int64_t number : numbers) {
     const auto at = queue.find({number, static_cast<int64_t>(element) + 1});
     if (at != queue.end()) found = &at->second;
   }
-  if (!found) {
+  if (state.stage == TaskStage::kFailed) {
+    if (found && (*found == "PENDING" || *found == "CONFIGURING")) state.stage = TaskStage::kQueuedAgain;
+  } else if (!found) {
     state.stage = state.stage == TaskStage::kRunning ? TaskStage::kLost : TaskStage::kCancelled;
   } else if (*found == "PENDING") {
     state.stage = state.starts > 0 ? TaskStage::kQueuedAgain : TaskStage::kWaiting;

@@ -96,6 +96,7 @@ trap 'signalled=1; warned=1; note warned; kill -TERM $child' USR1
 trap 'signalled=1; [ "$warned" ] || cancelled=1; kill -TERM $child' TERM
 eval "exec $command" &   # exec: signals must reach the command itself
 child=$!
+[ "$signalled" ] && kill -TERM $child   # a signal that came before there was a child
 while :; do
   signalled=
   wait $child; code=$?

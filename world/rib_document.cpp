@@ -268,6 +268,7 @@ void add_archive_materials(Value& document, const RibUse& use, size_t max_reques
     Value* table = entry.value.find("materials");
     if (!table->is_map()) continue;
     for (const RibMaterial& material : rib.materials) {
+      own_materials.note(material);
       if (table->find(material.name)) continue;
       const std::string name = entry.key + "." + material.name;
       add_entry(*table, material.name, rib_text(named_at, name));

@@ -63,10 +63,14 @@ Value rib_block(const RibSetting& setting) {
   return std::move(*value);
 }
 
-Value RibMaterials::material(const RibMaterial& material, std::vector<Problem>& warnings) {
-  const RibShader* shader = material.shader.get();
+void RibMaterials::note(const RibMaterial& material) {
   names_.insert(material.name);
-  if (shader) names_.insert(shader->name);
+  if (material.shader) names_.insert(material.shader->name);
+}
+
+Value RibMaterials::material(const RibMaterial& material, std::vector<Problem>& warnings) {
+  note(material);
+  const RibShader* shader = material.shader.get();
   if (std::optional<Value> own = table_.find(material)) return std::move(*own);
   if (shader && is_block(shader->find("pelage"))) return rib_block(*shader->find("pelage"));
   if (shader && shader->find("model")) return settings_block(*shader);

@@ -35,6 +35,8 @@ class RibMaterials {
   /// Returns the block of a material: that of the table, of Pelage, of the shader's parameter "model", or the
   /// default. Appends a warning if the shader is not known: one per name of a shader.
   Value material(const RibMaterial& material, std::vector<Problem>& warnings);
+  /// Notes the names of a material whose block comes from elsewhere.
+  void note(const RibMaterial& material);
   /// Appends a warning for each entry of the table that was not used.
   void finish(std::vector<Problem>& warnings) const { table_.warn_of_unused(names_, warnings); }
 

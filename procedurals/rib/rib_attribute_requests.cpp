@@ -191,9 +191,16 @@ void RibInterpreter::light_source(const Call& call) {
   const bool handle = request.arguments.size() > 1 && (request.arguments.size() % 2 == 0);
   RibLight light;
   light.shader = shader_of(request, handle ? 2 : 1);
-  light.name = unique_name("light", now_.name.empty() ? light.shader->name : now_.name);
+  light.name = light_name(*light.shader);
   light.to_world = now_.to_world;
   scene_.lights.push_back(std::move(light));
+}
+
+std::string RibInterpreter::light_name(const RibShader& shader) {
+  const RibSetting* name = shader.find("name");
+  if (name && name->strings.size() == 1 && !name->strings[0].empty())
+    return unique_name("light", name->strings[0]);
+  return unique_name("light", now_.name.empty() ? shader.name : now_.name);
 }
 
 void RibInterpreter::area_light_source(const Call& call) {

@@ -203,11 +203,7 @@ void RibInterpreter::sphere(const Call& call) {
 void RibInterpreter::area_light(RibLight::Shape shape, float radius, std::vector<V3f> corners) {
   RibLight light;
   light.shader = now_.area;
-  const RibSetting* name = now_.area->find("name");
-  const bool named = name && name->strings.size() == 1 && !name->strings[0].empty();
-  light.name = unique_name("light", named               ? name->strings[0]
-                                    : now_.name.empty() ? now_.area->name
-                                                        : now_.name);
+  light.name = light_name(*now_.area);
   light.to_world = now_.to_world;
   light.shape = shape;
   light.radius = radius;

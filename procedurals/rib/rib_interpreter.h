@@ -114,6 +114,8 @@ class RibInterpreter {
   void keep_batch(size_t coat, Strands batch);
   void count_points(const RibStatement& request, size_t points);
   std::string unique_name(const char* kind, std::string wanted);
+  /// Of its shader's "string name", which `pelage rib` writes, else of the attribute "identifier".
+  std::string light_name(const RibShader& shader);
   static StrandScale scale_of(const Strands& strands);
 
   // archives and procedurals (rib_archive_requests.cpp)

@@ -113,6 +113,17 @@ TEST(ShotState, AQueueTellsLostAndCancelledTasks) {
   EXPECT_EQ(read_job_numbers(shot_folder), (std::vector<int64_t>{11, 12, 13, 14}));
 }
 
+TEST(ShotState, AFailedTaskThatIsSubmittedAgainIsQueuedAgain) {
+  const TemporaryFolder folder;
+  const auto shot_folder = folder.path() / "farm";
+  write_file(shot_folder / "plan.json", plan_json(plan(folder.path())));
+  write_file(shot_folder / "jobs", "11 render-0001\n21 render-0001\n");
+  write_file(shot_folder / "state" / "render-0001-r0c0", "100 start 0 n 11\n150 end 3\n");
+  EXPECT_EQ(read_shot_state(shot_folder, parse_queue("21 1 PENDING\n"), 200).tasks[0].stage,
+            TaskStage::kQueuedAgain);
+  EXPECT_EQ(read_shot_state(shot_folder, parse_queue(""), 200).tasks[0].stage, TaskStage::kFailed);
+}
+
 TEST(ShotState, OtherFoldersAreRefused) {
   const TemporaryFolder folder;
   try {

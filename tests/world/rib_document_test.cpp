@@ -127,7 +127,8 @@ TEST_F(RibDocumentTest, MaterialsAndLightsThatPelageWrote) {
 
 TEST_F(RibDocumentTest, LightsAndMaterialsOfOtherPrograms) {
   const SceneDescription scene = shot(
-      "Projection \"perspective\" WorldBegin LightSource \"envlight\" 1 \"intensity\" 0.5 LightSource "
+      "Projection \"perspective\" WorldBegin LightSource \"envlight\" 1 \"intensity\" 0.5 \"string name\" "
+      "\"sky\" LightSource "
       "\"pointlight\" 2 "
       "\"from\" [0 5 0] LightSource \"gobo\" 3 AttributeBegin AreaLightSource \"finite\" 4 \"color "
       "lightcolor\" [1 2 3] "
@@ -135,7 +136,9 @@ TEST_F(RibDocumentTest, LightsAndMaterialsOfOtherPrograms) {
       "PointsPolygons [3] [0 1 2] \"P\" [0 0 0 1 0 0 0 1 0] WorldEnd");
   ASSERT_EQ(scene.lights.items.size(), 3u);
   EXPECT_TRUE(std::holds_alternative<EnvironmentLightParams>(scene.lights.items[0].value));
+  EXPECT_EQ(scene.lights.items[0].name, "sky");
   EXPECT_TRUE(std::holds_alternative<SphereLightParams>(scene.lights.items[1].value));
+  EXPECT_EQ(scene.lights.items[1].name, "pointlight");
   const auto& quad = std::get<RectangleLightParams>(scene.lights.items[2].value);
   EXPECT_EQ(quad.size, V2f(2, 1));
   // The world is left-handed: it is mirrored, and with it the side from which the corners turn left.
