@@ -27,7 +27,7 @@ h1{font-size:1.5em;margin:0}h2{font-size:1.1em;margin:1.6em 0 .5em}small,.dim{co
 .bar{display:flex;height:14px;border-radius:4px;overflow:hidden;background:#ddd;margin:.7em 0}
 .done{background:#3a8a4d}.running{background:#2f6fc1}.queued{background:#d59b1c}.waiting{background:#c9c9c9}
 .failed,.lost{background:#c23b32}.cancelled{background:#8a6d8a}
-.key i{display:inline-block;width:.8em;height:.8em;border-radius:2px;margin:0 .3em 0 1em}.key i:first-child{margin-left:0}
+.key i{display:inline-block;width:.8em;height:.8em;border-radius:2px;margin:0 .3em 0 1em}.key{margin-left:-1em}
 .frames{display:grid;grid-template-columns:repeat(auto-fill,minmax(250px,1fr));gap:12px}
 .frame{background:#fff;border:1px solid #ddd;border-radius:6px;padding:8px}
 .frame img,.none{width:100%;display:block;border-radius:3px;background:#eee}.none{height:120px}
