@@ -23,7 +23,7 @@ constexpr uint64_t kMaxFactor = 200, kUncheckedBytes = uint64_t(64) << 20;
 
 struct RibBytes::Stream {
   gzFile file = nullptr;
-  uint64_t size = 0, read = 0;  // of the file; bytes of RIB so far
+  uint64_t read = 0;  // bytes of RIB so far
   ~Stream() {
     if (file) gzclose(file);
   }
@@ -38,10 +38,11 @@ RibBytes::RibBytes(const std::filesystem::path& path)
     if (own >= 0) ::close(own);
     throw Error(ErrorKind::kInput, {*file_, 0, 0}, "cannot read: out of file handles or memory");
   }
+  // Small buffers for small files, of which there may be many.
   std::error_code ignored;
-  stream_->size = std::filesystem::file_size(path, ignored);
-  gzbuffer(stream_->file, 1 << 17);
-  buffer_.resize(1 << 17);
+  const auto size = std::clamp<uintmax_t>(std::filesystem::file_size(path, ignored), 1 << 12, 1 << 17);
+  gzbuffer(stream_->file, static_cast<unsigned>(size));
+  buffer_.resize(size);
   constexpr std::string_view kPointer = "version https://git-lfs";
   if (fill() && end_ >= kPointer.size() && std::memcmp(buffer_.data(), kPointer.data(), kPointer.size()) == 0)
     throw Error(ErrorKind::kInput, {*file_, 0, 0}, "a git-lfs pointer, not the file itself");
@@ -58,7 +59,8 @@ bool RibBytes::fill() {
   next_ = 0;
   end_ = static_cast<size_t>(std::max(got, 0));
   stream_->read += end_;
-  if (!gzdirect(stream_->file) && stream_->read > std::max(kUncheckedBytes, kMaxFactor * stream_->size))
+  const auto taken = static_cast<uint64_t>(std::max<z_off_t>(0, gzoffset(stream_->file)));
+  if (!gzdirect(stream_->file) && stream_->read > std::max(kUncheckedBytes, kMaxFactor * taken))
     throw Error(
         ErrorKind::kInput, position(),
         "the gzip data expands to more than 200 times its size; unpack it with gunzip if you trust it");

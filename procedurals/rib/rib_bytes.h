@@ -23,9 +23,8 @@ class RibBytes {
   ~RibBytes();
 
   /// Returns the next byte without taking it; kEnd after the last byte. Throws Error (kInput) when compressed
-  /// data is damaged or cut off, or
-  /// has expanded to more than 64 MiB and 200 times the size of the file: a few kilobytes could otherwise
-  /// fill the memory.
+  /// data is damaged or cut off, or has expanded to more than 64 MiB and 200 times what it took of the file:
+  /// a few kilobytes could otherwise fill the memory.
   int peek() { return next_ < end_ || fill() ? buffer_[next_] : kEnd; }
   /// Takes the next byte of text. Counts lines.
   int take() {
