@@ -61,8 +61,7 @@ bool Film::add(int x, int y, const FilmSample& sample, std::span<const Rgb> by_l
   const FilmSums::Footprint footprint = sums_.footprint(sample.offset);
   const std::span<const float> layers = channels_of(by_layer);
   if (!all_zero(light) || !all_zero(layers)) {
-    sums_.add(x, y, footprint, 0, light);
-    sums_.add(x, y, footprint, 4, layers);
+    sums_.add(x, y, footprint, light, layers);
   }
   sums_.add_weight(x, y, footprint);
   const size_t pixel = index(x, y);

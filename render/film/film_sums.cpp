@@ -72,10 +72,12 @@ void FilmSums::for_each_pixel(int x, int y, const Footprint& footprint, const Us
   }
 }
 
-void FilmSums::add(int x, int y, const Footprint& footprint, size_t first, std::span<const float> values) {
+void FilmSums::add(int x, int y, const Footprint& footprint, std::span<const float> first,
+                   std::span<const float> others) {
   for_each_pixel(x, y, footprint, [&](float* pixel, float weight) {
-    float* sum = pixel + first;
-    for (float value : values) *sum++ += weight * value;
+    for (size_t i = 0; i < first.size(); ++i) pixel[i] += weight * first[i];
+    float* sum = pixel + first.size();
+    for (size_t i = 0; i < others.size(); ++i) sum[i] += weight * others[i];
   });
 }
 

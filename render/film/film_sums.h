@@ -43,9 +43,10 @@ class FilmSums {
   /// in pixels. With a splat filter, it must be at most half a pixel along each axis.
   Footprint footprint(const V2f& offset) const;
 
-  /// Adds the values of a sample of pixel (x, y), times its weights. `values`: one per channel, starting with
-  /// channel `first`.
-  void add(int x, int y, const Footprint& footprint, size_t first, std::span<const float> values);
+  /// Adds the values of a sample of pixel (x, y), times its weights. `first`: values of the first channels.
+  /// `others`: values of the channels after these.
+  void add(int x, int y, const Footprint& footprint, std::span<const float> first,
+           std::span<const float> others = {});
   /// Adds the weights of a sample of pixel (x, y) to the total weights, by which mean() divides the sums.
   /// Call once per sample.
   void add_weight(int x, int y, const Footprint& footprint);

@@ -38,8 +38,9 @@ GatherLoop::Memory GatherLoop::reserve_tiles(const RenderScene& scene, const Job
   const auto limit = static_cast<int64_t>(scene.render.memory.bytes);
   int tiles = job.workers.thread_count();
   if (limit > 0) tiles = static_cast<int>(std::clamp<int64_t>(limit / kMemoryShare / tile, 1, tiles));
+  const auto drawn = static_cast<int64_t>(scene.render.gather.reuse ? DrawnLights::bytes(scene.lights) : 0);
   return {tiles,
-          reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles,
+          reserve(job.ledger, MemoryTag::kReflectionCache, tile * tiles + drawn,
                   "the sample buffer of the tiles that are rendered at once"),
           uses_cache(scene) ? CacheFill::reserve(scene, job) : MemoryCharge{}};
 }

@@ -44,12 +44,16 @@ uint32_t GatherTile::samples_at_once(const RenderScene& scene) {
 }
 
 size_t GatherTile::scratch_bytes(size_t lights, uint32_t samples, bool draws) {
-  constexpr size_t kMapEntry = 48;  // of an unordered_map, with its share of the buckets
-  const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(lights, lights) + lights * sizeof(float);
+  const size_t rays = lights * TileSamples::targets(lights);
+  const size_t ordered = KnotOrder::bytes(1, 1) + KnotOrder::bytes(rays, lights) + rays * sizeof(float);
   // At worst, each sample has a knot of its own.
-  const size_t knot = kMapEntry + LightSharing::bytes_per_knot(lights) + PathSharing::bytes_per_knot(lights);
+  const size_t knot = IndexTable::bytes_per_key() + LightSharing::bytes_per_knot(lights) +
+                      PathSharing::bytes_per_knot(lights);
   const size_t sample = TileSamples::bytes_per_sample(lights) + ordered + knot;
-  return kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
+  // One sample in kPilotShare is a pilot; at least one is.
+  const size_t pilots = rays * sizeof(ShadowRays::Pilot) * (samples / kPilotShare + 1);
+  return RecentStrandKnots::bytes() + ArrivalGuess::bytes(lights) + kPixels * pilots +
+         kPixels * (samples * sample + sizeof(TileSamples::Front) + sizeof(double)) +
          (draws ? TileRaster::scratch_bytes(kPixels * samples) : 0);
 }
 
@@ -63,7 +67,7 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
                               static_cast<uint32_t>(tile.y0), first);
   scratch.clamp.limit = scene_.render.clamp_indirect;
   scratch.look.clear();
-  scratch.lights.begin(lights, reuse);
+  scratch.lights.begin(lights);
   if (raster_) {
     const double began_s = thread_cpu_seconds();
     if (!raster_->find(tile, first, count, job, scratch.thread.worker, scratch.raster)) return false;
@@ -77,7 +81,7 @@ bool GatherTile::trace(const Tile& tile, uint32_t first, uint32_t count, const J
   if (!look(first + pilot, count - pilot, job, scratch)) return false;
   if (!shadow_rays_.trace(samples, pilot_rays, job, scratch.shadow_rays, scratch, scratch.lights))
     return false;
-  scratch.lights.finish(samples.zone_of_knot);
+  scratch.lights.finish(samples.zone_of_knot.size());
   scratch.paths.begin(samples.zone_of_knot.size(), samples.zones, lights, reuse);
   if (!indirect_paths_.trace(samples, job, scratch.indirect_paths, scratch, scratch.paths)) return false;
   scratch.paths.finish(samples.zone_of_knot);
@@ -97,7 +101,7 @@ bool GatherTile::look(uint32_t first, uint32_t count, const Job& job, Scratch& s
         });
       };
       const CameraSample* known = raster_ ? &TileRaster::sample(pixel, drawn, scratch.raster) : nullptr;
-      points_.look(pixel, first + i, known, hit, scratch.look, scratch, scratch.samples);
+      points_.look(pixel, first + i, known, hit, scratch.look, scratch, scratch.lights, scratch.samples);
     }
   }
   TileRaster::end(scratch.thread, scratch.raster);

@@ -28,23 +28,33 @@ KnotKeys::KnotKeys(const RenderScene& scene, uint32_t samples)
       params_(scene.render.gather),
       cells_(scene.camera, scene.fur, static_cast<float>(samples)) {}
 
-KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random) const {
-  return hit.kind == HitKind::kStrand ? on_strand(hit, met.strand, random)
-                                      : on_skin(hit, met.triangle, random);
+KnotKey KnotKeys::of(const Hit& hit, const HitGeometry& met, const V2f& random,
+                     RecentStrandKnots& recent) const {
+  if (hit.kind != HitKind::kStrand) return on_skin(hit, met.triangle, random);
+  const StrandKnots knots = recent.of(hit.key(), [&] { return knots_of(met.strand); });
+  return on_strand(hit, met.strand, knots, random);
 }
 
-KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, const V2f& random) const {
-  // Of the control polygon when the shutter opens.
-  const float length = camera_.projected_length(strand.points(), 0);
-  const int level = level_of(length, params_.spacing);
+StrandKnots KnotKeys::knots_of(const Strands& strand) const {
+  StrandKnots knots;
+  knots.length = camera_.projected_length(strand.points(), 0);
+  knots.level = level_of(knots.length, params_.spacing);
+  knots.in_cells =
+      params_.cells && cells_.samples_on(strand, std::ldexp(knots.length, -knots.level)) < kFewest;
+  return knots;
+}
+
+KnotKey KnotKeys::on_strand(const Hit& hit, const Strands& strand, const StrandKnots& knots,
+                            const V2f& random) const {
+  const int level = knots.level;
   const uint32_t segments = segment_count(strand.basis(), strand.strand_points(0));
   const float place = (static_cast<float>(hit.segment) + hit.u) / static_cast<float>(segments);
   const uint32_t knot = knot_near(place, level, random.x);
   const uint32_t zone = std::min(kZones * knot >> level, kZones - 1);
   const uint64_t zone_key = hash64(random_use("zone of a coat"), hit.part, zone);
-  if (params_.cells && cells_.samples_on(strand, std::ldexp(length, -level)) < kFewest) {
+  if (knots.in_cells) {
     const uint64_t bits = std::bit_cast<uint32_t>(random.y);
-    return {cells_.key(hit, strand, length, place, bits), zone_key};
+    return {cells_.key(hit, strand, knots.length, place, bits), zone_key};
   }
   return {hash64(random_use("knot of a strand"), hit.part, hit.strand_id, pack(level, knot)), zone_key};
 }

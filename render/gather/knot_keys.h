@@ -8,6 +8,7 @@
 #include "render/accel/accel.h"
 #include "render/camera/camera.h"
 #include "render/gather/coat_cells.h"
+#include "render/gather/strand_knots.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
@@ -41,10 +42,12 @@ class KnotKeys {
 
   /// Returns the knot that a hit is assigned to. `random`: two random numbers in [0, 1), which select one of
   /// the knots around the hit.
-  KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random) const;
+  /// `recent`: of the calling thread.
+  KnotKey of(const Hit& hit, const HitGeometry& met, const V2f& random, RecentStrandKnots& recent) const;
 
  private:
-  KnotKey on_strand(const Hit& hit, const Strands& strand, const V2f& random) const;
+  StrandKnots knots_of(const Strands& strand) const;
+  KnotKey on_strand(const Hit& hit, const Strands& strand, const StrandKnots& knots, const V2f& random) const;
   KnotKey on_skin(const Hit& hit, const SkinMesh& triangle, const V2f& random) const;
 
   const Camera& camera_;

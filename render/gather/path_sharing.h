@@ -15,12 +15,17 @@ namespace pelage {
 /// knot_keys.h.) The indirect light that a point scatters to the camera is this radiance times the weight of
 /// the point, rho / pdf.
 ///
-/// The estimate uses paths from some of the points. It uses the formula of LightSharing, with two
-/// substitutions: the sum of the weights of all points of a knot takes the place of the unoccluded light U,
-/// and radiance takes the place of the fraction that arrives.
+/// The estimate uses paths from some of the points. For one knot, light, lobe group and colour, let
+///   W        be the sum of the weights of all points,
+///   seen     be the sum of (weight * count of points that the path represents) over the paths,
+///   arrived  be the same sum, each term times the radiance of the path,
+///   p        be a guess of the radiance.
+/// Then the estimated radiance is p + (arrived - p * seen) / W. It is unbiased for every p that does not
+/// depend on the paths of this knot. For p, the class uses arrived / seen of all other knots of the same zone
+/// (one of eight depth ranges of a coat, or a whole skin).
 class PathSharing {
  public:
-  /// Starts a tile. `guess`: as in LightSharing::begin().
+  /// Starts a tile. `guess`: whether p is the mean over the other knots of the zone; otherwise, p = 0.
   void begin(size_t knots, uint32_t zones, size_t lights, bool guess);
 
   /// Adds the weights of a point, by lobe group, to its knot. Call for every point, with or without a path.

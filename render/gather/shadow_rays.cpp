@@ -15,6 +15,13 @@ namespace {
 constexpr double kDarkest = 0.1;
 constexpr uint32_t kRaysPerCheck = 256;  // whether to stop
 
+/// Guess of the fraction of light that arrives along a ray. Never so small that a pixel gets too few rays.
+float chance(const TileSamples& samples, const LightRay& ray, const ArrivalGuess& guess) {
+  constexpr float kLeast = 0.02f;
+  const uint32_t zone = samples.zone(samples.points[ray.point]);
+  return std::max(guess.fraction(zone, ray.light, ArrivalGuess::range_of(ray.ray.direction)), kLeast);
+}
+
 }  // namespace
 
 /// Adds the unoccluded light of the rays from `first` on, and sums up the light that is expected of each
@@ -26,9 +33,12 @@ double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scra
   for (size_t i = first; i < samples.light_rays.size(); ++i) {
     const LightRay& ray = samples.light_rays[i];
     const VisiblePoint& point = samples.points[ray.point];
-    const size_t lobes = (ray.point * scene_.lights.size() + ray.light) * kLobeGroups;
-    light.add_unoccluded(point.knot, ray.light, &samples.unoccluded[lobes]);
-    const double expected = ray.unoccluded * light.chance(samples.zone(point), ray.light);
+    const LightRay* before = i > first ? &ray - 1 : nullptr;
+    if (!before || before->point != ray.point || before->light != ray.light) {
+      const size_t lobes = (ray.point * scene_.lights.size() + ray.light) * kLobeGroups;
+      light.add_unoccluded(point.knot, ray.light, &samples.unoccluded[lobes]);
+    }
+    const double expected = ray.unoccluded * chance(samples, ray, light.guess());
     scratch.pixel_light[point.pixel] += expected;
     sum += expected;
   }
@@ -36,10 +46,9 @@ double ShadowRays::add_unoccluded(const TileSamples& samples, size_t first, Scra
 }
 
 /// Computes the mass of each ray in the order of `scratch.order`: the standard deviation of the light that
-/// arrives along it. For light that arrives with a small probability p, the deviation is proportional to
-/// sqrt(p). With reuse, the mass is relative to the light of the pixel; without reuse, to the masses of all
-/// rays of the point. Returns the sum of all masses.
-double ShadowRays::weigh(const TileSamples& samples, double darkest, const LightSharing& light,
+/// arrives along it. With reuse, the mass is relative to the light of the pixel; without reuse, to the masses
+/// of all rays of the point. Returns the sum of all masses.
+double ShadowRays::weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess,
                          Scratch& scratch) const {
   const std::span<const uint32_t> order = scratch.order.items();
   const bool reuse = scene_.render.gather.reuse;
@@ -48,7 +57,8 @@ double ShadowRays::weigh(const TileSamples& samples, double darkest, const Light
   for (size_t i = 0; i < order.size(); ++i) {
     const LightRay& ray = samples.light_rays[order[i]];
     const VisiblePoint& point = samples.points[ray.point];
-    const float deviation = ray.unoccluded * std::sqrt(light.chance(samples.zone(point), ray.light));
+    const float deviation = ray.unoccluded * guess.deviation(samples.zone(point), ray.light,
+                                                             ArrivalGuess::range_of(ray.ray.direction));
     const double unit = reuse ? scratch.pixel_light[point.pixel] + darkest : 1;
     scratch.masses[i] = static_cast<float>(deviation / unit);
     sum += scratch.masses[i];
@@ -77,12 +87,13 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
     return samples.points[ray.point].knot * lights + ray.light;
   });
   const double darkest = kDarkest * tile_light / static_cast<double>(samples.pixels());
-  const double mass = weigh(samples, darkest, light, scratch);
+  const double mass = weigh(samples, darkest, light.guess(), scratch);
   const size_t points = samples.points.size() - samples.light_rays[first].point;
   const double rays = scene_.render.gather.reuse
                           ? double{scene_.render.gather.light_rays} * static_cast<double>(points)
                           : mass * (scene_.render.light_samples + 1);
   size_t traced = 0;
+  scratch.pilots.clear();
   const float* masses = scratch.masses.data();
   for (uint32_t knot = 0; knot < knots; ++knot) {
     const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
@@ -96,15 +107,76 @@ bool ShadowRays::trace(const TileSamples& samples, size_t first, const Job& job,
       if (times == 0) continue;
       if (++traced % kRaysPerCheck == 0 && job.progress.cancelled()) return false;
       const LightRay& ray = samples.light_rays[index];
-      const VisiblePoint& point = samples.points[ray.point];
-      const bool is_modelled = ray.modelled >= 0;
-      thread.costs.occlusion.rays_modelled += is_modelled ? 1 : 0;
-      const float through = is_modelled ? ray.modelled : thread.light_through(accel_, point.ray(ray.ray));
+      const float through = trace_ray(samples, ray, thread);
       const auto factor = static_cast<float>(times * choice.step() / of_ray);
-      light.add_ray(knot, samples.zone(point), ray.light, ray.lobes, factor, through);
+      if (first == 0) {
+        scratch.pilots.push_back({index, factor, through});
+        continue;
+      }
+      const uint32_t zone = samples.zone(samples.points[ray.point]);
+      const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
+      const float expected = guesses_ ? light.guess().fraction(zone, ray.light, range) : 0.0f;
+      light.add_arriving(knot, ray.light, ray.lobes, factor * (through - expected));
     }
   }
+  if (first == 0) finish_pilot(samples, scratch, light);
   return true;
+}
+
+/// Returns the fraction of light that a ray transmits.
+float ShadowRays::trace_ray(const TileSamples& samples, const LightRay& ray, SampleScratch& thread) const {
+  const bool is_modelled = ray.modelled >= 0;
+  thread.costs.occlusion.rays_modelled += is_modelled ? 1 : 0;
+  return is_modelled ? ray.modelled : thread.light_through(accel_, samples.points[ray.point].ray(ray.ray));
+}
+
+/// Learns from the pilot's rays, and adds their light. A knot's guess must not depend on the knot's own rays.
+void ShadowRays::finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const {
+  ArrivalGuess& guess = light.guess();
+  const size_t lights = scene_.lights.size();
+  const auto& pilots = scratch.pilots;
+  const auto knot_of = [&](uint32_t ray) { return samples.points[samples.light_rays[ray].point].knot; };
+  const auto add = [&](const Pilot& pilot, const auto& to) {
+    const LightRay& ray = samples.light_rays[pilot.ray];
+    to(ray, ArrivalGuess::range_of(ray.ray.direction), double{ray.unoccluded} * pilot.factor);
+  };
+  for (const Pilot& pilot : pilots) {
+    add(pilot, [&](const LightRay& ray, uint32_t range, double luminance) {
+      guess.add(samples.zone(samples.points[ray.point]), ray.light, range, luminance, pilot.through);
+    });
+  }
+  constexpr size_t kAll = ArrivalGuess::kRanges;  // index of the sums over all ranges
+  const auto own = [&](size_t light_index, size_t range) -> ArrivalGuess::Sums& {
+    return scratch.own[light_index * (kAll + 1) + range];
+  };
+  size_t next = 0;
+  for (uint32_t knot = 0; knot < samples.zone_of_knot.size(); ++knot) {
+    const std::span<const uint32_t> items = scratch.order.groups(knot * lights, lights);
+    if (items.empty()) continue;
+    const size_t begin = next;
+    scratch.own.assign(lights * (kAll + 1), {});
+    for (; next < pilots.size() && knot_of(pilots[next].ray) == knot; ++next) {
+      add(pilots[next], [&](const LightRay& ray, uint32_t range, double luminance) {
+        own(ray.light, range).add(luminance, pilots[next].through);
+        own(ray.light, kAll).add(luminance, pilots[next].through);
+      });
+    }
+    const auto expected = [&](const LightRay& ray) {
+      const uint32_t range = ArrivalGuess::range_of(ray.ray.direction);
+      return guesses_ ? guess.fraction_without(samples.zone_of_knot[knot], ray.light, range,
+                                               own(ray.light, range), own(ray.light, kAll))
+                      : 0.0f;
+    };
+    for (const uint32_t index : items) {
+      const LightRay& ray = samples.light_rays[index];
+      light.add_arriving(knot, ray.light, ray.lobes, expected(ray));
+    }
+    for (size_t i = begin; i < next; ++i) {
+      const LightRay& ray = samples.light_rays[pilots[i].ray];
+      light.add_arriving(knot, ray.light, ray.lobes, pilots[i].factor * (pilots[i].through - expected(ray)));
+    }
+  }
+  guess.learn();
 }
 
 }  // namespace pelage

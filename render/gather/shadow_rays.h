@@ -22,27 +22,42 @@ namespace pelage {
 class ShadowRays {
  public:
   /// Keeps references to its arguments.
-  ShadowRays(const RenderScene& scene, const Accel& accel) : scene_(scene), accel_(accel) {}
+  ShadowRays(const RenderScene& scene, const Accel& accel)
+      : scene_(scene), accel_(accel), guesses_(scene.render.gather.reuse) {}
 
+  /// A traced ray.
+  struct Pilot {
+    uint32_t ray = 0;   ///< index in TileSamples::light_rays
+    float factor = 0;   ///< weight / light of the ray
+    float through = 0;  ///< fraction that the ray transmits
+  };
   struct Scratch {
-    KnotOrder order;                  // candidate rays, sorted by knot and light
-    std::vector<float> masses;        // masses for SystematicChoice of the rays in `order`
-    std::vector<double> pixel_light;  // direct luminance that is expected to reach the camera, by pixel
+    KnotOrder order;                      // candidate rays, sorted by knot and light
+    std::vector<float> masses;            // masses for SystematicChoice of the rays in `order`
+    std::vector<double> pixel_light;      // direct luminance that is expected to reach the camera, by pixel
+    std::vector<Pilot> pilots;            // rays of the first call that were traced
+    std::vector<ArrivalGuess::Sums> own;  // of the rays of one knot, by light and range of directions
   };
 
-  /// Chooses some of the rays of `samples.light_rays` from index `first` on. The choice uses
-  /// LightSharing::chance(), which `light` estimates from the rays of earlier calls. Traces the chosen rays
-  /// and adds the results to `light`. Returns false when `job` was cancelled.
+  /// Chooses some of the rays of `samples.light_rays` from index `first` on. Traces the chosen rays and adds
+  /// the results to `light`. Returns false when `job` was cancelled.
+  ///
+  /// The first call of a tile, with `first` = 0, is the pilot. It makes what its rays find known to
+  /// LightSharing::guess(), and adds the expected light of its points to `light`. Before the other calls, the
+  /// caller has added the expected light of all candidates of their points (see LightSharing).
   bool trace(const TileSamples& samples, size_t first, const Job& job, Scratch& scratch,
              SampleScratch& thread, LightSharing& light) const;
 
  private:
   double add_unoccluded(const TileSamples& samples, size_t first, Scratch& scratch,
                         LightSharing& light) const;
-  double weigh(const TileSamples& samples, double darkest, const LightSharing& light, Scratch& scratch) const;
+  double weigh(const TileSamples& samples, double darkest, const ArrivalGuess& guess, Scratch& scratch) const;
+  float trace_ray(const TileSamples& samples, const LightRay& ray, SampleScratch& thread) const;
+  void finish_pilot(const TileSamples& samples, Scratch& scratch, LightSharing& light) const;
 
   const RenderScene& scene_;
   const Accel& accel_;
+  const bool guesses_;  // otherwise, each point only uses its own rays
 };
 
 }  // namespace pelage

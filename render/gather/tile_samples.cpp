@@ -14,7 +14,7 @@ void TileSamples::begin(const Tile& of, uint32_t samples_per_pixel, size_t light
   start(samples, count);
   start(seen_lights, count);
   start(points, count);
-  start(light_rays, count * lights);
+  start(light_rays, count * lights * targets(lights));
   start(unoccluded, count * lights * kLobeGroups);
   start(zone_of_knot, count);
   fronts.assign(pixels(), {});
@@ -23,7 +23,7 @@ void TileSamples::begin(const Tile& of, uint32_t samples_per_pixel, size_t light
 
 size_t TileSamples::bytes_per_sample(size_t lights) {
   return sizeof(Sample) + sizeof(VisiblePoint) + sizeof(uint32_t) +
-         lights * (sizeof(SeenLight) + sizeof(LightRay) + kLobeGroups * sizeof(Rgb));
+         lights * (sizeof(SeenLight) + targets(lights) * sizeof(LightRay) + kLobeGroups * sizeof(Rgb));
 }
 
 }  // namespace pelage

@@ -49,13 +49,15 @@ struct VisiblePoint {
 
 /// A shadow ray from a visible point to a light; ShadowRays decides whether it is traced. Its target is one
 /// of several candidate points on the light. The probability of a candidate is proportional to the luminance
-/// that its light would bring to the camera if nothing blocked it.
+/// that its light would bring to the camera if nothing blocked it. If a point has several rays to a light,
+/// each represents a part of the light of all candidates.
 struct LightRay {
   uint32_t point = 0, light = 0;  ///< indices of the visible point and of the light
-  /// Luminance that the point scatters to the camera from all candidates if nothing blocks the light.
+  /// Luminance that the point scatters to the camera from the ray's part of the candidates if nothing blocks
+  /// the light.
   float unoccluded = 0;
-  /// Estimate of the light that the point scatters to the camera from all candidates if nothing blocks it, by
-  /// lobe group. It uses the colours of the chosen candidate only. Its luminance is `unoccluded`.
+  /// Estimate, by lobe group, of the light whose luminance is `unoccluded`. It uses the colours of the chosen
+  /// candidate only.
   Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};
   LeavingRay ray;
   float modelled = -1;  ///< ScatterPoint::modelled_light(); negative: the ray must be traced
@@ -87,7 +89,7 @@ struct TileSamples {
   std::vector<SeenLight> seen_lights;
   std::vector<Front> fronts;  ///< by pixel
   std::vector<VisiblePoint> points;
-  std::vector<LightRay> light_rays;  ///< in the order of `points`; at most one per point and light
+  std::vector<LightRay> light_rays;  ///< by point, then by light; at most targets() of each
   /// Direct light that the points scatter to the camera if nothing blocks it, by point, light and lobe group.
   std::vector<Rgb> unoccluded;
   std::vector<uint32_t> zone_of_knot;  ///< index of the zone (see KnotKey) of each knot
@@ -103,6 +105,9 @@ struct TileSamples {
   /// Returns the zone of the point's knot.
   uint32_t zone(const VisiblePoint& point) const { return zone_of_knot[point.knot]; }
 
+  /// Returns the max count of shadow rays from a point to each light of a scene with so many lights. A single
+  /// light gets two rays, because otherwise the noise of its visibility exceeds all other noise.
+  static constexpr uint32_t targets(size_t lights) { return lights == 1 ? 2 : 1; }
   /// Returns the max memory of one sample, in bytes.
   static size_t bytes_per_sample(size_t lights);
 

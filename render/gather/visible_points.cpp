@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "render/light/seen_lights.h"
+#include "render/sampling/systematic_choice.h"
 
 namespace pelage {
 namespace {
@@ -24,10 +25,6 @@ float turned(float u, size_t i) {
   return sum - std::floor(sum);
 }
 
-uint32_t index_of(std::unordered_map<uint64_t, uint32_t>& indices, uint64_t key) {
-  return indices.try_emplace(key, static_cast<uint32_t>(indices.size())).first->second;
-}
-
 }  // namespace
 
 VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shading,
@@ -36,20 +33,22 @@ VisiblePoints::VisiblePoints(const RenderScene& scene, const FrameShading& shadi
       shading_(shading),
       camera_(camera),
       keys_(scene, samples),
-      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth) {}
+      drawn_(scene.lights, static_cast<uint64_t>(scene.render.seed), scene.render.gather.reuse),
+      direct_(scene.lights, scene.render.light_samples, DirectTechniques::kBoth, &drawn_) {}
 
 uint32_t VisiblePoints::knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const {
   // Without reuse, each point has a knot of its own.
   const auto count = static_cast<uint32_t>(tile.zone_of_knot.size());
-  const uint32_t knot = scene_.render.gather.reuse ? index_of(scratch.knots, key.knot) : count;
+  const uint32_t knot = scene_.render.gather.reuse ? scratch.knots.index(key.knot) : count;
   if (knot < count) return knot;
-  tile.zone_of_knot.push_back(index_of(scratch.zones, key.zone));
-  tile.zones = static_cast<uint32_t>(scratch.zones.size());
+  tile.zone_of_knot.push_back(scratch.zones.index(key.zone));
+  tile.zones = scratch.zones.size();
   return knot;
 }
 
 void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find,
-                         Scratch& scratch, SampleScratch& thread, TileSamples& tile) const {
+                         Scratch& scratch, SampleScratch& thread, LightSharing& sharing,
+                         TileSamples& tile) const {
   const int x = tile.x(pixel), y = tile.y(pixel);
   SampleStream stream = camera_.stream(x, y, sample);
   const CameraSample from = known ? *known : camera_.draw(x, y, sample, stream);
@@ -73,7 +72,8 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
 
   const uint64_t random = hash64(random_use("knot"), static_cast<uint64_t>(scene_.render.seed),
                                  static_cast<uint32_t>(x), static_cast<uint32_t>(y), sample);
-  const KnotKey key = keys_.of(hit, thread.thread.met, {unit_float(random), unit_float(mix64(random))});
+  const V2f choice(unit_float(random), unit_float(mix64(random)));
+  const KnotKey key = keys_.of(hit, thread.thread.met, choice, scratch.strands);
   VisiblePoint visible;
   visible.pixel = pixel;
   visible.sample = sample;
@@ -83,6 +83,9 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
   const ScatterPoint point = shading_.scatter_point(from.ray, hit, thread.thread.met);
   if (!point.can_hit_own_strand()) visible.start = hit.start;
   find_light(point, stream, scratch, thread, visible, tile);
+  expect_light(visible, tile.zone_of_knot[visible.knot], scratch, sharing);
+  seek(stream, kLightChoice);
+  choose_targets(point, stream.next1d(), scratch, tile);
   tile.points.push_back(visible);
 }
 
@@ -90,30 +93,25 @@ void VisiblePoints::look(uint32_t pixel, uint32_t sample, const CameraSample* kn
 void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch,
                                SampleScratch& thread, VisiblePoint& visible, TileSamples& tile) const {
   const size_t lights = scene_.lights.size();
-  const size_t first = tile.unoccluded.size(), first_ray = tile.light_rays.size();
+  const size_t first = tile.unoccluded.size();
   tile.unoccluded.resize(first + lights * kLobeGroups, Rgb(0));
-  seek(stream, kLightChoice);
-  const float u = stream.next1d();
-  scratch.choices.clear();
-  for (size_t i = 0; i < lights; ++i) {
-    LightRay& ray = tile.light_rays.emplace_back();
-    ray.point = static_cast<uint32_t>(tile.points.size());
-    ray.light = static_cast<uint32_t>(i);
-    scratch.choices.emplace_back(turned(u, i));
-  }
+  scratch.candidates.clear();
+  scratch.masses.assign(lights, 0);
   const auto propose = [&](size_t light, const Rgb* lobes, const Rgb& arriving, const V3f& direction,
                            float distance) {
-    Rgb parts[kLobeGroups], total(0);
+    Candidate candidate;
+    Rgb total(0);
     for (int g = 0; g < kLobeGroups; ++g) {
-      parts[g] = lobes[g] * arriving;
-      tile.unoccluded[first + light * kLobeGroups + static_cast<size_t>(g)] += parts[g];
-      total += parts[g];
+      candidate.lobes[g] = lobes[g] * arriving;
+      tile.unoccluded[first + light * kLobeGroups + static_cast<size_t>(g)] += candidate.lobes[g];
+      total += candidate.lobes[g];
     }
-    const float mass = luminance(total);
-    if (!scratch.choices[light].takes(mass)) return;
-    LightRay& ray = tile.light_rays[first_ray + light];
-    ray.ray = {V3f(0), direction, distance * DirectLight::kJustBefore};
-    for (int g = 0; g < kLobeGroups; ++g) ray.lobes[g] = parts[g] / mass;
+    candidate.mass = luminance(total);
+    if (!(candidate.mass > 0)) return;
+    candidate.light = static_cast<uint32_t>(light);
+    candidate.direction = direction;
+    candidate.far = distance * DirectLight::kJustBefore;
+    scratch.candidates.push_back(candidate);
   };
 
   direct_.begin(point, scratch.direct);
@@ -139,17 +137,43 @@ void VisiblePoints::find_light(const ScatterPoint& point, SampleStream& stream, 
                           propose(light, visible.weights, hit.radiance * weight, sample->wi, hit.distance);
                         });
   }
-  size_t kept = first_ray;
-  for (size_t i = first_ray; i < tile.light_rays.size(); ++i) {
-    LightRay ray = tile.light_rays[i];
-    ray.unoccluded = scratch.choices[ray.light].sum();
-    if (!(ray.unoccluded > 0)) continue;
-    for (Rgb& lobe : ray.lobes) lobe *= ray.unoccluded;
-    ray.ray.origin = point.start(ray.ray.direction);
-    ray.modelled = point.modelled_light(ray.ray.direction, ray.ray.far).value_or(-1.0f);
-    tile.light_rays[kept++] = ray;
+}
+
+/// Finds out what is known about the candidates, and adds the light that is expected of them.
+void VisiblePoints::expect_light(const VisiblePoint& visible, uint32_t zone, Scratch& scratch,
+                                 LightSharing& sharing) const {
+  const ArrivalGuess& guess = sharing.guess();
+  for (Candidate& candidate : scratch.candidates) {
+    const uint32_t range = ArrivalGuess::range_of(candidate.direction);
+    candidate.deviation = guess.deviation(zone, candidate.light, range);
+    scratch.masses[candidate.light] += candidate.mass * candidate.deviation;
+    if (!scene_.render.gather.reuse) continue;
+    const float fraction = guess.fraction(zone, candidate.light, range);
+    if (fraction > 0) sharing.add_arriving(visible.knot, candidate.light, candidate.lobes, fraction);
   }
-  tile.light_rays.resize(kept);
+}
+
+/// Chooses the targets of shadow rays among the candidates of the point, and adds the rays to the tile.
+void VisiblePoints::choose_targets(const ScatterPoint& point, float u, Scratch& scratch,
+                                   TileSamples& tile) const {
+  const uint32_t targets = TileSamples::targets(scratch.masses.size());
+  for (size_t light = 0; light < scratch.masses.size(); ++light) {
+    if (!(scratch.masses[light] > 0)) continue;
+    SystematicChoice choice(double{scratch.masses[light]} / targets, turned(u, light));
+    for (const Candidate& candidate : scratch.candidates) {
+      if (candidate.light != light) continue;
+      const uint32_t times = choice.times(candidate.mass * candidate.deviation);
+      if (times == 0) continue;
+      LightRay& ray = tile.light_rays.emplace_back();
+      ray.point = static_cast<uint32_t>(tile.points.size());
+      ray.light = candidate.light;
+      ray.unoccluded = static_cast<float>(times * choice.step()) / candidate.deviation;
+      for (int g = 0; g < kLobeGroups; ++g)
+        ray.lobes[g] = candidate.lobes[g] * (ray.unoccluded / candidate.mass);
+      ray.ray = {point.start(candidate.direction), candidate.direction, candidate.far};
+      ray.modelled = point.modelled_light(candidate.direction, candidate.far).value_or(-1.0f);
+    }
+  }
 }
 
 }  // namespace pelage

@@ -3,16 +3,17 @@
 
 #include <cstdint>
 #include <functional>
-#include <unordered_map>
 #include <vector>
 
 #include "render/frame/camera_samples.h"
 #include "render/frame/frame_shading.h"
 #include "render/frame/sample_integrator.h"
+#include "render/gather/index_table.h"
 #include "render/gather/knot_keys.h"
+#include "render/gather/light_sharing.h"
 #include "render/gather/tile_samples.h"
 #include "render/light/direct_light.h"
-#include "render/sampling/reservoir.h"
+#include "render/light/drawn_lights.h"
 
 namespace pelage {
 
@@ -29,10 +30,22 @@ class VisiblePoints {
   /// HitGeometry.
   using FindHit = std::function<Hit(const Ray& ray)>;
 
+  /// A possible target of a shadow ray.
+  struct Candidate {
+    uint32_t light = 0;
+    float mass = 0;  ///< luminance that the point scatters to the camera if nothing blocks the light
+    Rgb lobes[kLobeGroups] = {Rgb(0), Rgb(0), Rgb(0)};  ///< this light, by lobe group
+    V3f direction{0};
+    float far = 0;        ///< length of the shadow ray
+    float deviation = 1;  ///< guess of that of the fraction that arrives
+  };
+
   struct Scratch {
     DirectLightScratch direct;
-    std::unordered_map<uint64_t, uint32_t> knots, zones;  // index of each, by its key
-    std::vector<Reservoir> choices;                       // choice of the target of the shadow ray, by light
+    IndexTable knots, zones;  // index of each, by its key
+    RecentStrandKnots strands;
+    std::vector<Candidate> candidates;  // of the current point
+    std::vector<float> masses;          // sum of mass * deviation over the candidates, by light
 
     /// Forgets the knots and zones of the last tile.
     void clear() {
@@ -42,19 +55,24 @@ class VisiblePoints {
   };
 
   /// Finds what sample `sample` of a pixel sees, and adds the sample to `tile`. `pixel`: index of the pixel
-  /// in the tile. `known`: the camera sample, or null if it must be made. `find`: uses `thread`.
+  /// in the tile. `known`: the camera sample, or null if it must be made. `find`: uses `thread`. Adds to
+  /// `sharing` the direct light that its guess expects.
   void look(uint32_t pixel, uint32_t sample, const CameraSample* known, const FindHit& find, Scratch& scratch,
-            SampleScratch& thread, TileSamples& tile) const;
+            SampleScratch& thread, LightSharing& sharing, TileSamples& tile) const;
 
  private:
   uint32_t knot_of(const KnotKey& key, Scratch& scratch, TileSamples& tile) const;
   void find_light(const ScatterPoint& point, SampleStream& stream, Scratch& scratch, SampleScratch& thread,
                   VisiblePoint& visible, TileSamples& tile) const;
+  void expect_light(const VisiblePoint& visible, uint32_t zone, Scratch& scratch,
+                    LightSharing& sharing) const;
+  void choose_targets(const ScatterPoint& point, float u, Scratch& scratch, TileSamples& tile) const;
 
   const RenderScene& scene_;
   const FrameShading& shading_;
   const CameraSamples& camera_;
   KnotKeys keys_;
+  DrawnLights drawn_;
   DirectLight direct_;
 };
 

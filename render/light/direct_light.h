@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vector.h"
+#include "render/light/drawn_lights.h"
 #include "render/light/light_set.h"
 #include "render/light/mis.h"
 #include "render/light/scatter_point.h"
@@ -53,9 +54,11 @@ struct DirectLightScratch {
 /// any thread, each with its own scratch.
 class DirectLight {
  public:
-  /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point.
-  DirectLight(const LightSet& lights, int rays, DirectTechniques techniques)
-      : lights_(lights), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
+  /// `lights` must outlive this object. `rays`: max count of shadow rays per scatter point. `drawn`: where
+  /// points on lights come from; null: Light::sample().
+  DirectLight(const LightSet& lights, int rays, DirectTechniques techniques,
+              const DrawnLights* drawn = nullptr)
+      : lights_(lights), drawn_(drawn), rays_(static_cast<uint32_t>(rays)), techniques_(techniques) {}
 
   /// Length of a shadow ray / distance of the light: the ray ends slightly before the light, so that a
   /// surface touching the light does not block it.
@@ -115,6 +118,7 @@ class DirectLight {
                                         DirectLightScratch& scratch) const;
 
   const LightSet& lights_;
+  const DrawnLights* const drawn_;
   const uint32_t rays_;
   const DirectTechniques techniques_;
 };
@@ -145,7 +149,9 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
                                                    DirectLightScratch& scratch) const {
   const LightSet::Choice choice = LightSet::choose(scratch.probabilities, u.x);
   if (!(choice.probability > 0)) return std::nullopt;
-  const auto seen = lights_.light(choice.light).sample(point.position(), {choice.remapped, u.y});
+  const V2f place(choice.remapped, u.y);
+  const auto seen = drawn_ ? drawn_->sample(choice.light, point.position(), place)
+                           : lights_.light(choice.light).sample(point.position(), place);
   if (!seen || !(seen->pdf > 0)) return std::nullopt;
   const auto sample = point.exit().toward(*seen);
   if (!sample) return std::nullopt;
@@ -155,7 +161,7 @@ std::optional<LightPoint> DirectLight::light_point(const ScatterPoint& point, co
   }
   LightPoint result;
   result.light = choice.light;
-  result.stratum = LearnedVisibility::stratum({choice.remapped, u.y});
+  result.stratum = LearnedVisibility::stratum(place);
   result.factor = point.learned().factor(choice.light, result.stratum);
   result.direction = sample->direction;
   result.distance = sample->distance;

@@ -30,7 +30,7 @@ Sample random_sample(uint64_t i) {
 
 void add(FilmSums& sums, const Sample& sample) {
   const FilmSums::Footprint footprint = sums.footprint(sample.offset);
-  sums.add(sample.x, sample.y, footprint, 0, sample.values);
+  sums.add(sample.x, sample.y, footprint, sample.values);
   sums.add_weight(sample.x, sample.y, footprint);
 }
 

@@ -103,7 +103,9 @@ TEST(KnotKeys, OnlyThinStrandsUseCells) {
     int same = 0;
     for (uint64_t i = 0; i < 200; ++i) {
       const V2f random(unit_float(hash64(i, 1)), unit_float(hash64(i, 2)));
-      same += keys.of(a, met, random).knot == keys.of(b, met, random).knot ? 1 : 0;
+      same += key_scene::key_of(keys, a, met, random).knot == key_scene::key_of(keys, b, met, random).knot
+                  ? 1
+                  : 0;
     }
     return same;
   };
@@ -118,7 +120,7 @@ TEST(KnotKeys, OnlyThinStrandsUseCells) {
   met.strand = one_strand({{0, 0, 0}, {0.1f, 0, 0}}, 1e-4f);
   Hit a = hit_on(0.5f), b = a;
   b.strand_id = a.strand_id + 1;
-  EXPECT_NE(keys.of(a, met, {0, 0}).knot, keys.of(b, met, {0, 0}).knot);
+  EXPECT_NE(key_scene::key_of(keys, a, met, {0, 0}).knot, key_scene::key_of(keys, b, met, {0, 0}).knot);
 }
 
 }  // namespace

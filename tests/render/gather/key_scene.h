@@ -39,4 +39,10 @@ inline Hit hit_on(float place) {
   return hit;
 }
 
+/// KnotKeys::of() of a thread that has met no strand before.
+inline KnotKey key_of(const KnotKeys& keys, const Hit& hit, const HitGeometry& met, const V2f& random) {
+  RecentStrandKnots recent;
+  return keys.of(hit, met, random, recent);
+}
+
 }  // namespace pelage::key_scene

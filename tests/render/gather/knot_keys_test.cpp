@@ -12,6 +12,7 @@ namespace pelage {
 namespace {
 
 using key_scene::hit_on;
+using key_scene::key_of;
 
 /// Samples per pixel: so many that strands are not too thin for knots.
 constexpr uint32_t kSamples = 64;
@@ -28,7 +29,7 @@ std::map<uint64_t, int> knots(const KnotKeys& keys, const HitGeometry& met, floa
   std::map<uint64_t, int> result;
   for (uint64_t i = 0; i < 4000; ++i) {
     const float place = from + (to - from) * unit_float(hash64(i, 1));
-    ++result[keys.of(hit_on(place), met, {unit_float(hash64(i, 2)), 0}).knot];
+    ++result[key_of(keys, hit_on(place), met, {unit_float(hash64(i, 2)), 0}).knot];
   }
   return result;
 }
@@ -50,8 +51,27 @@ TEST(KnotKeys, InterpolateLinearlyOnAverage) {
   const HitGeometry met = strand(0.5f);  // knots at 0, 1/4, 1/2, 3/4, 1
   const auto around = knots(keys, met, 0.299f, 0.301f);
   ASSERT_EQ(around.size(), 2u);
-  const uint64_t before = keys.of(hit_on(0.25f), met, {0, 0}).knot;
+  const uint64_t before = key_of(keys, hit_on(0.25f), met, {0, 0}).knot;
   EXPECT_NEAR(around.at(before) / 4000.0, 0.8, 0.03) << "a fifth of the way";
+}
+
+TEST(RecentStrandKnots, KeepsTheKnotsOfEachStrand) {
+  RecentStrandKnots recent;
+  int made = 0;
+  const auto level = [&](uint32_t part, uint64_t id) {
+    const auto make = [&] {
+      ++made;
+      return StrandKnots{1, static_cast<int>(part * 10000 + id), false};
+    };
+    return recent.of({part, id}, make).level;
+  };
+  for (uint32_t part = 0; part < 2; ++part) {
+    for (uint64_t id = 0; id < 5000; ++id) {
+      ASSERT_EQ(level(part, id), static_cast<int>(part * 10000 + id));
+      ASSERT_EQ(level(part, id), static_cast<int>(part * 10000 + id)) << "again";
+    }
+  }
+  EXPECT_EQ(made, 10000) << "each only once in a row";
 }
 
 TEST(KnotKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
@@ -59,20 +79,20 @@ TEST(KnotKeys, TellStrandsAndCoatsApartAndIgnoreChunks) {
   const KnotKeys keys(scene, kSamples);
   const HitGeometry met = strand(2);
   const Hit hit = hit_on(0.4f);
-  const KnotKey key = keys.of(hit, met, {0.3f, 0});
+  const KnotKey key = key_of(keys, hit, met, {0.3f, 0});
   Hit elsewhere = hit;
   elsewhere.start = {12, 34, 2, 0.8f};
   elsewhere.strand_index = 99;
   elsewhere.distance = 5;
-  EXPECT_EQ(keys.of(elsewhere, met, {0.3f, 0}).knot, key.knot);
+  EXPECT_EQ(key_of(keys, elsewhere, met, {0.3f, 0}).knot, key.knot);
   Hit other = hit;
   other.strand_id = 8;
-  EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
-  EXPECT_EQ(keys.of(other, met, {0.3f, 0}).zone, key.zone);
+  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).knot, key.knot);
+  EXPECT_EQ(key_of(keys, other, met, {0.3f, 0}).zone, key.zone);
   other = hit;
   other.part = 4;
-  EXPECT_NE(keys.of(other, met, {0.3f, 0}).knot, key.knot);
-  EXPECT_NE(keys.of(other, met, {0.3f, 0}).zone, key.zone);
+  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).knot, key.knot);
+  EXPECT_NE(key_of(keys, other, met, {0.3f, 0}).zone, key.zone);
 }
 
 /// A triangle of a face whose unit square is 2 x 1 units of space.
@@ -96,7 +116,7 @@ TEST(KnotKeys, AFaceOfASkinHasAGridOfKnots) {
   for (uint64_t i = 0; i < 20000; ++i) {
     hit.u = unit_float(hash64(i, 1));
     hit.v = (1 - hit.u) * unit_float(hash64(i, 2));
-    ++found[keys.of(hit, met, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))}).knot];
+    ++found[key_of(keys, hit, met, {unit_float(hash64(i, 3)), unit_float(hash64(i, 4))}).knot];
   }
   // The face is 50 x 25 pixels: 32 x 16 parts of at most 2 pixels. Half of its u and v, below the diagonal:
   // 17 x 9 knots, of which about half are near the triangle.

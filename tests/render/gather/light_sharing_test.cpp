@@ -8,7 +8,6 @@
 
 #include "base/hash.h"
 #include "render/sampling/pixel_moments.h"
-#include "render/sampling/reservoir.h"
 #include "render/sampling/systematic_choice.h"
 
 namespace pelage {
@@ -41,11 +40,6 @@ struct Points {
     const float red = lobes[0].x / (lobes[0].x + lobes[0].y + lobes[0].z);
     const float chance = 0.3f + 0.4f * static_cast<float>(zone(knot(point))) - 0.5f * red;
     return unit_float(hash64(point, light, from, 99)) < chance ? 1.0f : 0.0f;
-  }
-  static std::vector<uint32_t> zones() {
-    std::vector<uint32_t> result(kKnots);
-    for (uint32_t k = 0; k < kKnots; ++k) result[k] = zone(k);
-    return result;
   }
   /// Index in the vectors below.
   static size_t index(uint32_t knot, uint32_t light, uint32_t group, uint32_t c) {
@@ -83,49 +77,57 @@ struct Points {
   }
 };
 
+/// Guess of the fraction that arrives in a zone: 0, or about the mean fraction.
+float guess_in(uint32_t zone, bool guess) { return guess ? 0.15f + 0.4f * static_cast<float>(zone) : 0.0f; }
+
 /// Adds every point, and rays of about the given part of them, chosen for each knot independently. A ray goes
 /// to one of the light points, chosen in proportion to its luminance.
 void add(LightSharing& sharing, bool guess, double part, uint64_t trial) {
-  sharing.begin(Points::kLights, guess);
+  sharing.begin(Points::kLights);
   std::vector<SystematicChoice> choices;
   for (uint64_t k = 0; k < Points::kKnots; ++k) {
     choices.emplace_back(1 / part, unit_float(hash64(trial, k, random_use("choice"))));
   }
   for (uint32_t p = 0; p < Points::kCount; ++p) {
     const uint32_t knot = Points::knot(p);
+    const float expected = guess_in(Points::zone(knot), guess);
     for (uint32_t light = 0; light < Points::kLights; ++light) {
-      Reservoir choice(unit_float(hash64(trial, p, light)));
-      uint32_t to = 0;
+      float masses[Points::kLightPoints] = {}, sum = 0;
       for (uint32_t from = 0; from < Points::kLightPoints; ++from) {
         const auto lobes = Points::part(p, light, from);
         sharing.add_unoccluded(knot, light, lobes.data());
-        if (choice.takes(Points::luminance_of(lobes))) to = from;
+        sharing.add_arriving(knot, light, lobes.data(), expected);
+        masses[from] = Points::luminance_of(lobes);
+        sum += masses[from];
       }
-      const uint32_t times = choices[knot].times(choice.sum());
+      SystematicChoice target(sum, unit_float(hash64(trial, p, light)));
+      uint32_t to = 0;
+      while (to + 1 < Points::kLightPoints && target.times(masses[to]) == 0) ++to;
+      const uint32_t times = choices[knot].times(sum);
       if (times == 0) continue;
       const auto lobes = Points::part(p, light, to);
-      const double factor = times * choices[knot].step() / Points::luminance_of(lobes);
-      sharing.add_ray(knot, Points::zone(knot), light, lobes.data(), static_cast<float>(factor),
-                      Points::through(p, light, to));
+      const double factor = times * choices[knot].step() / masses[to];
+      sharing.add_arriving(knot, light, lobes.data(),
+                           static_cast<float>(factor) * (Points::through(p, light, to) - expected));
     }
   }
-  sharing.finish(Points::zones());
+  sharing.finish(Points::kKnots);
 }
 
 TEST(LightSharing, IsExactWhenEveryLightPointHasItsRay) {
   LightSharing sharing;
-  sharing.begin(Points::kLights, true);
+  sharing.begin(Points::kLights);
   for (uint32_t p = 0; p < Points::kCount; ++p) {
     const uint32_t knot = Points::knot(p);
     for (uint32_t light = 0; light < Points::kLights; ++light) {
       for (uint32_t from = 0; from < Points::kLightPoints; ++from) {
         const auto lobes = Points::part(p, light, from);
         sharing.add_unoccluded(knot, light, lobes.data());
-        sharing.add_ray(knot, Points::zone(knot), light, lobes.data(), 1, Points::through(p, light, from));
+        sharing.add_arriving(knot, light, lobes.data(), Points::through(p, light, from));
       }
     }
   }
-  sharing.finish(Points::zones());
+  sharing.finish(Points::kKnots);
   const std::vector<double> truth = Points::sums(true), sums = Points::sums(sharing);
   for (size_t i = 0; i < truth.size(); ++i) EXPECT_NEAR(sums[i], truth[i], 1e-4 * (1 + truth[i])) << i;
 }
@@ -142,7 +144,7 @@ std::vector<PixelMoments> moments(bool guess) {
   return result;
 }
 
-TEST(LightSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
+TEST(LightSharing, IsRightOnAverageAndAGuessMakesItLessNoisy) {
   const std::vector<double> truth = Points::sums(true);
   const std::vector<PixelMoments> guessed = moments(true), alone = moments(false);
   double guessed_variance = 0, alone_variance = 0;
@@ -153,21 +155,6 @@ TEST(LightSharing, IsRightOnAverageAndTheOtherKnotsOfItsZoneMakeItLessNoisy) {
     alone_variance += alone[i].variance();
   }
   EXPECT_LT(guessed_variance, 0.9 * alone_variance);
-}
-
-TEST(LightSharing, LearnsTheChanceOfEachLightByZone) {
-  LightSharing sharing;
-  sharing.begin(2, true);
-  const Rgb white[kLobeGroups] = {Rgb(1), Rgb(0), Rgb(0)};
-  EXPECT_EQ(sharing.chance(0, 0), 1.0f) << "nothing is known";
-  for (int i = 0; i < 100; ++i) {
-    sharing.add_ray(5, 0, 0, white, 2.0f, i % 4 == 0 ? 1.0f : 0.0f);
-    sharing.add_ray(6, 1, 1, white, 1.0f, 0.0f);
-  }
-  EXPECT_NEAR(sharing.chance(0, 0), 0.25f, 0.01f);
-  EXPECT_GT(sharing.chance(1, 1), 0) << "no light is given up";
-  EXPECT_LT(sharing.chance(1, 1), 0.05f);
-  EXPECT_EQ(sharing.chance(1, 0), 1.0f);
 }
 
 }  // namespace

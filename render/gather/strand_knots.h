@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/render/gather/knot_keys_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/hash.h"
+#include "render/accel/strand_handle.h"
+
+namespace pelage {
+
+/// What the knots of a strand depend on. The same for all hits on the strand.
+struct StrandKnots {
+  float length = 0;       ///< of the control polygon in the picture when the shutter opens, in pixels
+  int level = 0;          ///< the strand has 2^level + 1 knots
+  bool in_cells = false;  ///< whether its hits are assigned to the cells of the coat instead
+};
+
+/// Keeps the StrandKnots of the strands that a thread met last: samples of neighbouring pixels often see the
+/// same strands. Belongs to one frame.
+class RecentStrandKnots {
+ public:
+  /// Returns the knots of a strand. Calls make() if they are not kept.
+  template <class Make>
+  const StrandKnots& of(const StrandKey& strand, const Make& make) {
+    Kept& kept = kept_[hash64(strand.part, strand.id) % kCount];
+    if (!kept.is_used || kept.strand != strand) kept = {strand, make(), true};
+    return kept.knots;
+  }
+  static constexpr size_t bytes() { return kCount * sizeof(Kept); }
+
+ private:
+  static constexpr size_t kCount = 1024;
+  struct Kept {
+    StrandKey strand;
+    StrandKnots knots;
+    bool is_used = false;
+  };
+
+  std::vector<Kept> kept_ = std::vector<Kept>(kCount);
+};
+
+}  // namespace pelage
