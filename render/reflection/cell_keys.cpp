@@ -14,6 +14,7 @@ namespace {
 
 constexpr int kMinExponent = -60, kMaxExponent = 60;
 constexpr uint32_t kMaxParts = 128;
+constexpr int kSizes[] = {0, 1, 3};  // binary logarithms of the sides of cells / side of the smallest
 
 /// A number that identifies the part of a strand that is hit, among the parts of all lengths; not 0.
 uint32_t part_of_strand(const Hit& hit, const Strands& strand, float pixels) {
@@ -48,7 +49,7 @@ std::optional<CellPath> CellKeys::of(const Ray& ray, const Hit& hit, const HitGe
   CellPath cells;
   for (int level = 0; level < static_cast<int>(cells.size()); ++level) {
     const auto index = [&](int axis) {
-      const double scaled = std::ldexp(double{at.position[axis]}, -(exponent + level));
+      const double scaled = std::ldexp(double{at.position[axis]}, -(exponent + kSizes[level]));
       return static_cast<uint64_t>(static_cast<int64_t>(std::floor(scaled)));
     };
     cells[static_cast<size_t>(level)] = hash64(place, static_cast<uint32_t>(exponent),

@@ -21,7 +21,7 @@ using CellPath = std::array<uint64_t, 3>;
 /// directions from which rays arrive. In the rest pose, parts of a skin that touch when posed are far apart,
 /// and the two sides of an ear have opposite normals. So cells do not join surfaces that are close in space
 /// but not on the skin. The sides of the cubes are powers of two; the smallest cubes are at most kPixels
-/// pixels large in the picture, and each further size is twice as large.
+/// pixels large in the picture, and the next sizes are two and eight times as large.
 ///
 /// A key depends only on the camera, the ray and its hit. Thread safety: const members may be called from any
 /// thread.

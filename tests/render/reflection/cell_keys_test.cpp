@@ -62,6 +62,14 @@ TEST_F(CellKeysTest, SmallCellsLieInsideLargeOnes) {
   EXPECT_LE(small.size(), 49u);
 }
 
+TEST_F(CellKeysTest, TheLargestCellsAreEightTimesAsLargeAsTheSmallest) {
+  // The smallest cells are 0.25 units large here.
+  const CellPath near = cells({0, 0.1f, 0.1f}), far = cells({0, 1.0f, 0.1f});
+  EXPECT_EQ(cells({0, 0.4f, 0.1f})[1], near[1]) << "0.5 units large";
+  EXPECT_NE(far[1], near[1]);
+  EXPECT_EQ(far[2], near[2]) << "2 units large";
+}
+
 TEST_F(CellKeysTest, DividesCoatsPartsOfStrandsAndDirections) {
   const RootAddress root{0, 0.4f, 0.4f};
   std::set<CellPath> apart{cells(root)};
