@@ -15,6 +15,7 @@ constexpr int kMinExponent = -60, kMaxExponent = 60;
 /// Number of pilot rays as which the expected fraction counts.
 constexpr float kPrior = 2;
 constexpr size_t kStrata = LearnedVisibility::kStrata;
+constexpr size_t kMaxBytes = size_t{32} << 20, kMinCells = 1024;
 
 }  // namespace
 
@@ -30,7 +31,12 @@ uint64_t VisibilityTable::key(const V3f& position, bool on_strand) const {
 }
 
 void VisibilityTable::add(uint64_t cell, size_t light, uint32_t stratum, float through) {
-  const uint32_t index = cells_.try_emplace(cell, static_cast<uint32_t>(cells_.size())).first->second;
+  auto found = cells_.find(cell);
+  if (found == cells_.end()) {
+    if (cells_.size() >= max_cells(lights_)) return;
+    found = cells_.emplace(cell, static_cast<uint32_t>(cells_.size())).first;
+  }
+  const uint32_t index = found->second;
   if (tallies_.size() < cells_.size() * row()) tallies_.resize(cells_.size() * row());
   Tally& tally = tallies_[index * row() + light * kStrata + stratum];
   tally.shots += 1;
@@ -75,6 +81,10 @@ size_t VisibilityTable::bytes_per_cell(size_t lights, bool learning) {
   constexpr size_t kEntry = 2 * sizeof(void*) + sizeof(std::pair<uint64_t, uint32_t>) + 16;  // of the map
   // A vector that doubles its size holds up to three times its contents meanwhile.
   return kEntry + lights * kStrata * (sizeof(uint8_t) + (learning ? 3 * sizeof(Tally) : 0));
+}
+
+size_t VisibilityTable::max_cells(size_t lights) {
+  return std::max(kMinCells, kMaxBytes / bytes_per_cell(lights, true));
 }
 
 }  // namespace pelage

@@ -130,7 +130,8 @@ void VisibilityPilots::add_costs(const std::vector<Scratch>& scratch, FrameStati
 std::unique_ptr<const VisibilityTable> VisibilityPilots::learn(const Job& job,
                                                                FrameStatistics& statistics) const {
   const size_t pilots = count(), lights = scene_.lights.size();
-  const size_t cells = pilots * kVertices * VisibilityTable::bytes_per_cell(lights, true);
+  const size_t cells = std::min(pilots * kVertices, VisibilityTable::max_cells(lights)) *
+                       VisibilityTable::bytes_per_cell(lights, true);
   MemoryCharge charge =
       reserve(job.ledger, MemoryTag::kReflectionCache, static_cast<int64_t>(cells) + batch_bytes(),
               "learning the visibility of lights");
