@@ -20,7 +20,8 @@ std::map<uint64_t, float> by_id(const Groom& groom) {
 }
 
 TEST(EvenPriorities, EveryPartOfTheSkinKeepsTheSameFraction) {
-  const auto groom = grown_on_a_square(5000, 8000);
+  MemoryLedger ledger;
+  const auto groom = grown_on_a_square(ledger, 5000, 8000);
   const std::vector<float> priorities = even_priorities(*groom);
   Box3f box;
   const PosedSkin rest;
@@ -44,8 +45,9 @@ TEST(EvenPriorities, EveryPartOfTheSkinKeepsTheSameFraction) {
 }
 
 TEST(EvenPriorities, AreUniformAndDoNotDependOnLeaves) {
-  const auto whole = by_id(*grown_on_a_square(1000, 8000));
-  EXPECT_EQ(whole, by_id(*grown_on_a_square(1000, 17)));
+  MemoryLedger ledger;
+  const auto whole = by_id(*grown_on_a_square(ledger, 1000, 8000));
+  EXPECT_EQ(whole, by_id(*grown_on_a_square(ledger, 1000, 17)));
   std::vector<float> sorted;
   for (const auto& [id, priority] : whole) sorted.push_back(priority);
   std::sort(sorted.begin(), sorted.end());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/ledger.h"
 #include "base/temporary_folder.h"
 #include "geom/io/strand_file.h"
 #include "groom/groom.h"
@@ -13,8 +14,9 @@
 
 namespace pelage {
 
-/// Short strands at random places of a square with sides of 2.
-inline std::shared_ptr<const Groom> grown_on_a_square(uint32_t count, int leaf_strands) {
+/// Short strands at random places of a square with sides of 2. The ledger must outlive the groom.
+inline std::shared_ptr<const Groom> grown_on_a_square(MemoryLedger& ledger, uint32_t count,
+                                                      int leaf_strands) {
   StrandArrays a;
   a.first_point = {0};
   for (uint32_t s = 0; s < count; ++s) {
@@ -31,7 +33,6 @@ inline std::shared_ptr<const Groom> grown_on_a_square(uint32_t count, int leaf_s
   params.strands_file = {folder.path() / "square.hair", {}};
   params.leaf_strands = leaf_strands;
   write_strands(params.strands_file.path, Strands(std::move(a)));
-  MemoryLedger ledger;
   TextureLibrary textures(ledger);
   return Groom::create("square", params, nullptr, textures, QuietJob(1, ledger));
 }
