@@ -7,8 +7,6 @@
 
 #include <Imath/ImathBoxAlgo.h>
 
-#include "procedurals/even_priorities.h"
-
 namespace pelage {
 namespace {
 
@@ -25,10 +23,12 @@ Box3f root_box(const Groom& groom, const PosedCharacterSkin& skin) {
 }  // namespace
 
 CoatDetail::CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-                       const Simplification& simplification, std::shared_ptr<const CoatDirection> direction)
-    : groom_(std::move(groom)), simplification_(simplification), direction_(std::move(direction)) {
-  // Other rays see the strands that their own random numbers select: an approximation does not change them.
-  if (simplification_.fraction() < 1 && !groom_->has_priority_order()) priorities_ = even_priorities(*groom_);
+                       const Simplification& simplification, std::shared_ptr<const CoatDirection> direction,
+                       std::shared_ptr<const EvenPriorities> priorities)
+    : groom_(std::move(groom)),
+      simplification_(simplification),
+      direction_(std::move(direction)),
+      priorities_(std::move(priorities)) {
   const Box3f roots = root_box(*groom_, skin);
   if (roots.isEmpty()) return;
   const V3f eye = simplification_.view().open.position;

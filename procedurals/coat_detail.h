@@ -9,6 +9,7 @@
 #include "groom/groom.h"
 #include "lod/simplification.h"
 #include "procedurals/coat_direction.h"
+#include "procedurals/even_priorities.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
@@ -21,9 +22,10 @@ namespace pelage {
 class CoatDetail {
  public:
   /// `direction`: mean directions of the strands, to separate blur along strands from blur across them; null:
-  /// unknown.
+  /// unknown. `priorities`: null: those of the groom.
   CoatDetail(std::shared_ptr<const Groom> groom, const PosedCharacterSkin& skin,
-             const Simplification& simplification, std::shared_ptr<const CoatDirection> direction);
+             const Simplification& simplification, std::shared_ptr<const CoatDirection> direction,
+             std::shared_ptr<const EvenPriorities> priorities = {});
 
   const Groom& groom() const { return *groom_; }
   const Simplification& simplification() const { return simplification_; }
@@ -56,14 +58,14 @@ class CoatDetail {
 
  private:
   float priority(size_t follicle) const {
-    return priorities_.empty() ? groom_->priority(follicle) : priorities_[follicle];
+    return priorities_ ? (*priorities_)[follicle] : groom_->priority(follicle);
   }
 
   std::shared_ptr<const Groom> groom_;
   Simplification simplification_;
   std::shared_ptr<const CoatDirection> direction_;
-  std::vector<float> priorities_;  // by follicle; empty: Groom::priority()
-  float first_out_ = 1;            // strands with this priority or a larger one are omitted
+  std::shared_ptr<const EvenPriorities> priorities_;
+  float first_out_ = 1;  // strands with this priority or a larger one are omitted
   float max_share_ = 1;
   float max_width_factor_ = 1, min_width_factor_ = 1;
 };

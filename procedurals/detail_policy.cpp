@@ -59,7 +59,14 @@ std::optional<DetailPolicy::Distant> DetailPolicy::distant(const Groom& groom, c
   full.size = full.motion_blur = full.depth_of_field = full.back_facing = false;
   const Simplification seen =
       reduced ? simplification(groom, rest, skin) : Simplification(full, view_, coat, 1);
-  return Distant{seen.distant(kDistantFraction), kNearSpacings * between};
+  return Distant{seen.distant(kDistantFraction), kNearSpacings * between, priorities(groom)};
+}
+
+std::shared_ptr<const EvenPriorities> DetailPolicy::priorities(const Groom& groom) {
+  if (groom.has_priority_order()) return {};
+  std::shared_ptr<const EvenPriorities>& known = priorities_[&groom];
+  if (!known) known = std::make_shared<const EvenPriorities>(groom, job_.ledger);
+  return known;
 }
 
 std::shared_ptr<const CoatDirection> DetailPolicy::direction(

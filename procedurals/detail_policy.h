@@ -8,6 +8,7 @@
 #include "base/job.h"
 #include "lod/simplification.h"
 #include "procedurals/coat_direction.h"
+#include "procedurals/even_priorities.h"
 #include "procedurals/posed_character_skin.h"
 
 namespace pelage {
@@ -30,6 +31,9 @@ class DetailPolicy {
   struct Distant {
     Simplification lod;
     float from;  ///< distance from the origin of the ray, in scene units: 4 distances between strands
+    /// Null: those of the groom. Other rays see the strands that the random numbers of the groom select, with
+    /// or without an approximation for secondary rays.
+    std::shared_ptr<const EvenPriorities> priorities;
   };
   /// Returns how secondary rays see a coat from afar. `reduced`: whether simplification() applies to the coat
   /// for other rays. Empty if such rays see the same strands as other rays: for whiskers, and where the
@@ -44,6 +48,7 @@ class DetailPolicy {
 
  private:
   CoatStats stats(const Groom& groom, const LimitSurface* rest, const PosedCharacterSkin& skin);
+  std::shared_ptr<const EvenPriorities> priorities(const Groom& groom);
   float spacing(const Groom& groom, const CoatStats& stats, const PosedCharacterSkin& skin);
 
   const SimplificationParams params_;
@@ -52,6 +57,7 @@ class DetailPolicy {
   const Job& job_;
   std::map<const Groom*, CoatStats> stats_;
   std::map<const Groom*, float> spacings_;  // of strands without a skin
+  std::map<const Groom*, std::shared_ptr<const EvenPriorities>> priorities_;
   std::map<const Groom*, std::shared_ptr<const CoatDirection>> directions_;
 };
 

@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <tuple>
 
+#include "base/memory_budget.h"
+
 namespace pelage {
 namespace {
 
 /// Cells along each axis: 2^16 of a face, 2^20 of the box of all roots.
 constexpr uint32_t kOfFace = 1u << 16, kOfBox = 1u << 20;
+constexpr int64_t kTemporaryBytes = sizeof(uint64_t) + sizeof(uint32_t);  // per strand
 
 uint64_t cell(float place, uint32_t cells) {
   const float scaled = place * static_cast<float>(cells);
@@ -56,17 +59,21 @@ float radical_inverse(uint32_t x) {
 
 }  // namespace
 
-std::vector<float> even_priorities(const Groom& groom) {
+EvenPriorities::EvenPriorities(const Groom& groom, MemoryLedger& ledger) {
   const FollicleTree& follicles = groom.follicles();
+  const auto count = static_cast<int64_t>(follicles.size());
+  const MemoryCharge temporary = reserve(ledger, MemoryTag::kGrooms, count * kTemporaryBytes,
+                                         "sorting the strands of a groom from a file");
   const std::vector<uint64_t> along = positions(groom);
   std::vector<uint32_t> order(follicles.size());
   for (uint32_t f = 0; f < order.size(); ++f) order[f] = f;
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     return std::tuple(along[a], follicles.id(a)) < std::tuple(along[b], follicles.id(b));
   });
-  std::vector<float> priorities(order.size());
-  for (uint32_t rank = 0; rank < order.size(); ++rank) priorities[order[rank]] = radical_inverse(rank);
-  return priorities;
+  charge_ = reserve(ledger, MemoryTag::kGrooms, count * static_cast<int64_t>(sizeof(float)),
+                    "the priorities of a groom from a file");
+  of_follicle_.resize(order.size());
+  for (uint32_t rank = 0; rank < order.size(); ++rank) of_follicle_[order[rank]] = radical_inverse(rank);
 }
 
 }  // namespace pelage

@@ -107,8 +107,8 @@ class Composer {
     DistantFur distant;
     const auto found = detail_.distant(*coat, rest.get(), *posed, reduced);
     if (!found) return distant;
-    auto fur = std::make_unique<FurProcedural>(coat, posed, found->lod,
-                                               reduced ? detail_.direction(*coat, rest) : nullptr);
+    auto fur = std::make_unique<FurProcedural>(
+        coat, posed, found->lod, reduced ? detail_.direction(*coat, rest) : nullptr, found->priorities);
     distant.lod = found->lod;
     // Where fewer strands are kept, they are farther apart.
     distant.from = found->from / std::sqrt(fur->detail()->max_share() / found->lod.fraction());

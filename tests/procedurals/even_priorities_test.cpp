@@ -7,13 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "tests/procedurals/square_groom.h"
 
 namespace pelage {
 namespace {
 
-std::map<uint64_t, float> by_id(const Groom& groom) {
-  const std::vector<float> priorities = even_priorities(groom);
+std::map<uint64_t, float> by_id(const Groom& groom, MemoryLedger& ledger) {
+  const EvenPriorities priorities(groom, ledger);
   std::map<uint64_t, float> result;
   for (size_t f = 0; f < priorities.size(); ++f) result[groom.follicles().id(f)] = priorities[f];
   return result;
@@ -22,7 +23,7 @@ std::map<uint64_t, float> by_id(const Groom& groom) {
 TEST(EvenPriorities, EveryPartOfTheSkinKeepsTheSameFraction) {
   MemoryLedger ledger;
   const auto groom = grown_on_a_square(ledger, 5000, 8000);
-  const std::vector<float> priorities = even_priorities(*groom);
+  const EvenPriorities priorities(*groom, ledger);
   Box3f box;
   const PosedSkin rest;
   for (size_t f = 0; f < priorities.size(); ++f) box.extendBy(groom->root(f, rest, 0).position);
@@ -46,14 +47,27 @@ TEST(EvenPriorities, EveryPartOfTheSkinKeepsTheSameFraction) {
 
 TEST(EvenPriorities, AreUniformAndDoNotDependOnLeaves) {
   MemoryLedger ledger;
-  const auto whole = by_id(*grown_on_a_square(ledger, 1000, 8000));
-  EXPECT_EQ(whole, by_id(*grown_on_a_square(ledger, 1000, 17)));
+  const auto whole = by_id(*grown_on_a_square(ledger, 1000, 8000), ledger);
+  EXPECT_EQ(whole, by_id(*grown_on_a_square(ledger, 1000, 17), ledger));
   std::vector<float> sorted;
   for (const auto& [id, priority] : whole) sorted.push_back(priority);
   std::sort(sorted.begin(), sorted.end());
   // 1,000 ranks are a prefix of 1,024.
   for (size_t i = 0; i < sorted.size(); ++i) EXPECT_NEAR(sorted[i], static_cast<double>(i) / 1000, 0.025);
   EXPECT_EQ(std::adjacent_find(sorted.begin(), sorted.end()), sorted.end());
+}
+
+TEST(EvenPriorities, ChargeWhatTheyHoldOrAreRefused) {
+  MemoryLedger ledger;
+  const auto groom = grown_on_a_square(ledger, 1000, 8000);
+  const int64_t before = ledger.current(MemoryTag::kGrooms);
+  {
+    const EvenPriorities priorities(*groom, ledger);
+    EXPECT_EQ(ledger.current(MemoryTag::kGrooms), before + 4000);
+  }
+  EXPECT_EQ(ledger.current(MemoryTag::kGrooms), before);
+  ledger.set_limit(static_cast<uint64_t>(ledger.budgeted()) + 15000);
+  EXPECT_THROW(EvenPriorities(*groom, ledger), Error);
 }
 
 }  // namespace
