@@ -243,12 +243,30 @@ Value rib_document(const std::filesystem::path& path, const RibUse& use, size_t 
   return document;
 }
 
+namespace {
+
+/// Of the `materials` that a scene gives an archive.
+void warn_of_unknown_surfaces(const Value& table, const RibScene& rib, std::vector<Problem>& warnings) {
+  std::vector<std::string> names;
+  for (const RibMaterial& material : rib.materials) names.push_back(material.name);
+  for (const Value::Entry& entry : table.entries()) {
+    if (std::find(names.begin(), names.end(), entry.key) == names.end())
+      warnings.push_back(
+          {entry.key_position, "the archive has no surface " + quote(entry.key) + suggest(entry.key, names)});
+  }
+}
+
+}  // namespace
+
 void add_archive_materials(Value& document, const RibUse& use, size_t max_request_bytes,
                            std::vector<Problem>& warnings) {
-  Value* archives = document.find("archives");
-  if (!archives || !archives->is_map()) return;
-  Value added = Value::map(archives->position(), {});
   RibMaterials own_materials = materials_of(use);
+  Value* archives = document.find("archives");
+  if (!archives || !archives->is_map()) {
+    own_materials.finish(warnings);
+    return;
+  }
+  Value added = Value::map(archives->position(), {});
   for (Value::Entry& entry : archives->entries()) {
     const Value* file = entry.value.find("rib");
     if (!file || !file->is_scalar() || file->text().empty()) continue;  // the schema reports it
@@ -267,6 +285,7 @@ void add_archive_materials(Value& document, const RibUse& use, size_t max_reques
     if (!entry.value.find("materials")) add_entry(entry.value, "materials", Value::map(named_at, {}));
     Value* table = entry.value.find("materials");
     if (!table->is_map()) continue;
+    warn_of_unknown_surfaces(*table, rib, warnings);
     for (const RibMaterial& material : rib.materials) {
       own_materials.note(material);
       if (table->find(material.name)) continue;

@@ -170,6 +170,16 @@ TEST_F(RibDocumentTest, ScenesGetMaterialsForTheSurfacesOfTheirArchives) {
   ASSERT_TRUE(scene.materials.find("fox.fur"));
   EXPECT_FALSE(scene.materials.find("fox.plastic"));
   EXPECT_EQ(scene.archives.items[0].value.materials.find("fur")->value.name, "fox.fur");
+  EXPECT_TRUE(scene.warnings.empty());
+
+  write(
+      "pelage: 1\nmaterials: {hide: {model: lambert}}\narchives:\n  fox: {rib: a.rib, materials: {plastik: "
+      "hide}}\n",
+      "scene.yaml");
+  const SceneDescription misspelt = load_scene(folder_.path() / "scene.yaml");
+  ASSERT_EQ(misspelt.warnings.size(), 2u) << "also: the shader plastic is not known";
+  EXPECT_NE(misspelt.warnings[0].message.find("no surface 'plastik'; did you mean 'plastic'?"),
+            std::string::npos);
   write("pelage: 1\narchives:\n  fox: {rib: none.rib}\n", "scene.yaml");
   try {
     load_scene(folder_.path() / "scene.yaml");

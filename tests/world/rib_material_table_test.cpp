@@ -81,6 +81,18 @@ TEST_F(RibMaterialTableTest, UnknownNamesAreReportedOnce) {
   EXPECT_EQ(scene.warnings[2].position.line, 1);
 }
 
+TEST_F(RibMaterialTableTest, ATableForASceneWithoutRibIsReadAndReported) {
+  write_file(folder_.path() / "table.yaml", "plastic: {model: lambert}\n");
+  write_file(folder_.path() / "scene.yaml", "pelage: 1\n");
+  RibUse use;
+  use.materials = folder_.path() / "table.yaml";
+  const SceneDescription scene = load_scene(folder_.path() / "scene.yaml", {}, use);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(scene.warnings[0].message.find("no surface has the shader 'plastic'"), std::string::npos);
+  use.materials = folder_.path() / "none.yaml";
+  EXPECT_THROW(load_scene(folder_.path() / "scene.yaml", {}, use), Error);
+}
+
 TEST_F(RibMaterialTableTest, MistakesHavePositionsInTheTable) {
   const std::string wood = "Surface \"wood\"\n" + kMesh;
   EXPECT_NE(
