@@ -19,12 +19,13 @@ struct PieceHeader {
 /// piece that cannot be read, is partial, differs, overlaps, or the pixels that no piece contains.
 std::vector<PieceHeader> read_pieces(const std::vector<std::filesystem::path>& paths, bool any_instructions);
 
-/// Returns the header of the merged picture: that of the first piece, with the sum of `pelage:renderSeconds`
-/// and the max of `pelage:peakMemoryBytes` over all pieces, and the instructions "mixed" if they differ.
+/// Returns the header of the merged picture. It is the header of the first piece, but `pelage:renderSeconds`
+/// is the sum over all pieces, `pelage:peakMemoryBytes` the max, and `pelage:instructions` is "mixed" if
+/// pieces differ.
 ExrPart merged_header(const std::vector<PieceHeader>& pieces);
 
-/// Returns whether `output` is the picture that merge_pieces() would make from these pieces: it is newer than
-/// all of them, and its header is that of their merge. Returns false if a piece cannot be read or differs.
+/// Returns whether `output` already is the picture that merge_pieces() would write: it is newer than every
+/// piece, and has the header that merged_header() returns. Returns false if read_pieces() would throw.
 bool is_merged(const std::vector<std::filesystem::path>& pieces, const std::filesystem::path& output,
                bool any_instructions);
 

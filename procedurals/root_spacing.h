@@ -7,9 +7,9 @@ namespace pelage {
 
 class Workers;
 
-/// Returns the mean distance between the roots of strands that do not grow on a skin, at rest, for a
-/// character of scale 1: 1 / sqrt(roots per area), where the area is that of a disc around a root that
-/// contains its 8 nearest roots, averaged over 32 roots. Does not depend on how the groom is divided into
+/// Returns the mean distance between the roots of strands that do not grow on a skin: at rest, for a
+/// character of scale 1. It is the square root of the mean area per root. The area per root is measured at 32
+/// roots: an eighth of the disc that contains the 8 nearest other roots. The result does not depend on
 /// leaves. Returns 0 if there are fewer than 9 roots.
 float root_spacing(const Groom& groom, const Workers& workers);
 

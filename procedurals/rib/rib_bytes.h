@@ -22,9 +22,9 @@ class RibBytes {
   explicit RibBytes(const std::filesystem::path& path);
   ~RibBytes();
 
-  /// Returns the next byte without taking it; kEnd after the last byte. Throws Error (kInput) when compressed
-  /// data is damaged or cut off, or has expanded to more than 64 MiB and 200 times what it took of the file:
-  /// a few kilobytes could otherwise fill the memory.
+  /// Returns the next byte without taking it; kEnd after the last byte. Throws Error (kInput) if compressed
+  /// data is damaged or cut off. Also throws if the data is larger than 64 MiB and than 200 times the bytes
+  /// read from the file, because a file of a few kilobytes could otherwise fill the memory.
   int peek() { return next_ < end_ || fill() ? buffer_[next_] : kEnd; }
   /// Takes the next byte of text. Counts lines.
   int take() {

@@ -18,8 +18,8 @@ namespace pelage {
 /// A cell is a cube whose side is a power of two, about kPixels pixels long in the picture, with the strands
 /// in it or with the skin in it. First, add() the pilot rays; then, freeze() computes the factors once; from
 /// then on, find() returns them. So a shadow ray never depends on another shadow ray of the picture. The
-/// result depends on the order of add(). A table has at most max_cells() cells; what is added to further
-/// cells is dropped.
+/// result depends on the order of add(). A table has at most max_cells() cells, and ignores
+/// pilot rays in further cells.
 ///
 /// Let v be the fraction of a stratum's pilot rays that arrived. With few rays, v is pulled towards the
 /// fraction of its cell and light, and this one towards the fraction of the light. The factor is

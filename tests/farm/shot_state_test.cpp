@@ -81,11 +81,18 @@ TEST(ShotState, TornLinesAreSkipped) {
   EXPECT_EQ(read_events("garbage\n\n-\n99999999999999999999999 end 0\n", 200).stage, TaskStage::kWaiting);
 }
 
+/// Writes the folder of a shot that was submitted as these jobs, and returns the folder.
+std::filesystem::path submitted(const std::filesystem::path& parent, const std::string& jobs) {
+  const auto shot_folder = parent / "farm";
+  write_file(shot_folder / "plan.json", plan_json(plan(parent)));
+  write_file(shot_folder / "jobs", jobs);
+  return shot_folder;
+}
+
 TEST(ShotState, AQueueTellsLostAndCancelledTasks) {
   const TemporaryFolder folder;
-  const auto shot_folder = folder.path() / "farm";
-  write_file(shot_folder / "plan.json", plan_json(plan(folder.path())));
-  write_file(shot_folder / "jobs", "11 render-0001\n12 merge-0001\n13 render-0002\n14 merge-0002\n");
+  const auto shot_folder =
+      submitted(folder.path(), "11 render-0001\n12 merge-0001\n13 render-0002\n14 merge-0002\n");
   write_file(shot_folder / "state" / "render-0001-r0c0", "100 start 0 n 7\n");
   write_file(shot_folder / "state" / "render-0001-r0c1", "100 start 0 n 7\n150 end 0\n");
   write_file(shot_folder / "state" / "render-0002-r0c0", "100 start 0 n 7\n");
@@ -115,9 +122,7 @@ TEST(ShotState, AQueueTellsLostAndCancelledTasks) {
 
 TEST(ShotState, AFailedTaskThatIsSubmittedAgainIsQueuedAgain) {
   const TemporaryFolder folder;
-  const auto shot_folder = folder.path() / "farm";
-  write_file(shot_folder / "plan.json", plan_json(plan(folder.path())));
-  write_file(shot_folder / "jobs", "11 render-0001\n21 render-0001\n");
+  const auto shot_folder = submitted(folder.path(), "11 render-0001\n21 render-0001\n");
   write_file(shot_folder / "state" / "render-0001-r0c0", "100 start 0 n 11\n150 end 3\n");
   EXPECT_EQ(read_shot_state(shot_folder, parse_queue("21 1 PENDING\n"), 200).tasks[0].stage,
             TaskStage::kQueuedAgain);

@@ -62,7 +62,7 @@ class SlurmTest(ProgramTest):
         self.until(self.slurm.is_ready)
 
     def until(self, condition):
-        """Waits for a condition and returns it; the limit is far beyond what it can take."""
+        """Calls condition() until it returns something true, and returns that. Fails after five minutes."""
         end = time.monotonic() + 300
         while time.monotonic() < end:
             if (found := condition()):

@@ -24,8 +24,8 @@ class RibPicture : public testing::Test {
         .at(0);
   }
 
-  /// The picture of a scene or RIB file. The camera of the file is not used, because that of a RIB file is a
-  /// matrix, which is rounded.
+  /// The picture of a scene or RIB file, with a camera of the test: a RIB file rounds the matrix of its
+  /// camera.
   static Picture picture(const std::string& path, std::vector<Override> overrides = {}, int threads = 2) {
     for (const auto& [key, value] : {std::pair("position", "[3, 2, 8]"), std::pair("look_at", "[1, 0, 0]"),
                                      std::pair("up", "[0, 1, 0]"), std::pair("fov", "40")})
