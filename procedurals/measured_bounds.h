@@ -25,7 +25,7 @@ class MeasuredBounds {
   /// Reads the boxes of all chunks for which earlier runs wrote side files.
   void read(const Job& job);
   /// Waits while another process measures the same boxes; then reads the side files that it wrote. Returns a
-  /// lock if side files are still missing: keep it during measure(), so that other processes wait for this
+  /// lock if side files were missing: keep it during measure(), so that other processes wait for this
   /// one. A process waits only for one that misses the same files, as the regions of a frame do.
   std::optional<ContentStore::Lock> lock(const Job& job);
   /// Grows and measures the other chunks. Writes each side file as soon as the boxes of all its chunks are
