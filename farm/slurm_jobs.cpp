@@ -89,7 +89,8 @@ std::string task_script(const SlurmParams& params) {
 folder={0}
 read -r name command < <(sed -n "${{SLURM_ARRAY_TASK_ID}}p" "$1")
 [ "$command" ] || {{ echo "$1 has no line $SLURM_ARRAY_TASK_ID" >&2; exit 1; }}
-note() {{ echo "$(date +%s) $*" >> "$folder/state/$name"; }}
+# Begins a line, because the last one may have been cut off (full disk, power failure).
+note() {{ printf '\n%s %s\n' "$(date +%s)" "$*" >> "$folder/state/$name"; }}
 note start "${{SLURM_RESTART_COUNT:-0}}" "${{SLURMD_NODENAME:-$(hostname)}}" "$SLURM_JOB_ID"
 trap 'signalled=1; warned=1; note warned; kill -TERM $child' USR1
 # Slurm also sends SIGTERM at the time limit, to a task that was warned and still writes its checkpoint.

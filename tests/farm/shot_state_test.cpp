@@ -78,6 +78,7 @@ TEST(ShotState, EventsTellWhatHasHappened) {
 TEST(ShotState, TornLinesAreSkipped) {
   EXPECT_EQ(read_events("100 start 0 n 7\n150 en", 200).stage, TaskStage::kRunning);
   EXPECT_EQ(read_events("100 start 0 n 7\n150 end", 200).stage, TaskStage::kRunning);
+  EXPECT_EQ(read_events("\n100 start 0 n 7\n\n150 en\n180 start 1 n 7\n", 200).starts, 2);
   EXPECT_EQ(read_events("garbage\n\n-\n99999999999999999999999 end 0\n", 200).stage, TaskStage::kWaiting);
 }
 
