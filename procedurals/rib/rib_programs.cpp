@@ -109,7 +109,7 @@ RibReply::~RibReply() {
 /// A running program.
 class RibPrograms::Program {
  public:
-  Program(const std::filesystem::path& path, const std::vector<std::string>& words) {
+  Program(const std::filesystem::path& path, const std::vector<std::string>& words, StarterThread& starter) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -119,8 +119,10 @@ class RibPrograms::Program {
       fail("cannot create a pipe: " + std::string(std::strerror(errno)));
     }
     const pid_t parent = ::getpid();
-    child_ = ::fork();
-    if (child_ == 0) exec_child(path.c_str(), arguments.data(), in[0], out[1], parent);
+    starter.run([&] {
+      child_ = ::fork();
+      if (child_ == 0) exec_child(path.c_str(), arguments.data(), in[0], out[1], parent);
+    });
     ::close(in[0]);
     ::close(out[1]);
     to_ = in[1];
@@ -210,7 +212,9 @@ RibPrograms::Program& RibPrograms::program(const std::string& command,
   if (known) return *known;
   const std::vector<std::string> words = words_of(command);
   if (words.empty()) fail("expected the name of a program");
-  known = std::make_unique<Program>(find_program(words[0], folders), words);
+  const std::filesystem::path path = find_program(words[0], folders);
+  if (!starter_) starter_.emplace();
+  known = std::make_unique<Program>(path, words, *starter_);
   return *known;
 }
 
@@ -232,6 +236,8 @@ std::shared_ptr<const RibReply> RibPrograms::ask(const std::string& command,
   if (std::shared_ptr<const RibReply> reply = known.lock()) return reply;
   if (request.find_first_of(std::string_view("\n\0", 2)) != std::string::npos)
     fail("the arguments contain a line break");
+  if (count_ >= limits_.requests)
+    fail(fmt::format("the programs of this scene were asked more than {} times", limits_.requests));
   Program& asked = program(command, folders);
   if (!folder_) folder_ = std::make_shared<const TemporaryFolder>();
   auto reply = std::make_shared<const RibReply>(folder_->path() / fmt::format("{}.rib", ++count_), folder_);
@@ -246,6 +252,9 @@ std::shared_ptr<const RibReply> RibPrograms::ask(const std::string& command,
     asked.ask(request + "\n", limits_, check_stop, [&](std::string_view piece) {
       if (std::fwrite(piece.data(), 1, piece.size(), file.get()) != piece.size()) cannot_write();
       bytes += piece.size();
+      all_bytes_ += piece.size();
+      if (all_bytes_ > limits_.all_bytes)
+        fail(fmt::format("all replies together have more than {} bytes", limits_.all_bytes));
     });
     if (std::fflush(file.get()) != 0) cannot_write();
   } catch (...) {

@@ -7,9 +7,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/starter_thread.h"
 #include "base/temporary_folder.h"
 
 namespace pelage {
@@ -34,6 +36,8 @@ struct RibProgramLimits {
   double reply_s = 600;                   ///< time for one reply
   size_t reply_bytes = size_t(16) << 30;  ///< size of one reply
   size_t kept_bytes = size_t(4) << 30;    ///< replies that nobody uses are kept up to this size together
+  size_t requests = 1'000'000;            ///< count of all requests
+  size_t all_bytes = size_t(256) << 30;   ///< size of all replies together, also of those no longer kept
 };
 
 /// Runs the programs of procedurals of kind RunProgram [RISPEC 3.2, RiProcRunProgram]. A process answers all
@@ -51,8 +55,8 @@ class RibPrograms {
 
   /// Returns the reply to a request. `command`: a program and its arguments, divided at blanks. The program
   /// is searched in `folders` and then on PATH. `check_stop` may be empty; it is called often and may throw.
-  /// Throws Error (kInput) if there is no such program, or if it ends early, is too slow, or answers too
-  /// much.
+  /// Throws Error (kInput) if there is no such program, if it ends early, is too slow, or answers too much,
+  /// or if there were too many requests.
   std::shared_ptr<const RibReply> ask(const std::string& command,
                                       const std::vector<std::filesystem::path>& folders,
                                       const std::string& request, const std::function<void()>& check_stop);
@@ -65,10 +69,11 @@ class RibPrograms {
   const RibProgramLimits limits_;
   std::mutex mutex_;  // guards the following
   std::shared_ptr<const TemporaryFolder> folder_;
-  std::map<std::string, std::unique_ptr<Program>> programs_;                              // by command
+  std::optional<StarterThread> starter_;                      // starts all programs, and outlives them
+  std::map<std::string, std::unique_ptr<Program>> programs_;  // by command
   std::map<std::pair<std::string, std::string>, std::weak_ptr<const RibReply>> replies_;  // command, request
   std::deque<std::pair<std::shared_ptr<const RibReply>, size_t>> kept_;                   // with their sizes
-  size_t kept_bytes_ = 0, count_ = 0;
+  size_t kept_bytes_ = 0, count_ = 0, all_bytes_ = 0;
 };
 
 }  // namespace pelage

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "procedurals/rib/rib_programs.h"
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "procedurals/rib/rib_interpreter.h"
 #include "procedurals/rib/rib_reading.h"
@@ -69,6 +72,36 @@ TEST_F(RibProgramsTest, AProcessAnswersEachRequestOnce) {
   const std::string lines = read_file(log);
   const std::string process = lines.substr(0, lines.find(' '));
   EXPECT_EQ(lines, process + " first\n" + process + " second words\n");
+}
+
+TEST_F(RibProgramsTest, AProgramOutlivesTheThreadThatAskedFirst) {
+  const std::string log = path("log").string();
+  script("gen", "echo $$ >> " + log + "\n" + kLine + kEnd);
+  std::thread([&] { read(request("gen", "first")); }).join();
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  read(request("gen", "second"));
+  const std::string lines = read_file(log), process = lines.substr(0, lines.find('\n') + 1);
+  EXPECT_EQ(lines, process + process);
+}
+
+TEST_F(RibProgramsTest, AllRequestsTogetherHaveALimit) {
+  script("gen", kLine + kEnd);
+  programs_ = std::make_shared<RibPrograms>(RibProgramLimits{20, 1 << 20, 1 << 20, 2});
+  const auto ask = [&](const std::string& text) { programs_->ask("gen", {files_.folder.path()}, text, {}); };
+  ask("a"), ask("b"), ask("b");
+  const auto message_of = [&](const std::string& text) -> std::string {
+    try {
+      ask(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message_of("c").find("were asked more than 2 times"), std::string::npos);
+  programs_ = std::make_shared<RibPrograms>(RibProgramLimits{20, 1 << 20, 1 << 20, 100, 200});
+  ask("a");
+  ask("b");
+  EXPECT_NE(message_of("c").find("all replies together have more than 200 bytes"), std::string::npos);
 }
 
 TEST_F(RibProgramsTest, RepliesMayAskPrograms) {

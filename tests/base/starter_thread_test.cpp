@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/starter_thread.h"
+
+#include <atomic>
+#include <csignal>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace pelage {
+namespace {
+
+TEST(StarterThreadTest, RunsTheTasksOfAllThreadsOnOneThread) {
+  StarterThread starter;
+  std::atomic<int> count{0};
+  std::thread::id on;
+  starter.run([&] { on = std::this_thread::get_id(); });
+  EXPECT_NE(on, std::this_thread::get_id());
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] {
+      for (int k = 0; k < 50; ++k) starter.run([&] { count += on == std::this_thread::get_id(); });
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(count, 400);
+}
+
+TEST(StarterThreadTest, ProcessesOutliveTheThreadThatAskedForThem) {
+  pid_t child = -1;
+  const auto start = [&] {
+    child = ::fork();
+    if (child != 0) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    for (;;) ::pause();
+  };
+  int status = 0;
+  {
+    StarterThread starter;
+    std::thread([&] { starter.run(start); }).join();
+    ASSERT_GT(child, 0);
+    ::usleep(50'000);
+    EXPECT_EQ(::waitpid(child, &status, WNOHANG), 0);
+    ::kill(child, SIGCONT);
+  }
+  ASSERT_EQ(::waitpid(child, &status, 0), child);  // ended with the starter
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+}  // namespace
+}  // namespace pelage
