@@ -8,27 +8,12 @@
 
 #include "base/module.h"
 #include "image/display_image.h"
+#include "image/image_sink.h"
 #include "image/reader_module.h"
 #include "image/texel_store.h"
 #include "image/tile_file.h"
 
 namespace pelage {
-
-/// Header of an image file.
-struct ImageHeader {
-  TexelLayout layout;
-  bool is_integer = false;    ///< whether the file stores integers
-  int64_t working_bytes = 0;  ///< estimated temporary memory of reading the file
-};
-
-/// Receives an image: first its header, then strips of `count` whole rows from the top. Either function may
-/// throw an exception, which ends the reading.
-class ImageSink {
- public:
-  virtual ~ImageSink() = default;
-  virtual void begin(const ImageHeader& header) = 0;
-  virtual void rows(const std::byte* rows, int count) = 0;
-};
 
 /// Reads and writes image files through the module of image/reader_module.h, which contains OpenImageIO.
 /// Thread safety: const members may be called from any thread.

@@ -15,6 +15,7 @@
 #include "base/memory_sample.h"
 #include "image/image_file_check.h"
 #include "image/image_reader.h"
+#include "image/plain_png.h"
 #include "image/truncation.h"
 
 namespace pelage {
@@ -210,8 +211,9 @@ const TextureLibrary::Stored& TextureLibrary::stored(const AssetPath& asset,
     const MemoryCharge whole =
         reserve(ledger_, MemoryTag::kTextures, interlaced_bytes(stream),
                 asset.path.string() + ": is progressive or interlaced, so it is decoded as a whole");
-    const std::string damage = reader().read(asset.path, intake);
-    if (!damage.empty()) fail_image(asset, damage);
+    std::optional<std::string> damage = read_plain_png(asset.path, intake);
+    if (!damage) damage = reader().read(asset.path, intake);
+    if (!damage->empty()) fail_image(asset, *damage);
     Stored& read = stored_.emplace(path, intake.finish()).first->second;
     read.stamp = stamp;
     return read;
