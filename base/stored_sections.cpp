@@ -28,6 +28,11 @@ StoredSections::StoredSections(OpenFile file) : file_(std::move(file)) {
                                    [&](uint64_t offset, std::span<std::byte> out) { read_at(offset, out); });
 }
 
+void StoredSections::keep_cached() {
+  is_cached_ = true;
+  ::posix_fadvise(file_.descriptor(), 0, 0, POSIX_FADV_NORMAL);
+}
+
 void StoredSections::read_at(uint64_t offset, std::span<std::byte> out) const {
   for (size_t done = 0; done < out.size();) {
     const ssize_t n =
@@ -43,9 +48,11 @@ void StoredSections::read(size_t i, std::span<std::byte> out) const {
   const stored_file_format::Section& section = layout_.sections[i];
   PELAGE_CHECK(out.size() == section.bytes);
   read_at(section.offset, out);
-  const uint64_t begin = section.offset / kSystemPage * kSystemPage;
-  ::posix_fadvise(file_.descriptor(), static_cast<off_t>(begin),
-                  static_cast<off_t>(section.offset + section.bytes - begin), POSIX_FADV_DONTNEED);
+  if (!is_cached_) {
+    const uint64_t begin = section.offset / kSystemPage * kSystemPage;
+    ::posix_fadvise(file_.descriptor(), static_cast<off_t>(begin),
+                    static_cast<off_t>(section.offset + section.bytes - begin), POSIX_FADV_DONTNEED);
+  }
   if (content_hash(out) != ContentHash{section.hash_low, section.hash_high})
     refuse_stored_file(path(), "its content does not match its checksum");
 }

@@ -143,7 +143,10 @@ std::unique_ptr<const FurChunkFile> FurChunkFile::open(const ContentStore& store
 }
 
 FurChunkFile::FurChunkFile(StoredSections file)
-    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {}
+    : file_(std::move(file)), lost_(std::make_unique<std::atomic<bool>[]>(chunk_count())) {
+  // The regions of a frame are processes that read the same chunks.
+  file_.keep_cached();
+}
 
 size_t FurChunkFile::bytes_bound(uint32_t chunk) const {
   const size_t first = kSections * size_t(chunk);
