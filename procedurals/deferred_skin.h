@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "base/hash.h"
 #include "base/vector.h"
 #include "geom/skin_pieces.h"
 #include "geom/view.h"
@@ -31,6 +34,10 @@ class DeferredSkin {
   /// Returns the max temporary memory of tessellate() in bytes, without its result and without memory that is
   /// already charged to the ledger.
   virtual size_t temporary_bytes(const SkinPiece& piece) const = 0;
+  /// Hash of everything on which pieces and triangles depend, except for the view. Empty when unknown.
+  virtual std::optional<ContentHash> content() const { return {}; }
+  /// Number of faces: those of triangles are smaller.
+  virtual uint32_t face_count() const = 0;
 };
 
 }  // namespace pelage

@@ -58,6 +58,9 @@ class FixedSkin final : public DeferredSkin {
   int motion_keys() const override { return mesh_.motion_keys; }
   SkinMesh tessellate(const SkinPiece&, const View&) const override { return mesh_; }
   size_t temporary_bytes(const SkinPiece&) const override { return 0; }
+  uint32_t face_count() const override {
+    return mesh_.faces.empty() ? 0 : *std::max_element(mesh_.faces.begin(), mesh_.faces.end()) + 1;
+  }
 
  private:
   SkinMesh mesh_;

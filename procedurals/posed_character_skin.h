@@ -72,6 +72,8 @@ class PosedCharacterSkin final : public DeferredSkin {
   Box3f bound(const SkinPiece& piece, BoundSpan span) const override;
   SkinMesh tessellate(const SkinPiece& piece, const View& view) const override;
   size_t temporary_bytes(const SkinPiece& piece) const override;
+  std::optional<ContentHash> content() const override { return hash_; }
+  uint32_t face_count() const override { return pose_.topology->face_count(); }
 
   /// Hash of everything that affects strands grown on this skin, except for length(): topology, control
   /// points at all times, transforms, scale, and push_out_view. Equal poses have equal hashes.

@@ -62,10 +62,30 @@ FrameChunks::FrameChunks(const RenderScene& scene, const Job& job)
   divide_skins(job);
 }
 
+void FrameChunks::store_skins(const Job& job) {
+  const std::string& folder = scene_.render.bvh.file.path;
+  if (folder.empty() || stored_skins_ || pieces_.empty()) return;
+  const std::optional<ContentHash> key = StoredSkins::key(scene_, max_piece_cost(scene_.render.memory.bytes));
+  if (!key) return;
+  const ContentStore store(folder);
+  const ContentStore::Lock lock = store.lock("skins", *key, [&] { return job.progress.cancelled(); });
+  // The previous holder of the lock may have written them.
+  if (lock.held()) stored_skins_ = StoredSkins::open(store, *key, scene_, [](const std::string&) {});
+  if (!stored_skins_) StoredSkins::write(store, *key, scene_, pieces_, job);
+}
+
 void FrameChunks::divide_skins(const Job& job) {
   std::vector<size_t> making(scene_.skins.size());
   for (size_t i = 0; i < making.size(); ++i) making[i] = scene_.skins[i].skin->temporary_bytes({});
   if (making.empty()) return;
+  if (const std::string& folder = scene_.render.bvh.file.path; !folder.empty()) {
+    const std::optional<ContentHash> key =
+        StoredSkins::key(scene_, max_piece_cost(scene_.render.memory.bytes));
+    const WarningSink warn = [&progress = job.progress](const std::string& line) { progress.warn(line); };
+    if (key) stored_skins_ = StoredSkins::open(ContentStore(folder), *key, scene_, warn);
+    if (stored_skins_) pieces_ = stored_skins_->pieces();
+    if (stored_skins_) return;
+  }
   const auto max = static_cast<size_t>(std::max_element(making.begin(), making.end()) - making.begin());
   const size_t largest = making[max];
   const uint64_t limit = scene_.render.memory.bytes;
@@ -117,7 +137,10 @@ void FrameChunks::collect(const Procedural& procedural, uint32_t part, uint32_t 
 
 ChunkContents FrameChunks::grow(uint32_t chunk) const {
   if (is_skin(chunk)) {
-    const SkinChunk& piece = pieces_[chunk - leaves_.size()];
+    const size_t number = chunk - leaves_.size();
+    const SkinChunk& piece = pieces_[number];
+    if (std::optional<SkinMesh> mesh = stored_skins_ ? stored_skins_->mesh(number) : std::nullopt)
+      return {std::move(*mesh), piece.skin};
     return {scene_.skins[piece.skin].skin->tessellate(piece.piece, scene_.camera.view()), piece.skin};
   }
   const FurPart& part = scene_.fur[parts_[chunk]];
@@ -181,6 +204,7 @@ size_t FrameChunks::bytes() const {
                scales_.capacity() * sizeof(scales_[0]) + ranges_.capacity() * sizeof(ranges_[0]) +
                pieces_.capacity() * sizeof(pieces_[0]) +
                leaves_.size() * (sizeof(was_grown_[0]) + sizeof(growths_[0]));
+  if (stored_skins_) sum += stored_skins_->bytes();
   for (const auto& procedural : made_) sum += procedural->bytes() + kHeap;
   for (const SkinChunk& piece : pieces_) sum += piece.piece.faces.capacity() * sizeof(uint32_t) + kHeap;
   return sum;

@@ -9,6 +9,7 @@
 #include "base/job.h"
 #include "procedurals/bounding.h"
 #include "render/accel/chunk_grower.h"
+#include "render/frame/stored_skins.h"
 #include "render/scene/render_scene.h"
 
 namespace pelage {
@@ -17,11 +18,15 @@ namespace pelage {
 /// split further) or a piece of a skin. Leaves come first. The scene must outlive this object.
 class FrameChunks final : public ChunkGrower {
  public:
-  /// Splits every coat into leaves and divides every skin into pieces. To divide skins, the constructor poses
-  /// whole skins, a few at a time. The ledger is charged with their memory until all skins are divided.
-  /// Throws Error (kInput) for a coat whose material is not for fibres, and Error (kMemory) when a single
-  /// skin does not fit `render.memory`.
+  /// Splits every coat into leaves and divides every skin into pieces, or reads the pieces that store_skins()
+  /// has stored. To divide skins, the constructor poses whole skins, a few at a time. The ledger is charged
+  /// with their memory until all skins are divided. Throws Error (kInput) for a coat whose material is not
+  /// for fibres, and Error (kMemory) when a single skin does not fit `render.memory`.
   FrameChunks(const RenderScene& scene, const Job& job);
+
+  /// Stores the pieces of skins and their triangles in the folder `render.bvh.file` for later runs, unless
+  /// they are stored.
+  void store_skins(const Job& job);
 
   ChunkContents grow(uint32_t chunk) const override;
   bool is_skin(uint32_t chunk) const override { return chunk >= leaves_.size(); }
@@ -77,12 +82,6 @@ class FrameChunks final : public ChunkGrower {
   int64_t strands_regrown() const { return strands_regrown_.load(std::memory_order_relaxed); }
 
  private:
-  struct SkinChunk {
-    uint32_t skin = 0;  // index in RenderScene::skins
-    SkinPiece piece;
-    size_t temporary_bytes = 0;  // temporary memory of tessellating the piece
-  };
-
   /// How bounds() grows and measures leaves within `render.memory`.
   struct MeasurePlan {
     int concurrency = 1;  // max leaves at once
@@ -105,6 +104,7 @@ class FrameChunks final : public ChunkGrower {
   std::vector<SightRange> ranges_;   // by coat
   std::vector<uint32_t> coats_;      // index in scales_, by leaf
   std::vector<SkinChunk> pieces_;
+  std::unique_ptr<const StoredSkins> stored_skins_;  // null: pieces are tessellated
   mutable std::atomic<int64_t> strands_grown_{0}, strands_regrown_{0};
   std::unique_ptr<std::atomic<bool>[]> was_grown_;    // by leaf
   std::unique_ptr<std::atomic<uint32_t>[]> growths_;  // by leaf

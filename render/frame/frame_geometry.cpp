@@ -90,6 +90,7 @@ std::unique_ptr<FrameGeometry> FrameGeometry::make(const RenderScene& scene, con
   }
   if (stores) {
     options.file = stored_fur(scene.render, *chunks, options, job);
+    if (options.file && !kept) chunks->store_skins(job);
     if (job.progress.cancelled()) return nullptr;
   }
   const double store_s = storing.seconds();

@@ -42,12 +42,13 @@ const Schema<LodParams>& LodParams::schema() {
 
 const Schema<BvhParams>& BvhParams::schema() {
   static const Schema<BvhParams> table = [] {
-    Schema<BvhParams> s("bvh",
-                        "Stores fur and its ray-tracing trees, so that later runs need not grow them.");
+    Schema<BvhParams> s(
+        "bvh", "Stores fur, its ray-tracing trees and skins, so that later runs need not make them.");
     s.set_example(R"(render: {bvh: {file: bvh}})");
     s.key("file", &BvhParams::file,
-          {.help = "Folder that stores the fur of each frame with its trees. Each file is named by a hash "
-                   "of everything that determines its content. When a ray in a later run needs a chunk, "
+          {.help = "Folder that stores the fur of each frame with its trees, and the triangles of its "
+                   "skins. Each file is named by a hash of everything that determines its content. When a "
+                   "ray in a later run needs a chunk, "
                    "Pelage reads it from such a file instead of growing it. The limit `memory` still "
                    "applies. Works only with `accel: fur`, `curves: flat` and opaque coats",
            .default_text = "none"});

@@ -43,8 +43,13 @@ class BvhFileTest : public testing::Test {
     overrides.push_back({"render.bvh.file", (folder_.path() / "trees").string()});
     return render(name, std::move(overrides));
   }
-  std::filesystem::path file() const {
-    return std::filesystem::directory_iterator(folder_.path() / "trees")->path();
+  /// The file of a kind: "fur-chunks" or "skins".
+  std::filesystem::path file(const std::string& kind = "fur-chunks") const {
+    std::filesystem::path found;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "trees")) {
+      if (entry.path().filename().string().starts_with(kind)) found = entry.path();
+    }
+    return found;
   }
   void damage(const std::vector<size_t>& places) const {
     std::string bytes = read_file(file());
@@ -112,6 +117,22 @@ TEST_F(BvhFileTest, ChunksThatAreDamagedAreGrown) {
     expect_equal(first, stored("made again"));
     EXPECT_EQ(warnings_, 0);
     EXPECT_EQ(read_file(file()), whole);
+  }
+}
+
+TEST_F(BvhFileTest, SkinsThatAreDamagedAreMadeAgain) {
+  const std::string first = stored("first");
+  const std::string whole = read_file(file("skins"));
+  ASSERT_FALSE(whole.empty());
+  for (const size_t place : {whole.size() / 3, whole.size() - 20}) {  // triangles; the table
+    std::string bytes = whole;
+    bytes[place] = static_cast<char>(bytes[place] ^ 1);
+    write_file(file("skins"), bytes);
+    expect_equal(first, stored("damaged"));
+    EXPECT_EQ(warnings_, 1);
+    expect_equal(first, stored("made again"));
+    EXPECT_EQ(warnings_, 0);
+    EXPECT_EQ(read_file(file("skins")), whole);
   }
 }
 
