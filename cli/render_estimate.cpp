@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/counted.h"
 #include "base/memory_budget.h"
 #include "base/process_usage.h"
 #include "world/compose.h"
@@ -19,17 +20,21 @@ namespace {
 void print_text(const RunEstimate& estimate, int threads) {
   for (size_t i = 0; i < estimate.frames.size(); ++i) {
     const FrameEstimate& e = estimate.estimates[i];
+    const auto part_if_any = [](const char* name, int64_t bytes) {
+      return bytes > 0 ? fmt::format(", {} {}", name, memory_text(bytes)) : "";
+    };
     std::cout << fmt::format(
         "frame {}: {} of memory: scene {}, frame buffer {}, boxes {}, fur and skins {}{}, "
-        "sample buffers {}, libraries {}\n",
+        "libraries {}{}{}\n",
         estimate.frames[i], memory_text(e.peak_bytes()), memory_text(e.scene_bytes),
         memory_text(e.film_bytes), memory_text(e.box_bytes), memory_text(e.chunk_bytes),
-        e.fits ? "" : " (limited by render.memory)", memory_text(e.buffer_bytes),
-        memory_text(e.library_bytes));
+        e.fits ? "" : " (limited by render.memory)", memory_text(e.library_bytes),
+        part_if_any("sample buffers", e.buffer_bytes),
+        part_if_any("shadows", e.shadows.held_bytes + e.shadows.learning_bytes));
     const double cpu_s = estimate.cpu_s(i);
-    std::cout << fmt::format("frame {}: about {} of CPU time, {} on {} threads; {} chunks, {} strands\n",
-                             estimate.frames[i], duration_text(cpu_s), duration_text(cpu_s / threads),
-                             threads, e.chunks, e.strands);
+    std::cout << fmt::format("frame {}: about {} of CPU time, {} on {}; {}, {}\n", estimate.frames[i],
+                             duration_text(cpu_s), duration_text(cpu_s / threads), counted(threads, "thread"),
+                             counted(e.chunks, "chunk"), counted(e.strands, "strand"));
   }
 }
 
@@ -46,11 +51,15 @@ nlohmann::ordered_json json_of(const RunEstimate& estimate, size_t i) {
             {"boxes", e.box_bytes},
             {"measuring", e.measuring_bytes},
             {"buffers", e.buffer_bytes},
+            {"shadows", e.shadows.held_bytes},
+            {"learning", e.shadows.learning_bytes},
+            {"balls", e.shadows.making_bytes},
             {"chunks", e.chunk_bytes},
             {"writing", e.writing_bytes}}},
           {"cpu_s_by",
            {{"measuring", e.measuring_cpu_s},
             {"growth", e.growing_cpu_s},
+            {"shadows", e.shadows.cpu_s},
             {"tracing", e.tracing_cpu_s},
             {"writing", e.writing_cpu_s}}},
           {"fits", e.fits},

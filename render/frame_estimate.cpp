@@ -184,7 +184,9 @@ double tracing_s(const RenderScene& scene, const PixelBox& pixels) {
 }  // namespace
 
 int64_t FrameEstimate::peak_bytes() const {
-  const int64_t rendering = box_bytes + std::max(measuring_bytes, buffer_bytes + chunk_bytes);
+  const int64_t tracing = chunk_bytes + shadows.held_bytes + shadows.learning_bytes;
+  const int64_t rendering =
+      box_bytes + std::max(measuring_bytes, buffer_bytes + std::max(tracing, shadows.making_bytes));
   return std::max(preparing_bytes,
                   scene_bytes + library_bytes + film_bytes + std::max(rendering, writing_bytes));
 }
@@ -208,11 +210,13 @@ FrameEstimate estimate_frame(const RenderScene& scene, const Job& job,
   estimate.preparing_bytes = peak_rss_bytes();
   const int64_t taken = job.ledger.budgeted();
   chunks.bound_coarsely();
+  estimate.shadows = estimate_shadows(scene, job);
   add_chunks(scene, chunks, job, estimate);
   estimate.chunk_bytes = static_cast<int64_t>(reached_fraction(scene, window.traced, estimate.chunks) *
                                               static_cast<double>(estimate.chunk_bytes));
   if (const int64_t limit = job.ledger.limit(); limit > 0) {
-    const int64_t room = std::max<int64_t>(0, limit - taken - estimate.box_bytes);
+    const int64_t room =
+        std::max<int64_t>(0, limit - taken - estimate.box_bytes - estimate.shadows.held_bytes);
     estimate.fits = estimate.chunk_bytes <= room;
     estimate.chunk_bytes = std::min(estimate.chunk_bytes, room);
   }

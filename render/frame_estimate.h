@@ -7,6 +7,7 @@
 #include "base/job.h"
 #include "image/exr.h"
 #include "render/scene/render_scene.h"
+#include "render/shadow_estimate.h"
 
 namespace pelage {
 
@@ -20,6 +21,7 @@ struct FrameEstimate {
   int64_t preparing_bytes = 0;  ///< largest resident set of this process until then
   int64_t film_bytes = 0;       ///< frame buffer
   int64_t buffer_bytes = 0;     ///< sample buffers and reflection cache of `gather`
+  ShadowEstimate shadows;       ///< skin balls and pilot rays
   int64_t box_bytes = 0;        ///< boxes of the chunks
   int64_t measuring_bytes = 0;  ///< chunks that threads grow to measure their boxes
   int64_t chunk_bytes = 0;      ///< fur and skins in memory at once, and chunks that threads grow meanwhile
@@ -37,7 +39,9 @@ struct FrameEstimate {
   /// Returns the largest resident set of the process, at any time of the run.
   int64_t peak_bytes() const;
   /// Returns the CPU time from the first box to the end.
-  double cpu_s() const { return measuring_cpu_s + growing_cpu_s + tracing_cpu_s + writing_cpu_s; }
+  double cpu_s() const {
+    return measuring_cpu_s + growing_cpu_s + shadows.cpu_s + tracing_cpu_s + writing_cpu_s;
+  }
 };
 
 /// Estimates a frame. `region`: the only pixels to render; empty for the whole picture. Throws the errors of

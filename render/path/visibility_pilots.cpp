@@ -23,6 +23,11 @@ constexpr size_t kBlock = 64, kBatch = 4096;  // pilots of one task, and between
 
 enum Draw : uint32_t { kLight = 0, kLobe = 1, kVertexDraws = 3 };
 
+/// Count of shadow rays of a vertex.
+size_t candidates(const RenderScene& scene) {
+  return DirectLight(scene.lights, kTargets, DirectTechniques::kBoth).candidates();
+}
+
 }  // namespace
 
 /// A shadow ray of a pilot.
@@ -45,8 +50,8 @@ VisibilityPilots::VisibilityPilots(const RenderScene& scene, const Accel& accel,
       camera_(scene, accel, true),
       direct_(scene.lights, kTargets, DirectTechniques::kBoth) {}
 
-size_t VisibilityPilots::count() const {
-  const auto pixels = static_cast<size_t>(scene_.image.width) * static_cast<size_t>(scene_.image.height);
+size_t VisibilityPilots::count(const RenderScene& scene) {
+  const auto pixels = static_cast<size_t>(scene.image.width) * static_cast<size_t>(scene.image.height);
   return std::clamp(pixels / kPixelsPerPilot, kMinPilots, kMaxPilots);
 }
 
@@ -114,9 +119,32 @@ VisibilityPilots::PilotRays VisibilityPilots::trace(size_t begin, size_t end, co
 }
 
 /// Upper bound of the memory of the rays of kBatch pilots.
-int64_t VisibilityPilots::batch_bytes() const {
-  const size_t rays = std::min(kBatch, count()) * kVertices * direct_.candidates();
+int64_t VisibilityPilots::batch_bytes(const RenderScene& scene) {
+  const size_t rays = std::min(kBatch, count(scene)) * kVertices * candidates(scene);
   return static_cast<int64_t>(2 * rays * sizeof(PilotRay));
+}
+
+PilotNeeds VisibilityPilots::needs_of_rays(const RenderScene& scene, size_t pilots) {
+  const size_t vertices = std::min<size_t>(kVertices, static_cast<size_t>(scene.render.bounces) + 1);
+  PilotNeeds needs;
+  needs.rays = static_cast<int64_t>(pilots * vertices * (1 + candidates(scene)));
+  return needs;
+}
+
+PilotNeeds VisibilityPilots::needs_of_table(const RenderScene& scene) {
+  PilotNeeds needs = needs_of_rays(scene, count(scene));
+  const size_t lights = scene.lights.size();
+  const size_t cells = std::min(count(scene) * kVertices, VisibilityTable::max_cells(lights));
+  needs.tracing_bytes =
+      static_cast<int64_t>(cells * VisibilityTable::bytes_per_cell(lights, true)) + batch_bytes(scene);
+  needs.held_bytes = static_cast<int64_t>(cells * VisibilityTable::bytes_per_cell(lights, false));
+  return needs;
+}
+
+PilotNeeds VisibilityPilots::needs_of_shells(const RenderScene& scene) {
+  PilotNeeds needs = needs_of_rays(scene, std::min(count(scene), kBatch));
+  needs.tracing_bytes = 2 * batch_bytes(scene);
+  return needs;
 }
 
 void VisibilityPilots::add_costs(const std::vector<Scratch>& scratch, FrameStatistics& statistics) {
@@ -129,12 +157,9 @@ void VisibilityPilots::add_costs(const std::vector<Scratch>& scratch, FrameStati
 
 std::unique_ptr<const VisibilityTable> VisibilityPilots::learn(const Job& job,
                                                                FrameStatistics& statistics) const {
-  const size_t pilots = count(), lights = scene_.lights.size();
-  const size_t cells = std::min(pilots * kVertices, VisibilityTable::max_cells(lights)) *
-                       VisibilityTable::bytes_per_cell(lights, true);
-  MemoryCharge charge =
-      reserve(job.ledger, MemoryTag::kReflectionCache, static_cast<int64_t>(cells) + batch_bytes(),
-              "learning the visibility of lights");
+  const size_t pilots = count(scene_), lights = scene_.lights.size();
+  MemoryCharge charge = reserve(job.ledger, MemoryTag::kReflectionCache, needs_of_table(scene_).tracing_bytes,
+                                "learning the visibility of lights");
   auto table = std::make_unique<VisibilityTable>(scene_.camera.lod_view(), lights);
   std::vector<Scratch> scratch(static_cast<size_t>(job.workers.thread_count()));
   for (size_t begin = 0; begin < pilots; begin += kBatch) {
@@ -152,11 +177,11 @@ std::unique_ptr<const VisibilityTable> VisibilityPilots::learn(const Job& job,
 }
 
 std::vector<CoatShell> VisibilityPilots::fit_shells(const Job& job, FrameStatistics& statistics) const {
-  const MemoryCharge charge =
-      reserve(job.ledger, MemoryTag::kReflectionCache, 2 * batch_bytes(), "fitting the shells of coats");
+  const MemoryCharge charge = reserve(job.ledger, MemoryTag::kReflectionCache,
+                                      needs_of_shells(scene_).tracing_bytes, "fitting the shells of coats");
   std::vector<Scratch> scratch(static_cast<size_t>(job.workers.thread_count()));
   std::vector<std::vector<ShellRay>> by_skin(scene_.skins.size());
-  for (const auto& block : trace(0, std::min(count(), kBatch), job, scratch)) {
+  for (const auto& block : trace(0, std::min(count(scene_), kBatch), job, scratch)) {
     for (const PilotRay& ray : block) {
       const bool is_used = ray.on_strand && ray.skin != kNone && by_skin[ray.skin].size() < kMaxFitted;
       if (is_used) by_skin[ray.skin].push_back(ray.ray);

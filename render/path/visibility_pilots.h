@@ -15,6 +15,13 @@
 
 namespace pelage {
 
+/// What pilots take: rays, and memory in bytes.
+struct PilotNeeds {
+  int64_t rays = 0;           ///< max count
+  int64_t tracing_bytes = 0;  ///< max memory while pilots are traced
+  int64_t held_bytes = 0;     ///< max memory of the table afterwards
+};
+
 /// Learns the visibility of lights from pilot rays, before the picture is rendered.
 ///
 /// Pilots are paths from the camera through pixels that a hash chooses over the whole picture. At each of
@@ -32,16 +39,21 @@ class VisibilityPilots {
   std::unique_ptr<const VisibilityTable> learn(const Job& job, FrameStatistics& statistics) const;
   /// Traces some pilots, and fits a shell to the coats of each skin with balls. As learn() otherwise.
   std::vector<CoatShell> fit_shells(const Job& job, FrameStatistics& statistics) const;
+  /// Returns what learn() takes.
+  static PilotNeeds needs_of_table(const RenderScene& scene);
+  /// Returns what fit_shells() takes.
+  static PilotNeeds needs_of_shells(const RenderScene& scene);
 
  private:
   struct PilotRay;
   struct Scratch;
   using PilotRays = std::vector<std::vector<PilotRay>>;  // by block of pilots
 
-  size_t count() const;
+  static size_t count(const RenderScene& scene);
+  static PilotNeeds needs_of_rays(const RenderScene& scene, size_t pilots);
   PilotRays trace(size_t begin, size_t end, const Job& job, std::vector<Scratch>& scratch) const;
   void follow(size_t pilot, Scratch& scratch, std::vector<PilotRay>& rays) const;
-  int64_t batch_bytes() const;
+  static int64_t batch_bytes(const RenderScene& scene);
   static void add_costs(const std::vector<Scratch>& scratch, FrameStatistics& statistics);
 
   const RenderScene& scene_;

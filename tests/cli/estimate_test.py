@@ -27,6 +27,7 @@ class Estimate(ProgramTest):
     def test_memory_is_near_the_peak(self):
         cases = {"a few hairs": [], "fur": FURRY,
                  "gather": [*FURRY, "--set", "render.integrator=gather"],
+                 "pilots": [*FURRY, "--set", "render.learned_visibility=true"],
                  "embree": [*FURRY, "--set", "render.accel=embree"],
                  "a large picture": ["--set", "image={width: 1600, height: 900}"],
                  "a region": ["--set", "image={width: 1600, height: 900}", "--region", "0,0,320,320"],
@@ -42,6 +43,8 @@ class Estimate(ProgramTest):
         text = self.run_pelage("render", "scene.yaml", "--estimate", "-o", "sub/a.exr", "--checkpoint", "ck")[0]
         self.assertEqual(self.names(), before)
         self.assertRegex(text, r"^frame 1: \S+ MiB of memory: scene .*\nframe 1: about .* of CPU time")
+        text = self.run_pelage("render", "scene.yaml", "--estimate", "--threads", "1", "--set", "grooms.coat.strands=1", *ALL)[0]
+        self.assertRegex(text, r"on 1 thread; .*, 1 strand\n")
 
     def test_frames_and_their_parts(self):
         answer = self.estimate("--frames", "1-3", *ALL)

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "render/frame/skin_shadows.h"
+#include "render/shadow_estimate.h"
 #include "tests/support/quiet_job.h"
 #include "tests/world/small_scene.h"
 #include "world/world.h"
@@ -97,6 +99,38 @@ TEST_F(FrameEstimateTest, ARegionHasASmallerFilm) {
   EXPECT_EQ(region.chunks, whole.chunks);
 }
 
+TEST_F(FrameEstimateTest, SkinBallsAreThoseOfTheRender) {
+  const SceneDescription scene = load_scene(scene_.path("scene.yaml"), {{"render.skin_ball", "exact"}});
+  MemoryLedger ledger;
+  QuietJob job(2, ledger);
+  const std::unique_ptr<Assets> assets = load_assets(scene, job);
+  const World world = compose(scene, *assets, 1, job);
+  const ShadowEstimate estimated = estimate_shadows(world.scene, job);
+  const int64_t before = ledger.current(MemoryTag::kSkins);
+  const SkinShadows shadows(world.scene, job);
+  EXPECT_GT(estimated.held_bytes, 0);  // cubes are closed
+  EXPECT_EQ(estimated.held_bytes, ledger.current(MemoryTag::kSkins) - before);
+  EXPECT_GT(estimated.making_bytes, 0);
+  EXPECT_EQ(estimated.learning_bytes, 0);
+}
+
+TEST_F(FrameEstimateTest, PilotsTakeAtMostWhatIsEstimated) {
+  const Overrides overrides{{"render.learned_visibility", "true"}, {"image", "{width: 160, height: 120}"}};
+  const ShadowEstimate estimated = estimate(overrides).shadows;
+  EXPECT_EQ(estimate({}).shadows.learning_bytes, 0);
+  EXPECT_EQ(estimate({}).shadows.cpu_s, 0);
+  const SceneDescription scene = load_scene(scene_.path("scene.yaml"), overrides);
+  MemoryLedger ledger;
+  QuietJob job(2, ledger);
+  const std::unique_ptr<Assets> assets = load_assets(scene, job);
+  const FrameResult result = render(compose(scene, *assets, 1, job), job);
+  EXPECT_LE(estimated.learning_bytes, ledger.peak(MemoryTag::kReflectionCache));
+  EXPECT_GT(16 * estimated.learning_bytes, ledger.peak(MemoryTag::kReflectionCache));
+  EXPECT_GT(estimated.held_bytes, 0);
+  EXPECT_GT(estimated.cpu_s, 0);
+  EXPECT_GT(result.statistics.occlusion.pilot_rays, 0);
+}
+
 TEST_F(FrameEstimateTest, ThePeakIsThatOfTheLargestPhase) {
   FrameEstimate e;
   e.scene_bytes = 100;
@@ -109,6 +143,11 @@ TEST_F(FrameEstimateTest, ThePeakIsThatOfTheLargestPhase) {
   EXPECT_EQ(e.peak_bytes(), 180);
   e.measuring_bytes = 90;
   EXPECT_EQ(e.peak_bytes(), 201);
+  e.shadows.held_bytes = 5, e.shadows.learning_bytes = 8;
+  e.chunk_bytes = 80;
+  EXPECT_EQ(e.peak_bytes(), 204);
+  e.shadows.making_bytes = 99;
+  EXPECT_EQ(e.peak_bytes(), 210);
   e.preparing_bytes = 500;
   EXPECT_EQ(e.peak_bytes(), 500);
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tested in tests/world/frame_estimate_test.cpp.
+#include "render/shadow_estimate.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/process_usage.h"
+#include "geom/skin_balls.h"
+#include "render/path/visibility_pilots.h"
+
+namespace pelage {
+namespace {
+
+constexpr size_t kSampledSkins = 4;
+// Rough CPU seconds of a pilot ray, with its share of shading.
+constexpr double kPilotRay_s = 2e-6;
+// Bytes that pilots reserve, per byte that they use: most pilots end early, and a table has few cells
+// (docs/lab/FARM.md).
+constexpr int64_t kReserved = 8;
+
+/// Adds the balls of all skins. A sample of skins at even steps of the summed size stands for all, as in
+/// estimate_frame().
+void add_balls(const RenderScene& scene, const Job& job, ShadowEstimate& estimate) {
+  double all = 0;
+  for (const SkinPart& part : scene.skins) all += static_cast<double>(part.skin->temporary_bytes({}));
+  const size_t count = std::min(kSampledSkins, scene.skins.size());
+  const bool each = count == scene.skins.size();
+  double sum = 0, held = 0;
+  size_t step = 0;
+  for (const SkinPart& part : scene.skins) {
+    const auto tessellating = static_cast<double>(part.skin->temporary_bytes({}));
+    sum += tessellating;
+    size_t times = each ? 1 : 0;
+    for (; !each && step < count && sum > all * (double(step) + 0.5) / double(count); ++step) ++times;
+    if (times == 0) continue;
+    job.check_stop();
+    const double began = cpu_seconds();
+    const SkinMesh mesh = part.skin->tessellate({}, scene.camera.view());
+    const SkinBalls balls(mesh, job);
+    const double scale = each ? 1 : double(times) / double(count) * all / tessellating;
+    held += scale * static_cast<double>(balls.bytes());
+    estimate.cpu_s += scale * (cpu_seconds() - began);
+    estimate.making_bytes = std::max(estimate.making_bytes,
+                                     static_cast<int64_t>(mesh.bytes() + SkinBalls::temporary_bytes(mesh)));
+  }
+  estimate.held_bytes += static_cast<int64_t>(held);
+  // Many skins are worked on concurrently.
+  const int threads = job.workers.thread_count();
+  if (scene.skins.size() >= 4 * static_cast<size_t>(threads)) estimate.making_bytes *= threads;
+}
+
+}  // namespace
+
+ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job) {
+  ShadowEstimate estimate;
+  const SkinBallUse use = scene.render.ball_use(scene.skins.size());
+  if (use != SkinBallUse::kOff && !scene.skins.empty()) add_balls(scene, job, estimate);
+  if (scene.lights.size() == 0) return estimate;
+  if (use == SkinBallUse::kFractional) {
+    const PilotNeeds shells = VisibilityPilots::needs_of_shells(scene);
+    estimate.learning_bytes = shells.tracing_bytes / kReserved;
+    estimate.cpu_s += kPilotRay_s * static_cast<double>(shells.rays);
+  }
+  if (scene.render.learned_visibility != LearnedUse::kOff) {
+    const PilotNeeds table = VisibilityPilots::needs_of_table(scene);
+    estimate.learning_bytes = std::max(estimate.learning_bytes, table.tracing_bytes / kReserved);
+    estimate.held_bytes += table.held_bytes / kReserved;
+    estimate.cpu_s += kPilotRay_s * static_cast<double>(table.rays);
+  }
+  return estimate;
+}
+
+}  // namespace pelage

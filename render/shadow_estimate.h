@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "base/job.h"
+#include "render/scene/render_scene.h"
+
+namespace pelage {
+
+/// Memory (in bytes) and CPU time (in seconds) of what a frame prepares to save shadow rays: skin balls and
+/// pilot rays.
+struct ShadowEstimate {
+  int64_t making_bytes = 0;  ///< while balls are made, before the first ray
+  int64_t learning_bytes =
+      0;  ///< while pilots are traced, in addition to the balls and the chunks that rays reach
+  int64_t held_bytes = 0;  ///< until the end of the frame: balls, and the table of pilots
+  double cpu_s = 0;
+};
+
+/// Makes the balls of a few skins, and computes the others from their sizes. Traces no pilot.
+ShadowEstimate estimate_shadows(const RenderScene& scene, const Job& job);
+
+}  // namespace pelage
