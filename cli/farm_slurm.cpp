@@ -7,8 +7,11 @@
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -111,11 +114,16 @@ struct ShotCost {
   double repeated_s = 0;  ///< that regions add, at most: each starts up, measures boxes and grows all chunks
 };
 
-ShotCost cost_of(const FarmRequest& request, const RunEstimate& estimate) {
+/// CPU time of reading a chunk from render.bvh.file, as a fraction of growing it (docs/lab/FARM.md).
+constexpr double kReading = 1.0 / 6;
+
+ShotCost cost_of(const FarmRequest& request, const RunEstimate& estimate, bool stores) {
   const auto sampled = static_cast<double>(estimate.frames.size());
   double repeated_s = estimate.loading_cpu_s + estimate.posing_cpu_s / sampled;
   for (const FrameEstimate& frame : estimate.estimates)
-    repeated_s += ((request.grows ? 0 : frame.measuring_cpu_s) + frame.growing_cpu_s) / sampled;
+    repeated_s += ((request.grows ? 0 : frame.measuring_cpu_s) +
+                   (stores ? kReading : 1) * frame.growing_cpu_s + frame.shadows.cpu_s) /
+                  sampled;
   const auto regions = divide_picture(request.width, request.height, request.columns, request.rows).size();
   const auto frames = static_cast<double>(request.frames.size());
   ShotCost cost;
@@ -125,13 +133,13 @@ ShotCost cost_of(const FarmRequest& request, const RunEstimate& estimate) {
 }
 
 void print_submitted(const std::string& folder, const FarmPlan& plan, size_t jobs, const SlurmParams& params,
-                     const ShotCost& cost, bool caches) {
+                     const ShotCost& cost, bool saves) {
   std::cout << fmt::format(
       "{}: {} in {}; {} reserved for each render, about {} of CPU time in all\n", params.folder,
       counted(static_cast<int64_t>(plan.tasks.size()), "task"), counted(static_cast<int64_t>(jobs), "job"),
       memory_text(static_cast<int64_t>(params.render_bytes)), duration_text(cost.whole_s + cost.repeated_s));
   constexpr double kMuch = 0.1;
-  if (!caches && cost.repeated_s > kMuch * cost.whole_s) {
+  if (!saves && cost.repeated_s > kMuch * cost.whole_s) {
     std::cout << fmt::format(
         "up to {:.0f} % of the CPU time is what regions repeat; a `cache` in each groom and render.bvh.file "
         "save most of it\n",
@@ -254,7 +262,9 @@ int submit_shot(const Options& options) {
                                         "; `pelage farm cancel " + folder.string() +
                                         "` cancels those that it did");
   }
-  print_submitted(options.farm.folder, plan, jobs.size(), params, cost_of(request, estimate), request.grows);
+  const bool stores = !scene.render.bvh.file.empty();
+  print_submitted(options.farm.folder, plan, jobs.size(), params, cost_of(request, estimate, stores),
+                  request.grows && stores);
   return 0;
 }
 
@@ -281,9 +291,12 @@ int cancel_shot(const Options& options) {
   const std::optional<QueuedElements> queue = ask_queue(folder);
   if (!queue) throw Error(ErrorKind::kFailed, "the queue does not answer; nothing was cancelled");
   const std::set<int64_t> jobs = jobs_in_queue(folder, *queue);
-  for (const int64_t job : jobs) {
-    const ShellResult result = run_shell(fmt::format("scancel {}", job));
-    if (!result.succeeded) throw Error(ErrorKind::kFailed, fmt::format("scancel {}: {}", job, result.output));
+  constexpr size_t kIds = 5000;  // of one command, whose text the system limits to 128 KiB
+  std::vector<int64_t> left(jobs.begin(), jobs.end());
+  for (; !left.empty(); left.resize(left.size() - std::min(kIds, left.size()))) {
+    const std::span last = std::span(left).last(std::min(kIds, left.size()));
+    const ShellResult result = run_shell(fmt::format("scancel {}", fmt::join(last, " ")));
+    if (!result.succeeded) throw Error(ErrorKind::kFailed, "scancel: " + result.output);
   }
   std::cout << counted(static_cast<int64_t>(jobs.size()), "job") << " cancelled\n";
   return 0;

@@ -32,9 +32,18 @@ class Shot:
         self.options, self.random = options, random.Random(options.seed)
         self.files, self.queue = Server(options.bandwidth), Server(options.starts_per_s)
         cpu_s = options.frame_cpu_s / options.regions * (1 + (options.region_cost if options.regions > 1 else 0))
-        self.waiting = [(frame, cpu_s * self.random.lognormvariate(-0.5 * options.spread ** 2, options.spread) / options.threads)
-                        for frame in range(options.frames) for _ in range(options.regions)]
-        self.waiting.reverse()
+        # A task: its frame, the seconds that are left, and whether it measures the boxes of the frame for the regions.
+        self.waiting, self.regions, self.growing = [], {}, 0
+        seconds = [cpu_s * self.random.lognormvariate(-0.5 * options.spread ** 2, options.spread) / options.threads
+                   for _ in range(options.frames * options.regions)]
+        for frame in reversed(range(options.frames)):
+            regions = [(frame, seconds.pop(), False) for _ in range(options.regions)]
+            if options.regions > 1 and options.grow_cpu_s > 0:
+                self.regions[frame] = regions
+                self.growing += 1
+                self.waiting.append((frame, options.grow_cpu_s / options.threads, True))
+            else:
+                self.waiting += regions
         self.pieces = [options.regions] * options.frames
         self.killed, self.busy_s, self.merge_s, self.end = 0, 0.0, 0.0, 0.0
 
@@ -42,8 +51,11 @@ class Shot:
         """What one machine does: takes tasks until none is left. Yields times at which it goes on, in which order requests
         reach the servers."""
         options, warm = self.options, False
-        while self.waiting:
-            frame, left = self.waiting.pop()
+        while self.waiting or self.growing:
+            if not self.waiting:  # regions follow when boxes are measured
+                now = yield now + 1
+                continue
+            frame, left, grows = self.waiting.pop()
             now = yield self.queue.finish(now, 1)
             now = yield self.files.finish(now, options.scene_bytes + (0 if warm else options.cache_bytes))
             warm = True
@@ -55,13 +67,18 @@ class Shot:
                 now = yield now + step
                 self.busy_s += step
                 left -= step
-                if left > 0:
+                if left > 0 and not grows:
                     now = yield self.files.finish(now, options.film_bytes / options.regions)
             if left > 0:  # killed: the task continues from its last checkpoint, on the machine that is free next
                 self.killed += 1
-                self.waiting.append((frame, left))
+                self.waiting.append((frame, options.grow_cpu_s / options.threads if grows else left, grows))
                 warm = False
                 now = yield now + options.repair_s
+                continue
+            if grows:
+                now = yield self.files.finish(now, options.box_bytes)
+                self.waiting += self.regions.pop(frame)  # they come before further frames
+                self.growing -= 1
                 continue
             now = yield self.files.finish(now, options.picture_bytes / options.regions)
             self.pieces[frame] -= 1
@@ -96,6 +113,8 @@ def parser():
     numbers = {"frames": (10000, "frames of the shot"), "machines": (1000, "machines"), "regions": (1, "regions of a frame"),
                "threads": (16, "threads of a machine"), "frame-cpu-s": (3800, "CPU seconds of a frame, without start-up"),
                "region-cost": (0.1, "additional CPU time of a frame that is divided, as a fraction"),
+               "grow-cpu-s": (33, "CPU seconds of measuring the boxes of a frame, in a task ahead of its regions; 0: no such tasks"),
+               "box-bytes": (8.3 * MB, "boxes of a frame"),
                "startup-cpu-s": (10, "seconds from the start of a task to its first ray, with warm caches"),
                "cache-bytes": (150 * MB, "caches that a machine reads once"), "scene-bytes": (20 * MB, "read by every task"),
                "film-bytes": (190 * MB, "checkpoint of a frame"), "picture-bytes": (65 * MB, "EXR file of a frame"),

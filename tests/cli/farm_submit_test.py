@@ -91,7 +91,7 @@ class FarmSubmit(ProgramTest):
         for _ in range(2):  # killed, and then queued again
             os.spawnlp(os.P_WAIT, "bash", "bash", str(self.path / "farm/task.sh"), str(tasks))
         events = (self.path / "farm/state/render-0001").read_text()
-        self.assertEqual([line.split()[1] for line in events.splitlines()], ["start", "end", "requeued", "start", "end"])
+        self.assertEqual([line.split()[1] for line in events.splitlines() if line], ["start", "end", "requeued", "start", "end"])
         self.assertEqual(self.state()["render-0001"]["starts"], 2)
         page = self.farm("status", "farm") and (self.path / "farm/index.html").read_text()
         self.assertIn("started 2 times", page)
@@ -120,6 +120,15 @@ class FarmSubmit(ProgramTest):
             self.assertIn(text, out)
         self.assertFalse((self.path / "farm").exists())
         self.assertFalse((self.bin / "calls").exists())
+
+    def test_cancel_is_one_command(self):
+        self.farm("submit", "scene.yaml", *SHOT, "--regions", "2x1")
+        jobs = [line.split()[0] for line in (self.path / "farm/jobs").read_text().splitlines()]
+        self.assertGreater(len(jobs), 2)
+        (self.bin / "queue").write_text("".join(f"{job} 1 RUNNING\n" for job in jobs))
+        self.assertIn(f"{len(jobs)} jobs cancelled", self.farm("cancel", "farm")[0])
+        commands = (self.bin / "cancelled").read_text().splitlines()
+        self.assertEqual([sorted(command.split()) for command in commands], [sorted(jobs)])
 
     def test_cancel_ends_only_what_is_queued(self):
         self.farm("submit", "scene.yaml", *SHOT)

@@ -91,7 +91,7 @@ class SlurmTest(ProgramTest):
         return {task["name"]: task for task in json.loads(self.farm("status", "farm", "--json"))["tasks"]}
 
     def events(self, name):
-        return [line.split()[1] for line in (self.path / "farm/state" / name).read_text().splitlines()]
+        return [line.split()[1] for line in (self.path / "farm/state" / name).read_text().splitlines() if line]
 
     def output(self, name):
         return self.path / self.tasks[name]["output"]
